@@ -1,7 +1,8 @@
-# catoptric_shader(TARGET FILE): compiles the fragment shader of a technique of the target's own (catoptric::app::Search,
-# docs/library.md), in every build that the engine may ask for, and makes it part of the target under FILE's name without folders.
-# It may include lib/*.glsl, shared.h, and files beside it. The target is a program or a shared library: of a static one a
-# linker would leave out what nobody calls. CATOPTRIC_SHADERS, a global property: the folder with lib/ and shared.h.
+# catoptric_shader(TARGET FILE): compiles the fragment shader of a user's own technique (catoptric::app::Search,
+# docs/library.md). Adds all variants that the engine may ask for to the target, under FILE's name without folders. The
+# shader may include lib/*.glsl, shared.h and files beside it. The target must be a program or a shared library, because
+# a linker leaves unused objects of a static library out. The global property CATOPTRIC_SHADERS is the folder with lib/
+# and shared.h.
 
 function(catoptric_shader target file)
     find_program(CATOPTRIC_GLSLANG glslangValidator)
@@ -16,39 +17,24 @@ function(catoptric_shader target file)
     set(includes)
     set(rows)
     set(headers)
-    # Captures in one array or several; mirrors with nothing else to show, with light of their own, with causes of
-    # error taken away; the two last with shadow maps or without.
-    foreach(arrays "" arrays)
-        foreach(kind "" lit lit_unshadowed ablate ablate_unshadowed)
-            set(build ${arrays} ${kind})
-            list(JOIN build _ build)
-            set(defines)
-            if(arrays)
-                list(APPEND defines -DARRAYS)
-            endif()
-            if(kind MATCHES lit)
-                list(APPEND defines -DLIT)
-            elseif(kind MATCHES ablate)
-                list(APPEND defines -DABLATE)
-            endif()
-            if(kind STREQUAL lit_unshadowed)
-                list(APPEND defines -DUNSHADOWED)
-            elseif(kind STREQUAL ablate)
-                list(APPEND defines -DSHADOW_MAP)
-            endif()
-            get_filename_component(name ${file} NAME)
-            if(build)
-                string(APPEND name "#${build}")
-            endif()
-            set(header ${made}/spirv_${build}.h)
-            add_custom_command(OUTPUT ${header}
-                COMMAND ${CATOPTRIC_GLSLANG} --quiet -V --target-env vulkan1.3 ${defines} -I${shaders} -I${folder}
-                        --vn spirv_${build} --depfile ${header}.d -o ${header} ${source}
-                MAIN_DEPENDENCY ${source} DEPFILE ${header}.d COMMENT "SPIR-V ${name}" VERBATIM)
-            list(APPEND headers ${header})
-            string(APPEND includes "#include \"spirv_${build}.h\"\n")
-            string(APPEND rows "    {\"${name}\", spirv_${build}},\n")
-        endforeach()
+    # The shader itself, and the variant that removes causes of error (shaders/lib/ablate.glsl).
+    foreach(build "" ablate)
+        set(defines)
+        if(build)
+            set(defines -DABLATE)
+        endif()
+        get_filename_component(name ${file} NAME)
+        if(build)
+            string(APPEND name "#${build}")
+        endif()
+        set(header ${made}/spirv_${build}.h)
+        add_custom_command(OUTPUT ${header}
+            COMMAND ${CATOPTRIC_GLSLANG} --quiet -V --target-env vulkan1.3 ${defines} -I${shaders} -I${folder}
+                    --vn spirv_${build} --depfile ${header}.d -o ${header} ${source}
+            MAIN_DEPENDENCY ${source} DEPFILE ${header}.d COMMENT "SPIR-V ${name}" VERBATIM)
+        list(APPEND headers ${header})
+        string(APPEND includes "#include \"spirv_${build}.h\"\n")
+        string(APPEND rows "    {\"${name}\", spirv_${build}},\n")
     endforeach()
     file(CONFIGURE OUTPUT ${made}/builds.cpp @ONLY CONTENT [[
 #include <catoptric/technique.hpp>

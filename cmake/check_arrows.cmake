@@ -1,5 +1,6 @@
 cmake_policy(VERSION 3.25)
-# Refuses an include of a layer that is not in USES. Run by arrows() whenever a source changes.
+# Stops the build at an include of a layer that is not in USES. The build runs this script whenever a source changes
+# (function arrows in layer.cmake).
 string(REPLACE "," ";" uses "${USES}")
 file(GLOB files ${FOLDER}/*.cpp ${FOLDER}/*.hpp)
 foreach(file IN LISTS files)

@@ -1,17 +1,18 @@
-# cmake --install: the library, its public headers, the programs, and find_package(catoptric) with what shaders of
-# techniques from outside include.
+# Rules of `cmake --install`: the library, its public headers, the programs, the package for find_package(catoptric),
+# and the shader files that techniques of users include.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS catoptric catoptric_cli EXPORT catoptricTargets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS catoptric_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/catoptric)
-if(TARGET catoptric_view) # of users, not of programs that link the library
+if(TARGET catoptric_view) # for users; programs that link the library do not need it
     install(TARGETS catoptric_view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-# The public headers. Programs include those that lie in catoptric/ itself; the others are what these are made of. They
-# name each other by relative paths, which are the same here and installed (docs/design.md).
+# Public headers. Programs include those that lie directly in catoptric/. The other headers are included by these.
+# Headers include each other by relative paths, which are the same in this tree and installed
+# (docs/notes/ADR-013-library-interface.md).
 set(headers
     compare.hpp embed.hpp error.hpp picture.hpp report.hpp scene.hpp session.hpp technique.hpp
     core/error.hpp core/export.hpp core/math.hpp core/mirror_id.hpp core/plan_entry.hpp core/setting.hpp

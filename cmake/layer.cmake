@@ -1,12 +1,14 @@
-# layer(NAME USES other... ) declares engine/NAME: an object library of every source in the folder.
-# USES is the list of layers whose headers it may include; anything else stops the build
-# (cmake/check_arrows.cmake). With CATOPTRIC_UNITY sources of a layer are compiled a dozen at a time, which takes an
-# eighth of the time: names in their unnamed namespaces must differ within the layer. A source that registers a row of
-# a table (technique, metric, property) compiles alone, so that rows may use the same names. Headers are in a file set, so that CMake proves that each compiles alone.
+# layer(NAME USES other... ): declares engine/NAME as an object library of every source in the folder. USES lists the
+# layers whose headers the sources may include. Any other include stops the build (cmake/check_arrows.cmake). With
+# CATOPTRIC_UNITY a dozen sources of a layer are compiled at a time, which takes an eighth of the time. Names in unnamed
+# namespaces must then differ within the layer. A source that registers a row of a table (technique, metric, property)
+# compiles alone, so that rows may use equal names. Headers are in a file set, so that CMake checks that each header
+# compiles alone.
 include(CMakeParseArguments)
 
-# arrows(NAME FOLDER STAMP USES): a file, to be made with the target, that is there only when no source in the folder
-# includes a layer that is not in USES.
+# arrows(NAME FOLDER STAMP USES): checks the include rules between layers. Sets the variable STAMP to the path of a file
+# that a target can depend on. The build makes this file only if no source in FOLDER includes a layer that is not in
+# USES.
 function(arrows name folder stamp uses)
     file(GLOB files CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.hpp)
     set(made ${PROJECT_BINARY_DIR}/arrows/${name}.stamp)
@@ -18,7 +20,7 @@ function(arrows name folder stamp uses)
     set(${stamp} ${made} PARENT_SCOPE)
 endfunction()
 
-# compile_in_groups(TARGET): with CATOPTRIC_UNITY, a dozen sources at a time.
+# compile_in_groups(TARGET): with CATOPTRIC_UNITY, compiles a dozen sources of the target at a time.
 function(compile_in_groups target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${CATOPTRIC_UNITY} UNITY_BUILD_BATCH_SIZE 12)
 endfunction()

@@ -1,5 +1,5 @@
-# Debian's OpenImageIO config names include folders that need not exist (/usr/include/opencv4) and
-# needs the tools package; without this, generation fails.
+# Removes folders that do not exist, such as /usr/include/opencv4, from the include paths of Debian's OpenImageIO
+# target. CMake would fail at such a folder. find_package(OpenImageIO) also needs Debian's package of its tools.
 find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
     get_target_property(folders OpenImageIO::OpenImageIO ${property})

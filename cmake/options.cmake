@@ -1,12 +1,13 @@
-# What every target is compiled with.
+# Compile options of every target.
 add_library(catoptric_options INTERFACE)
 target_include_directories(catoptric_options INTERFACE ${PROJECT_SOURCE_DIR}/engine ${PROJECT_SOURCE_DIR}/shaders)
-# A hit is a comparison of floats: contraction to fused multiply-add would let the CPU oracle and the
-# device disagree about an edge.
+# Fused multiply-add is off. Fused operations would round the comparisons that find ray hits differently, so the CPU
+# reference and the device could disagree about an edge.
 target_compile_options(catoptric_options INTERFACE -ffp-contract=off)
-# No implicit conversions in this tree; a public header sets nothing of GLM for programs outside.
+# Implicit conversions of GLM types are errors in this tree. Programs that use the library need not follow this rule, so
+# public headers do not define the macro.
 target_compile_definitions(catoptric_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
-# The standard library checks indices in builds that look for mistakes.
+# Debug and sanitizer builds check indices in the standard library.
 target_compile_definitions(catoptric_options INTERFACE
     $<$<OR:$<CONFIG:Debug>,$<BOOL:${CATOPTRIC_SANITIZE}>>:_GLIBCXX_ASSERTIONS>)
 if(CATOPTRIC_SANITIZE)
@@ -16,7 +17,8 @@ if(CATOPTRIC_SANITIZE)
     add_library(catoptric_sanitizer_support OBJECT ${PROJECT_SOURCE_DIR}/cmake/sanitizer_support.cpp)
 endif()
 
-# program(TARGET): what every executable of this tree links: the engine's object files, hidden parts and all.
+# program(TARGET): links an executable of this tree with the engine's object files, including functions that the shared
+# library hides.
 function(program target)
     get_property(layers GLOBAL PROPERTY CATOPTRIC_LAYERS)
     list(TRANSFORM layers PREPEND catoptric_)
@@ -35,6 +37,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
     target_compile_options(catoptric_warnings INTERFACE -Wno-restrict)
 endif()
 if(CATOPTRIC_UNITY)
-    # The warning takes a source that a group includes for a header.
+    # In grouped sources, this warning mistakes an included source for a header.
     target_compile_options(catoptric_warnings INTERFACE -Wno-subobject-linkage)
 endif()

@@ -1,6 +1,6 @@
-// Linked into programs of the asan preset only. The Vulkan loader unloads drivers and layers before
-// the leak check, which then cannot name them; kept loaded, their own leaks can be suppressed by
-// module.
+// Linked only into programs of the asan preset. The Vulkan loader unloads drivers and layers before
+// the leak check, which then cannot name their functions. Without dlclose, drivers and layers stay
+// loaded, so their own leaks can be suppressed by module.
 extern "C" int dlclose(void*) { return 0; }
 
 extern "C" const char* __lsan_default_suppressions() {

@@ -1,6 +1,6 @@
-# Every shaders/**/*.{vert,frag,comp} becomes SPIR-V at build time and part of the library under its
-# path without shaders/ ("reflect/naive.frag"). shader_variant(PATH NAME DEFINE...) adds a build of
-# the same file with defines, called "PATH#NAME".
+# Compiles every shaders/**/*.{vert,frag,comp} to SPIR-V at build time and adds it to the library. A shader's name is
+# its path without shaders/, such as "reflect/naive.frag". shader_variant(PATH NAME DEFINE...) also compiles the same
+# file with macros, under the name "PATH#NAME".
 set(CATOPTRIC_SHADER_FOLDER ${PROJECT_SOURCE_DIR}/shaders)
 set(CATOPTRIC_SPIRV_FOLDER ${PROJECT_BINARY_DIR}/spirv)
 
@@ -26,7 +26,7 @@ macro(shader_variant path variant)
     compile_shader(${path} "${path}#${variant}" ${ARGN})
 endmacro()
 
-# embed_shaders(TARGET): writes the table and adds it to the target.
+# embed_shaders(TARGET): writes a C++ table of all compiled shaders and adds it to the target.
 function(embed_shaders target)
     file(GLOB_RECURSE files RELATIVE ${CATOPTRIC_SHADER_FOLDER} CONFIGURE_DEPENDS
         ${CATOPTRIC_SHADER_FOLDER}/*.vert ${CATOPTRIC_SHADER_FOLDER}/*.frag ${CATOPTRIC_SHADER_FOLDER}/*.comp)

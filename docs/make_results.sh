@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# make_results.sh PROGRAM TESTS [PART...]: measures anew what README.md and docs/ say, all of it or these parts:
+# make_results.sh PROGRAM TESTS [PART...]: measures the results in README.md and docs/ again. Without PART, measures all
+# of these parts:
 #   rows       docs/results.md, the pictures of docs/images, the table of README.md
 #   causes     the table of docs/causes.md
 #   precision  the tables of docs/robustness.md
@@ -7,7 +8,8 @@
 #   views      docs/views.md
 #   drawn      docs/drawn.md
 #   lag        the tables of docs/lag.md
-# TESTS: the folder of catoptric_bench, cli_test and gpu_test. Called by ./dev results.
+# PROGRAM is the catoptric program. TESTS is the folder with catoptric_bench, cli_test and gpu_test. ./dev results calls
+# this script.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$1 tests=$2
@@ -15,9 +17,9 @@ parts=("${@:3}")
 ((${#parts[@]})) || parts=(rows causes precision stress views drawn lag)
 mkdir -p out docs/images
 
-# The text is made before put is called, as `text=$(...)`: there a program that fails ends the script, as an argument its
-# failure would be lost.
-put() { # put NAME FILE TEXT: between <!-- NAME --> and <!-- /NAME -->
+# Callers first make TEXT by `text=$(...)`, because a failure in this assignment ends the script. A failure within an
+# argument of `put` would be ignored.
+put() { # put NAME FILE TEXT: replaces the text between <!-- NAME --> and <!-- /NAME --> in a file
     TEXT=$3 awk -v name="$1" '
         $0 == "<!-- /" name " -->" {skip = 0}
         !skip
@@ -25,7 +27,7 @@ put() { # put NAME FILE TEXT: between <!-- NAME --> and <!-- /NAME -->
     mv out/put.md "$2"
 }
 
-pick() { # pick TITLE "COLUMN;COLUMN..." FILE: these columns of the table under that heading of a report.md
+pick() { # pick TITLE "COLUMN;COLUMN..." FILE: prints columns of the table under a heading of a report.md
     awk -F'|' -v title="## $1" -v wanted="$2" -v file="$3" '
         /^## / {on = index($0, title) == 1}
         !on || !/^\|/ {next}
@@ -49,7 +51,7 @@ measured=(naive:bounces=0 naive:bounces=1 naive:bounces=2 naive:bounces=3 naive:
     raytrace:depth=0 raytrace:depth=1 raytrace:depth=2 raytrace:depth=3 raytrace:depth=4 raytrace:depth=8
     raytrace:sphere=exact raytrace:hit=f64)
 
-sheet() { # sheet NAME COLUMNS WIDTHxHEIGHT+X+Y PICTURE...: the same cut of each picture, side by side
+sheet() { # sheet NAME COLUMNS WIDTHxHEIGHT+X+Y PICTURE...: places the same cut-out of each picture side by side
     local name=$1 columns=$2 cut=$3 pictures=() picture
     shift 3
     for picture in "$@"; do
@@ -82,7 +84,8 @@ make_rows() {
     put results README.md "$text"
 }
 
-# Errors only, of the default list and of what its rows may owe to distances and texels: 17 frames settle a still.
+# Measures only errors: of the default rows, and of rows with other distance formats and faces. After 17 frames, mirrors
+# seen in mirrors no longer change.
 make_causes() {
     "$program" compare -o out/causes --causes --frames 1 --warmup 16 --techniques naive:bounces={1,2,3,4} reuse parallax \
         proxy secant:continue=0 secant march pyramid layered hybrid parallax:distance=unorm8,range={200,1000} \
@@ -91,7 +94,8 @@ make_causes() {
     put causes docs/causes.md "$text"
 }
 
-# Precision: what rows that differ in it cost and get wrong; a rule that is left out is no row of the comparison.
+# Measures cost and error of rows that differ in numerical precision. `catoptric_bench rules` measures the robustness
+# rules, because a comparison has no row for each omitted rule.
 make_precision() {
     "$program" compare -o out/precision --techniques parallax parallax:distance={unorm8\,range=200,unorm8\,range=1000,r16f} \
         parallax:colour=float raytrace raytrace:hit=f64 raytrace:without=watertight
@@ -114,24 +118,24 @@ make_stress() {
     put kernel docs/extremes.md "$text"
 }
 
-# The ladder from three places that stay and three drawn from seeds.
+# The rows of the search techniques, for comparisons from three fixed cameras and three drawn views.
 search=()
 for name in secant march pyramid layered hybrid; do search+=($name:face=512,continue=0 $name:face=512 $name); done
-view() { # view TITLE OPTION...
+view() { # view TITLE OPTION...: prints a section with the errors of all searches from one camera
     local title=$1
     shift
     "$program" compare -o out/view --frames 5 "$@" --techniques parallax:face=512 "${search[@]}" \
         secant:face=64,continue=0 raytrace >/dev/null
     echo "## $title"
     echo
-    # Errors only: times are those of docs/results.md.
+    # Prints only errors, because docs/results.md has the times.
     pick "Every row" "Row;FLIP;off, %;MAE;rmse;rmse, light edges;rmse, rest;FLIP, first order;FLIP, mirror in mirror" \
         out/view/report.md
     echo
     awk '/^## / {on = /^## Where mirrors looked/} on && /^\|/' out/view/report.md
     echo
 }
-# Written whole: it takes minutes.
+# Writes docs/views.md only when all views are done, because they take minutes.
 make_views() {
     {
         echo "<!-- generated by ./dev results on $(date -u +%F) -->"
@@ -147,7 +151,7 @@ make_views() {
     mv out/views.md docs/views.md
 }
 
-# Ten minutes on two processors.
+# Measures errors over 30 drawn views. Takes ten minutes on two processors.
 make_drawn() {
     "$program" compare -o out/drawn --frames 1 --views 30 --techniques secant march pyramid layered hybrid >/dev/null
     {

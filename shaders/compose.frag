@@ -1,4 +1,4 @@
-// What the screen shows: exposure, clamp, sRGB curve, 8 bits.
+// Converts the rendered picture to screen colours: applies exposure, clamps, and encodes as 8-bit sRGB.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindings.glsl"

@@ -1,5 +1,5 @@
-// Whether captures that were drawn again are, bit for bit, those of the frame before: what later captures can see of
-// them, colour and distance. A work item a texel, a layer a face.
+// Tests whether a capture that was drawn again equals, bit for bit, the capture of the frame before. Compares colour
+// and distance, because captures drawn later read only these two. One invocation compares one texel of one cube face.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
@@ -19,5 +19,5 @@ void main() {
     ivec3 before = at + ivec3(0, 0, first_before), after = at + ivec3(0, 0, first_after);
     if (!same(texelFetch(colour_before, before, 0), texelFetch(colour_after, after, 0)) ||
         !same(texelFetch(distance_before, before, 0), texelFetch(distance_after, after, 0)))
-        differing[mirror] = 1u; // whoever else writes it writes the same
+        differing[mirror] = 1u; // invocations may write this word at the same time: all write 1
 }

@@ -1,9 +1,9 @@
-// What is cut out casts no shadow.
+// Discards fragments that fail the alpha test when a shadow map is drawn, so that cut-out parts cast no shadow.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/material.glsl"
 
-layout(location = 13) flat in uvec3 drawn_numbers; // see lib/drawn.glsl
+layout(location = 13) flat in uvec3 drawn_numbers; // object, mirror and material number (lib/drawn.glsl)
 layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_colour;
 

@@ -1,4 +1,5 @@
-// A colour where the font's picture, one byte a texel, covers the pixel. Glyphs lie on whole pixels: the nearest texel.
+// Draws glyphs and controls over a window's picture. Alpha comes from the font texture, which stores coverage in one
+// byte a texel. Glyphs lie on whole pixels, so the nearest texel is exact.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

@@ -1,4 +1,4 @@
-// Controls and text over a window's picture.
+// Places the triangles of controls and text over a window's picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

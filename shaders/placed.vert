@@ -1,4 +1,5 @@
-// Triangles in a space of their own: precise however small they are beside their distance from the origin.
+// Vertex shader of meshes in object space. Object space keeps meshes precise that are small and far from the scene's
+// origin.
 #version 460
 #ifdef LAYERED
 #extension GL_ARB_shader_viewport_layer_array : require

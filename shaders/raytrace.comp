@@ -1,7 +1,7 @@
-// Whitted ray tracing: one sample of each pixel a dispatch.
-// Builds, which combine: #listed traces the pixels of a list and leaves the others as they are; #shadow_map asks
-// the raster world's shadow map instead of tracing; #doubles computes hit points in doubles. #naive is the plain form
-// that the benchmark compares with (see lib/trace.glsl).
+// Whitted ray tracing. One dispatch traces one sample of each pixel.
+// The shader has these variants, which combine. #listed traces only the pixels of a list and keeps all other pixels.
+// #doubles computes hit points in double precision.
+// #naive is the simple implementation that a benchmark compares with (lib/trace.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push { Trace trace; };
 
 #ifdef LISTED
 
-layout(local_size_x = 64) in; // kListGroup
+layout(local_size_x = 64) in; // 64 invocations: kListGroup
 layout(set = 0, binding = LIST_BINDING, scalar) readonly buffer List { uint list[]; };
 
 bool has_pixel(out uvec2 pixel) {
@@ -28,7 +28,7 @@ bool has_pixel(out uvec2 pixel) {
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = PIXELS_IN_ROWS_CONSTANT) const uint pixels_in_rows = 0u;
 
-// Eight that run together are a block of 4x2 pixels, or a row.
+// Maps invocation `i` of a work group to its pixel: each eight invocations take a block of 4x2 pixels, or a row of 8.
 uvec2 place_in_group(uint i) {
     return pixels_in_rows != 0u ? uvec2(i & 7u, i >> 3) : uvec2(i & 3u | i >> 1 & 4u, i >> 2 & 1u | i >> 3 & 6u);
 }
@@ -43,13 +43,14 @@ bool has_pixel(out uvec2 pixel) {
 #endif
 
 void main() {
-    Trace asked = trace; // read before lanes go different ways
+    Trace asked = trace; // push constants are read before the lanes diverge
     uvec2 pixel;
     bool inside = has_pixel(pixel);
     if (inside) {
         uint met;
         vec3 sum = radiance(camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
-        vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhTag)); // what is met goes where a picture has its alpha
+        // The picture's alpha holds the numbers of the mirrors that the ray of the first sample meets.
+        vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhTag));
         if (asked.sample_index > 0u) before = imageLoad(picture, ivec2(pixel));
         sum += before.rgb;
         if (asked.sample_index + 1u == asked.sample_count) sum /= float(asked.sample_count);

@@ -1,4 +1,4 @@
-// Triangles in scene units.
+// Vertex shader of meshes whose vertices are in scene units.
 #version 460
 #ifdef LAYERED
 #extension GL_ARB_shader_viewport_layer_array : require

@@ -1,4 +1,4 @@
-// What a window shows of one picture or two: one, both beside each other, or how far they are apart.
+// Draws a window's content: one picture, two pictures on the two sides of a divider, or the difference of two pictures.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

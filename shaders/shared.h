@@ -1,7 +1,7 @@
-// Structures that C++ and GLSL both see. Scalar layout: members follow each other without padding,
-// so sizeof is the sum of the members (asserted below, offsets proven by tests/gpu/layout_test.cpp).
-// All lengths and positions are in scene units: world positions minus the scene's centre, times
-// its unit scale (render::Frame), so that everything is about 1.
+// Structures that C++ and GLSL share. The layout is scalar: members follow each other without padding, so the size of
+// a structure is the sum of its members' sizes. Assertions below check sizes, tests/gpu/layout_test.cpp checks offsets.
+// All lengths and positions are in scene units: world positions minus the scene's centre, times a power of two, so
+// that the scene is about 1 in size (render::Frame).
 #ifndef CATOPTRIC_SHARED_H
 #define CATOPTRIC_SHARED_H
 
@@ -21,203 +21,213 @@ struct Vertex {
     vec3 normal;
 };
 
-// What the surface of one object does with light.
+// The reflection and emission of one object's surface.
 struct Surface {
-    vec3 albedo;      // kd
-    vec3 emission;    // Ke, radiance
-    vec3 reflectance; // of a mirror
-    uint mirror;      // 0: not a mirror; otherwise its number, from 1
-    uint detail;      // index of its MaterialParameters
-    vec3 centre;      // of the exact sphere the mesh stands for
-    float radius;     // 0: no exact sphere
+    vec3 albedo;      // diffuse base colour, linear (kd)
+    vec3 emission;    // emitted radiance (Ke)
+    vec3 reflectance; // share of light that the mirror reflects, 0 to 1
+    uint mirror;      // mirror number, from 1; 0: the object is not a mirror
+    uint detail;      // index of the object's MaterialParameters
+    vec3 centre;      // centre of the exact sphere that the mesh approximates
+    float radius;     // radius of the exact sphere; 0: the mesh approximates no sphere
 };
 
-// How a surface reads texels; see lib/material.glsl and lib/math/surface.glsl.
+// A texture as a material uses it: texels, wrap mode and transform (lib/material.glsl, lib/math/surface.glsl).
 struct TextureUse {
-    uint first; // texel in the list of all
-    uint size;  // width | height << 16; 0: no texture
-    uint how;   // wrap along u | along v << 2 | kTexture...
-    vec3 u_row; // texture space from the mesh's (u, v, 1)
-    vec3 v_row;
+    uint first; // index of the texture's first texel in the list of all texels
+    uint size;  // texture size: width | height << 16; 0: no texture
+    uint how;   // sampling flags: wrap mode along u | wrap mode along v << 2 | kTexture...
+    vec3 u_row; // row of the texture transform: texture u = dot(u_row, (u, v, 1)) of the mesh
+    vec3 v_row; // row of the texture transform: texture v = dot(v_row, (u, v, 1)) of the mesh
 };
 const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
 
-// What a surface is beyond Surface. Objects that agree in all of it share one.
+// The parameters of a glTF material that Surface does not hold. Objects with equal parameters share one element.
 struct MaterialParameters {
-    uint flags;             // kDetail...
-    uint first_attribute;   // added to the number of a vertex as it is drawn: its attribute
+    uint flags;             // material flags, kMaterial...
+    uint first_attribute;   // index of a vertex's Attribute, minus the index of the vertex
     float metallic;
-    float roughness;
-    float max_specular_roughness;      // or at that roughness it is sharp
+    float roughness;        // glTF roughness, 0 to 1
+    float max_specular_roughness; // highest roughness at which the surface still reflects sharply
     float alpha;
-    float alpha_cutoff;     // 0: nothing is cut out
-    vec3 f0;                // of the part that is no metal, towards the normal
-    vec3 f90;               // and across it
-    TextureUse albedo;      // and alpha
+    float alpha_cutoff;     // alpha below which the surface is cut out; 0: no alpha test
+    vec3 f0;                // reflectance of the dielectric part, seen head-on
+    vec3 f90;               // reflectance of the dielectric part at grazing angle
+    TextureUse albedo;      // texture of base colour and alpha
     TextureUse emission;
-    TextureUse rough;       // roughness in green, metallic in blue
+    TextureUse rough;       // texture with roughness in green and metallic in blue
 };
-const uint kMaterialVaries = 1u;     // more than one colour, or sharp
-const uint kMaterialAttributes = 2u; // its vertices have attributes
-const uint kMaterialConstant = 4u;   // reflects Surface::reflectance at any angle
+const uint kMaterialVaries = 1u;     // material flag: several colours, or sharp reflection without being a mirror
+const uint kMaterialAttributes = 2u; // material flag: the vertices have attributes
+const uint kMaterialConstant = 4u;   // material flag: the surface reflects Surface::reflectance at any angle
 const uint kMaterialUnlit = 8u;
-const uint kMaterialTurns = 16u;     // its normal turns to who looks
-const uint kMaterialFacets = 32u;    // its normals leave those of its facets: light counts from above them
+const uint kMaterialTurns = 16u;     // material flag: two-sided, the normal turns to the viewer's side
+// Material flag: some vertex normals differ from their facets' normals, so shading also asks on which side of the facet
+// a light is.
+const uint kMaterialFacets = 32u;
 
-// What a vertex has beside position and normal.
+// The data of a vertex other than position and normal.
 struct Attribute {
-    vec4 uv;     // both texture spaces
-    vec4 colour; // linear, with alpha
+    vec4 uv;     // two sets of texture coordinates
+    vec4 colour; // vertex colour, linear, with alpha
 };
 
-// A light as the shading formula sees it: the one point of a lamp, or a light without a surface.
-// `right`, `down`, `forward`: axes of its shadow faces, unit, face +Z along `forward`, where a spot or a directional
-// light shines to.
+// A light as the shading formula sees the light: the point that replaces a lamp, or a light without a surface.
+// `right`, `down` and `forward` are the unit axes of the light's shadow faces. Face +Z looks along `forward`. A spot or
+// directional light shines along `forward`.
 struct Light {
     vec3 position;
-    vec3 normal;      // zero: no cosine at the light; kLightOfTwoSides: mean |cosine| to right, down and forward
-    vec3 intensity;   // emission * the area that counts
+    // Normal of the lamp. Zero: the light has no cosine factor. For kLightOfTwoSides: the mean |cosine| between the
+    // lamp's facets and the axes `right`, `down` and `forward`.
+    vec3 normal;
+    vec3 intensity;   // emission times the effective area of the lamp
     vec3 right;
     vec3 down;
     vec3 forward;
-    float near;       // of the shadow faces' reversed depth
-    float reach;      // one over its range; 0: without end
-    float cos_outer;  // of a spot's cone; below -1 where there is none
-    float sharpness;  // 1 / max(.001, cos inner - cos outer) of it
-    uint kind;        // kLight...
+    float near;       // near distance of the shadow faces, which store reversed depth
+    float reach;      // 1 / range of the light; 0: the range is infinite
+    float cos_outer;  // cosine of a spot's outer cone angle; below -1: the light has no cone
+    float sharpness;  // 1 / max(.001, cos inner - cos outer) of a spot's cone angles
+    uint kind;        // kind of light, kLight...
 };
-// From infinitely far, along `forward`; an open lamp of two sides; anything else.
+// Kinds of light: a point or spot light or one-sided lamp; a directional light; an open lamp that emits on both sides.
 const uint kLightAtPoint = 0u, kLightDirectional = 1u, kLightOfTwoSides = 2u;
-const uint kMaxLights = 128u; // the smallest uniform buffer that every device has, 16 KiB, holds 178
+const uint kMaxLights = 128u; // most lights of a scene: 178 fit into 16 KiB, the uniform buffer that every device has
 
-// Where a mirror's surroundings are captured from: layers [6 n, 6 n + 6) of the cubes, n from 0.
+// The data of a mirror's capture. Mirror n, counted from 0, has the layers [6 n, 6 n + 6) of the cube arrays.
 struct Probe {
-    vec3 centre;      // of the mirror's bounds
-    vec3 sphere;      // centre of the exact sphere that the mirror stands for
-    float radius;     // of that sphere; 0: the mirror stands for none
-    vec3 reflectance; // of the mirror; of a metal, towards its normal
-    vec3 lowest;      // corners of the mirror's bounds
-    vec3 highest;
-    uint kind;        // kProbe...
+    vec3 centre;      // centre of the mirror's bounds, from which the capture is drawn
+    vec3 sphere;      // centre of the exact sphere that the mirror's mesh approximates
+    float radius;     // radius of the exact sphere; 0: the mirror's mesh approximates no sphere
+    vec3 reflectance; // reflectance of the mirror; for a metal, seen head-on
+    vec3 lowest;      // lowest corner of the mirror's bounds
+    vec3 highest;     // highest corner of the mirror's bounds
+    uint kind;        // kind of mirror, kProbe...
 };
-// Reflects the same at any angle; as a metal by Schlick; or has light of its own, which only captures show.
+// Kinds of mirror: constant, with the same reflectance at any angle; metal, by Schlick's approximation; lit, which also
+// has diffuse or emitted light that only captures show.
 const uint kProbeConstant = 0u, kProbeMetal = 1u, kProbeLit = 2u;
 
-// One of the cube arrays that captures are kept in, and how distances are in it.
+// One cube array with captures of one size and format, and the encoding of its distances.
 struct CaptureArray {
-    float stored_unit; // scene units of a stored 1
-    uint range_ends;   // 1: where nothing is, a 1 is stored too
+    float stored_unit; // stored distance 1 in scene units
+    uint range_ends;   // 1: the stored distance 1 means either the end of the range or no surface
 };
 const uint kMostArrays = 8u;
-const uint kMostCaptured = 2048u; // mirrors whose numbers a half holds exactly
-// Where mirror n's capture is kept, n from 0: array << 16 | cube, both from 0; array kMostArrays: nowhere.
+const uint kMostCaptured = 2048u; // most mirrors with captures: a 16-bit float holds their numbers exactly
+// The place of each mirror's capture, for mirrors counted from 0: array << 16 | cube, both from 0. The array number
+// kMostArrays means that the mirror has no capture.
 struct CaptureTable {
     CaptureArray arrays[kMostArrays];
     uint places[kMostCaptured];
 };
 
-// One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
-// Reversed-Z with infinite far: depth = near / distance along forward.
-// A parallel one: clip = (dot(right, v), dot(down, v), 1 - near dot(forward, v), 1), `near` one over how far it looks.
+// A projection of the vector v = position - eye.
+// Perspective: clip = (dot(right, v), dot(down, v), near, dot(forward, v)). Depth is reversed and has no far plane:
+// depth = near / distance along forward.
+// Orthographic: clip = (dot(right, v), dot(down, v), 1 - near dot(forward, v), 1), where `near` is 1 / far distance.
 struct View {
     vec3 eye;
-    vec3 right;   // scaled by 1 / tan(half horizontal field of view), or by 1 / half the width
-    vec3 down;    // scaled by 1 / tan(half vertical field of view), or by 1 / half the height
-    vec3 forward; // unit length
+    vec3 right;   // right axis, scaled by 1 / tan(half horizontal field of view), or by 1 / half the width
+    vec3 down;    // down axis, scaled by 1 / tan(half vertical field of view), or by 1 / half the height
+    vec3 forward; // view direction, unit length
     float near;
-    vec3 eye_low; // what `eye` lacks as a sum of two floats
-    uint parallel; // 1: an orthographic view
-    vec4 clip;     // of a view in a mirror: what it shows has dot(clip.xyz, v) + clip.w >= 0
+    vec3 eye_low; // rounding error of `eye`: the exact eye is eye + eye_low
+    uint parallel; // 1: the view is orthographic
+    vec4 clip;     // clip plane of a mirrored view, which shows points with dot(clip.xyz, v) + clip.w >= 0
 };
 
-// What is seen where the scene ends.
+// The environment of the scene.
 struct Sky {
-    uvec2 size;         // of its map, texels
-    float scale;
-    vec2 turn;          // cosine and sine of its rotation
-    vec3 irradiance[9]; // coefficients, scaled and turned
+    uvec2 size;         // size of the environment map, texels
+    float scale;        // factor of the environment's radiance
+    vec2 turn;          // cosine and sine of the environment's rotation about the y axis
+    vec3 irradiance[9]; // spherical harmonics coefficients of the irradiance, with scale and rotation applied
 };
 
-// What is true for the whole frame.
+// Values that are the same for the whole frame.
 struct Frame {
-    float ambient;          // grey, times kd
+    float ambient;          // ambient light, grey; each surface receives it times its albedo
     uint light_count;
     uint mirror_count;
     uint object_count;
-    uint shadow_faces; // layers of each light: 5 when every light is one-sided, else 6
+    uint shadow_faces; // shadow map layers of each light: 5 if every light is one-sided, else 6
 };
 
-// Push constants of a pass that draws objects. They are the same for all of its objects: a driver may keep a copy of
-// its state for each draw that changes them.
+// Push constants of a pass that draws objects. All objects of the pass share them, because a driver may copy its state
+// for each draw that changes push constants.
 struct Draw {
-    uint first_view; // the view of layer 0
-    uint ablated;     // causes of error to take away: kMend..., in builds that can (lib/ablate.glsl)
+    uint first_view; // index of the view that layer 0 shows
+    uint ablated;     // causes of error to remove, kAblate...; used by variants with ABLATE (lib/ablate.glsl)
 };
-// gl_InstanceIndex of such a draw: index of the object << kLayerBits | layer.
+// gl_InstanceIndex of a draw of an object is (index of the object) << kLayerBits | layer.
 const uint kLayerBits = 3u;
 
-// Where the vertices of an object with a space of its own are.
+// The placement of an object whose vertices are in object space.
 struct Placement {
-    vec3 x, y, z;    // columns of the matrix to the scene's axes
-    vec3 centre;     // of that space, scene units
-    vec3 centre_low; // what `centre` lacks as a sum of two floats
+    vec3 x, y, z;    // columns of the matrix from object space to the scene's axes
+    vec3 centre;     // origin of the object space, scene units
+    vec3 centre_low; // rounding error of `centre`: the exact origin is centre + centre_low
 };
 
-// Causes of error that a rendering can be without (engine/app/causes.cpp).
-const uint kAblateDistance = 1u;   // captured distance -> exact
-const uint kAblateDirection = 2u;  // looked-up direction -> that of what the ray really meets
-const uint kAblateHidden = 4u;     // what the capture's centre does not see -> its true colour
-const uint kAblateTexels = 8u;     // texels -> the captured surface at the very point
-const uint kAblateMirrors = 16u;   // a mirror's picture in a capture -> what that mirror really shows here
-const uint kAblateOwn = 32u;       // the mirror's own reflection in itself, which its capture leaves out
-const uint kAblateShadows = 64u;   // shadow map -> shadow ray
+// Causes of error that an ablation removes: each flag replaces an approximation by its exact value
+// (engine/app/causes.cpp).
+const uint kAblateDistance = 1u;   // ablation: the captured distance becomes the exact distance
+const uint kAblateDirection = 2u;  // ablation: the looked-up direction becomes that of the point which the ray meets
+const uint kAblateHidden = 4u;     // ablation: points hidden from the capture's centre get their true colour
+const uint kAblateTexels = 8u;     // ablation: the texels' colour becomes the surface's colour at the exact point
+const uint kAblateMirrors = 16u;   // ablation: a captured picture of a mirror becomes the mirror's true reflection
+const uint kAblateOwn = 32u;       // ablation: a mirror shows its reflection in itself, which its capture leaves out
+const uint kAblateShadows = 64u;   // ablation: the shadow map becomes a shadow ray
 
 // Push constants of one dispatch of the ray tracer.
 struct Trace {
-    vec2 sample_offset; // inside the pixel, (0.5, 0.5) is its centre
-    uint sample_index;  // 0 starts the sum
-    uint sample_count;  // the last sample divides the sum
-    uvec2 size;         // of the picture
+    vec2 sample_offset; // position of the sample inside the pixel; (0.5, 0.5) is the centre
+    uint sample_index;  // number of the sample, from 0; sample 0 starts the sum
+    uint sample_count;  // samples a pixel; the last sample divides the sum by this count
+    uvec2 size;         // size of the picture, pixels
 };
 
-// A traced picture's alpha, as a word of engine/bvh/words.hpp: the mirror that a pixel's first ray meets, from 1, and the
-// one after that << kMetBits; 0: none.
+// A traced picture's alpha is a word of engine/bvh/words.hpp: the number, from 1, of the mirror that the pixel's first
+// ray meets, and the number of the next mirror << kMetBits. 0 means no mirror.
 const uint kMetBits = 15u, kMostMirrors = 32767u;
 
-// What ray tracing counts, over all dispatches of the frame.
+// Counters of ray tracing, summed over all dispatches of the frame.
 struct Counters {
     uint primary_rays;
     uint mirror_rays;
     uint shadow_rays;
-    uint longest_walk;  // steps of the busiest invocation in one dispatch
-    uint exhausted;     // invocations that gave up: their pixels are wrong
-    uint mirror_pixels; // drawn by a search that may list some of them for tracing; 0 in the ray tracer
-    uint listed;        // of them
+    uint longest_walk;  // most BVH steps of one invocation in one dispatch
+    uint exhausted;     // invocations that stopped at the step limit, so that their pixels are wrong
+    uint mirror_pixels; // pixels drawn by a search that may list pixels for tracing; 0 in the ray tracer
+    uint listed;        // mirror pixels that were listed for tracing
 };
 
 // Push constants of the pass that shows pictures in a window (engine/app/screen.cpp).
 struct Screening {
-    uvec2 size;      // of the pictures
-    uint kind;       // kShow...
-    uint from_canvas; // 1: the first picture is the canvas; 2: the second is; 3: both
-    float divider;   // of a split: the first picture is left of this pixel
-    float gain;      // of a difference
+    uvec2 size;      // size of the pictures, pixels
+    uint kind;       // kind of display, kShow...
+    uint from_canvas; // 1: the first picture is the canvas; 2: the second picture is the canvas; 3: both are
+    float divider;   // column that divides a split display: the first picture is left of this pixel
+    float gain;      // factor that a difference of two pictures is multiplied by
 };
 const uint kShowFirst = 0u, kShowSplit = 1u, kShowDifference = 2u;
 
-// A corner of the triangles that lie over it: controls, text.
+// A vertex of the triangles that draw controls and text over the window's picture.
 struct OverlayVertex {
-    vec2 position; // pixels of the window
-    vec2 uv;       // in the font's picture, 0 to 1
-    uint colour;   // r | g << 8 | b << 16 | a << 24
+    vec2 position; // position in the window, pixels
+    vec2 uv;       // position in the font texture, 0 to 1
+    uint colour;   // vertex colour: r | g << 8 | b << 16 | a << 24
 };
+// Push constants of the pass that draws controls and text.
 struct Overlaying {
-    uvec2 window; // pixels
-    uvec2 font;   // texels of its picture
+    uvec2 window; // size of the window, pixels
+    uvec2 font;   // size of the font texture, texels
 };
 
-// Texels of four floats of each in the lists that shaders/lib/bindings.glsl reads.
-const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kMaterialQuads = 10u; // the last of whole numbers
+// Number of four-component texels that one element takes in the lists of shaders/lib/bindings.glsl. Texels hold floats,
+// those of materials hold unsigned integers.
+const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kMaterialQuads = 10u;
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
@@ -227,7 +237,7 @@ static_assert(sizeof(TextureUse) == 36);
 static_assert(sizeof(MaterialParameters) == 16 * kMaterialQuads);
 static_assert(sizeof(Attribute) == 32);
 static_assert(sizeof(Probe) == 68);
-static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers of 16 KiB
+static_assert(sizeof(CaptureTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows
 static_assert(sizeof(View) == 84);
 static_assert(sizeof(Sky) == 128);
 static_assert(sizeof(Frame) == 20);

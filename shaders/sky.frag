@@ -1,4 +1,4 @@
-// What is seen where the scene ends, in captures and in the view.
+// Draws the environment where a view ray meets no surface, in captures and in the camera's view.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/environment.glsl"
@@ -6,7 +6,8 @@
 
 void main() {
     write_surface(environment(normalize(from_eye)));
-    // Nothing is there; a view that leaves pixels to tracing has no distances.
+    // The environment has no surface, so a capture stores the distance +infinity. The camera's view stores no distances
+    // (distance_scale 0) but tracer numbers, and 0 means that no tracer takes the pixel.
     out_distance = distance_scale > 0.0 ? uintBitsToFloat(0x7f800000u) : 0.0;
     out_more = vec4(0);
 }

@@ -1,4 +1,4 @@
-// What is seen where the scene ends: a triangle over the whole picture, behind all else.
+// Draws the environment as one triangle that covers the whole picture behind all surfaces.
 #version 460
 #ifdef LAYERED
 #extension GL_ARB_shader_viewport_layer_array : require
@@ -8,13 +8,13 @@
 #include "lib/drawn.glsl"
 #include "lib/eye.glsl"
 
-layout(location = 0) in vec3 corner; // in the picture, from -1 to 1
+layout(location = 0) in vec3 corner; // triangle corner in clip space; the picture reaches from -1 to 1
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_from_eye;
 layout(location = 3) out vec4 out_uv;
 layout(location = 4) out vec4 out_colour;
 
-const float kBehindAll = 1e-36; // of reversed depth, whose picture begins with 0
+const float kBehindAll = 1e-36; // reversed depth behind all surfaces, but in front of the clear value 0
 
 void main() {
     View view = views[draw.first_view + drawn_layer()];

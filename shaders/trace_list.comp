@@ -1,6 +1,6 @@
-// Lists the pixels that the view has left to one tracer: one append a subgroup, and one work group of its
-// dispatch for each 64 of them.
-// No branch lies before a subgroup operation: after one, nothing promises that the lanes run together again.
+// Lists the pixels that the camera's view marked for one ray tracer. Counts the work groups of the tracer's dispatch,
+// one for each 64 pixels. A subgroup appends all of its pixels to the list at once.
+// No branch precedes a subgroup operation, because after a branch the lanes need not run together again.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -27,7 +27,8 @@ void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     bool inside = all(lessThan(pixel, size));
     ivec2 place = ivec2(min(pixel, size - 1u));
-    // 0 where no tracer is to take over; a lookup of 0 where no mirror was looked up: see lib/surface.glsl.
+    // `mark` is the number of the tracer that takes the pixel, or 0. `looked_up` is 0 where no mirror looked its
+    // reflection up in a capture (lib/surface.glsl).
     float mark = imageLoad(marks, place).r, looked_up = imageLoad(lookup, place).w;
     uint is_mirror = uint(inside) & (uint(mark != 0.0) | uint(looked_up != 0.0));
     uint is_listed = uint(inside) & uint(mark == float(tracer));
@@ -35,12 +36,14 @@ void main() {
     uint mirrors = subgroupBallotBitCount(subgroupBallot(is_mirror != 0u));
     uint listed = subgroupBallotBitCount(lanes), before = subgroupBallotExclusiveBitCount(lanes);
     bool is_first = subgroupElect();
-    // All lanes add, all but one nothing. The lane that adds is the one whose value is broadcast: of those that are
-    // active that with the lowest number (SPIR-V, OpGroupNonUniformElect and OpGroupNonUniformBroadcastFirst).
+    // All lanes execute the atomic addition, but only the elected lane adds more than 0. The broadcast takes the result
+    // of the same lane: SPIR-V's OpGroupNonUniformElect and OpGroupNonUniformBroadcastFirst both choose the active lane
+    // with the lowest number.
     uint first = subgroupBroadcastFirst(atomicAdd(counters.value.listed, is_first ? listed : 0u));
     if (is_first && mirrors > 0u) atomicAdd(counters.value.mirror_pixels, mirrors);
     if (is_first && listed > 0u) {
-        // What the list grows by, so that the sum over all subgroups is what the whole list needs.
+        // Adds the work groups that the list needs beyond those of the pixels listed before. The sum over all subgroups
+        // is the number of work groups for the whole list.
         uvec2 more = groups_for(first + listed) - groups_for(first);
         if (more.x > 0u) atomicAdd(arguments.groups.x, more.x);
         if (more.y > 0u) atomicAdd(arguments.groups.y, more.y);

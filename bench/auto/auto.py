@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Measures `auto` beside rows of one technique each, over six shipped and six drawn scenes and drawn views of them.
+"""Compares `auto` with rows of one technique each, in drawn views of six built-in and six drawn scenes.
 
-auto.py [--views N] [--size WxH] [--rounds N] [--frames N] [--rows T ...] CATOPTRIC OUT [SCENE...]: compares in each view, writes
-OUT/auto.json (every figure) and OUT/auto.md (a line for each scene), and lists the views in which a row beats `auto`:
-  faster: its processor time is less than auto's / 1.15 and its FLIP is no larger;
-  better: its FLIP is less than auto's / 1.1 and its processor time is no larger;
-  traces more: auto traces more pixels than `hybrid`.
-Ends with 1 where a row does. What is measured already in OUT/auto.json is kept; --again measures it anew.
+auto.py [--views N] [--size WxH] [--rounds N] [--frames N] [--rows T ...] [--again] CATOPTRIC OUT [SCENE...]
+Writes OUT/auto.json (every figure) and OUT/auto.md (a line for each scene). Prints the views in which a row beats
+`auto`, in one of three ways:
+  faster: the row's processor time is less than that of `auto` / 1.15, and its FLIP is no larger.
+  better: the row's FLIP is less than that of `auto` / 1.1, and its processor time is no larger.
+  traces more: `auto` traces more pixels than `hybrid`.
+The exit code is 1 if a row beats `auto`. Results in OUT/auto.json are kept; --again measures them again.
 
-Each view is measured in two steps. The first finds the FLIP of every row from one frame. The second takes the time of
-`auto` and of the rows that have no more FLIP than `auto`: no other row can beat it.
+Each view is measured in two steps. The first step measures the FLIP of every row from one frame. The second step
+measures the time of `auto` and of all rows with no more FLIP than `auto`, because no other row can beat `auto`.
 """
 import argparse
 import json
@@ -27,7 +28,8 @@ FASTER, BETTER = 1.15, 1.1
 
 
 def measured(arguments, name, scene, view, rows, timing):
-    """By row: processor milliseconds of a frame, FLIP on mirrors, pixels traced, and what draws each mirror."""
+    """Returns, by row: processor time of a frame in milliseconds, FLIP and rmse on mirrors, number of traced pixels,
+    and the technique that draws each mirror."""
     folder = os.path.join(arguments.out, "compare")
     run = subprocess.run([arguments.program, "compare", scene, "-o", folder, "--size", arguments.size, "--camera", "seeded",
                           "--seed", str(view), *timing, "--quiet", "--json", "--techniques", *rows],
@@ -45,7 +47,7 @@ def measured(arguments, name, scene, view, rows, timing):
 
 
 def rivals(found):
-    """Rows that beat auto if they take little enough time."""
+    """Returns the rows with no more FLIP than `auto`, which beat `auto` if they are fast enough."""
     ours = found["auto"]
     return [name for name, row in found.items()
             if name != "auto" and None not in (row["flip"], ours["flip"]) and row["drawn"] != ours["drawn"]
@@ -53,7 +55,8 @@ def rivals(found):
 
 
 def measure(arguments, name, scene, view, rows, found):
-    """Adds to `found` what is not known of these rows of a view."""
+    """Measures the rows of a view whose results `found` lacks, and adds these results to `found`. Returns whether any
+    row was measured."""
     missing = [row for row in rows if arguments.again or row not in found]
     if not missing:
         return False
@@ -69,11 +72,11 @@ def measure(arguments, name, scene, view, rows, found):
 
 
 def beaten(found):
-    """Rows that beat auto in a view, as (how, row, by how much)."""
+    """Returns the rows that beat `auto` in a view, each as (way, row, factor)."""
     ours, worse = found["auto"], []
     for name, row in found.items():
         if name == "auto" or row["flip"] is None or row.get("drawn") == ours.get("drawn", []):
-            continue  # what draws the same differs by noise alone
+            continue  # a row with the same plan as auto differs from auto only by noise
         if row["timed"] and row["flip"] <= ours["flip"] and row["ms"] * FASTER < ours["ms"]:
             worse.append(("faster", name, ours["ms"] / row["ms"]))
         if row["timed"] and row["ms"] <= ours["ms"] and row["flip"] * BETTER < ours["flip"]:
@@ -84,7 +87,8 @@ def beaten(found):
 
 
 def line_of(name, views):
-    """A row of the table: median FLIP over the views of a scene, and in how many a row beats auto."""
+    """Returns a scene's line of the table: median FLIP over the views, and the number of views in which a row beats
+    `auto`."""
     cells = [name]
     for row in ("auto", "planar", "secant", "pyramid", "march", "hybrid"):
         flips = [found[row]["flip"] for found in views.values() if row in found and found[row]["flip"] is not None]

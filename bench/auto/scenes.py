@@ -1,4 +1,4 @@
-"""Six drawn scenes, as OBJ files: rooms with mirrors whose number, shape and place come from a seed."""
+"""Writes six drawn scenes as OBJ files: rooms with mirrors whose shapes and positions are drawn from a seed."""
 import math
 import os
 import random
@@ -21,13 +21,13 @@ illum 3
 
 
 class Writer:
-    """Faces of one OBJ file; each object has a name and a material."""
+    """Collects the objects of one OBJ file. Each object has a name, a material and faces."""
 
     def __init__(self):
         self.lines, self.places, self.normals = ["mtllib drawn.mtl"], 0, 0
 
     def add(self, name, material, places, normals, faces):
-        """`faces`: lists of pairs (place, normal), counted from 0 in this object."""
+        """Adds an object. Each face is a list of index pairs (position, normal), counted from 0 within the object."""
         self.lines += [f"o {name}", f"usemtl {material}"]
         self.lines += ["v %.6f %.6f %.6f" % tuple(p) for p in places] + ["vn %.6f %.6f %.6f" % tuple(n) for n in normals]
         for face in faces:
@@ -49,7 +49,7 @@ class Writer:
         self.add(name, material, places, normals, faces)
 
     def surface(self, name, material, place, columns, rows):
-        """A smooth surface; `place(u, v)`, u and v from 0 to 1, returns a place and a normal."""
+        """Adds a smooth surface. The function `place` maps u and v, from 0 to 1, to a position and a normal."""
         points = [place(i / columns, j / rows) for j in range(rows + 1) for i in range(columns + 1)]
         at = lambda i, j: (j * (columns + 1) + i,) * 2
         faces = [[at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)] for j in range(rows) for i in range(columns)]
@@ -86,7 +86,7 @@ def room(writer, size):
 
 
 def things(writer, draw, size, count):
-    """Boxes and balls that are no mirrors, on the floor."""
+    """Adds diffuse boxes and balls on the floor, at drawn positions."""
     for i in range(count):
         half = draw.uniform(.15, .4)
         x, z = draw.uniform(.5, size[0] - .5), draw.uniform(.5, size[2] - .5)
@@ -98,7 +98,8 @@ def things(writer, draw, size, count):
 
 
 def panel(writer, name, size, wall, along, width, low, high, depth=0):
-    """A mirror on a wall of the room: 0, 1 across x, 2, 3 across z; with a depth a closed box."""
+    """Adds a mirror on a wall of the room. Walls 0 and 1 are perpendicular to x, walls 2 and 3 to z. With a depth, the
+    mirror is a closed box instead of a quadrilateral."""
     k = 0 if wall < 2 else 2
     gap, sign = .02, 1 if wall % 2 == 0 else -1
     back = gap if sign > 0 else size[k] - gap
@@ -114,7 +115,7 @@ def panel(writer, name, size, wall, along, width, low, high, depth=0):
         corner[k], corner[2 - k] = back, a
         corners.append(corner)
     if (sign > 0) == (k == 0):
-        corners.reverse()  # it faces the room
+        corners.reverse()  # so that the mirror faces the room
     writer.quad(name, MIRROR, corners)
 
 
@@ -163,7 +164,7 @@ def curved(writer, draw):
 
 
 def outside(writer, draw):
-    """A floor without walls or lamp: the environment lights it."""
+    """Draws a floor without walls and lamp, which only the environment lights."""
     writer.quad("floor", GREY, [[-6, 0, -6], [-6, 0, 6], [6, 0, 6], [6, 0, -6]])
     things(writer, draw, [4, 3, 4], 6)
     writer.box("block", MIRROR, [-2, 0, -1], [-1, 1.5, 0])
@@ -175,7 +176,7 @@ SCENES = {"corridor": corridor, "balls": balls, "mixed": mixed, "frames": frames
 
 
 def write(folder):
-    """Writes all six below the folder; returns their files by name."""
+    """Writes all six scenes into the folder. Returns their file names by scene name."""
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "drawn.mtl"), "w") as file:
         file.write(MATERIALS)

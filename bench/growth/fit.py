@@ -1,11 +1,11 @@
-"""Power laws through measured costs: cost = a n^b, by least squares of the logarithms."""
+"""Fits power laws cost = a n^b to measured costs, by least squares of the logarithms."""
 import math
 import random
 import statistics
 
 
 def slope(sizes, costs):
-    """Exponent b and factor a of the least squares line through (log size, log cost). At least two sizes."""
+    """Returns exponent b and factor a of the power law through at least two sizes and their costs."""
     x = [math.log(size) for size in sizes]
     y = [math.log(cost) for cost in costs]
     mean_x, mean_y = statistics.fmean(x), statistics.fmean(y)
@@ -14,9 +14,11 @@ def slope(sizes, costs):
 
 
 def fit(sizes, rounds, resamples=2000, seed=1):
-    """Of `rounds`, a list of costs by size each: the medians by size, their exponent, its 95 % interval (bootstrap
-    over whole rounds, since what disturbs a round disturbs all sizes of it), and the exponent of the last step alone.
-    The interval holds what the rounds differ by; how far the points are from a power law shows in the last step."""
+    """Fits a power law to the medians over `rounds`, each of which is a list of costs by size.
+
+    Returns the medians, the exponent and factor, the exponent's 95 % interval, and the exponent between the last two
+    sizes. The interval is a bootstrap over whole rounds, because a disturbance changes all sizes of a round. It covers
+    the noise between rounds. The last exponent shows whether the costs depart from a power law."""
     def medians(chosen):
         return [statistics.median(costs) for costs in zip(*chosen)]
     middle = medians(rounds)

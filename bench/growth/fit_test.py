@@ -1,4 +1,4 @@
-"""Fits of costs whose law is known."""
+"""Tests fits of costs with known power laws."""
 import random
 import unittest
 

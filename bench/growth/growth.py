@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How time and memory grow with pixels, samples, bounces, face, triangles, mirrors and lights.
+"""Measures how time and memory grow with pixels, samples, bounces, face, triangles, mirrors and lights.
 
-growth.py [--rounds N] CATOPTRIC OUT [VARIABLE...]: measures in rounds, each of which goes through all sizes, fits a
-power law to the medians, and writes OUT/growth.md, OUT/growth.json and a plot of each variable. Processor time of all
-threads; peak memory of a process that renders one such picture. A quarter of an hour.
+growth.py [--rounds N] CATOPTRIC OUT [VARIABLE...]: measures every size in each round, and fits power laws to the
+medians. Writes OUT/growth.md, OUT/growth.json and a plot of each variable. Time is the processor time of all threads.
+Memory is the peak memory of a process that renders one picture. All variables take a quarter of an hour.
 """
 import argparse
 import json
@@ -12,12 +12,12 @@ import subprocess
 import sys
 import tempfile
 
-sys.dont_write_bytecode = True  # nothing is left beside the sources
+sys.dont_write_bytecode = True  # imports write no files into the source folder
 import fit
 import plot
 import scenes
 
-FRAMES = 2  # of a round
+FRAMES = 2  # measured frames of each row in a round
 
 
 def words(program, verb, scene_files, size, *more):
@@ -27,7 +27,7 @@ def words(program, verb, scene_files, size, *more):
 
 
 def bench(program, scene_files, size, techniques, rounds):
-    """Processor milliseconds by name of the benchmark, a list of rounds each."""
+    """Returns, by benchmark name, the processor time of each round in milliseconds."""
     run = subprocess.run(words(program, "bench", scene_files, size, "--frames", str(FRAMES * rounds), "--warmup", "3",
                                "--rounds", str(rounds), "--json", "--techniques", *techniques),
                          capture_output=True, text=True)
@@ -42,7 +42,7 @@ def bench(program, scene_files, size, techniques, rounds):
 
 
 def peak_megabytes(program, scene_file, size, technique, folder):
-    """The most memory that a process had which rendered this."""
+    """Returns the peak memory, in megabytes, of a process that renders one picture."""
     child = subprocess.Popen(words(program, "render", [scene_file], size, "--frames", "1", "--warmup", "1", "--model",
                                    "everything", "--technique", technique, "-o", os.path.join(folder, "picture.png")))
     _, status, usage = os.wait4(child.pid, 0)
@@ -52,7 +52,8 @@ def peak_megabytes(program, scene_file, size, technique, folder):
 
 
 def knob_series(program, folder, rounds, scene, size, rows):
-    """`rows`: a name, and by size the technique whose knob has it."""
+    """Measures a knob of a technique at several values. `rows` holds pairs of a name and a table that gives, for each
+    size, the technique with its knob."""
     title = os.path.splitext(os.path.basename(scene))[0]
     found = bench(program, [scene], size, [t for _, by_size in rows for t in by_size.values()], rounds)
     return [{"name": name, "sizes": list(by_size),
@@ -65,7 +66,7 @@ def measure_pixels(program, folder, rounds):
     scene, edges = "cornell-mirrors", [64, 128, 256, 512]
     rows = ["raytrace:depth=4", "parallax:face=64", "secant:face=64", "pyramid:face=64", "hybrid:face=64"]
     passes = []
-    for k in range(rounds):  # there and back, as within a process
+    for k in range(rounds):  # every other round goes through the sizes backwards, so that slow drifts cancel
         passes.append({})
         for edge in edges if k % 2 == 0 else reversed(edges):
             passes[-1][edge] = bench(program, [scene], edge, rows, 1)
@@ -80,7 +81,7 @@ def measure_samples(program, folder, rounds):
 
 
 def measure_bounces(program, folder, rounds):
-    balls = os.path.join(folder, "balls.glb")  # all of them mirrors, so that paths go on
+    balls = os.path.join(folder, "balls.glb")  # all balls are mirrors, so that paths have many bounces
     scenes.write(balls, lattice=4, mirrors=64, lights=1, edge=8)
     return (knob_series(program, folder, rounds, balls, 128, [
         ("raytrace, 64 mirrors", {n: f"raytrace:depth={n}" for n in (1, 2, 4, 8, 16, 32)})]) +
@@ -95,7 +96,8 @@ def measure_face(program, folder, rounds):
 
 
 def scene_series(program, folder, rounds, size, techniques, parts, made):
-    """`made`: by size of the variable what `scenes.write` is told; `parts` of loading are measured, too."""
+    """Measures techniques on scenes of several sizes. `made` gives the arguments of `scenes.write` for each size.
+    `parts` names parts of loading to measure, too. With parts, the size is the number of triangles."""
     files, sizes = [], []
     for n, shape in made.items():
         files.append(os.path.join(folder, f"scene-{n}.glb"))
@@ -168,7 +170,7 @@ def main():
     program = os.path.abspath(options.program)
     path = os.path.join(options.out, "growth.json")
     found = {}
-    if options.variables and os.path.exists(path):  # the others stay
+    if options.variables and os.path.exists(path):  # results of other variables are kept
         with open(path, encoding="utf-8") as file:
             found = json.load(file)
     for variable in options.variables or UNITS:

@@ -1,4 +1,4 @@
-"""Costs against sizes, both logarithmic, as SVG: points, and the power law fitted to them."""
+"""Draws costs against sizes as SVG, with logarithmic axes: measured points and the fitted power laws."""
 import math
 from html import escape
 
@@ -14,7 +14,8 @@ def short(value):
 
 
 def panel(x_shift, title, x_label, series):
-    """`series`: name, sizes, costs, exponent and factor of the line, or None for no line."""
+    """Returns the SVG elements of a diagram. Each element of `series` has sizes and costs. An element with a factor and
+    an exponent also gets the line of its power law."""
     sizes = [n for s in series for n in s["sizes"]]
     costs = [c for s in series for c in s["costs"]]
     ranges = []
@@ -55,7 +56,8 @@ def panel(x_shift, title, x_label, series):
 
 
 def write(path, variable, unit, series):
-    """Milliseconds on the left, megabytes on the right; one colour a series, named below."""
+    """Writes an SVG file with processor time on the left and peak memory on the right. Each series has one colour. The
+    legend below the diagrams names the series."""
     time = [dict(s, costs=s["ms"]) for s in series]
     memory = [{"sizes": s["sizes"], "costs": s["megabytes"]} if s.get("megabytes") else None for s in series]
     out = panel(0, f"Processor time against {variable}, ms", unit, time)

@@ -1,4 +1,4 @@
-"""Scenes that differ in one number, as .glb: a bright box with balls on a lattice, some of them mirrors."""
+"""Writes .glb scenes that differ in one number: a bright box with a lattice of balls, some of which are mirrors."""
 import array
 import json
 import math
@@ -9,8 +9,8 @@ FACES = [((1, 0, 0), (0, 1, 0), (0, 0, 1)), ((-1, 0, 0), (0, 0, 1), (0, 1, 0)), 
 
 
 def cube_of_squares(edge, warp):
-    """Corners, outward normals and triangles (12 edge^2) of a cube whose faces have edge^2 squares; each corner goes
-    through `warp`, which returns a position and a normal."""
+    """Returns positions, normals and indices of a cube whose faces have edge^2 squares, 12 edge^2 triangles in all. The
+    function `warp` maps each corner, with the face's outward normal, to a position and a normal."""
     positions, normals, indices = array.array("f"), array.array("f"), array.array("I")
     for out, right, up in FACES:
         first = len(positions) // 3
@@ -29,7 +29,7 @@ def cube_of_squares(edge, warp):
 
 
 def ball(edge):
-    """Of radius 1; angles rather than lengths are even on each face, so that triangles are alike."""
+    """Returns a ball of radius 1. The squares of a face have equal angles, so that all triangles have similar sizes."""
     def warp(corner, _):
         bent = [math.tan(math.pi / 4 * c) for c in corner]
         length = math.sqrt(sum(c * c for c in bent))
@@ -39,7 +39,7 @@ def ball(edge):
 
 
 def room():
-    """A cube from -1 to 1 seen from within."""
+    """Returns a cube from -1 to 1 whose triangles face inwards."""
     positions, normals, indices = cube_of_squares(1, lambda corner, out: (corner, [-c for c in out]))
     for i in range(0, len(indices), 3):
         indices[i + 1], indices[i + 2] = indices[i + 2], indices[i + 1]
@@ -95,8 +95,8 @@ class Glb:
 
 
 def write(path, lattice, mirrors, lights, edge):
-    """lattice^3 balls of 12 edge^2 triangles each, of which `mirrors`, spread over the lattice, are mirrors; `lights`
-    points on a circle below the ceiling. Returns its number of triangles."""
+    """Writes a scene with lattice^3 balls of 12 edge^2 triangles each. `mirrors` of the balls, spread over the lattice,
+    are mirrors. `lights` point lights are on a circle below the ceiling. Returns the number of triangles."""
     glb = Glb()
     glb.node(name="room", mesh=glb.mesh(glb.shape(room()), glb.material("wall", (.7, .7, .7))), scale=[4, 4, 4])
     shape = ball(edge)

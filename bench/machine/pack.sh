@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Packs what another machine needs to measure and test this build: programs, the libraries that they load, the files
-# that their tests read, and run.sh. That machine needs bash, the usual commands beside it, tar and a Vulkan driver.
-# Called by ./dev pack: pack.sh BUILD [--small] [ARCHIVE]. Needs a finished build; writes nothing but ARCHIVE
-# (catoptric-kit.tar.gz; .tar.xz takes minutes and is much smaller). --small leaves out the library of picture files
-# with what it loads, more than half of it all; then run.sh leaves out compare, which writes OpenEXR.
+# pack.sh BUILD [--small] [ARCHIVE]: packs an archive with which another machine can measure and test this build.
+# The archive holds programs, the shared libraries that they load, the files that their tests read, and run.sh. The
+# other machine needs bash, the usual Unix commands, tar and a Vulkan driver.
+# ./dev pack calls this script. BUILD must be a finished build. The script writes only ARCHIVE (default
+# catoptric-kit.tar.gz; a name in .tar.xz gives a much smaller archive in minutes).
+# --small leaves out the module for picture files with its libraries, which are more than half of the archive. run.sh
+# then skips the step `compare`, which writes OpenEXR files.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -12,7 +14,7 @@ if [[ ${2:-} == --small ]]; then modules=(); shift; fi
 archive=${2:-catoptric-kit.tar.gz}
 
 programs=(catoptric catoptric_bench)
-tests=(gpu reflect drivers) # the others are of the host, or need a compiler, a display or the layer of faults
+tests=(gpu reflect drivers) # the other test programs need no GPU, or need a compiler, a display or the fault layer
 validation=VkLayer_khronos_validation
 
 fail() { echo "pack: $*" >&2; exit 1; }
@@ -21,7 +23,7 @@ trap 'rm -rf "$work"' EXIT
 kit=$work/catoptric-kit
 mkdir -p "$kit"/{bin,lib,layers,source}
 
-copy_libraries() { # copy_libraries FILE...: what they load, but for the C library and what belongs to the kernel
+copy_libraries() { # copy_libraries FILE...: copies the libraries that the files load, except those of the C library
     local line name place
     while read -r line; do
         case $line in
@@ -34,14 +36,15 @@ copy_libraries() { # copy_libraries FILE...: what they load, but for the C libra
         ld-linux* | libc.so* | libm.so* | libdl.so* | libpthread.so* | librt.so* | libresolv.so* | libutil.so* | \
             libnss_* | libanl.so* | libBrokenLocale.so* | libthread_db.so* | libmvec.so*) continue ;;
         esac
-        # Under its full name, by which run.sh tells which of two is newer, with a link by the one that is asked for.
+        # Copies the library under its full versioned name, by which run.sh finds the newer of two libraries. A link has
+        # the name that programs ask for.
         [[ -e $kit/lib/$name ]] && continue
         place=$(readlink -f "$place")
         cp "$place" "$kit/lib/"
         [[ ${place##*/} == "$name" ]] || ln -s "${place##*/}" "$kit/lib/$name"
     done < <(for file in "$@"; do ldd "$file" 2>/dev/null || true; done | sort -u)
 }
-copy_validation() { # the layer that the tests switch on
+copy_validation() { # copies the Vulkan validation layer, which the tests enable
     local folder manifest library
     for folder in /usr/share/vulkan /etc/vulkan /usr/local/share/vulkan; do
         manifest=$folder/explicit_layer.d/$validation.json
@@ -62,16 +65,16 @@ for file in "${programs[@]}" "${tests[@]/%/_test}" "${modules[@]}"; do
 done
 copy_libraries "$kit"/bin/*
 copy_validation
-for test in "${tests[@]}"; do # as CTest has them: each source in a process of its own
+for test in "${tests[@]}"; do # one entry for each test source, as in CTest, so that each runs in its own process
     for file in "$source/tests/$test"/*_test.cpp; do echo "$test $(basename "$file" _test.cpp)"; done
 done >"$kit/tests.txt"
-# Files of the tree that these tests read: scenes, and the sources that say how many techniques there are.
+# Copies the source files that these tests read: scenes, and the sources of the techniques, which a test counts.
 (cd "$source" && cp -r --parents -t "$kit/source" samples/scenes engine/reflect)
 cp "$here/run.sh" "$kit/"
 git -C "$source" describe --always --dirty >"$kit/commit.txt"
-# Made aside: an archive that is there is a whole one.
+# The archive is written under another name and then renamed, so that a file with the final name is always complete.
 new=$(dirname "$archive")/new-$(basename "$archive")
-export XZ_OPT=${XZ_OPT:--9} # whose window is wider than a program: they share most of what they are
+export XZ_OPT=${XZ_OPT:--9} # level 9 has a window larger than a program, so xz finds the code that programs share
 tar -C "$work" -caf "$new" catoptric-kit
 mv "$new" "$archive"
 echo "packed: $archive ($(du -h "$archive" | cut -f 1))"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Measures and tests the programs that lie beside this script (./dev pack) on this machine, and leaves one archive.
-# Needs bash, tar, gzip, timeout and other usual commands, and a Vulkan driver. Writes nothing outside its folder.
+# Measures and tests the packed programs in this script's folder (./dev pack) on this machine. Writes the results into
+# one archive in the same folder, and nothing outside the folder.
+# Needs bash, tar, gzip, timeout and other usual commands, and a Vulkan driver.
 set -uo pipefail
 export PATH=${PATH:-/usr/local/bin:/usr/bin:/bin} LC_ALL=C
 cd "$(dirname "$0")" || exit 1
@@ -33,21 +34,21 @@ done
 name=results-${HOSTNAME:-machine}-$(date -u +%Y%m%d-%H%M%S)
 results=$here/$name
 mkdir -p "$results" work/{home,cache,tmp} || exit 1
-# What drivers and programs keep, they keep in here.
+# Drivers and programs write their caches and settings into the folder `work`.
 export HOME=$here/work/home XDG_CACHE_HOME=$here/work/cache XDG_CONFIG_HOME=$here/work/home TMPDIR=$here/work/tmp
 export MESA_SHADER_CACHE_DIR=$here/work/cache __GL_SHADER_DISK_CACHE_PATH=$here/work/cache
-# Where tests look for what they read at home in the tree that they were built in.
+# Tests read their files from here instead of from the source tree in which they were built.
 export CATOPTRIC_TEST_SOURCE=$here/source
 export VK_ADD_LAYER_PATH=$here/layers
 
-# Drivers share libraries with these programs, and were built for what the machine has: where that is newer than what
-# came along under the same name, it is the machine's that both load.
+# Vulkan drivers and the packed programs load some of the same libraries, and drivers need the version of this machine.
+# If this machine's version of a packed library is newer, both load this machine's version.
 rm -rf work/lib
 mkdir -p work/lib
 declare -A machine_has
 while read -r file place; do machine_has[$file]=${machine_has[$file]:-$place}; done < <(
     { ldconfig -p || /sbin/ldconfig -p; } 2>/dev/null | sed -n 's|^\s*\(\S*\) (libc6,[^)]*64.* => \(/.*\)|\1 \2|p')
-is_newer() { # is_newer THEIRS OWN: as names with versions in them
+is_newer() { # is_newer THEIRS OWN: whether file name THEIRS has a higher version than file name OWN
     [[ $1 != "$2" && $(printf '%s\n' "$1" "$2" | sort -V | tail -n 1) == "$1" ]]
 }
 for library in lib/*.so*; do
@@ -66,7 +67,7 @@ export LD_LIBRARY_PATH=$here/work/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 summary=$results/summary.txt failed=0 child=
 printf '%-34s %-10s %8s\n' step exit seconds >"$summary"
 note() { printf '%-34s %-10s %8s\n' "$@" | tee -a "$summary"; }
-finish() { # whatever ends this, there is an archive of what was done
+finish() { # packs the results; runs however the script ends
     [[ -z $child ]] || kill "$child" 2>/dev/null
     tar -czf "$here/$name.tar.gz" -C "$here" "$name" && rm -rf "$results"
     echo "archive: $here/$name.tar.gz"
@@ -81,7 +82,7 @@ is_wanted() {
     for word in "${only[@]}"; do [[ $1 != *"$word"* ]] || return 0; done
     return 1
 }
-step() { # step NAME COMMAND...: its log beside its exit code and seconds; goes on when it fails
+step() { # step NAME COMMAND...: runs a command; writes its log, exit code and seconds; continues if it fails
     local step=$1 begin=$EPOCHREALTIME code
     shift
     local log=$results/${step//\//-}.log
@@ -91,7 +92,7 @@ step() { # step NAME COMMAND...: its log beside its exit code and seconds; goes 
     wait "$child"
     code=$?
     child=
-    local milliseconds=$(((${EPOCHREALTIME/./} - ${begin/./}) / 1000)) # without the dot: microseconds
+    local milliseconds=$(((${EPOCHREALTIME/./} - ${begin/./}) / 1000)) # EPOCHREALTIME without dot: microseconds
     case $code in
     0) ;;
     124 | 137) failed=1 code="over $limit s" ;;
@@ -112,12 +113,12 @@ wanted bench "$catoptric" bench "${device[@]}" "${small[@]}" --rounds "$rounds" 
 if [[ -e bin/catoptric-images.so ]]; then
     wanted compare "$catoptric" compare "${device[@]}" "${small[@]}" -o "$results/compare" --quiet
 elif is_wanted compare; then
-    note compare left-out 0 # packed with --small
+    note compare left-out 0 # the archive was packed with --small
 fi
 wanted stress "$catoptric" stress "${device[@]}" "${stress[@]}" -o "$results/stress" --quiet
 wanted ratios bin/catoptric_bench "$pairs"
 while read -r program file; do
-    # The quick form takes the first of each program.
+    # --quick runs only the first test source of each program.
     ((quick)) && [[ $program == "${last:-}" ]] && continue
     last=$program
     wanted "$program/$file" "bin/${program}_test" --from "${file}_test.cpp"

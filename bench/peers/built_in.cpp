@@ -1,5 +1,5 @@
-// The built-in scene: pictures beside Embree's, captures with a frame of Embree's as the unit, all
-// of them beside prototypes.
+// Comparisons in the built-in scene: our traced pictures with Embree's and with prototypes, and our
+// captures with prototypes. For captures, the time of one Embree frame is only a unit.
 #include "cases.hpp"
 #include "comparison.hpp"
 #include "prototypes.hpp"
@@ -18,12 +18,14 @@ namespace {
 
 const Pair kPairs[] = {{"mesh", "raytrace:depth=4", false},
                        {"exact", "raytrace:depth=4,sphere=exact", true}};
-/// Rows of ours beside which Embree's single rays are only a unit of time, and their faces.
+/// Our rows with captures, and the edges of their faces. Embree's single rays are only a unit of
+/// time for these rows.
 constexpr std::pair<const char*, int> kOthers[] = {
     {"parallax:face=64", 64}, {"parallax", 256}, {"parallax:face=512", 512}};
-constexpr int kSettles = 14; // frames
+constexpr int kSettles = 14; // frames until mirrors seen in mirrors no longer change
 
-/// Prints how far the prototypes' pictures are from ours; whether those that trace show the same.
+/// Prints how much the prototypes' pictures differ from ours. Returns whether the pictures of the
+/// prototypes that trace rays equal ours.
 bool check_prototypes(app::Session& session, app::Request request, Prototypes& prototypes) {
     for (app::Subject& subject : prototypes.subjects(0))
         for (int i = 0; i < kSettles; ++i) subject.work();

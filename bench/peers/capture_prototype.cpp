@@ -12,12 +12,13 @@ using gpu::BufferUse;
 namespace {
 
 constexpr std::uint32_t kShadowEdge = 1024;
-constexpr float kNear = .002f;   // scene units, of which a scene is about one across
-constexpr float kNothing = 1000; // the distance where nothing is
+constexpr float kNear = .002f;   // near distance of all views, scene units
+constexpr float kNothing = 1000; // stored distance where no surface is seen, scene units
 constexpr std::uint32_t kMirrors = 4, kLightView = 1 + 6 * kMirrors;
-constexpr std::uint32_t kShadowFaces = 5; // above a light that shines down nothing is lit
+// The light shines down, so its shadow map needs no face +Y.
+constexpr std::uint32_t kShadowFaces = 5;
 
-/// As Frame of shaders/draw.glsl.
+/// The uniform block Frame of shaders/draw.glsl.
 struct Frame {
     glm::mat4 clip_from_scene[kLightView + kShadowFaces];
     vec4 light, light_normal, intensity;
@@ -105,8 +106,8 @@ void CapturePrototype::make_programs(gpu::Pipelines& pipelines) {
     const gpu::Attachments faces{{Format::rgba16f, Format::r32f}, true},
         picture{{Format::rgba32f}, true};
     const auto layers = static_cast<std::uint32_t>(6 * mirrors_.size());
-    // Cubes show mirrored pictures, so there triangles run the other way round. Of a ball those
-    // that face away are left out.
+    // Faces of a cube map are mirrored pictures, which reverse the winding of triangles. Triangles
+    // of a ball that face away are culled.
     constexpr gpu::Winding kAway = gpu::Winding::clockwise,
                            kAwayInFaces = gpu::Winding::counterclockwise;
     const auto state = [](const char* fragment, gpu::Winding hidden) {
@@ -131,7 +132,8 @@ void CapturePrototype::make_programs(gpu::Pipelines& pipelines) {
     }
 }
 
-/// In the layers whose view it may meet; neighbouring layers in one draw.
+/// Draws an object into the layers whose view it may intersect. One draw call covers a run of
+/// neighbouring layers.
 void CapturePrototype::draw_object(VkCommandBuffer commands, const Bound& program,
                                    std::size_t object, std::uint32_t first_view,
                                    std::uint32_t layers) const {
@@ -153,7 +155,7 @@ void CapturePrototype::draw_object(VkCommandBuffer commands, const Bound& progra
 
 namespace {
 
-/// A rendering scope over whole images of one size.
+/// Begins a rendering scope over whole images of one size, calls `body` and ends the scope.
 template <typename Body>
 void render(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers,
             const std::vector<VkRenderingAttachmentInfo>& colours,
@@ -176,7 +178,8 @@ void render(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers,
 
 } // namespace
 
-/// Only balls: a room's shadow falls on nothing.
+/// Draws only the balls into the shadow map, because the walls of the room cast no shadow that
+/// falls on a surface.
 void CapturePrototype::draw_shadows(VkCommandBuffer commands) {
     render(commands, shadow_map_.extent(), kShadowFaces, {}, cleared(shadow_faces_, 0), [&] {
         shadow_.bind(commands);

@@ -8,35 +8,35 @@
 
 namespace peers {
 
-/// Environment maps as a day's plain Vulkan code has them: a shadow map of the balls, a capture of
-/// each mirror, in which the others show what they captured a frame before, and the view; reflected
-/// directions are corrected by one step. As our `parallax`, without what it promises beside the
-/// picture. Only what the built-in scene has is understood.
+/// Simple Vulkan prototype of our technique `parallax`, without the engine's robustness. A frame
+/// draws a shadow map of the mirror balls, a capture of each mirror, and the camera's view.
+/// Mirrors in a capture show the captures of the frame before. Reflected directions get one step of
+/// parallax correction. Supports only the features of the built-in scene.
 class CapturePrototype {
 public:
-    /// `face`: of captures, texels.
+    /// Sets up the request's scene. `face` is the edge of the captures' faces, texels.
     CapturePrototype(catoptric::gpu::Device& device, catoptric::gpu::Pipelines& pipelines,
                      const catoptric::app::Request& request, std::uint32_t face);
 
-    /// A frame, until it is done.
+    /// Draws a frame and waits for the device.
     void draw();
-    std::vector<Vector> read(); ///< the view of the last frame
+    std::vector<Vector> read(); ///< returns the camera's view of the last frame, linear
 
 private:
     struct Material {
-        catoptric::vec4 albedo, emission; ///< of a mirror its reflectance
+        catoptric::vec4 albedo, emission; ///< the albedo of a mirror holds its reflectance
     };
-    /// Push constants.
+    /// Push constants of a draw, as in shaders/draw.glsl.
     struct Draw {
         catoptric::vec4 eye, albedo, emission, centre;
         std::uint32_t first_view;
         float cube;
     };
-    /// Colours and distances around all mirrors.
+    /// The captures of all mirrors: cube maps of colour and of distance.
     struct Cubes {
         PlainImage colour, distance;
     };
-    /// What an object is drawn by: the pipelines of one pass, with the set of one parity.
+    /// The pipelines of a pass, with descriptor sets for even or for odd frames.
     struct Programs {
         Bound diffuse, mirror;
     };
@@ -53,17 +53,18 @@ private:
     catoptric::gpu::Device& device_;
     std::uint32_t face_;
     catoptric::render::Geometry geometry_;
-    std::vector<Material> materials_;            ///< of objects
-    std::vector<std::size_t> mirrors_;           ///< their objects
-    std::vector<catoptric::shared::View> views_; ///< as Frame of shaders/draw.glsl has them
+    std::vector<Material> materials_;            ///< by object
+    std::vector<std::size_t> mirrors_;           ///< indices of the objects that are mirrors
+    std::vector<catoptric::shared::View> views_; ///< in the order of Frame in shaders/draw.glsl
     catoptric::gpu::Buffer vertices_, indices_, frame_, pixels_;
     catoptric::gpu::UniqueSampler linear_, compare_;
     PlainImage shadow_map_, depth_, view_, view_depth_;
-    std::array<Cubes, 2> cubes_; ///< a frame's, and those of the frame before
+    std::array<Cubes, 2> cubes_; ///< captures of the current frame and of the frame before, in turn
     PlainSets sets_;
     Bound shadow_;
-    std::array<Programs, 2> capture_, camera_; ///< by which cubes they look into
-    std::array<std::vector<std::array<VkImageView, 2>>, 2> faces_; ///< of each mirror to draw to
+    std::array<Programs, 2> capture_, camera_; ///< by the element of `cubes_` that they read
+    /// The capture's faces as attachments, by element of `cubes_` and by mirror: colour, distance.
+    std::array<std::vector<std::array<VkImageView, 2>>, 2> faces_;
     VkImageView shadow_faces_{}, depth_faces_{}, picture_{}, picture_depth_{};
     std::size_t frame_number_ = 0;
 };

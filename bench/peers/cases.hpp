@@ -9,12 +9,12 @@
 
 namespace peers {
 
-/// What all comparisons are measured with.
+/// The devices and settings that all comparisons use.
 struct Bench {
     catoptric::app::Engine& engine;
-    const catoptric::app::UsageMeter& meter; ///< of the process
+    const catoptric::app::UsageMeter& meter; ///< measures the whole process
     const EmbreeDevice& device;
-    int threads = 1; ///< of each side
+    int threads = 1; ///< for our tracer and for Embree, each
     int rounds = 0;
 };
 
@@ -22,18 +22,22 @@ struct NamedScene {
     const char* name;
     catoptric::scene::Scene (*make)();
 };
-/// The built-in scene; the same with finer balls and a ring, in all 100,144 triangles and
-/// 1,001,756; the furnished room.
+/// Returns the scenes of the comparisons: the built-in scene; two variants of it with finer balls
+/// and a ring, with 100,144 and 1,001,756 triangles; and the scene `room`.
 std::span<const NamedScene> scenes();
 
-// Each prints what it finds, and returns whether both sides find the same.
-/// Pictures of the built-in scene with balls as triangles and exact ones, captures, prototypes.
+/// Compares pictures of the built-in scene: traced with mesh balls and with exact spheres, by
+/// captures, and by prototypes. Prints times and differences. Returns whether all traced pictures
+/// agree.
 bool compare_built_in(const Bench& bench);
-/// The picture of a scene.
+/// Compares our traced picture of a scene with Embree's. Prints times and differences. Returns
+/// whether the pictures agree.
 bool compare_pictures(const Bench& bench, const NamedScene& of);
-/// What rays from anywhere in any direction meet first in a scene.
+/// Compares the first hits of rays with random origins and directions in a scene. Prints times and
+/// differences. Returns whether our hits and Embree's agree.
 bool compare_rays(const Bench& bench, const NamedScene& of);
-/// How long trees of a million triangles take to build, and what walks cost in those of scenes.
+/// Compares with Embree the build times of trees of a million triangles, and the expected cost of
+/// rays in the trees of all built-in scenes. Prints both.
 void compare_trees(const Bench& bench);
 
 } // namespace peers

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-/// Embree beside our own tracer: as a witness in tests, as a peer in benchmarks.
+/// The ray tracer Embree, for comparison with our own ray tracer in tests and benchmarks.
 namespace peers {
 
-/// Embree's device, with so many threads for building; 0: as many as there are processors.
+/// Embree's device. Builds trees with `threads` threads; 0 takes one thread per processor.
 class EmbreeDevice {
 public:
     explicit EmbreeDevice(int threads = 0)
@@ -21,7 +21,7 @@ public:
     EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
     RTCDevice get() const { return device_; }
-    /// Throws where it has had an error since the last time.
+    /// Throws if Embree had an error since the last call.
     void check() const {
         if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
             throw std::runtime_error("Embree: error " + std::to_string(error));
@@ -31,7 +31,8 @@ private:
     RTCDevice device_;
 };
 
-/// Triangles in Embree's hands: triangle i is primitive i. The caller's to release.
+/// Returns an Embree geometry of triangles, in which triangle i is primitive i. The caller releases
+/// the geometry.
 inline RTCGeometry triangle_geometry(const EmbreeDevice& device,
                                      std::span<const catoptric::bvh::Triangle> triangles) {
     using catoptric::vec3;
@@ -50,7 +51,7 @@ inline RTCGeometry triangle_geometry(const EmbreeDevice& device,
     return geometry;
 }
 
-/// The tree over geometries; the device must outlive it.
+/// An Embree scene, a tree over geometries. The device must outlive the scene.
 class EmbreeScene {
 public:
     EmbreeScene(const EmbreeDevice& device, RTCSceneFlags flags, RTCBuildQuality quality)
@@ -64,7 +65,7 @@ public:
 
     RTCScene get() const { return scene_; }
 
-    /// `number`: no other's of the scene; comes back with a hit.
+    /// Adds a geometry. `number` identifies the geometry in a hit and must be unique in the scene.
     void add(RTCGeometry geometry, unsigned number = 0) {
         rtcAttachGeometryByID(scene_, geometry, number);
     }

@@ -13,11 +13,11 @@ using bvh::Box;
 
 namespace {
 
-constexpr unsigned kDeepest = 48; // at most what Embree's builder takes without a word
-constexpr std::size_t kRoom = 2;  // references a triangle, where they may be split
+constexpr unsigned kDeepest = 48; // greatest tree depth that Embree's builder accepts
+constexpr std::size_t kRoom = 2;  // most primitives per triangle after splits
 
 struct Node {
-    std::size_t triangles = 0; ///< of a leaf; 0: a node
+    std::size_t triangles = 0; ///< number of triangles of a leaf; 0: an inner node
     Box boxes[2];
     Node* children[2] = {};
 };
@@ -47,7 +47,8 @@ Node* new_node(RTCThreadLocalAllocator allocator) {
     return new (rtcThreadLocalAlloc(allocator, sizeof(Node), alignof(Node))) Node;
 }
 
-/// Boxes of what lies of a triangle, and in the primitive's box, on each side of a plane.
+/// Splits a primitive at a plane: computes the boxes of the triangle's parts on both sides of the
+/// plane, clipped to the primitive's box.
 void split(const RTCBuildPrimitive* primitive, unsigned axis_number, float place, RTCBounds* left,
            RTCBounds* right, void* triangles) {
     const auto axis = static_cast<glm::length_t>(axis_number);
@@ -111,10 +112,12 @@ double embree_cost(const EmbreeDevice& device, std::span<const bvh::Triangle> tr
     arguments.primitives = primitives.data();
     arguments.primitiveCount = triangles.size();
     arguments.primitiveArrayCapacity = primitives.size();
-    arguments.userPtr = const_cast<bvh::Triangle*>(triangles.data()); // read by `split` alone
+    // Only `split` reads the triangles.
+    arguments.userPtr = const_cast<bvh::Triangle*>(triangles.data());
     const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
     device.check();
-    const double cost = root->triangles > 0 ? 0 : cost_of(*root); // of a leaf there is no walk
+    // A root that is a leaf needs no walk.
+    const double cost = root->triangles > 0 ? 0 : cost_of(*root);
     rtcReleaseBVH(arguments.bvh);
     return cost;
 }

@@ -4,9 +4,9 @@
 
 namespace peers {
 
-/// What bvh::cost says of the binary tree that Embree's builder of this quality makes of the same
-/// triangles, told our costs of nodes and triangles and the size of our leaves. RTC_BUILD_QUALITY_
-/// HIGH splits triangles, too.
+/// Returns the cost, as bvh::cost defines cost, of the binary tree that Embree's builder makes of
+/// the triangles. The builder uses our costs of nodes and triangles and our largest leaf size. With
+/// RTC_BUILD_QUALITY_HIGH the builder also splits triangles.
 double embree_cost(const EmbreeDevice& device, std::span<const catoptric::bvh::Triangle> triangles,
                    RTCBuildQuality quality);
 

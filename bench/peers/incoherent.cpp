@@ -1,4 +1,4 @@
-// Rays that have nothing to do with each other: from anywhere in a scene's box, in any direction.
+// Comparison of incoherent rays, with random origins in a scene's bounds and random directions.
 #include "cases.hpp"
 #include "comparison.hpp"
 #include "ray_list.hpp"
@@ -17,9 +17,10 @@ using measure::Benchmark;
 namespace {
 
 constexpr std::size_t kRays = 1 << 18;
-constexpr float kSamePlace = 1e-4F; // of t, where that is above 1; scene units
+// Largest difference of equal hits in t, scene units; relative if t > 1.
+constexpr float kSamePlace = 1e-4F;
 
-/// The same list each time.
+/// Returns a list of random rays in the triangles' bounds. Each call returns the same rays.
 std::vector<Ray> rays_in(std::span<const bvh::Triangle> triangles) {
     Bounds<float> box;
     for (const bvh::Triangle& triangle : triangles)
@@ -46,7 +47,8 @@ bool is_elsewhere(const Met& a, const Met& b) {
     return !(std::abs(a.t - b.t) <= kSamePlace * std::max(1.0F, a.t));
 }
 
-/// Prints what Embree's rays meet beside ours; whether it is the same place but for kMostOther.
+/// Prints how Embree's hits differ from ours. Returns whether at most kMostOther rays have hits at
+/// different positions.
 bool meet_the_same(const std::string& name, const std::vector<Met>& ours,
                    const std::vector<Met>& theirs) {
     std::size_t triangles = 0, places = 0;

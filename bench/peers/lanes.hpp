@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstring>
 
-/// Numbers of which each is a vector, one lane a ray, so that one text traces single rays and
-/// packets.
+/// SIMD vectors with one lane for each ray. The same source code traces single rays and packets.
 namespace peers {
 
-/// How many rays go together and what Embree calls them. A mask is all ones or 0 in each lane.
+/// The types and Embree calls for single rays. `Eight` and `Sixteen` are the same for packets of 8
+/// and 16 rays. A mask has all bits set, or 0, in each lane.
 struct One {
     using Real = float;
     using Mask = int;
@@ -78,7 +78,7 @@ Real root(Real value) {
     for (std::size_t i = 0; i < sizeof value / sizeof value[0]; ++i) value[i] = std::sqrt(value[i]);
     return value;
 }
-/// Into and from Embree's arrays, or its single numbers.
+/// Stores a vector into an array, or a number, of Embree's structures. `load` is the inverse.
 template <typename Field, typename Value>
 void store(Field& field, const Value& value) {
     static_assert(sizeof field == sizeof value);

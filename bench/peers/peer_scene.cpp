@@ -31,7 +31,7 @@ Surface surface_of(const scene::Scene& scene, const scene::Object& object,
     return surface;
 }
 
-/// Of a material's albedo; empty where it has none.
+/// Returns the texture of a material's albedo, or an empty texture if the material has none.
 Texture texture_of(const scene::Material& material) {
     if (!material.albedo_texture) return {};
     const scene::Image& image = *material.albedo_texture->image;
@@ -43,7 +43,7 @@ Texture texture_of(const scene::Material& material) {
     return texture;
 }
 
-/// The geometry's triangles are no longer in the way of shadow rays.
+/// Makes shadow rays pass through the geometry's triangles.
 void let_shadow_rays_pass(RTCGeometry geometry) {
     rtcSetGeometryOccludedFilterFunction(geometry, [](const RTCFilterFunctionNArguments* asked) {
         std::fill_n(asked->valid, asked->N, 0);
@@ -51,7 +51,7 @@ void let_shadow_rays_pass(RTCGeometry geometry) {
     rtcCommitGeometry(geometry);
 }
 
-/// Triangle k of the geometry, of one object.
+/// Returns triangle k of the geometry.
 bvh::Triangle triangle_at(const render::Geometry& geometry, std::size_t k) {
     const auto corner = [&](std::size_t i) {
         return geometry.vertices[geometry.indices[3 * k + i]].position;
@@ -70,7 +70,7 @@ PeerScene::PeerScene(const EmbreeDevice& device, const app::Request& request, in
     whitted_.depth = depth;
     whitted_.shadow_end = f32::kShadowRayEnd;
     whitted_.facet_fade = f32::kFacetFade;
-    whitted_.lift = 0x1p-20F; // scene units, of which a scene is about one across
+    whitted_.lift = 0x1p-20F; // scene units; a scene is about 1 in size
 }
 
 void PeerScene::add_objects(const EmbreeDevice& device, const app::Request& request, bool exact) {
@@ -79,7 +79,8 @@ void PeerScene::add_objects(const EmbreeDevice& device, const app::Request& requ
     const render::Geometry geometry = render::make_geometry(scene::at(scene, request.time), space);
     std::ranges::transform(scene.materials, std::back_inserter(whitted_.textures), texture_of);
     std::vector<bvh::Triangle> triangles;
-    std::vector<std::size_t> lamps; // which shadow rays would meet from within
+    // Separate, because shadow rays to the point inside a lamp must pass through it.
+    std::vector<std::size_t> lamps;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         const render::DrawRange& range = geometry.ranges[i];

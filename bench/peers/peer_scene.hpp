@@ -7,10 +7,10 @@
 
 namespace peers {
 
-/// A request's scene for Embree: its triangles and, where `exact`, balls in place of those that
-/// stand for one. Only what the built-in scene and `room` have is understood: lamps and spots
-/// without a range, mirrors that reflect the same at any angle, smooth dielectrics, textures of
-/// albedo in sRGB that are mixed and repeat, a perspective camera, no surroundings.
+/// A request's scene for Embree. With `exact`, spheres replace the meshes that approximate them.
+/// Supports only the features of the scenes `cornell-mirrors` and `room`. These are lamps, spots
+/// without a range, mirrors with the same reflectance at any angle and smooth dielectrics. Further
+/// features are bilinear repeating sRGB textures of albedo, and a perspective camera.
 class PeerScene {
 public:
     PeerScene(const EmbreeDevice& device, const catoptric::app::Request& request, int depth,
@@ -30,7 +30,7 @@ private:
     Whitted whitted_;
 };
 
-/// All triangles of a scene at rest, in its scene units.
+/// Returns all triangles of a scene at time 0, in scene units.
 std::vector<catoptric::bvh::Triangle> triangles_of(const catoptric::scene::Scene& scene);
 
 } // namespace peers

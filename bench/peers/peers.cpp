@@ -1,6 +1,9 @@
-// Ours beside Embree 3 and beside plain prototypes, in turn in one process.
-//   catoptric_peers [ROUNDS] [CASE...]   at least 6, all cases; exit code 1 where both sides differ
-// Cases: pictures of built-in (captures and prototypes, too), 100k, 1M and room; rays; trees.
+// Compares our ray tracer and captures with Embree 3 and with simple prototypes. All of them run in
+// turn in one process.
+//   catoptric_peers [ROUNDS] [CASE...]
+// ROUNDS is at least 6. Without CASE, all cases run. The exit code is 1 if results differ.
+// The cases `built-in`, `100k`, `1M` and `room` compare pictures of these scenes. `built-in` also
+// compares captures and prototypes. The cases `rays` and `trees` compare incoherent rays and trees.
 #include "cases.hpp"
 #include "core/error.hpp"
 #include "gpu/shader.hpp"
@@ -41,7 +44,7 @@ std::vector<Case> all_cases() {
     return cases;
 }
 
-/// Those of the words, or all where there are none.
+/// Returns the cases that the words name, or all cases if `words` is empty.
 std::vector<Case> cases_of(const std::vector<std::string>& words) {
     const std::vector<Case> all = all_cases();
     std::vector<Case> chosen;
@@ -55,7 +58,8 @@ std::vector<Case> cases_of(const std::vector<std::string>& words) {
     return words.empty() ? all : chosen;
 }
 
-/// The rounds that the first word says, which is taken away; 0: it says none.
+/// Returns the number of rounds in the first word and removes this word. Returns 0 if the first
+/// word is no number.
 int take_rounds(std::vector<std::string>& words) {
     int rounds = 0;
     if (words.empty()) return 0;
@@ -69,7 +73,7 @@ int take_rounds(std::vector<std::string>& words) {
 } // namespace
 
 int main(int argc, char** argv) try {
-    const app::UsageMeter meter(app::UsageMeter::Of::process); // before any other thread is there
+    const app::UsageMeter meter(app::UsageMeter::Of::process); // created before other threads start
     std::vector<std::string> words(argv + 1, argv + argc);
     const int rounds = std::max(static_cast<int>(measure::kFewest), take_rounds(words));
     const std::vector<Case> cases = cases_of(words);

@@ -155,7 +155,7 @@ VkRenderingAttachmentInfo cleared(VkImageView view, float red, bool stored) {
     info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
     info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     info.storeOp = stored ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    info.clearValue.color.float32[0] = red; // of a depth it is the depth
+    info.clearValue.color.float32[0] = red; // the clear depth of a depth image
     return info;
 }
 

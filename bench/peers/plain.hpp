@@ -7,36 +7,36 @@
 
 #include <map>
 
-/// Vulkan as plain code has it, for prototypes beside which our own frames are measured: images
-/// that stay in one layout, sets written once, a barrier of all memory between passes.
+/// Simple Vulkan helpers for the prototypes that our frames are compared with. Images stay in one
+/// layout, descriptor sets are written once, and a barrier of all memory separates passes.
 namespace peers {
 
-/// Always in VK_IMAGE_LAYOUT_GENERAL.
+/// An image that is always in VK_IMAGE_LAYOUT_GENERAL.
 class PlainImage {
 public:
     PlainImage() = default;
     PlainImage(catoptric::gpu::Device& device, catoptric::Format format, catoptric::uvec2 size,
                std::uint32_t layers, VkImageUsageFlags usage);
 
-    /// Some layers, as the shader has them; valid as long as the image.
+    /// Returns a view of `count` layers from layer `first`. The view is valid as long as the image.
     VkImageView view(VkImageViewType type, std::uint32_t first = 0, std::uint32_t count = 1);
     VkExtent2D extent() const { return extent_; }
-    /// The first layer's texels, to a buffer.
+    /// Copies the texels of the first layer to a buffer.
     void copy(VkCommandBuffer commands, const catoptric::gpu::Buffer& to) const;
 
 private:
     catoptric::gpu::DeviceHandle device_;
     catoptric::Format format_{};
     VkExtent2D extent_{};
-    catoptric::gpu::UniqueMemory memory_; // before the image: destroyed after it
+    catoptric::gpu::UniqueMemory memory_; // declared before the image, so destroyed after the image
     catoptric::gpu::UniqueImage image_;
     std::vector<catoptric::gpu::UniqueImageView> views_;
 };
 
-/// What such a copy of a rgba32f image holds.
+/// Returns the texels, without alpha, of an rgba32f image that PlainImage::copy copied to a buffer.
 std::vector<Vector> vectors_of(const catoptric::gpu::Buffer& texels);
 
-/// What a shader's binding of some name stands for: a buffer, or a view with or without a sampler.
+/// The resource of a named shader binding: a buffer, or an image view with or without a sampler.
 struct Resource {
     const catoptric::gpu::Buffer* buffer = nullptr;
     VkImageView view = VK_NULL_HANDLE;
@@ -44,7 +44,7 @@ struct Resource {
 };
 using Resources = std::map<std::string, Resource>;
 
-/// A pipeline with its set.
+/// A pipeline with its descriptor set.
 struct Bound {
     const catoptric::gpu::Pipeline* pipeline = nullptr;
     VkDescriptorSet set = VK_NULL_HANDLE;
@@ -56,11 +56,11 @@ struct Bound {
     }
 };
 
-/// Sets of one program; all of them live as long as this.
+/// Allocates and owns the descriptor sets of a program.
 class PlainSets {
 public:
     explicit PlainSets(const catoptric::gpu::Device& device);
-    /// Resources by name; those that the pipeline does not use are left out.
+    /// Writes a descriptor set with the resources that the pipeline uses, by the bindings' names.
     Bound bind(const catoptric::gpu::Pipeline& pipeline, const Resources& resources);
 
 private:
@@ -68,13 +68,13 @@ private:
     catoptric::gpu::UniqueDescriptorPool pool_;
 };
 
-/// Texels are mixed, and compared (reversed depth) where `compares`.
+/// Creates a sampler with bilinear filtering. With `compares` the sampler compares reversed depth.
 catoptric::gpu::UniqueSampler linear_sampler(const catoptric::gpu::Device& device, bool compares);
 
-/// All that was written is visible to all that follows.
+/// Records a barrier that makes all writes before it visible to all commands after it.
 void plain_barrier(VkCommandBuffer commands);
 
-/// An attachment that is cleared.
+/// Returns an attachment that is cleared to `red` (of a depth image, the depth).
 VkRenderingAttachmentInfo cleared(VkImageView view, float red, bool stored = true);
 
 } // namespace peers

@@ -4,7 +4,8 @@
 
 namespace peers {
 
-/// Those of the prototypes, "peers/FILE#BUILD" (shaders.cmake), for gpu::add_shader.
+/// Returns the shaders of the prototypes, named "peers/FILE#VARIANT" (shaders.cmake), for
+/// gpu::add_shader.
 std::span<const catoptric::gpu::EmbeddedShader> prototype_shaders();
 
 } // namespace peers

@@ -7,26 +7,31 @@
 #include <memory>
 #include <string>
 
-/// A day's plain Vulkan code for what our passes do, on the same device: what our promises cost.
+/// Simple Vulkan prototypes that do the work of our passes on the same device. They show the cost
+/// of the engine's robustness and generality.
 namespace peers {
 
-/// "prototype/stack", "prototype/links" and "prototype/FACE".
+/// The prototypes: "prototype/stack" and "prototype/links" trace rays with two forms of tree.
+/// "prototype/FACE" draws captures with faces of FACE texels.
 class Prototypes {
 public:
-    /// Of the request's scene and view. `mesh`: the same without exact spheres.
+    /// Sets up all prototypes for the request's scene and view. `mesh` is the same scene without
+    /// exact spheres.
     Prototypes(const catoptric::app::Request& request, const PeerScene& mesh);
     ~Prototypes();
     Prototypes(const Prototypes&) = delete;
     Prototypes& operator=(const Prototypes&) = delete;
 
-    /// Names of those that trace.
+    /// Returns the names of the prototypes that trace rays.
     static std::vector<std::string> tracers();
-    /// The prototype for our row with captures of this edge.
+    /// Returns the name of the prototype with captures of this edge, texels.
     static std::string name_of(int face) { return "prototype/" + std::to_string(face); }
 
-    /// Frames, each until it is done; must not outlive this.
+    /// Returns benchmarks that each draw a frame and wait for the device. They must not outlive the
+    /// prototypes.
     std::vector<catoptric::app::Subject> subjects(int warmup);
-    /// The picture of the last frame, linear. Throws where there is no such prototype.
+    /// Returns a prototype's picture of its last frame, linear. Throws if no prototype has the
+    /// name.
     std::vector<Vector> read(const std::string& name);
 
 private:

@@ -6,16 +6,16 @@
 
 namespace peers {
 
-/// The engine's own walk (shaders/lib/trace.glsl) over rays of a list.
+/// Traces a list of rays with the engine's BVH walk (shaders/lib/trace.glsl).
 class RayList {
 public:
-    /// A multiple of 64 rays.
+    /// Builds the tree and uploads the rays. The number of rays must be a multiple of 64.
     RayList(catoptric::gpu::Device& device, catoptric::gpu::Pipelines& pipelines,
             std::span<const catoptric::bvh::Triangle> triangles, std::span<const Ray> rays);
 
-    /// Until it is done.
+    /// Traces all rays and waits for the device.
     void trace();
-    std::vector<Met> read() const; ///< of the last time
+    std::vector<Met> read() const; ///< returns the hits of the last `trace`
 
 private:
     catoptric::gpu::Device& device_;

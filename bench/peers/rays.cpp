@@ -1,4 +1,4 @@
-// Compiled as whitted.cpp is.
+// Compiled with the options of whitted.cpp, for this machine's processor.
 #include "rays.hpp"
 
 #include "lanes.hpp"
@@ -16,7 +16,7 @@ constexpr std::size_t kRun = 256;
 template <typename Kind>
 void meet_some(RTCScene tree, std::span<const Ray> rays, Met* met) {
     RTCIntersectContext context;
-    rtcInitIntersectContext(&context); // rays of a call have nothing to do with each other
+    rtcInitIntersectContext(&context); // default flags: the rays of a call are incoherent
     using Real = typename Kind::Real;
     using Mask = typename Kind::Mask;
     for (std::size_t first = 0; first < rays.size(); first += Kind::kCount) {

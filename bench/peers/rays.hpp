@@ -4,23 +4,27 @@
 
 #include <span>
 
-/// Rays of a list, each to what it meets first. No header of the engine: see whitted.hpp.
+/// Traces a list of rays, each to its first hit, with Embree. This header includes no header of the
+/// engine, for the reason given in whitted.hpp.
 namespace peers {
 
 struct Ray {
-    Vector origin, direction; ///< direction of length 1
+    Vector origin, direction; ///< the direction has length 1
 };
 
+/// The first hit of a ray.
 struct Met {
-    /// No triangle; none yet, also where our walk gave up.
+    /// Values of `triangle`: the ray meets no triangle; the ray was not traced, or our walk stopped
+    /// at its step limit.
     static constexpr std::uint32_t kNothing = 0xffffffff, kUntraced = 0xfffffffe;
     float t = 0;
     std::uint32_t triangle = kUntraced;
 };
-static_assert(sizeof(Met) == 8); // as shaders/rays.comp writes it
+static_assert(sizeof(Met) == 8); // shaders/rays.comp writes two words
 
-/// In a tree of triangles. `width`: rays in a call of Embree's, 1, 8 or 16, of which the list has a
-/// multiple of 16. `threads` take runs of 256 from one counter.
+/// Returns the first hits of rays in Embree's tree of triangles. Each call to Embree traces `width`
+/// rays: 1, 8 or 16. The number of rays must be a multiple of 16. Each of `threads` threads takes
+/// runs of 256 rays from a shared counter.
 std::vector<Met> meet(RTCScene tree, std::span<const Ray> rays, int width, int threads);
 
 } // namespace peers

@@ -9,10 +9,12 @@ using namespace catoptric;
 
 namespace {
 
-/// The built-in scene with balls of 4^(levels+1) triangles and a painted ring of around^2.
+/// Returns the built-in scene with more triangles: balls of 4^(levels+1) triangles, and a diffuse
+/// torus of around^2 triangles.
 scene::Scene finer(int levels, int around) {
     scene::Scene scene = scene::cornell_mirrors();
-    scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels); // of all four
+    // All four balls share this mesh.
+    scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels);
     scene::add_mesh(scene, scene::torus("ring", 130, 50, around),
                     scene::add_material(scene, {.name = "paint", .albedo = {.3f, .4f, .7f}}));
     scene.objects.back().world_from_object[3] = dvec4(278, 330, 300, 1);

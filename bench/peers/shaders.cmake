@@ -1,5 +1,5 @@
-# prototype_shaders(TARGET): compiles the shaders of prototypes and of ray lists into prototype_shaders.inc, rows of
-# name and words.
+# prototype_shaders(TARGET): compiles the shaders of the prototypes and of ray lists to SPIR-V, and adds a table of
+# their names and words to the target's sources.
 function(prototype_shaders target)
     set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders)
     file(MAKE_DIRECTORY ${made})

@@ -4,17 +4,21 @@
 
 namespace peers {
 
-/// A tree as a list of boxes in the order of its walk, a texel each, that needs no stack.
+/// A tree as a list of nodes in the order of the walk, one texel each. A walk of this list needs no
+/// stack.
 struct SkipLinks {
-    /// Node 0: how many there are with it, in w. The others: of each axis the planes in steps, low
-    /// in bits 0 to 15 and high above; w of a leaf: 1 << 31 | triangles << 27 | the first one's
-    /// place; of an inner node the node behind all below it, which is where a ray goes that misses.
+    /// Node 0 holds the number of nodes, itself included, in w. Each other node holds its box in
+    /// x, y and z: the low plane, counted in steps, in bits 0 to 15, and the high plane in bits 16
+    /// to 31. The word w of a leaf is 1 << 31 | number of triangles << 27 | place of the first
+    /// triangle. The word w of an inner node is the skip link: the number of the node behind
+    /// its subtree. A ray that misses the box continues there.
     std::vector<catoptric::vec4> nodes;
-    catoptric::vec3 lowest{0}; ///< where planes are 0
-    float steps = 0;           ///< a scene unit
+    catoptric::vec3 lowest{0}; ///< position of the planes with number 0
+    float steps = 0;           ///< steps per scene unit
 };
 
-/// Boxes grow by up to two steps of 65535 a side. A tree whose root is a leaf has no nodes.
+/// Converts a tree to skip links. Rounding widens a box by up to two steps on each side, where the
+/// scene's longest side has 65535 steps. A tree whose root is a leaf gets no nodes.
 SkipLinks skip_links(const catoptric::bvh::Bvh& tree);
 
 } // namespace peers

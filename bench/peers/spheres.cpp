@@ -1,4 +1,4 @@
-// Compiled as whitted.cpp is.
+// Compiled with the options of whitted.cpp, for this machine's processor.
 #include "spheres.hpp"
 
 #include "lanes.hpp"
@@ -22,14 +22,14 @@ void put_bounds(const RTCBoundsFunctionArguments* asked) {
     box.upper_z = centre.z + radius;
 }
 
-/// Which rays meet it within their ends, and where (Haines, Günther, Akenine-Möller 2019: the
-/// discriminant from the nearest point, which is not lost far away).
+/// Intersects a packet of rays with a sphere. The discriminant is computed from the ray's point
+/// nearest to the centre, which stays precise far away (Haines, Günther, Akenine-Möller 2019).
 template <typename Kind>
 struct Meeting {
     using Real = typename Kind::Real;
     typename Kind::Mask met;
     Real t;
-    Three<Real> arm; ///< from the centre
+    Three<Real> arm; ///< vector from the sphere's centre to the hit
 
     Meeting(const Sphere& sphere, const typename Kind::Rays& ray,
             const typename Kind::Mask& valid) {
@@ -51,7 +51,7 @@ struct Meeting {
     }
 };
 
-/// In the lanes of the mask.
+/// Stores a vector into one of Embree's arrays, in the lanes of the mask only.
 template <typename Mask, typename Value, typename Field>
 void store_some(const Mask& mask, Field& field, const Value& value) {
     store(field, select(mask, value, load<Value>(field)));

@@ -6,8 +6,8 @@
 
 namespace peers {
 
-/// The two texels whose centres lie around a place along an axis of `size` texels that repeats,
-/// and the share of the second.
+/// The two texels whose centres lie on both sides of a texture coordinate, and the weight of the
+/// second texel. The axis has `size` texels and repeats.
 struct Between {
     int first, second;
     float share;

@@ -15,7 +15,7 @@ namespace {
 
 vec4 texel(const Vector& v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
-/// Children's words without their tag.
+/// Returns the tree's nodes with the tag bit removed from the words of children.
 std::vector<vec4> plain_nodes(const bvh::Bvh& tree) {
     std::vector<vec4> nodes = tree.nodes;
     for (vec4& node : nodes)

@@ -5,25 +5,25 @@
 
 namespace peers {
 
-/// Whitted ray tracing as a day's plain Vulkan code has it: what Embree's picture shows, in a
-/// compute shader without what our own promises (shaders/trace.comp).
+/// Simple Vulkan prototype of Whitted ray tracing in a compute shader (shaders/trace.comp), without
+/// the engine's robustness. Its picture shows the same as Embree's.
 class TracePrototype {
 public:
     enum class Tree {
-        stack,     ///< engine/bvh's, whose walk keeps what waits in shared memory
-        skip_links ///< SkipLinks
+        stack,     ///< the engine's BVH, walked with a stack in shared memory
+        skip_links ///< the BVH as SkipLinks, walked without a stack
     };
-    /// The scene of `peer`, its view and depth. The width of its picture is a power of two.
+    /// Sets up the scene, view and depth of `peer`. The picture's width must be a power of two.
     TracePrototype(catoptric::gpu::Device& device, catoptric::gpu::Pipelines& pipelines,
                    const PeerScene& peer, std::span<const catoptric::bvh::Triangle> triangles,
                    Tree tree);
 
-    /// Until it is done.
+    /// Traces a picture and waits for the device.
     void trace();
-    std::vector<Vector> read(); ///< the last picture's
+    std::vector<Vector> read(); ///< returns the pixels of the last picture, linear
 
 private:
-    /// Push constants.
+    /// Push constants of shaders/trace.comp.
     struct View {
         catoptric::vec4 eye, forward, right, down, light, light_normal, intensity, grid;
     };

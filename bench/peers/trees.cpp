@@ -13,7 +13,7 @@ using measure::Benchmark;
 
 namespace {
 
-constexpr int kTorus = 1000; // around; its square is the count of triangles
+constexpr int kTorus = 1000; // segments of the torus, which has kTorus^2 triangles
 
 void compare_builds(const Bench& bench, const std::vector<bvh::Triangle>& triangles) {
     RTCGeometry geometry = triangle_geometry(bench.device, triangles);
@@ -37,7 +37,8 @@ void compare_builds(const Bench& bench, const std::vector<bvh::Triangle>& triang
     print_ratio(list[1], list[2]);
 }
 
-/// What a ray's walk is expected to cost in our tree, beside Embree's of two qualities.
+/// Prints the ratios of a ray's expected cost in our tree to that in Embree's trees of two build
+/// qualities.
 void compare_costs(const EmbreeDevice& device, const std::string& name,
                    const std::vector<bvh::Triangle>& triangles) {
     const double ours = bvh::cost(bvh::build(triangles));

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-/// What `raytrace` traces (shaders/lib/whitted.glsl), traced by Embree: same camera, light, mirrors
-/// and order of events, rays counted alike. No header of the engine is named here, so that
-/// whitted.cpp can be compiled for this machine's processor alone.
+/// Whitted ray tracing with Embree that equals technique `raytrace` (shaders/lib/whitted.glsl):
+/// camera, lights, mirrors, order of rays and ray counts are the same. This header includes no
+/// header of the engine, because whitted.cpp is compiled for this machine's processor alone.
 namespace peers {
 
 struct Vector {
@@ -21,59 +21,60 @@ struct Sphere {
     float radius = 0;
 };
 
-/// A place in the space of a texture.
+/// Texture coordinates.
 struct Place {
     float u = 0, v = 0;
 };
 
-/// Linear colours, row by row, that repeat along both axes and are mixed between four.
+/// A texture of linear colours, row by row, which repeats along both axes and is sampled
+/// bilinearly.
 struct Texture {
     std::vector<Vector> texels;
     int width = 0, height = 0;
 };
 
-/// What an object does with light.
+/// The reflection and emission of an object's surface.
 struct Surface {
     Vector albedo, emission;
-    Vector reflectance; ///< of a mirror at any angle, of what is sharp straight on; else 0
+    Vector reflectance; ///< of a mirror at any angle, of a smooth dielectric head-on; else 0
     bool is_mirror = false;
-    bool is_sharp = false;              ///< reflects as Schlick says, all of it along the surface
-    bool turns = false;                 ///< its normal turns to who looks
-    bool fades = false;                 ///< light at it fades towards its facets' planes
-    std::optional<std::size_t> texture; ///< by which its albedo is multiplied
+    bool is_sharp = false;              ///< a smooth dielectric, whose F90 is 1
+    bool turns = false;                 ///< two-sided: the normal turns to the viewer's side
+    bool fades = false;                 ///< light fades towards the planes of the facets
+    std::optional<std::size_t> texture; ///< texture that multiplies the albedo
 };
 
 struct Light {
-    Vector position, normal, intensity; ///< normal zero: no cosine at the light
+    Vector position, normal, intensity; ///< a zero normal means no cosine factor at the light
     bool is_spot = false;
-    Vector axis;                        ///< of a spot, along which it shines
-    float cos_outer = 0, sharpness = 1; ///< 1 / (cos inner - cos outer)
+    Vector axis;                        ///< direction in which a spot shines
+    float cos_outer = 0, sharpness = 1; ///< sharpness: 1 / (cos inner - cos outer) of a spot
 };
 
-/// Numbers of geometries in a tree. Shadow rays pass through lamps' triangles.
+/// Numbers of the geometries in an Embree tree. Shadow rays pass through the lamps' triangles.
 enum GeometryNumber { kTriangles, kSpheres, kLamps };
 
 /// A scene with point lights and spots.
 struct Whitted {
     RTCScene tree = nullptr;
-    std::vector<std::array<Vector, 3>> corners; ///< of triangles
-    std::vector<std::array<Vector, 3>> normals; ///< likewise, at their corners
-    std::vector<std::array<Place, 3>> places;   ///< likewise
+    std::vector<std::array<Vector, 3>> corners; ///< corners of each triangle
+    std::vector<std::array<Vector, 3>> normals; ///< normals at the corners of each triangle
+    std::vector<std::array<Place, 3>> places;   ///< texture coordinates of each triangle's corners
     std::vector<std::uint32_t> triangle_objects;
-    std::size_t first_lamp = 0; ///< of triangles: those of lamps follow all others
+    std::size_t first_lamp = 0; ///< first triangle of a lamp; lamps' triangles follow all others
     std::vector<Sphere> spheres;
     std::vector<std::uint32_t> sphere_objects;
-    std::vector<Surface> surfaces; ///< of objects
-    std::vector<Texture> textures; ///< of materials, of which some have none
+    std::vector<Surface> surfaces; ///< by object
+    std::vector<Texture> textures; ///< by material; empty for a material without a texture
     std::vector<Light> lights;
     float ambient = 0;
     Vector eye, forward, right,
-        down;                  ///< direction = forward + right * x + down * y, x and y in [-1, 1]
-    int width = 0, height = 0; ///< multiples of 16
-    int depth = 0;             ///< mirror bounces; a path that meets more ends black
-    float shadow_end = 1;      ///< of the way to the light
+        down;                  ///< camera ray: forward + right * x + down * y, x and y in [-1, 1]
+    int width = 0, height = 0; ///< size of the picture, multiples of 16
+    int depth = 0;             ///< most mirror bounces; a path with more mirrors ends black
+    float shadow_end = 1;      ///< share of the way to the light at which shadow rays end
     float facet_fade = 1;      ///< sine of the angle to a facet's plane within which light fades
-    float lift = 0;            ///< how far off a surface rays start that leave it
+    float lift = 0;            ///< distance from a surface at which rays that leave it start
 };
 
 struct RayCounts {
@@ -86,8 +87,9 @@ struct Traced {
     RayCounts rays;
 };
 
-/// One ray through each pixel's centre. `width`: rays in a call of Embree's, 1, 8 or 16. `threads`
-/// take tiles of 16x16 pixels from one counter.
+/// Traces a picture with one camera ray through each pixel's centre. Each call to Embree traces
+/// `width` rays: 1, 8 or 16. Each of `threads` threads takes tiles of 16x16 pixels from a shared
+/// counter.
 Traced trace(const Whitted& scene, int width, int threads);
 
 } // namespace peers

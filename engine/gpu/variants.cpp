@@ -8,7 +8,7 @@ constexpr std::array<Variant, kVariants> kTable{
     {{"groups",
       {"scattered", "in order"},
       "groups_in_order",
-      "work groups of the ray tracer: scattered over the picture, or row by row"},
+      "order of the ray tracer's work groups: scattered over the picture, or row by row"},
      {"hierarchy",
       {"texel", "storage"},
       "bvh_in_storage",
@@ -16,7 +16,7 @@ constexpr std::array<Variant, kVariants> kTable{
      {"pixels",
       {"blocks", "rows"},
       "pixels_in_rows",
-      "how eight pixels that run together lie: 4x2, or 8x1"}}};
+      "shape of eight pixels that run together: 4x2, or 8x1"}}};
 
 } // namespace
 

@@ -32,14 +32,15 @@ Value list_of(const Row& row) {
     return list;
 }
 
-const Registered kSquaredError{{.name = "causes/squared_error",
-                                .help = "mean square difference, the row's own, which causes share",
-                                .mask = kMirrors,
-                                .better = Better::less,
-                                .order = 270,
-                                .get = figure<&Causes::squared_error>}};
+const Registered kSquaredError{
+    {.name = "causes/squared_error",
+     .help = "mean square difference of the row's picture, which the causes add up to",
+     .mask = kMirrors,
+     .better = Better::less,
+     .order = 270,
+     .get = figure<&Causes::squared_error>}};
 const Registered kPerMirror{{.name = "causes/squared_error_per_mirror",
-                             .help = "the same of each mirror",
+                             .help = "causes of the error of each mirror",
                              .mask = kMirrors,
                              .better = Better::less,
                              .order = 271,
@@ -48,7 +49,7 @@ const Registered kPerMirror{{.name = "causes/squared_error_per_mirror",
                                                    : std::vector<double>();
                              }}};
 const Registered kRest{{.name = "causes/rest_rmse",
-                        .help = "rmse when all is mended: near 0 where no cause is missing",
+                        .help = "rmse when all causes are removed: near 0 if no cause is missing",
                         .mask = kMirrors,
                         .order = 272,
                         .get = figure<&Causes::rest_rmse>}};
@@ -60,12 +61,14 @@ const Registered kAtLightEdges{
      .get = [](const Row& row) -> Value {
          return row.causes && row.light_edges ? row.light_edges->share : NAN;
      }}};
-const Registered kList{{.name = "causes/list",
-                        .help = "each cause's share of the squared error (Shapley for five of "
-                                "them), 1 in sum over all, and what goes when it is mended alone",
-                        .mask = kMirrors,
-                        .order = 274,
-                        .get = list_of}};
+const Registered kList{
+    {.name = "causes/list",
+     .help =
+         "each cause's share of the squared error (Shapley values for five of them, 1 in sum), and "
+         "the decrease of the error when only this cause is removed",
+     .mask = kMirrors,
+     .order = 274,
+     .get = list_of}};
 
 } // namespace
 

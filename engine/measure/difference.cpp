@@ -30,7 +30,7 @@ void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size
 const Registered kPixels{
     {.name = "pixels",
      .unit = "pixels",
-     .help = "pixels of the mask, those that are not finite included",
+     .help = "number of pixels of the mask, including pixels that are not finite",
      .order = 100,
      .get = [](const Difference& error) -> Value { return static_cast<double>(error.pixels); }}};
 const Registered kFlip{
@@ -81,17 +81,17 @@ const Registered kP99{{.name = "p99",
 const Registered kNonfinite{
     {.name = "nonfinite",
      .unit = "pixels",
-     .help = "pixels that are NaN or infinite; any makes a row fail",
+     .help = "number of pixels that are NaN or infinite; any such pixel makes a row fail",
      .better = Better::less,
      .order = 108,
      .get = [](const Difference& error) -> Value { return static_cast<double>(error.nonfinite); }}};
 const Registered kMax{{.name = "max",
-                       .help = "the largest channel difference of all",
+                       .help = "largest channel difference of all pixels",
                        .better = Better::less,
                        .order = 109,
                        .get = [](const Difference& error) -> Value { return error.max; }}};
 const Registered kMaxAt{{.name = "max_at",
-                         .help = "the pixel of the largest channel difference",
+                         .help = "pixel with the largest channel difference",
                          .order = 110,
                          .get = [](const Difference& error) -> Value {
                              return Place{error.max_x, error.max_y};
@@ -104,7 +104,7 @@ const Registered kMean{{.name = "mean",
                         .get = [](const Row& row) -> Value { return row.mean.rgb; }}};
 const Registered kMeanClamped{
     {.name = "mean_clamped",
-     .help = "the same of values clamped to [0,1]",
+     .help = "mean of the whole picture by channel, linear, clamped to [0,1]",
      .mask = "all",
      .order = 281,
      .get = [](const Row& row) -> Value { return row.mean_clamped.rgb; }}};

@@ -24,36 +24,37 @@ Value count_of(const Row& row) {
 
 const Registered kScenePasses{
     {.name = "scene_passes",
-     .help = "scene renders in the executed plan, a cube counted once: the seed report's R",
+     .help = "renders of the scene per frame, a cube counted once: the seed report's R",
      .better = Better::less,
      .order = 10,
      .columns = {{"R", Style::fixed}},
      .get = [](const Row& row) -> Value { return static_cast<double>(row.scene_passes); }}};
 const Registered kSceneDraws{
     {.name = "scene_draws",
-     .help = "the same with every face of a cube counted",
+     .help = "renders of the scene per frame, with every face of a cube counted",
      .better = Better::less,
      .order = 11,
      .columns = {{"Draws", Style::fixed}},
      .get = [](const Row& row) -> Value { return static_cast<double>(row.scene_draws); }}};
-const Registered kGpuTime{{.name = "gpu_ms",
-                           .unit = "ms",
-                           .help = "a frame on the device, first to last stamp",
-                           .better = Better::less,
-                           .order = 20,
-                           .columns = {{"ms", Style::times}, {"95 %", Style::time_interval}},
-                           .get = [](const Row& row) -> Value { return row.gpu_ms; }}};
+const Registered kGpuTime{
+    {.name = "gpu_ms",
+     .unit = "ms",
+     .help = "time of a frame on the device, from the first to the last time stamp",
+     .better = Better::less,
+     .order = 20,
+     .columns = {{"ms", Style::times}, {"95 %", Style::time_interval}},
+     .get = [](const Row& row) -> Value { return row.gpu_ms; }}};
 const Registered kRecordTime{
     {.name = "cpu_record_ms",
      .unit = "ms",
-     .help = "filling the command buffer",
+     .help = "time to record the command buffer",
      .better = Better::less,
      .order = 21,
      .columns = {{.title = "record ms", .style = Style::own_times, .order = 23}},
      .get = [](const Row& row) -> Value { return row.cpu_record_ms; }}};
 const Registered kWallTime{{.name = "wall_ms",
                             .unit = "ms",
-                            .help = "submit to fence, without recording and read-back",
+                            .help = "time from submit to fence, without recording and read-back",
                             .better = Better::less,
                             .order = 22,
                             .columns = {{"wall ms", Style::times}},
@@ -61,47 +62,47 @@ const Registered kWallTime{{.name = "wall_ms",
 const Registered kProcessorTime{
     {.name = "cpu_ms",
      .unit = "ms",
-     .help = "processor time of the whole process a frame; of devices that are processors",
+     .help = "processor time of the whole process per frame, if the device is a processor",
      .better = Better::less,
      .order = 24,
      .columns = {{.title = "cpu ms", .style = Style::times, .order = 22}},
      .get = [](const Row& row) -> Value { return row.cpu_ms; }}};
 const Registered kWaited{
     {.name = "waited",
-     .help = "share of the time that its threads ran or were ready in which they waited for a "
-             "processor that others had",
+     .help =
+         "share of time in which the row's threads waited for a processor that other programs used",
      .better = Better::less,
      .order = 29,
      .get = [](const Row& row) -> Value { return row.waited; }}};
 const Registered kNoisy{
     {.name = "noisy",
-     .help =
-         "others were at work beside, so that its threads waited for more than 5 % of the time: "
-         "its times are not to be trusted",
+     .help = "whether the row's threads waited for more than 5 % of the time, because of other "
+             "programs; its times are then unreliable",
      .order = 29,
      .get = [](const Row& row) -> Value { return row.noisy; }}};
 const Registered kPasses{{.name = "passes",
                           .unit = "ms",
-                          .help = "each pass of the frame on the device, in order of execution",
+                          .help = "time of each pass on the device, in order of execution",
                           .better = Better::less,
                           .order = 30,
                           .get = times_of_passes}};
 const Registered kClosure{
     {.name = "closure",
-     .help = "sum of all passes over wall_ms: near 1 where stamps tell the truth",
+     .help =
+         "sum of the times of all passes, divided by wall_ms; near 1 if time stamps are correct",
      .order = 40,
      .get = [](const Row& row) -> Value { return row.closure; }}};
 const Registered kMemory{
     {.name = "memory_bytes",
      .unit = "bytes",
-     .help = "the frame's images",
+     .help = "memory of the frame's images",
      .better = Better::less,
      .order = 210,
      .columns = {{"MiB", Style::mebibytes}},
      .get = [](const Row& row) -> Value { return static_cast<double>(row.memory_bytes); }}};
 const Registered kTraced{
     {.name = "traced_fraction",
-     .help = "share of the mirror pixels that a search left to tracing",
+     .help = "share of the mirror pixels that were traced because the search answered unknown",
      .mask = "mirrors",
      .better = Better::less,
      .order = 220,
@@ -109,7 +110,7 @@ const Registered kTraced{
      .get = [](const Row& row) -> Value { return or_nothing(row.traced_fraction); }}};
 const Registered kAutoEdge{{.name = "auto_face/edge",
                             .unit = "texels",
-                            .help = "cube edge that face=auto stood for",
+                            .help = "edge of captures that face=auto chose, in texels",
                             .order = 230,
                             .get = [](const Row& row) -> Value {
                                 return row.auto_face ? static_cast<double>(row.auto_face->edge)
@@ -117,7 +118,7 @@ const Registered kAutoEdge{{.name = "auto_face/edge",
                             }}};
 const Registered kAutoNeeds{{.name = "auto_face/needs",
                              .unit = "texels",
-                             .help = "what each mirror alone needs; 0: not in view",
+                             .help = "edge that each mirror alone needs, in texels; 0: not in view",
                              .order = 231,
                              .get = [](const Row& row) -> Value {
                                  return row.auto_face ? row.auto_face->needs
@@ -125,29 +126,28 @@ const Registered kAutoNeeds{{.name = "auto_face/needs",
                              }}};
 const Registered kPrimaryRays{{.name = "rays/primary",
                                .unit = "rays",
-                               .help = "camera rays of one frame",
+                               .help = "number of camera rays of a frame",
                                .order = 240,
                                .get = count_of<&Rays::primary>}};
 const Registered kMirrorRays{{.name = "rays/mirror",
                               .unit = "rays",
-                              .help = "reflected rays of one frame",
+                              .help = "number of reflected rays of a frame",
                               .order = 241,
                               .get = count_of<&Rays::mirror>}};
 const Registered kShadowRays{{.name = "rays/shadow",
                               .unit = "rays",
-                              .help = "shadow rays of one frame",
+                              .help = "number of shadow rays of a frame",
                               .order = 242,
                               .get = count_of<&Rays::shadow>}};
-const Registered kSaturated{{.name = "saturated_texels",
-                             .unit = "texels",
-                             .help = "texels of captures that hold halves and are cut off at 65504",
-                             .better = Better::less,
-                             .order = 250,
-                             .get = [](const Row& row) -> Value {
-                                 return row.saturated_texels
-                                            ? static_cast<double>(*row.saturated_texels)
-                                            : NAN;
-                             }}};
+const Registered kSaturated{
+    {.name = "saturated_texels",
+     .unit = "texels",
+     .help = "number of texels of half-float captures that are cut off at 65504",
+     .better = Better::less,
+     .order = 250,
+     .get = [](const Row& row) -> Value {
+         return row.saturated_texels ? static_cast<double>(*row.saturated_texels) : NAN;
+     }}};
 
 } // namespace
 

@@ -20,7 +20,9 @@ const Row* winner_over(const std::vector<const Row*>& front, const Row& loser) {
 
 const Registered kFailed{
     {.name = "failed",
-     .help = "its picture holds pixels that are NaN or infinite: no figure of it is judged",
+     .help =
+         "whether the row's picture has pixels that are NaN or infinite; no figure of such a row "
+         "is judged",
      .order = 200,
      .only_where_true = true,
      .get = [](const Row& row) -> Value { return failed(row); }}};

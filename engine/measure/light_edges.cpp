@@ -18,15 +18,15 @@ Value figure(const Row& row) {
 
 const Registered kRmse{
     {.name = "light_edges/rmse",
-     .help = "part of the rmse of pixels that looked within a texel of a light's outline: its "
-             "square and that of rest_rmse add up to that of rmse",
+     .help = "part of the rmse from pixels that looked within a texel of a light's outline; the "
+             "squares of this part and of rest_rmse add up to that of rmse",
      .mask = kMirrors,
      .better = Better::less,
      .order = 255,
      .columns = {{.title = "rmse, light edges", .order = kBesideRmse}},
      .get = figure<&LightEdges::rmse>}};
 const Registered kRest{{.name = "light_edges/rest_rmse",
-                        .help = "part of the rmse of all other pixels",
+                        .help = "part of the rmse from all other pixels",
                         .mask = kMirrors,
                         .better = Better::less,
                         .order = 256,

@@ -115,9 +115,8 @@ Set take_set(const Mask& corners, std::size_t width, Remaining& remaining, int x
 const Registered kLongestLine{
     {.name = "longest_line",
      .unit = "pixels",
-     .help =
-         "length of the longest line of pixels that are off: of sets that touch when dilated by "
-         "1, among those without a 4x4 square",
+     .help = "length of the longest connected set of pixels that are off; sets that contain a 4x4 "
+             "square do not count",
      .better = Better::less,
      .order = 105,
      .columns = {{"Longest line", Style::fixed, 0}},

@@ -19,64 +19,67 @@ Value figure(const Row& row) {
     return row.lookup ? (*row.lookup).*Figure : NAN;
 }
 
-const Registered kPixels{{.name = "lookup/pixels",
-                          .unit = "pixels",
-                          .help = "mirror pixels whose reflected ray meets no second mirror",
-                          .mask = kFirstOrder,
-                          .order = 260,
-                          .columns = {{"Pixels", Style::fixed, 0, InTable::lookup}},
-                          .get = [](const Row& row) -> Value {
-                              return row.lookup ? static_cast<double>(row.lookup->pixels) : NAN;
-                          }}};
+const Registered kPixels{
+    {.name = "lookup/pixels",
+     .unit = "pixels",
+     .help = "number of mirror pixels whose reflected ray meets no second mirror",
+     .mask = kFirstOrder,
+     .order = 260,
+     .columns = {{"Pixels", Style::fixed, 0, InTable::lookup}},
+     .get = [](const Row& row) -> Value {
+         return row.lookup ? static_cast<double>(row.lookup->pixels) : NAN;
+     }}};
 const Registered kMean{{.name = "lookup/mean_degrees",
                         .unit = "degrees",
-                        .help = "angle between the looked-up and the true direction, mean",
+                        .help = "mean angle between the looked-up and the true direction",
                         .mask = kFirstOrder,
                         .better = Better::less,
                         .order = 261,
                         .columns = {{"Mean, degrees", Style::fixed, 3, InTable::lookup}},
                         .get = figure<&LookupError::mean_degrees>}};
-const Registered kP95{{.name = "lookup/p95_degrees",
-                       .unit = "degrees",
-                       .help = "the same, 95th percentile",
-                       .mask = kFirstOrder,
-                       .better = Better::less,
-                       .order = 262,
-                       .columns = {{"95 %", Style::fixed, 2, InTable::lookup}},
-                       .get = figure<&LookupError::p95_degrees>}};
-const Registered kP99{{.name = "lookup/p99_degrees",
-                       .unit = "degrees",
-                       .help = "the same, 99th percentile",
-                       .mask = kFirstOrder,
-                       .better = Better::less,
-                       .order = 263,
-                       .columns = {{"99 %", Style::fixed, 2, InTable::lookup}},
-                       .get = figure<&LookupError::p99_degrees>}};
+const Registered kP95{
+    {.name = "lookup/p95_degrees",
+     .unit = "degrees",
+     .help = "95th percentile of the angle between the looked-up and the true direction",
+     .mask = kFirstOrder,
+     .better = Better::less,
+     .order = 262,
+     .columns = {{"95 %", Style::fixed, 2, InTable::lookup}},
+     .get = figure<&LookupError::p95_degrees>}};
+const Registered kP99{
+    {.name = "lookup/p99_degrees",
+     .unit = "degrees",
+     .help = "99th percentile of the angle between the looked-up and the true direction",
+     .mask = kFirstOrder,
+     .better = Better::less,
+     .order = 263,
+     .columns = {{"99 %", Style::fixed, 2, InTable::lookup}},
+     .get = figure<&LookupError::p99_degrees>}};
 const Registered kWrongObject{
     {.name = "lookup/wrong_object",
-     .help = "share of the pixels in whose looked-up direction the capture shows another object",
+     .help = "share of the pixels whose look-up finds another object than the true one",
      .mask = kFirstOrder,
      .better = Better::less,
      .order = 264,
      .columns = {{"Wrong object, %", Style::percent, 2, InTable::lookup}},
      .get = figure<&LookupError::wrong_object>}};
 const Registered kUnknown{{.name = "lookup/unknown",
-                           .help = "share of the pixels whose search says that it does not know",
+                           .help = "share of the pixels whose search answers unknown",
                            .mask = kFirstOrder,
                            .better = Better::less,
                            .order = 265,
                            .columns = {{"Unknown, %", Style::percent, 2, InTable::lookup}},
                            .get = figure<&LookupError::unknown>}};
 const Registered kMiss{{.name = "lookup/miss",
-                        .help = "share of the pixels whose search says that nothing is there",
+                        .help = "share of the pixels whose search answers miss",
                         .mask = kFirstOrder,
                         .order = 266,
                         .columns = {{"Miss, %", Style::percent, 2, InTable::lookup}},
                         .get = figure<&LookupError::miss>}};
 const Registered kResidual{
     {.name = "lookup/p95_residual",
-     .help =
-         "relative distance between what the search found and what was captured there, 95th percentile of hits",
+     .help = "95th percentile, over hits, of the relative distance between the point found and the "
+             "captured surface",
      .mask = kFirstOrder,
      .better = Better::less,
      .order = 267,

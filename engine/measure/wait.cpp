@@ -8,7 +8,7 @@ namespace {
 const Registered kWaitTime{
     {.name = "wait_ms",
      .unit = "ms",
-     .help = "the host stood still for the device; in none of the other times, added to nothing",
+     .help = "time that the host waited for the device; no other time includes it",
      .better = Better::less,
      .order = 28,
      .columns = {{.title = "wait ms", .style = Style::own_times, .order = 992}},

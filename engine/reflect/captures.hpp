@@ -15,44 +15,47 @@ inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
 
 inline constexpr Knob kFace{
     .name = "face",
-    .help = "cube face edge in texels; auto: as many as the picture can show",
+    .help = "edge of a capture's face in texels; auto: as fine as the picture's pixels",
     .low = 1,
     .high = 16384,
     .value = 256,
     .special = "auto"};
 inline constexpr Knob kCapture{
     .name = "capture",
-    .help = "beside other techniques: cube face edge of the capture by which other mirrors' "
-            "captures show this one, in texels; none: black there",
+    .help = "in a plan with other techniques: face edge, in texels, of the capture by which other "
+            "mirrors show this mirror; none: black in other mirrors",
     .low = 1,
     .high = 16384,
     .value = 256,
     .special = "none"};
-inline constexpr Knob kColour{
-    .name = "colour",
-    .help = "how captures store colour: half, which ends at 65504, or float",
-    .high = 1,
-    .choices = kColourChoices};
-inline constexpr Knob kShadow{
-    .name = "shadow", .help = "shadow map or none", .high = 1, .choices = kShadowChoices};
+inline constexpr Knob kColour{.name = "colour",
+                              .help = "format of captured colour: half (up to 65504) or float",
+                              .high = 1,
+                              .choices = kColourChoices};
+inline constexpr Knob kShadow{.name = "shadow",
+                              .help = "shadows: from shadow maps or none",
+                              .high = 1,
+                              .choices = kShadowChoices};
 inline constexpr Knob kShadowMapEdge{.name = "shadow_map",
-                                     .help = "shadow map edge in texels",
+                                     .help = "edge of a shadow map's face in texels",
                                      .low = 1,
                                      .high = 16384,
                                      .value = 1024};
 inline constexpr Knob kDistance{.name = "distance",
-                                .help = "how captures store distance",
+                                .help = "format of captured distances",
                                 .high = 2,
                                 .choices = kDistanceChoices};
-inline constexpr Knob kRange{.name = "range",
-                             .help = "world units of a stored 1 with distance=unorm8",
-                             .low = 1,
-                             .high = 1000000,
-                             .value = 200};
+inline constexpr Knob kRange{
+    .name = "range",
+    .help = "largest distance that distance=unorm8 can store, in world units",
+    .low = 1,
+    .high = 1000000,
+    .value = 200};
 
 inline constexpr Knob kContinue{
     .name = "continue",
-    .help = "mirrors the reflected ray is followed through before it is looked up",
+    .help =
+        "number of further mirrors through which a reflected ray is followed before the look-up",
     .low = 0,
     .high = 8,
     .value = 4};
@@ -70,23 +73,29 @@ inline constexpr std::array kSearchKnobs{
     kRange,
     kContinue,
     Knob{.name = "lookup",
-         .help = "mix the colours of four texels, or only of those that show one object",
+         .help =
+             "interpolation of colour: bilinear mixes four texels; object mixes only texels that "
+             "show the same object",
          .high = 1,
          .value = 1,
          .choices = kLookupChoices},
-    Knob{.name = "captures",
-         .help = "captures asked where the search knows no answer: the mirror's own, or then the "
-                 "others",
-         .high = 1,
-         .choices = kCapturesChoices},
-    Knob{.name = "mirrors",
-         .help = "left_out: captures without mirrors that are exact spheres, which rays are "
-                 "followed through anyway",
-         .high = 1,
-         .choices = kMirrorsChoices},
+    Knob{
+        .name = "captures",
+        .help = "captures that a search reads: own, or all (other mirrors' captures if the own one "
+                "answers unknown)",
+        .high = 1,
+        .choices = kCapturesChoices},
+    Knob{
+        .name = "mirrors",
+        .help =
+            "mirrors in captures: captured, or left_out (without exact spheres, through which rays "
+            "are followed)",
+        .high = 1,
+        .choices = kMirrorsChoices},
     Knob{.name = "show",
-         .help = "what mirrors show: their colour, whether the search ended in a hit (green), "
-                 "unknown (red) or a miss (blue), or its residual",
+         .help =
+             "picture on mirrors: colour; state of the search, hit (green), unknown (red) or miss "
+             "(blue); residual of the search",
          .high = 2,
          .choices = kShowChoices},
     kShadow,

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
 constexpr auto kKnobs = search_knobs(
     std::array{Knob{.name = "force",
-                    .help = "trace what the search does not know, or take every answer as unknown",
+                    .help = "pixels to trace: those for which the search answers unknown, or all",
                     .high = 1,
                     .choices = kForceChoices}});
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto kKnobs = search_knobs(
     std::array{Knob{.name = "steps",
-                    .help = "steps of equal angle along the reflected ray",
+                    .help = "number of steps of equal angle along the reflected ray",
                     .low = 1,
                     .high = 256,
                     .value = 16}});
@@ -40,20 +40,22 @@ MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& se
 
 constexpr std::string_view kCompared[] = {"layered"};
 
-constexpr Technique kLayered{.name = "layered",
-                             .summary = "Marches through captures that also hold the next surface "
-                                        "behind the nearest, and tells silhouettes from surfaces.",
-                             .order = 14,
-                             .knobs = kKnobs,
-                             .compared = kCompared,
-                             // R = 2 N + 2
-                             .scene_passes =
-                                 [](int mirrors, int lights, const Settings& settings) {
-                                     return feedback_passes(2 * mirrors, lights, settings);
-                                 },
-                             .capture = capture,
-                             .in_captures = "reflect/parallax.frag",
-                             .look = look};
+constexpr Technique kLayered{
+    .name = "layered",
+    .summary =
+        "Marches through captures that also hold a second surface behind the first, and so finds "
+        "hidden surfaces.",
+    .order = 14,
+    .knobs = kKnobs,
+    .compared = kCompared,
+    // R = 2 N + 2
+    .scene_passes =
+        [](int mirrors, int lights, const Settings& settings) {
+            return feedback_passes(2 * mirrors, lights, settings);
+        },
+    .capture = capture,
+    .in_captures = "reflect/parallax.frag",
+    .look = look};
 const Registered kRow{kLayered};
 
 } // namespace

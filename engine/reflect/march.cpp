@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto kKnobs = search_knobs(
     std::array{Knob{.name = "steps",
-                    .help = "steps of equal angle along the reflected ray",
+                    .help = "number of steps of equal angle along the reflected ray",
                     .low = 1,
                     .high = 256,
                     .value = 16}});

@@ -9,7 +9,7 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr Knob kKnobs[] = {{.name = "bounces",
-                            .help = "inter-reflections rendered each frame; 0 leaves mirrors black",
+                            .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
                             .low = 0,
                             .high = 8,
                             .value = 3},
@@ -44,18 +44,19 @@ MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const
 constexpr std::string_view kCompared[] = {"naive:bounces=0", "naive:bounces=1", "naive:bounces=2",
                                           "naive:bounces=3", "naive:bounces=4"};
 
-constexpr Technique kNaive{.name = "naive",
-                           .summary = "Renders every bounce again in each frame, from black; looks "
-                                      "up the reflected direction as it is.",
-                           .order = 1,
-                           .knobs = kKnobs,
-                           .compared = kCompared,
-                           .scene_passes =
-                               [](int mirrors, int lights, const Settings& settings) {
-                                   return mirrors * settings.integer("bounces") +
-                                          shadow_passes(lights, settings) + 1;
-                               },
-                           .look = look};
+constexpr Technique kNaive{
+    .name = "naive",
+    .summary =
+        "Renders every bounce again in each frame, from black; looks up the reflected direction "
+        "without correction.",
+    .order = 1,
+    .knobs = kKnobs,
+    .compared = kCompared,
+    .scene_passes =
+        [](int mirrors, int lights, const Settings& settings) {
+            return mirrors * settings.integer("bounces") + shadow_passes(lights, settings) + 1;
+        },
+    .look = look};
 const Registered kRow{kNaive};
 
 } // namespace

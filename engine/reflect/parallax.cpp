@@ -9,24 +9,22 @@ namespace {
 
 constexpr const char* kFragment = "reflect/parallax.frag";
 constexpr std::array<std::string_view, 3> kRules{"none", "saturation", "void_test"};
-constexpr Knob kKnobs[] = {
-    kFace,
-    kColour,
-    kDistance,
-    kRange,
-    kShadow,
-    kShadowMapEdge,
-    {.name = "without",
-     .help = "rule of robustness to leave out, only for measuring what it costs",
-     .high = 2,
-     .choices = kRules}};
+constexpr Knob kKnobs[] = {kFace,
+                           kColour,
+                           kDistance,
+                           kRange,
+                           kShadow,
+                           kShadowMapEdge,
+                           {.name = "without",
+                            .help = "rule of robustness to leave out, to measure its cost",
+                            .high = 2,
+                            .choices = kRules}};
 
 constexpr std::string_view kCompared[] = {"parallax"};
 
 constexpr Technique kParallax{
     .name = "parallax",
-    .summary =
-        "As reuse, with the reflected direction corrected by one step from the captured distance.",
+    .summary = "As reuse, but corrects the reflected direction once, from the captured distance.",
     .order = 3,
     .knobs = kKnobs,
     .compared = kCompared,

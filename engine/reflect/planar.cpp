@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 9> kRestChoices{
     "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
 constexpr Knob kKnobs[] = {
     {.name = "bounces",
-     .help = "flat mirrors one behind the other that a picture in one shows; 0: black",
+     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
      .low = 0,
      .high = 16,
      .value = 2},
@@ -39,7 +39,7 @@ constexpr std::string_view kCompared[] = {"planar"};
 
 constexpr Technique kPlanar{
     .name = "planar",
-    .summary = "Flat mirrors show a mirrored view of their own, rendered in each frame.",
+    .summary = "Draws a mirrored view for each flat mirror, in each frame.",
     .order = 16,
     .knobs = kKnobs,
     .compared = kCompared,

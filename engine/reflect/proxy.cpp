@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kShapes{"box", "sphere"};
 constexpr auto kKnobs = [] {
     auto knobs = search_knobs(std::array{Knob{.name = "shape",
-                                              .help = "what stands for the surroundings",
+                                              .help = "shape that approximates the surroundings",
                                               .high = 1,
                                               .choices = kShapes}});
     std::ranges::find(knobs, "continue", &Knob::name)->value =
@@ -34,7 +34,9 @@ graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs
     gpu::ComputeState state{"reflect/proxy.comp", {}};
     const render::CaptureOptions& options = captures->options.front();
     if (captures->table) {
-        state.shader += "#arrays";
+        state.constants = {{"has_capture_table", 1u},
+                           {"array_count", static_cast<std::uint32_t>(captures->arrays.size())},
+                           {"stored_unit", 0.f}};
         pass.reads(*captures->table, graph::Use::sampled);
     } else {
         state.constants = {{"stored_unit", options.stored_unit},
@@ -64,7 +66,7 @@ MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const
 constexpr Technique kProxy{
     .name = "proxy",
     .summary =
-        "Takes each mirror's surroundings for one box or sphere, derived from what was captured.",
+        "Approximates each mirror's surroundings by a box or sphere, derived from the capture.",
     .order = 10,
     .knobs = kKnobs,
     .scene_passes = feedback_passes,

@@ -102,7 +102,7 @@ std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameIn
             commands.push(static_cast<std::int32_t>(level));
             for (const Run& run : runs) {
                 if (level > top_level(run.face)) continue;
-                commands.bind("distance_cubes", run.distances);
+                commands.bind("distances", run.distances);
                 commands.bind("bounds", run.bounds);
                 const std::uint32_t groups = (level_edge(run.face, level) + 7) / 8;
                 commands.dispatch(groups, groups, run.bounds.layer_count);

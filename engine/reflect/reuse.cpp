@@ -13,7 +13,8 @@ constexpr std::string_view kCompared[] = {"reuse"};
 
 constexpr Technique kReuse{
     .name = "reuse",
-    .summary = "One capture per mirror and frame; deeper bounces arrive from the frame before.",
+    .summary = "Draws one capture per mirror and frame; deeper bounces come from the last frame's "
+               "captures.",
     .order = 2,
     .knobs = kKnobs,
     .compared = kCompared,

@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto kKnobs = search_knobs(
     std::array{Knob{.name = "steps",
-                    .help = "secant steps after the first; 0 equals parallax",
+                    .help = "number of secant steps after the first; 0 equals parallax",
                     .low = 0,
                     .high = 8,
                     .value = 2}});

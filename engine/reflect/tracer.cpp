@@ -43,13 +43,13 @@ render::Spheres spheres_of(const Tracer& tracer) {
 
 gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, bool listed) {
     std::string build;
-    for (const auto& [wanted, name] : {std::pair{listed, "listed"},
-                                       {tracer.shadow == Tracer::Shadow::map, "shadow_map"},
-                                       {tracer.doubles, "doubles"}})
+    for (const auto& [wanted, name] :
+         {std::pair{listed, "listed"}, std::pair{tracer.doubles, "doubles"}})
         if (wanted) build += (build.empty() ? "#" : "_") + std::string(name);
     return {"raytrace.comp" + build,
             {{"max_depth", tracer.depth},
              {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
+             {"has_shadow_map", tracer.shadow == Tracer::Shadow::map ? 1u : 0u},
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
              {"without", tracer.without},
              {"fixed_offset", scene.space().length(kReportOffset)}},

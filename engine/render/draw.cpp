@@ -13,6 +13,8 @@ using graph::Commands;
 using graph::Filter;
 using graph::Image;
 
+constexpr const char* kBlackMirror = "mirror_black.frag";
+
 /// Returns the winding of back faces in a view's picture. Cube faces show the scene mirrored.
 gpu::Winding turns_away(const shared::View& view) {
     return dot(glm::cross(view.right, view.down), view.forward) > 0
@@ -52,8 +54,7 @@ std::vector<Image> images_of(const Captures& captures, Part&& part) {
 
 void bind_captures(Commands& commands, const Captures& captures) {
     commands.bind("colour_cubes",
-                  images_of(captures, [](const Cubes& cubes) { return cubes.colour; }),
-                  Filter::linear);
+                  images_of(captures, [](const Cubes& cubes) { return cubes.colour; }));
     // Every shader has these bindings. If a capture lacks an image, its colour is bound instead,
     // and nothing reads it.
     commands.bind("surface_cubes", images_of(captures, [](const Cubes& cubes) {
@@ -61,14 +62,10 @@ void bind_captures(Commands& commands, const Captures& captures) {
                   }));
     const std::vector<Image> distances = images_of(
         captures, [](const Cubes& cubes) { return cubes.distance.value_or(cubes.colour); });
-    commands.bind("distance_cubes", distances, Filter::linear);
-    if (!captures.table) {
-        commands.bind("distance_cubes_nearest", distances);
-        return;
-    }
-    commands.bind("Captures", *captures.table);
+    commands.bind("distance_cubes", distances);
     commands.bind("linear_texels", Filter::linear);
     commands.bind("nearest_texels", Filter::nearest);
+    if (captures.table) commands.bind("Captures", *captures.table);
 }
 
 /// Adds the constants that tell a shader where the captures are stored.
@@ -77,32 +74,29 @@ void add_places(const Captures& captures, gpu::Constants& constants) {
     const float unit = unit_of(captures.options.front());
     const bool same = std::ranges::all_of(
         captures.options, [&](float other) { return other == unit; }, unit_of);
-    if (captures.arrays.front().distance && same) constants.emplace_back("stored_unit", unit);
-    if (captures.table)
-        constants.emplace_back("array_count", static_cast<std::uint32_t>(captures.arrays.size()));
+    if (captures.arrays.front().distance && same)
+        constants.emplace_back("stored_unit", unit);
+    else if (captures.table)
+        constants.emplace_back("stored_unit", 0.f); // the table says which
+    if (!captures.table) return;
+    constants.emplace_back("has_capture_table", 1u);
+    constants.emplace_back("array_count", static_cast<std::uint32_t>(captures.arrays.size()));
 }
 
-/// Returns the name of the fragment shader variant that draws the mirrors.
-std::string build_of(const MirrorShader& look, bool peeled, bool shadow_map, bool lit) {
-    std::string build = look.captures && look.captures->table ? "arrays" : "";
-    const auto add = [&](const char* more) {
-        build += (build.empty() ? "" : "_") + std::string(more);
-    };
-    const bool ablated = !peeled && look.ablated;
-    if (ablated) add("ablate");
-    if (lit && !ablated) add("lit");
-    if ((lit || ablated) && !shadow_map) add("unshadowed");
-    if (peeled) add("peel");
-    return look.fragment + (build.empty() ? "" : "#" + build);
+/// Returns the constants of every fragment shader that draws objects with a colour.
+gpu::Constants surface_constants(const GpuScene& scene, const Drawing& drawing) {
+    gpu::Constants constants = drawing.store;
+    if (drawing.peeled) constants.emplace_back("peels", 1u);
+    if (scene.has_details()) constants.emplace_back("lights_mirrors", 1u);
+    if (drawing.lighting.shadow_map) constants.emplace_back("has_shadow_map", 1u);
+    return constants;
 }
 
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
-                  const MirrorShader& look, const std::string& black, const Wanted& wanted,
-                  Triangles triangles = nullptr) {
-    gpu::RasterState state{"", black, drawing.store};
+                  const MirrorShader& look, const Wanted& wanted, Triangles triangles = nullptr) {
+    gpu::RasterState state{"", kBlackMirror, surface_constants(scene, drawing)};
     if (!look.fragment.empty() && !look.blank) {
-        state.fragment = build_of(look, drawing.peeled.has_value(),
-                                  drawing.lighting.shadow_map.has_value(), scene.has_details());
+        state.fragment = look.fragment + (look.ablated && !drawing.peeled ? "#ablate" : "");
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
         if (look.captures) bind_captures(commands, *look.captures);
         if (look.captures) add_places(*look.captures, state.constants);
@@ -163,20 +157,14 @@ void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState sta
 void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                 const Wanted& wanted) {
     const auto& [first_view, layers, lighting, looks, store, peeled] = drawing;
-    std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
-                black = "mirror_black.frag";
+    const gpu::Constants constants = surface_constants(scene, drawing);
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
-    if (scene.has_details()) black += lighting.shadow_map ? "#lit" : "#lit_unshadowed";
-    if (peeled) {
-        diffuse += lighting.shadow_map ? "#peel" : "_peel";
-        black += scene.has_details() ? "_peel" : "#peel";
-        commands.bind("first_layer", *peeled);
-    }
+    if (peeled) commands.bind("first_layer", *peeled);
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
-        draw_objects(commands, scene, {"", diffuse, store, hidden}, first_view, layers, 0,
-                     [&](std::size_t i) {
+        draw_objects(commands, scene, {"", "diffuse.frag", constants, hidden}, first_view, layers,
+                     0, [&](std::size_t i) {
                          const DrawRange& range = scene.ranges()[i];
                          return !range.mirror && range.one_sided == one_sided && wanted(i);
                      });
@@ -186,14 +174,14 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
     };
     const auto draw_all_mirrors = [&] {
         for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
-            draw_mirrors(commands, scene, drawing, looks->looks[look], black, [&](std::size_t i) {
+            draw_mirrors(commands, scene, drawing, looks->looks[look], [&](std::size_t i) {
                 const std::uint32_t mirror = scene.mirror_of(i);
                 return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
                        !is_black(i);
             });
         for (const PartShader& part : looks->parts)
             draw_mirrors(
-                commands, scene, drawing, looks->looks[part.look], black,
+                commands, scene, drawing, looks->looks[part.look],
                 [&](std::size_t i) {
                     return scene.mirror_of(i) == part.mirror + 1 && wanted(i) && !is_black(i);
                 },
@@ -210,8 +198,8 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
         if (is_shut(i))
-            return draw_objects(commands, scene, {"", black, store}, first_view, layers, 0,
-                                is_shut);
+            return draw_objects(commands, scene, {"", kBlackMirror, constants}, first_view, layers,
+                                0, is_shut);
 }
 
 } // namespace catoptric::render

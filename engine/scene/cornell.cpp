@@ -81,9 +81,10 @@ namespace {
 const RegisteredScene kOpen{{"cornell-mirrors",
                              "Cornell box with four mirror balls, one of them moving; front open",
                              cornell_mirrors, 0}};
-const RegisteredScene kClosed{{"cornell-mirrors-closed",
-                               "the same with a white front wall that camera rays ignore",
-                               cornell_mirrors_closed, 1}};
+const RegisteredScene kClosed{
+    {"cornell-mirrors-closed",
+     "Cornell box with four mirror balls, and a white front wall that camera rays ignore",
+     cornell_mirrors_closed, 1}};
 
 } // namespace
 

@@ -1,5 +1,6 @@
-// Properties of an eye inside a mirror (the rule is in docs/design.md). Mirrors have two sides, so
-// no light from outside reaches the inside of a closed one.
+// Properties of pictures whose camera is inside a mirror
+// (docs/notes/ADR-007-views-and-flat-mirrors.md). Mirrors have two sides, so no light from outside
+// reaches the inside of a closed mirror.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 

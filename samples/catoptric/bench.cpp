@@ -31,12 +31,12 @@ constexpr const char* kBenchExamples = R"(Examples:
   catoptric bench --against ../before/build/release/catoptric
   catoptric bench --tune
 
-SCENE comes before --techniques. frame/...: a frame, with all threads; host/...: what the calling thread does for it;
-load/, session/, hierarchy/: the scene made or read, put on the device, its tree built.
-Cycles are of user mode. Where the system does not count them (perf_event), processor time takes their place.
---tune measures frames of the ray tracer with each variant of its shaders beside the default and keeps in the profile
-what is faster for certain; pictures stay the same, to the byte.
-Exit code 1 where --compare or --against finds something slower: the interval of the ratio lies above 1.)";
+SCENE comes before --techniques. frame/...: a whole frame on all threads; host/...: the calling thread's part of it;
+load/: making or reading the scene; session/: putting it on the device; hierarchy/: building its tree.
+Cycles are user-mode cycles. If the system does not count them (perf_event), processor time is used.
+--tune measures frames of the ray tracer with each shader variant and with the default, and stores variants that are
+certainly faster in the profile; pictures stay equal, byte for byte.
+Exit code 1 if --compare or --against finds a slower benchmark: the interval of its ratio lies above 1.)";
 
 /// Techniques that are measured by default.
 const std::vector<std::string> kTechniques{"raytrace:depth=4",
@@ -237,34 +237,40 @@ int run_bench(const BenchOptions& options) {
 void add_bench(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<BenchOptions>();
     options->command = std::move(command);
-    Verb& verb = program.add("bench", "what frames and scenes cost; beside another run or build");
+    Verb& verb = program.add(
+        "bench", "measure times of frames and scenes; compare with another run or build");
     verb.examples(kBenchExamples);
-    verb.arguments("SCENE",
-                   "built-in names (see 'list scenes') or .glb, .gltf or .obj files "
-                   "(cornell-mirrors; and flat for planar)",
-                   options->scenes);
-    verb.option("-o,--output", "FILE", "the result as JSON, in Google Benchmark's shape",
+    verb.arguments(
+        "SCENE",
+        "built-in scenes (see 'list scenes') or .glb, .gltf or .obj files (cornell-mirrors; flat "
+        "for planar)",
+        options->scenes);
+    verb.option("-o,--output", "FILE", "file for the result, as JSON in Google Benchmark's format",
                 options->output);
-    verb.option("--techniques", "T",
-                "name[:knob=value,...] each, see 'list techniques' (a list of its own)",
-                options->techniques);
+    verb.option(
+        "--techniques", "T",
+        "techniques to measure, each name[:knob=value,...], see 'list techniques' (a built-in "
+        "list)",
+        options->techniques);
     verb.heading(kMeasuringOptions);
-    verb.option("--rounds", "N",
-                "rounds in which benchmarks take turns, there and back; from 6 on medians have an "
-                "interval (6)",
-                [options](const std::string& text) {
-                    options->rounds = static_cast<int>(parse_whole("--rounds", text, 1, 10000));
-                });
+    verb.option(
+        "--rounds", "N",
+        "number of rounds, in each of which all benchmarks run; from 6 on medians have an interval "
+        "(6)",
+        [options](const std::string& text) {
+            options->rounds = static_cast<int>(parse_whole("--rounds", text, 1, 10000));
+        });
     verb.option("--compare", "OLD NEW",
-                "measures nothing: two such JSON files, NEW beside OLD; exit 1 when slower",
+                "compare two result files instead of measuring; exit code 1 if NEW is slower",
                 options->before_and_after);
-    verb.option("--against", "PROGRAM",
-                "another build of this program (a path): a round of each in turn, this beside it; "
-                "exit 1 when slower",
-                options->against);
+    verb.option(
+        "--against", "PROGRAM",
+        "compare with another build of this program (a path), taking turns; exit code 1 if this "
+        "build is slower",
+        options->against);
     verb.flag("--tune",
-              "which variants of shaders suit the device: into its profile in the user's "
-              "configuration, or -o FILE",
+              "find the shader variants that suit the device; write a profile to the user's "
+              "configuration or to -o FILE",
               options->tunes);
     add_common_without_scene(verb, options->common);
     verb.does([options] { return run_bench(*options); });

@@ -197,7 +197,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& summary,
     app_->require_subcommand(1);
     app_->footer(examples);
     app_->set_version_flag("-V,--version", version);
-    app_->set_help_flag("-h,--help", "this text");
+    app_->set_help_flag("-h,--help", "print this help");
     app_->get_formatter()->label("SUBCOMMAND", "VERB");
 }
 
@@ -206,7 +206,7 @@ CommandLine::~CommandLine() = default;
 Verb& CommandLine::add(const std::string& name, const std::string& summary) {
     CLI::App* app = app_->add_subcommand(name, summary);
     app->group("Verbs");
-    app->set_help_flag("-h,--help", "this text");
+    app->set_help_flag("-h,--help", "print this help");
     app->allow_extras(); // refuse_extras has the better message
     return *verbs_.emplace_back(std::make_unique<Verb>(*app));
 }

@@ -29,8 +29,8 @@ constexpr const char* kCompareExamples = R"(Examples:
   catoptric compare -o out --model both --techniques parallax hybrid
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax
 
-SCENE comes before --techniques; several become one report with a section and a front for each. DIR gets
-report.html, report.md, report.json, rows.csv and images/.)";
+SCENE comes before --techniques; several scenes make one report with a section and a front for each. The folder DIR
+gets report.html, report.md, report.json, rows.csv and images/.)";
 
 struct CompareOptions {
     Common common; ///< options for all scenes
@@ -245,41 +245,42 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<CompareOptions>();
     options->command = std::move(command);
     Verb& verb = program.add("compare",
-                             "every technique against the reference: speed and error in one table");
+                             "compare techniques with the reference: time and error in one table");
     verb.examples(kCompareExamples);
-    verb.arguments("SCENE",
-                   "built-in names (see 'list scenes') or .glb, .gltf or .obj files "
-                   "(cornell-mirrors)",
-                   options->scenes);
-    verb.option("-o,--output", "DIR", "folder for the report; required, made if missing",
+    verb.arguments(
+        "SCENE",
+        "built-in scenes (see 'list scenes') or .glb, .gltf or .obj files (cornell-mirrors)",
+        options->scenes);
+    verb.option("-o,--output", "DIR", "folder for the report, created if missing; required",
                 options->folder);
     verb.option(
         "--techniques", "T",
-        "name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\" each, see 'list techniques' "
-        "(the default list)",
+        "rows to compare, each name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\", see "
+        "'list techniques' (a built-in list)",
         options->techniques);
     verb.heading(kMeasuringOptions);
-    verb.option("--views", "N",
-                "also the errors from N views drawn from --seed, at least 6, with an interval of "
-                "each figure: a picture a row and view (1: none)",
-                [options](const std::string& text) { options->views = parse_views(text); });
-    verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
     verb.option(
-        "--rounds", "N",
-        "rounds in which the frames are measured, row after row in each; from 6 to --frames "
-        "(6)",
-        [options](const std::string& text) {
-            options->rounds = static_cast<int>(parse_whole("--rounds", text, app::kRounds, 10000));
-        });
-    verb.flag("--causes", "also split each row's error by cause: 32 pictures more a row",
+        "--views", "N",
+        "also measure errors over N random views from --seed, at least 6, with intervals (1: none)",
+        [options](const std::string& text) { options->views = parse_views(text); });
+    verb.flag("--together", "draw all rows in one command buffer, on one timeline",
+              options->together);
+    verb.option("--rounds", "N",
+                "number of rounds, in each of which all rows are measured; from 6 to --frames (6)",
+                [options](const std::string& text) {
+                    options->rounds = static_cast<int>(
+                        parse_whole("--rounds", text, app::kRounds, 10000));
+                });
+    verb.flag("--causes",
+              "also split each row's error by cause; draws at least 32 more pictures per row",
               options->causes);
-    verb.flag("--lag",
-              "also how far the rows that read last frame's captures are behind a moving "
-              "scene: about 2300 frames a row",
-              options->lag);
+    verb.flag(
+        "--lag",
+        "also measure how far rows that read last frame's captures lag behind a moving scene; "
+        "about 2300 frames per row",
+        options->lag);
     add_common_without_scene(verb, options->common);
-    verb.option("--csv", "COLUMNS",
-                "columns of rows.csv: table, those of the report's table of rows, or all (table)",
+    verb.option("--csv", "COLUMNS", "columns of rows.csv: table (as in the report) or all (table)",
                 [options](const std::string& text) {
                     const bool all = parse_choice("--csv", text, {"table", "all"}) == 1;
                     options->csv = all ? report::CsvColumns::all : report::CsvColumns::table;

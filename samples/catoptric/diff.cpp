@@ -25,10 +25,10 @@ constexpr const char* kDiffExamples = R"(Examples:
   catoptric diff a.png b.png --mask mirrors.png --json
   catoptric diff new.exr golden.exr --max-flip 0.01 --max-rmse 0.001
 
-All figures are on linear RGB times 2^STOPS, clamped to [0,1]. FLIP is of the pictures as displayed, at 67 pixels
+All figures use linear RGB times 2^STOPS, clamped to [0,1]. FLIP compares the pictures as displayed, at 67 pixels
 per degree; if one of them is a PNG, both are rounded to 8 bits.
 
-Exit code 1 when a figure is over its threshold or, with one given, a pixel is not finite.)";
+Exit code 1 if a figure is over its threshold, or if a threshold is given and a pixel is not finite.)";
 
 struct DiffOptions {
     Manners manners;
@@ -103,21 +103,22 @@ int run_diff(const DiffOptions& options) {
 
 void add_diff(CommandLine& program) {
     const auto options = std::make_shared<DiffOptions>();
-    Verb& verb = program.add("diff", "how far two pictures are apart");
+    Verb& verb = program.add("diff", "compare two pictures");
     verb.examples(kDiffExamples);
     verb.argument("A", "picture, .exr, .hdr or .png", options->a, Verb::Need::required);
     verb.argument("B", "picture of the same size", options->b, Verb::Need::required);
-    verb.option("--mask", "M", "PNG of the same size: pixels that are not black count",
+    verb.option("--mask", "M", "PNG of the same size; only pixels that are not black count",
                 options->mask);
-    verb.option("--max-flip", "X", "exit 1 when flip is over it",
+    verb.option("--max-flip", "X", "largest FLIP allowed; exit code 1 above it",
                 [options](const std::string& text) {
                     options->most_flip = parse_real("--max-flip", text, 0);
                 });
-    verb.option("--max-rmse", "X", "exit 1 when rmse is over it",
+    verb.option("--max-rmse", "X", "largest rmse allowed; exit code 1 above it",
                 [options](const std::string& text) {
                     options->most_rmse = parse_real("--max-rmse", text, 0);
                 });
-    verb.option("--exposure", "STOPS", "figures are of light times 2^STOPS (0)",
+    verb.option("--exposure", "STOPS",
+                "exposure: light is multiplied by 2^STOPS before the comparison (0)",
                 [options](const std::string& text) { options->exposure = parse_stops(text); });
     add_manners(verb, options->manners);
     verb.does([options] { return run_diff(*options); });

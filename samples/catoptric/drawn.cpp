@@ -7,13 +7,15 @@
 namespace catoptric::cli {
 
 void add_drawn(Verb& verb, Drawn& drawn) {
-    verb.option("--technique", "T",
-                "name[:knob=value,...] for all mirrors, see 'list techniques'; this or --plan",
-                drawn.technique);
-    verb.option("--plan", "P",
-                "\"PATTERN=T ...\" or a file.json with a plan: a technique per mirror. PATTERN: "
-                "number from 1, list 2,3, name with * and ?, or * for the rest",
-                drawn.plan);
+    verb.option(
+        "--technique", "T",
+        "technique of all mirrors, name[:knob=value,...], see 'list techniques'; excludes --plan",
+        drawn.technique);
+    verb.option(
+        "--plan", "P",
+        "technique per mirror, as \"PATTERN=T ...\" or a file.json. PATTERN: number from 1, list "
+        "2,3, name with * and ?, or * for the rest",
+        drawn.plan);
 }
 
 std::string checked(const Drawn& drawn, const std::string& verb) {

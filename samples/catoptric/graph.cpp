@@ -23,9 +23,10 @@ constexpr const char* kGraphExamples = R"(Examples:
   catoptric graph gallery --why
   catoptric graph gallery --why --technique parallax --budget-ms 40
 
-The plan of a frame with a frame before it: passes in order, what each reads and writes, what was
-left out and why, memory that images share. With --why what the picture requires of mirrors and
-lights, what of captures and shadow maps it does without and why, and which plan suits it.)";
+Prints the passes of a frame in order, with the images that each reads and writes, the culled
+passes with reasons, and the memory that images share. The frame follows another frame.
+--why prints instead the mirrors and lights that the picture requires, the captures and shadow
+maps that are left out, with reasons, and the plan that suits the picture.)";
 
 struct GraphOptions {
     Common common;
@@ -85,17 +86,19 @@ int run_graph(const GraphOptions& options) {
 
 void add_graph(CommandLine& program) {
     const auto options = std::make_shared<GraphOptions>();
-    Verb& verb = program.add("graph", "the compiled plan of a technique's frame");
+    Verb& verb = program.add("graph", "print the passes of a technique's frame");
     verb.examples(kGraphExamples);
     add_drawn(verb, options->drawn);
-    verb.option("--format", "F", "text, dot or json (text)", [options](const std::string& text) {
-        constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
-                                                app::PlanFormat::json};
-        options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
-    });
+    verb.option(
+        "--format", "F", "output format: text, dot or json (text)",
+        [options](const std::string& text) {
+            constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
+                                                    app::PlanFormat::json};
+            options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
+        });
     verb.flag("--why",
-              "what the picture requires, and why the rest is left out, in place of the plan; "
-              "asks no device and needs no technique, but for --budget-ms, which is measured",
+              "print what the picture requires and what is left out, with reasons, instead of the "
+              "frame's passes; needs no device, except with --budget-ms",
               options->why);
     add_budget(verb, options->common);
     add_common(verb, options->common);

@@ -154,15 +154,16 @@ int run_info(const InfoOptions& options) {
 void add_info(CommandLine& program) {
     const auto options = std::make_shared<InfoOptions>();
     options->common.scene.clear();
-    Verb& verb = program.add("info", "what a scene is made of; or version, device and features");
+    Verb& verb = program.add("info",
+                             "print the contents of a scene, or version, device and features");
     verb.examples(kInfoExamples);
     verb.argument(
         "SCENE",
-        "built-in name or .glb, .gltf or .obj file; none: about the program and the device",
+        "built-in scene or .glb, .gltf or .obj file; without SCENE: information on program and "
+        "device",
         options->common.scene, Verb::Need::optional);
-    verb.flag("--write", "what is said of the scene here also becomes SCENE.catoptric.json",
-              options->writes);
-    verb.flag("--force", "--write may replace one", options->replaces);
+    verb.flag("--write", "store the given scene options in SCENE.catoptric.json", options->writes);
+    verb.flag("--force", "let --write replace an existing file", options->replaces);
     add_device(verb, options->common.device);
     add_view(verb, options->common);
     add_scene_overrides(verb, options->common);

@@ -33,7 +33,7 @@ std::string knob_text(const app::KnobInfo& knob) {
 }
 
 constexpr const char* kAutoSummary =
-    "Draws each mirror with what suits it in the picture, and says why.";
+    "Chooses a technique for each mirror from what the picture shows, and gives the reasons.";
 
 std::string technique_line(const std::string& name, const std::string& summary) {
     return fmt::format("{:<12} {}\n", name, summary);
@@ -45,7 +45,7 @@ std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
     for (const app::TechniqueInfo& technique : techniques)
         text += technique_line(technique.name, technique.summary);
     return text + technique_line("auto", kAutoSummary) +
-           "\nKnobs of one: catoptric list techniques NAME\n";
+           "\nKnobs of a technique: catoptric list techniques NAME\n";
 }
 
 /// Returns the text of one technique with its knobs.
@@ -143,7 +143,8 @@ void add_list(CommandLine& program) {
     verb.examples(kListExamples);
     verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
                   Verb::Need::required);
-    verb.argument("NAME", "of a technique: its knobs", options->name, Verb::Need::optional);
+    verb.argument("NAME", "name of a technique, to list its knobs", options->name,
+                  Verb::Need::optional);
     add_manners(verb, options->manners);
     verb.does([options] {
         parse_choice("list", options->kind, kKinds);

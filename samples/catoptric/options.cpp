@@ -21,18 +21,19 @@ constexpr std::int64_t kMostFrames = 1'000'000;
 
 void add_numbers(Verb& verb, Common& common) {
     verb.heading(kMeasuringOptions);
-    verb.option("--frames", "N", "measured frames, at least 1 (20)", [&](const std::string& text) {
-        common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
-    });
-    verb.option(
-        "--warmup", "N",
-        "frames before them, not measured (8; 28 in compare --model required or both, where "
-        "a still scene comes to rest)",
-        [&](const std::string& text) {
-            common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
-        });
-    verb.flag("--animate", "frame k at --time + (k-1)/60 s; otherwise all frames at --time",
-              common.animate);
+    verb.option("--frames", "N", "number of measured frames, at least 1 (20)",
+                [&](const std::string& text) {
+                    common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
+                });
+    verb.option("--warmup", "N",
+                "frames before the measured ones (8; 28 with compare --model required or both)",
+                [&](const std::string& text) {
+                    common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
+                });
+    verb.flag(
+        "--animate",
+        "move the scene: frame k shows --time + (k-1)/60 s; without it all frames show --time",
+        common.animate);
 }
 
 void take_model(const std::string& text, Common& common) {
@@ -43,10 +44,11 @@ void take_model(const std::string& text, Common& common) {
 
 void add_choices(Verb& verb, Common& common) {
     verb.option("--model", "M",
-                "everything: each mirror, six faces, every frame. required: what the picture needs "
-                "(render's default). both: compare shows each row twice (everything)",
+                "everything: draw all captures in each frame; required: draw only what the picture "
+                "requires (default of render); both: compare shows both (everything)",
                 [&](const std::string& text) { take_model(text, common); });
-    verb.option("--reference", "T", "technique that compare judges against (raytrace:depth=16)",
+    verb.option("--reference", "T",
+                "technique of the reference picture of compare (raytrace:depth=16)",
                 [&](const std::string& text) {
                     const app::TechniqueChoice choice = app::parse_technique(text);
                     check(choice.technique != "plan", Failure::usage,
@@ -55,7 +57,8 @@ void add_choices(Verb& verb, Common& common) {
                 });
     verb.option(
         "--timing", "T",
-        "isolated: times of passes add up. pipelined: passes may overlap (isolated)",
+        "isolated: passes run one after the other, so their times add up; pipelined: passes may "
+        "overlap (isolated)",
         [&](const std::string& text) {
             const bool isolated = parse_choice("--timing", text, {"isolated", "pipelined"}) == 0;
             common.timing = isolated ? app::Timing::isolated : app::Timing::pipelined;
@@ -93,10 +96,11 @@ double parse_stops(const std::string& text) {
 
 void add_manners(Verb& verb, Manners& manners) {
     verb.heading("Output");
-    verb.flag("--json", "one JSON document on stdout instead of text", manners.json);
-    verb.flag("-q,--quiet", "no progress and no information on stderr", manners.quiet);
-    verb.flag("-v,--verbose", "more information on stderr", manners.verbose);
-    verb.option("--progress", "WHEN", "auto: on a terminal; always; never (auto)",
+    verb.flag("--json", "print one JSON document on stdout instead of text", manners.json);
+    verb.flag("-q,--quiet", "print no progress and no information on stderr", manners.quiet);
+    verb.flag("-v,--verbose", "print more information on stderr", manners.verbose);
+    verb.option("--progress", "WHEN",
+                "when to show progress: auto (on a terminal), always or never (auto)",
                 [&](const std::string& text) {
                     manners.progress = static_cast<ProgressMode>(
                         parse_choice("--progress", text, {"auto", "always", "never"}));
@@ -105,30 +109,31 @@ void add_manners(Verb& verb, Manners& manners) {
 
 void add_device(Verb& verb, DeviceAsked& device) {
     verb.heading(kDeviceOptions);
-    verb.option("--device", "D",
-                "index from 0 or part of a name, see 'list devices' (the fastest kind)",
-                device.name);
-    verb.option("--device-profile", "FILE",
-                "tuned shader settings written by 'bench --tune'; none ignores them (the device's "
-                "in the user's configuration, if there is one)",
-                device.profile);
+    verb.option(
+        "--device", "D",
+        "Vulkan device: index from 0 or part of its name, see 'list devices' (the fastest kind)",
+        device.name);
+    verb.option(
+        "--device-profile", "FILE",
+        "file with tuned shader settings, written by 'bench --tune'; none: default settings (the "
+        "device's file in the user's configuration)",
+        device.profile);
 }
 
 void add_validate(Verb& verb, DeviceAsked& device) {
     verb.heading(kDeviceOptions);
-    verb.flag("--validate", "watched by the Vulkan validation layer; any message fails the run",
+    verb.flag("--validate", "run with the Vulkan validation layer; any message fails the run",
               device.validate);
 }
 
 void add_view(Verb& verb, Common& common) {
     verb.heading(kCommonOptions);
-    verb.option("--size", "WxH", "picture size (512x512)",
+    verb.option("--size", "WxH", "size of the picture in pixels (512x512)",
                 [&](const std::string& text) { common.size = parse_size("--size", text); });
     add_camera(verb, common);
     verb.option("--time", "SECONDS", "instant of the scene's motion (0)",
                 [&](const std::string& text) { common.time = parse_real("--time", text); });
-    verb.option("--seed", "N",
-                "seed of --camera seeded, of --views and of irregular sample patterns (1)",
+    verb.option("--seed", "N", "seed of --camera seeded, --views and irregular sample patterns (1)",
                 [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
 }
 
@@ -136,9 +141,8 @@ void add_budget(Verb& verb, Common& common) {
     verb.heading(kMeasuringOptions);
     verb.option(
         "--budget-ms", "MS",
-        "milliseconds that captures may take in a frame: as many mirrors are drawn anew as fit by "
-        "what was measured, at least one, the others in later frames; with --model required. A "
-        "moving picture then depends on the machine's speed (no limit)",
+        "limit for the time of captures per frame, in ms; at least one mirror is drawn, the others "
+        "follow in later frames; needs --model required (no limit)",
         [&](const std::string& text) {
             common.budget_ms = parse_real("--budget-ms", text);
             check(common.budget_ms > 0, Failure::usage,
@@ -162,9 +166,9 @@ void add_common_without_scene(Verb& verb, Common& common) {
 }
 
 void add_common(Verb& verb, Common& common) {
-    verb.argument("SCENE",
-                  "built-in name (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)",
-                  common.scene, Verb::Need::optional);
+    verb.argument(
+        "SCENE", "built-in scene (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)",
+        common.scene, Verb::Need::optional);
     add_common_without_scene(verb, common);
 }
 

@@ -13,53 +13,59 @@ void add_surfaces(Verb& verb, scene::SceneOverrides& overrides) {
     const auto mirror = [&](const std::string& text) {
         overrides.mirrors.push_back(scene::read_mirror_override("--mirror", text));
     };
-    verb.repeated("--mirror", "PATTERN[=R]",
-                  "objects, or materials, of this name (* ? [...]) are mirrors that reflect R, a "
-                  "number or r,g,b from 0 to 1 (1), and nothing else; may be repeated",
-                  mirror);
-    verb.repeated("--light", "PATTERN",
-                  "what emits light under this name lights the scene though a texture varies it; "
-                  "may be repeated",
-                  [&](const std::string& text) { overrides.lights.push_back(text); });
-    verb.option(
-        "--mirror-max-roughness", "A", "surfaces no rougher reflect sharply, from 0 to 1 (0.1)",
-        [&](const std::string& text) {
-            overrides.mirror_max_roughness = parse_real("--mirror-max-roughness", text, 0, 1);
-        });
+    verb.repeated(
+        "--mirror", "PATTERN[=R]",
+        "make mirrors of objects or materials with this name (* ? [...]); R is the reflectance, a "
+        "number or r,g,b from 0 to 1 (1); may be repeated",
+        mirror);
+    verb.repeated(
+        "--light", "PATTERN",
+        "make lamps of emitting objects or materials with this name, also if a texture varies the "
+        "emission; may be repeated",
+        [&](const std::string& text) { overrides.lights.push_back(text); });
+    verb.option("--mirror-max-roughness", "A", "largest roughness of a mirror, from 0 to 1 (0.1)",
+                [&](const std::string& text) {
+                    overrides.mirror_max_roughness = parse_real("--mirror-max-roughness", text, 0,
+                                                                1);
+                });
     verb.option_without_value("--dielectric-mirrors",
                               "smooth surfaces that are no metal are mirrors, too",
                               [&] { overrides.dielectric_mirrors = true; });
 }
 
 void add_surroundings(Verb& verb, scene::SceneOverrides& overrides) {
-    verb.option("--environment", "E",
-                "what is seen where the scene ends, and lights it: FILE.exr, .hdr or .png "
-                "(equirectangular), studio or none (none; studio for a file without a light)",
+    verb.option(
+        "--environment", "E",
+        "picture around the scene that also lights it: FILE.exr, .hdr or .png (equirectangular), "
+        "studio or none (none; studio for a file without a light)",
+        [&](const std::string& text) {
+            check(!text.empty(), Failure::usage,
+                  "--environment: wanted FILE.exr, .hdr or .png, studio or none, found ''");
+            overrides.environment = text;
+        });
+    verb.option("--environment-scale", "S", "factor for the light of the environment (1)",
                 [&](const std::string& text) {
-                    check(!text.empty(), Failure::usage,
-                          "--environment: wanted FILE.exr, .hdr or .png, studio or none, found ''");
-                    overrides.environment = text;
+                    overrides.environment_scale = parse_real("--environment-scale", text, 0,
+                                                             scene::kMostScale);
                 });
-    verb.option("--environment-scale", "S", "times its light (1)", [&](const std::string& text) {
-        overrides.environment_scale = parse_real("--environment-scale", text, 0, scene::kMostScale);
-    });
-    verb.option("--environment-rotate", "DEG", "turns it, from -z towards +x (0)",
+    verb.option("--environment-rotate", "DEG",
+                "rotation of the environment in degrees, from -z towards +x (0)",
                 [&](const std::string& text) {
                     overrides.environment_rotation = parse_real(
                         "--environment-rotate", text, -scene::kMostTurn, scene::kMostTurn);
                 });
     verb.option(
-        "--ambient", "A", "light that every surface gets, at least 0 (0.05; 0 in an environment)",
+        "--ambient", "A", "constant light on every surface, at least 0 (0.05; 0 in an environment)",
         [&](const std::string& text) { overrides.ambient = parse_real("--ambient", text, 0); });
 }
 
 void add_place(Verb& verb, scene::SceneOverrides& overrides) {
-    verb.option("--up", "AXIS", "y or z: what is up in the file; z is turned to y (y)",
+    verb.option("--up", "AXIS", "axis that points up in the file, y or z; z is turned to y (y)",
                 [&](const std::string& text) {
                     overrides.up = parse_choice("--up", text, {"y", "z"}) == 1 ? scene::Up::z
                                                                                : scene::Up::y;
                 });
-    verb.option("--animation", "NAME", "of a glTF file, or none (its first)",
+    verb.option("--animation", "NAME", "animation of a glTF file to play, or none (the first)",
                 [&](const std::string& text) { overrides.animation = text; });
 }
 
@@ -67,26 +73,28 @@ void add_place(Verb& verb, scene::SceneOverrides& overrides) {
 
 void add_camera(Verb& verb, Common& common) {
     scene::SceneOverrides& overrides = common.overrides;
-    verb.option("--camera", "C",
-                "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees), "
-                "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), or seeded: drawn from --seed, a mirror "
-                "in view (the file's first, or a three-quarter view)",
-                [&](const std::string& text) {
-                    if (!text.empty()) overrides.camera = text;
-                });
-    verb.option("--exposure", "STOPS",
-                "pictures and errors are of light times 2^STOPS; auto: so that the brightest 5 % "
-                "are above .8 (what the scene says; auto for files)",
-                [&](const std::string& text) {
-                    overrides.exposure = scene::ExposureOverride{};
-                    if (text != "auto") overrides.exposure->stops = parse_stops(text);
-                });
+    verb.option(
+        "--camera", "C",
+        "camera: name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees), "
+        "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), or seeded (random from --seed, with a mirror "
+        "in view) (the file's first, or a three-quarter view)",
+        [&](const std::string& text) {
+            if (!text.empty()) overrides.camera = text;
+        });
+    verb.option(
+        "--exposure", "STOPS",
+        "exposure: light is multiplied by 2^STOPS; auto: the brightest 5 % of the picture are "
+        "above .8 (the scene's; auto for files)",
+        [&](const std::string& text) {
+            overrides.exposure = scene::ExposureOverride{};
+            if (text != "auto") overrides.exposure->stops = parse_stops(text);
+        });
 }
 
 void add_scene_overrides(Verb& verb, Common& common) {
     verb.heading(kSceneGroup);
     verb.option("--root", "DIR",
-                "the files that SCENE names may lie below DIR too (below the scene's own folder)",
+                "additional folder for files that SCENE names (only the scene's own folder)",
                 [&](const std::string& text) {
                     check(!text.empty(), Failure::usage, "--root: wanted a folder, found ''");
                     common.root = text;
@@ -98,16 +106,17 @@ void add_scene_overrides(Verb& verb, Common& common) {
             most = static_cast<std::uint64_t>(parse_whole(option, text, 1, kMost));
         });
     };
-    add_most("--max-bytes", "most bytes in the scene's files (an eighth of free memory)",
+    add_most("--max-bytes", "limit for the bytes of the scene's files (an eighth of free memory)",
              common.budget.bytes);
-    add_most("--max-triangles",
-             "most triangles in the scene's meshes, with three vertices each (what fits into free "
-             "memory, of those that the file stores)",
-             common.budget.triangles);
+    add_most(
+        "--max-triangles",
+        "limit for the triangles of the scene's meshes, with three vertices each (follows from "
+        "file size and free memory)",
+        common.budget.triangles);
     add_surfaces(verb, common.overrides);
     add_surroundings(verb, common.overrides);
     add_place(verb, common.overrides);
-    verb.option_without_value("--no-scene-file", "SCENE.catoptric.json is left alone",
+    verb.option_without_value("--no-scene-file", "ignore SCENE.catoptric.json",
                               [&] { common.use_scene_file = false; });
 }
 

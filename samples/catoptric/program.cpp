@@ -23,7 +23,7 @@ constexpr const char* kProgramExamples = R"(Examples:
 
 Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 69 no Vulkan device;
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
-76 device lost; 129, 130, 143 stopped by a signal (rows so far are kept, after 75 and 76 too))";
+76 device lost; 129, 130, 143 stopped by a signal (finished rows are kept, also after 75 and 76))";
 
 void say_failure(const std::string& name, const std::string& message) {
     if (!message.empty()) say(name + ": " + message);
@@ -32,7 +32,7 @@ void say_failure(const std::string& name, const std::string& message) {
 int run_program_checked(int argc, char** argv) {
     const std::vector<std::string> words(argv, argv + argc);
     CommandLine program(
-        "catoptric", "Measures what each way of rendering mirrors costs and gets wrong.",
+        "catoptric", "Measures the cost and the error of each way of rendering reflections.",
         "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
     add_compare(program, words);
     add_render(program);

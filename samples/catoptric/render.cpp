@@ -34,11 +34,12 @@ constexpr const char* kRenderExamples = R"(Examples:
   catoptric render --technique naive:bounces=2 -o - | display
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
-A still takes the frames that it needs: one, or with last frame's captures as many as change anything, at most
-28 (with --budget-ms rounds of all mirrors), and ends in the same picture whatever the budget. With --animate,
---frames, --warmup, --profile or --trace frames are counted and timed as in compare; the picture is the last one,
-or with {n}, {n:3}, %d or %03d in its name there is one of each measured frame, numbered from 1.
-EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
+A still picture takes one frame, or with last frame's captures as many frames as change a pixel, at most 28.
+With --budget-ms it takes at most 28 rounds of all mirrors; the picture does not depend on the budget.
+With --animate, --frames, --warmup, --profile or --trace, frames are counted and timed as in compare.
+The picture is then that of the last frame. With {n}, {n:3}, %d or %03d in its name, one picture per measured
+frame is written, numbered from 1.
+EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.)";
 
 struct RenderOptions {
     Common common;
@@ -206,20 +207,20 @@ int run_render(const RenderOptions& options) {
 
 void add_render(CommandLine& program) {
     const auto options = std::make_shared<RenderOptions>();
-    Verb& verb = program.add("render", "one picture by one technique");
+    Verb& verb = program.add("render", "render one picture by one technique or plan");
     verb.examples(kRenderExamples);
     add_drawn(verb, options->drawn);
-    verb.option("-o,--output", "OUT",
-                "OUT.exr, OUT.png, frame-{n:4}.png for one a frame, or - for a PNG on stdout; "
-                "required",
-                options->output);
+    verb.option(
+        "-o,--output", "OUT",
+        "picture file OUT.exr or OUT.png, frame-{n:4}.png for one per frame, or - for a PNG on "
+        "stdout; required",
+        options->output);
     verb.heading(kMeasuringOptions);
     verb.option("--trace", "T.json",
-                "times of the last frame's passes for chrome://tracing or Perfetto",
+                "file for the times of the last frame's passes, for chrome://tracing or Perfetto",
                 options->trace);
     verb.option("--profile", "P.json",
-                "what --json prints, in a file: times of the frames, their passes and the host's "
-                "work, with their spread",
+                "file for the times of frames, passes and host, as printed by --json",
                 options->profile);
     add_budget(verb, options->common);
     add_common(verb, options->common);

@@ -22,9 +22,9 @@ namespace {
 
 constexpr const char* kStressExamples = R"(Examples:
   catoptric stress                             every property
-  catoptric stress -o out --only N1 C9         two of them
+  catoptric stress -o out --only N1 C9         two properties
 
-Exit code 1 when a row fails.)";
+Exit code 1 if a row fails.)";
 
 struct StressOptions {
     Manners manners;
@@ -93,16 +93,15 @@ int run_stress(const StressOptions& options) {
 void add_stress(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<StressOptions>();
     options->command = std::move(command);
-    Verb& verb = program.add("stress",
-                             "rendering at the extremes: measured values beside thresholds");
+    Verb& verb = program.add("stress", "measure properties of extreme scenes against thresholds");
     verb.examples(kStressExamples);
     verb.option("-o,--output", "DIR",
-                "folder for stress.json, stress.html, stress.md and pictures of what failed",
+                "folder for stress.json, stress.html, stress.md and pictures of failed properties",
                 options->folder);
-    verb.option("--only", "ID", "ids of properties (all)", options->only);
-    verb.option("--size", "WxH", "picture size (256x256)",
+    verb.option("--only", "ID", "properties to measure, by id (all)", options->only);
+    verb.option("--size", "WxH", "size of the pictures in pixels (256x256)",
                 [options](const std::string& text) { options->size = parse_size("--size", text); });
-    verb.option("--seed", "N", "of the scenes, which are made for the run (1)",
+    verb.option("--seed", "N", "seed from which the scenes are made (1)",
                 [options](const std::string& text) { options->seed = parse_seed("--seed", text); });
     add_device(verb, options->device);
     add_validate(verb, options->device);

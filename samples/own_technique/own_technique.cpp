@@ -12,9 +12,9 @@ namespace {
 
 const app::RegisteredSearch kBlend{
     {.name = "blend",
-     .summary = "Between reuse (amount=0) and parallax (amount=1).",
+     .summary = "Blends between reuse (amount=0) and parallax (amount=1).",
      .shader = "blend.frag",
-     .knobs = {{.name = "amount", .help = "of the correction", .value = .5, .is_real = true}}}};
+     .knobs = {{.name = "amount", .help = "correction strength", .value = .5, .is_real = true}}}};
 
 } // namespace
 

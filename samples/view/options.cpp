@@ -16,8 +16,9 @@ constexpr const char* kExamples = R"(Examples:
   catoptric-view scene.glb --plan "1=planar *=hybrid"
   catoptric-view --frames 20 --screenshot last.png
 
-F1 in the window lists keys. --frames N leaves after N frames, of which frame k is that of 'catoptric render'
-with N frames and --warmup 0; --screenshot writes the last one's picture without controls, the same bytes.)";
+F1 in the window lists the keys. --frames N ends the program after N frames. Frame k equals frame k of
+'catoptric render' with --frames N --warmup 0. --screenshot writes the last frame without controls, with the same
+bytes.)";
 
 void check_screenshot(const Options& options) {
     if (options.screenshot.empty()) return;
@@ -34,14 +35,14 @@ void check_screenshot(const Options& options) {
 std::function<int()> parse(const std::vector<std::string>& words,
                            const std::function<int(const Options&)>& run) {
     auto program = std::make_shared<cli::CommandLine>(
-        "catoptric-view", "A scene in a window, drawn by any technique.",
+        "catoptric-view", "Shows a scene in a window, drawn by any technique.",
         "catoptric-view " + app::version() + " (" + app::commit() + ")", kExamples);
     const auto options = std::make_shared<Options>();
     options->words = words;
     cli::Verb& verb = program->whole();
     add_drawn(verb, options->drawn);
     verb.option("--screenshot", "OUT",
-                "OUT.png or OUT.exr: the picture of the last of --frames, without controls",
+                "file OUT.png or OUT.exr for the picture of the last of --frames, without controls",
                 options->screenshot);
     add_budget(verb, options->common);
     add_common(verb, options->common);

@@ -1,17 +1,18 @@
-// A mirror as it would be with single causes of error taken away: in place of what the technique has, what
-// the reference's rays find. draw.ablated says which. For measuring: it traces up to a dozen rays a pixel.
-// A pixel whose rays took more steps than the driver allows is NaN.
-// Calls are few, in loops if need be: the driver's compiler inlines every one, each with a walk, and is slow.
+// Ablation: draws a mirror with some causes of error removed, to measure how much each cause contributes to the error.
+// For each cause in draw.ablated, the reference's rays replace the approximation that the technique uses. A pixel takes
+// up to a dozen rays, and is NaN if its rays took more BVH steps than the driver allows.
+// Loops keep the number of calls small, because the driver's compiler inlines every call with the whole BVH walk.
 #ifndef CATOPTRIC_ABLATE_GLSL
 #define CATOPTRIC_ABLATE_GLSL
 
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 
-// A mirror that rays pass through, from 1: a capture does not show its own. 0: none.
+// The number, from 1, of the mirror that rays pass through, because a mirror's capture does not show the mirror itself.
+// 0: rays pass through no mirror.
 uint left_out;
 bool is_seen(uint object) { return left_out == 0u || surface_of(object).mirror != left_out; }
-// Shadows as the row makes them, or by rays.
+// How shadows are computed: kShadowRay, or the method of the technique.
 uint shadow_by;
 
 #define TRACE_PRIVATE_STACK
@@ -22,12 +23,13 @@ uint shadow_by;
 layout(constant_id = PICTURE_WIDTH_CONSTANT) const uint picture_width = 1u;
 layout(constant_id = PICTURE_HEIGHT_CONSTANT) const uint picture_height = 1u;
 
-// What stands nearer to a capture's centre by no more than this part is not in the way.
+// A surface hides a point from the capture's centre if the surface is nearer by more than this share of the distance.
 const float kInTheWay = 1.0 / 16384.0;
 
 bool ablates(uint cause) { return (draw.ablated & cause) != 0u; }
 
-// Distance of what capture `mirror` shows in a direction of any length; +infinity: nothing.
+// Returns the exact distance from the centre of capture `mirror` (from 0) to the first surface in a direction of any
+// length. Returns +infinity if the ray meets no surface.
 float exact_distance(uint mirror, vec3 direction) {
     left_out = mirror + 1u;
     Hit hit;
@@ -36,11 +38,11 @@ float exact_distance(uint mirror, vec3 direction) {
     return found ? hit.t * length(direction) : uintBitsToFloat(0x7f800000u);
 }
 
-// Where a ray ends.
+// The end of a ray.
 struct End {
-    bool meets; // false: it leaves
+    bool meets; // whether the ray meets a surface; false: it leaves the scene
     Point point;
-    uint mirror; // that it meets, from 1; 0: none
+    uint mirror; // number of the mirror that the ray meets, from 1; 0: the ray meets no mirror
 };
 
 End end_of(Ray ray, uint skipped) {
@@ -55,8 +57,8 @@ Ray reflected(Ray ray, Point at) {
     return Ray(leaving(at, direction), direction, at.leaves);
 }
 
-// What capture `mirror` shows in the looked-up direction: in the second layer the next surface behind
-// that faces the centre.
+// Returns the surface point that capture `mirror` (from 0) shows in the looked-up direction. In the second layer, this
+// is the next surface behind the first that faces the capture's centre.
 End captured_end(uint mirror, Lookup lookup) {
     left_out = mirror + 1u;
     Ray ray = Ray(probe_at(mirror).centre, lookup.direction, 0u);
@@ -73,25 +75,26 @@ End captured_end(uint mirror, Lookup lookup) {
     return end;
 }
 
-// Its own light, seen from where `direction` comes from.
+// Returns the diffuse and emitted radiance of a point, seen along `direction`.
 vec3 shaded(Point at, vec3 direction, uint by) {
     shadow_by = by;
     Surface surface = surface_at(at, direction);
-    point = at; // whose shadow rays start there
+    point = at; // light_visible starts shadow rays at the global `point`
     return shade(surface, at.position, at.normal, lit_facet(surface.detail, at.facet));
 }
 
-// Of what the search looked up, with texels or shadows mended.
+// Returns the colour that the search looked up. If the ablation asks for them, exact colour or traced shadows replace
+// the captured texels or shadow map lookups.
 vec3 looked_up(Path path, Lookup lookup, End target, bool is_target) {
     vec3 colour = lookup_colour(path.mirror, lookup);
     bool sees_nothing = lookup.state == kUnknown && lookup.layer == kLeaves;
     if (sees_nothing || !(ablates(kAblateTexels) || ablates(kAblateShadows))) return colour;
     End captured = target;
     if (!is_target) captured = captured_end(path.mirror, lookup);
-    if (captured.mirror != 0u) return colour; // its picture in the capture stays as it is
+    if (captured.mirror != 0u) return colour; // a captured mirror keeps the colour from the capture
     if (!captured.meets) return ablates(kAblateTexels) ? environment(lookup.direction) : colour;
     if (ablates(kAblateTexels)) colour = vec3(0);
-    // The texels were lit through the map: what a ray would have changed.
+    // The captured texels were lit through the shadow map. Adds the difference that shadow rays would have made.
     for (uint i = 0u; i < (ablates(kAblateTexels) ? 1u : 2u); ++i) {
         vec3 lit = shaded(captured.point, lookup.direction, i == 0u && ablates(kAblateShadows) ? kShadowRay : shadow);
         colour += i == 0u ? lit : -lit;
@@ -106,13 +109,14 @@ vec3 ablated_radiance(Path path, Lookup lookup) {
     Ray search_ray = camera;
     End first, target;
     bool from_camera;
-    // From the eye, from the mirror and, if the search went on from another, from that.
+    // Traces a ray from the eye, then its reflection in the drawn mirror. If the search followed the path to another
+    // mirror, a third ray leaves that mirror.
     uint i = 0u, last = path.hops > 0u ? 2u : 1u;
     do {
         left_out = i == 2u ? path.mirror + 1u : 0u;
         target = end_of(search_ray, i == 0u ? kBvhHidden : 0u);
         if (i == 0u) {
-            // The rasteriser and the ray disagree on what is seen here: another cause.
+            // The rasteriser and the ray see different mirrors at this pixel, an error that no ablation removes.
             if (target.mirror != drawn_mirror()) return path.weight * lookup_colour(path.mirror, lookup);
             first = target;
             search_ray = reflected(camera, first.point);
@@ -131,7 +135,7 @@ vec3 ablated_radiance(Path path, Lookup lookup) {
     bool is_hidden = asks_hidden && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
     bool along_search = is_hidden && ablates(kAblateHidden);
     vec3 result = details != 0u ? shaded(first.point, camera.direction, ablates(kAblateShadows) ? kShadowRay : shadow) : vec3(0);
-    // What is hidden or left out has no direction that shows it.
+    // No looked-up direction shows a point that is hidden from the capture's centre or left out of the capture.
     bool is_shown = in_capture && !is_hidden;
     if (from_camera || along_search) {
         bool whole = from_camera || path.hops == 0u;

@@ -1,4 +1,5 @@
-// What every pass may see, under one number each. A shader that does not use a binding has not got it.
+// Bindings that all passes share. Each resource has one binding number in all shaders. A shader's pipeline layout has
+// only the bindings that the shader uses.
 #ifndef CATOPTRIC_BINDINGS_GLSL
 #define CATOPTRIC_BINDINGS_GLSL
 
@@ -6,11 +7,12 @@
 #include "lib/texels.glsl"
 #include "shared.h"
 
-// Uniform buffers where every invocation reads the same, lists of lib/texels.glsl where they do not, laid out by
-// engine/render/texels.hpp. Views are read by vertex shaders, for which texels were no cheaper.
+// Data that all invocations read at the same index is in uniform buffers. Data that they read at different indices is
+// in texel lists (lib/texels.glsl), laid out by engine/render/texels.hpp. Views are in a storage buffer, because vertex
+// shaders read them, for which texel lists were not cheaper.
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame value; } frame;
 layout(set = 0, binding = 1, scalar) readonly buffer Views { View views[]; };
-#ifdef VERTEX_STAGE // which reads them at one place for all lanes
+#ifdef VERTEX_STAGE // all lanes of a vertex shader read lists at one index, so storage buffers are cheap
 #define STORED_FOR_VERTICES true
 #else
 #define STORED_FOR_VERTICES false
@@ -19,23 +21,23 @@ TEXEL_LIST(2, surface_texels, vec4, samplerBuffer, STORED_FOR_VERTICES)
 layout(set = 0, binding = 3, scalar) uniform Lights { Light lights[kMaxLights]; };
 TEXEL_LIST(4, probe_texels, vec4, samplerBuffer, STORED_FOR_VERTICES)
 layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
-// 6, 7, 8, 17, 18, 19: captures, see lib/captures.glsl
+// lib/captures.glsl declares the bindings 6, 7, 8, 17 and 18 for captures.
 #define BVH_NODES_BINDING 9
 #define BVH_TRIANGLES_BINDING 10
 #define NORMALS_BINDING 11
 #define PICTURE_BINDING 12
-#define PLACEMENTS_BINDING 13 // by object, see lib/vertex.glsl
+#define PLACEMENTS_BINDING 13 // one Placement for each object (lib/vertex.glsl)
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
 #define FIRST_LAYER_BINDING 16
-#define MIRROR_NODES_BINDING 30 // see lib/next_mirror.glsl
-// From 20 on a technique's own. See lib/material.glsl:
+#define MIRROR_NODES_BINDING 30 // tree over the mirrors' bounds (lib/next_mirror.glsl)
+// Bindings from 20 on belong to the techniques. lib/material.glsl uses these bindings:
 #define DETAILS_BINDING 40
 #define ATTRIBUTES_BINDING 41
 #define TEXELS_BINDING 42
-// From 64 on what lib/texels.glsl keeps in storage buffers.
+// Bindings from 64 on are texel lists that lib/texels.glsl keeps in storage buffers.
 
-// Of an object.
+// Reads the surface of an object.
 Surface surface_of(uint object) {
     uint i = kSurfaceTexels * object;
     vec4 albedo = surface_texels_at(i), emission = surface_texels_at(i + 1u), sphere = surface_texels_at(i + 3u);
@@ -43,7 +45,7 @@ Surface surface_of(uint object) {
                    floatBitsToUint(emission.w) & kBvhIdMask, sphere.xyz, sphere.w);
 }
 
-// Of a mirror, from 0. What is not used is not read.
+// Reads the probe of a mirror, counted from 0. The compiler removes reads of members that the caller does not use.
 Probe probe_at(uint mirror) {
     uint i = kProbeTexels * mirror;
     vec4 sphere = probe_texels_at(i), centre = probe_texels_at(i + 1u);

@@ -1,5 +1,6 @@
-// Specialisation constants under one number each, as bindings are; the engine sets them by their names. A program's
-// own, which nothing else includes, count from OWN_CONSTANTS: a new technique needs no line here.
+// The numbers of specialisation constants. A constant has one number in all shaders, and the engine sets constants by
+// name. Constants of a single technique are numbered from OWN_CONSTANTS, so a new technique needs no entry in this
+// list.
 #ifndef CATOPTRIC_CONSTANTS_GLSL
 #define CATOPTRIC_CONSTANTS_GLSL
 
@@ -33,10 +34,14 @@
 #define ORTHOGRAPHIC_CONSTANT 27
 #define MIRROR_TREE_CONSTANT 28
 #define ONE_LIGHT_CONSTANT 29
-// Of gpu::Device, what it lacks:
+#define PEELS_CONSTANT 35
+#define LIGHTS_MIRRORS_CONSTANT 36
+#define HAS_SHADOW_MAP_CONSTANT 37
+#define HAS_CAPTURE_TABLE_CONSTANT 38
+// Constants for features that a gpu::Device lacks:
 #define TEXELS_IN_STORAGE_CONSTANT 30
 #define DISTANCES_BY_GATHER_CONSTANT 31
-// Of engine/gpu/variants.hpp:
+// Constants that engine/gpu/variants.hpp tunes:
 #define GROUPS_IN_ORDER_CONSTANT 32
 #define BVH_IN_STORAGE_CONSTANT 33
 #define PIXELS_IN_ROWS_CONSTANT 34

@@ -1,6 +1,6 @@
-// What is the same for all that one draw shows of one view, as flat outputs of its vertices. A vertex shader reads
-// buffers once for all lanes of a software driver, a fragment shader lane by lane, wherever the place; a flat input
-// costs it nothing (docs/performance.md). VERTEX_STAGE: the vertex shader's side.
+// Data that is constant for one object in one view, passed from vertex to fragment shader as flat inputs. On a software
+// driver a vertex shader reads a buffer once for all lanes, but a fragment shader reads it for each lane. A flat input
+// costs the fragment shader nothing (docs/performance.md). VERTEX_STAGE selects the outputs of the vertex shader.
 #ifndef CATOPTRIC_DRAWN_GLSL
 #define CATOPTRIC_DRAWN_GLSL
 
@@ -14,21 +14,23 @@ layout(push_constant, scalar) uniform Push { Draw draw; };
 #define DRAWN(place) layout(location = place) flat in
 #endif
 
-// Triangles carry each place that a fragment shader uses; the last of four numbers is another thing's.
+// Each location that a fragment shader uses costs time per triangle. Therefore the fourth component of a location holds
+// an unrelated number, which the second half of the name describes.
 DRAWN(0) vec4 eye_layer;
-DRAWN(5) vec4 position_near; // of the first light, as what follows
-DRAWN(6) vec4 normal_red;    // and the albedo of the object
+DRAWN(5) vec4 position_near; // position and near distance of the first light
+DRAWN(6) vec4 normal_red;    // normal of the first light; red of the object's albedo
 DRAWN(7) vec4 intensity_green;
 DRAWN(8) vec4 right_blue;
 DRAWN(9) vec4 down_ambient;
-DRAWN(10) vec4 forward_faces;        // and the shadow faces of a light
-DRAWN(11) vec4 emission_kind; // of the object; of the light
-DRAWN(12) vec3 light_share;          // reach, cos_outer, sharpness
-DRAWN(13) uvec3 drawn_numbers; // index of the object; number of the mirror that it is, from 1, or 0; of its MaterialParameters
+DRAWN(10) vec4 forward_faces; // forward axis of the first light; number of shadow faces of a light
+DRAWN(11) vec4 emission_kind; // emission of the object; kind of the first light
+DRAWN(12) vec3 light_share;   // reach, cos_outer and sharpness of the first light
+// Index of the object; its mirror number from 1, or 0 if the object is no mirror; index of its MaterialParameters.
+DRAWN(13) uvec3 drawn_numbers;
 
 #ifdef VERTEX_STAGE
 
-// The layer that this instance is drawn into, and the object that it shows.
+// Returns the layer and the object that gl_InstanceIndex encodes.
 uint drawn_layer() { return uint(gl_InstanceIndex) & ((1u << kLayerBits) - 1u); }
 uint drawn_object() { return uint(gl_InstanceIndex) >> kLayerBits; }
 

@@ -1,4 +1,4 @@
-// What is seen where the scene ends, and what it lights.
+// The environment: its radiance for rays that leave the scene, and its light on surfaces.
 #ifndef CATOPTRIC_ENVIRONMENT_GLSL
 #define CATOPTRIC_ENVIRONMENT_GLSL
 
@@ -8,11 +8,11 @@
 const uint kNoEnvironment = 0u, kMapEnvironment = 1u, kStudioEnvironment = 2u;
 layout(constant_id = ENVIRONMENT_CONSTANT) const uint environment_kind = kNoEnvironment;
 layout(set = 0, binding = 28, scalar) uniform SkyBuffer { Sky value; } sky;
-TEXEL_LIST(29, sky_texels, vec4, samplerBuffer, false) // row by row
+TEXEL_LIST(29, sky_texels, vec4, samplerBuffer, false) // the environment map's texels, row by row
 
 vec3 sky_texel(uint column, uint row) { return sky_texels_at(row * sky.value.size.x + column).rgb; }
 
-// Radiance from a direction, unit.
+// Returns the environment's radiance in a unit direction.
 vec3 environment(vec3 direction) {
     if (environment_kind == kNoEnvironment) return vec3(0);
     vec3 d = environment_direction(direction, sky.value.turn.x, sky.value.turn.y);
@@ -22,7 +22,7 @@ vec3 environment(vec3 direction) {
                                  mix(sky_texel(at.left, at.below), sky_texel(at.right, at.below), at.across), at.down);
 }
 
-// What falls on a surface from all around, whatever hides it.
+// Returns the environment's irradiance on a surface with the given unit normal. Objects do not occlude this light.
 vec3 sky_light(vec3 normal) {
     return environment_kind == kNoEnvironment ? vec3(0) : irradiance(sky.value.irradiance, normal);
 }

@@ -1,6 +1,7 @@
-// The one shading of both worlds. The including shader defines
+// Shading that the rasteriser and the ray tracer share. Before the include, a shader defines the function
 //   float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance)
-// before it includes this; it is asked only where both cosines are positive.
+// that returns the visible share of a light. Shading calls light_visible only if the cosines at light and surface are
+// both positive.
 #ifndef CATOPTRIC_LIGHTING_GLSL
 #define CATOPTRIC_LIGHTING_GLSL
 
@@ -8,7 +9,7 @@
 #include "lib/environment.glsl"
 #include "lib/lights.glsl"
 
-// As light_term, for lights of every kind.
+// Computes direction, distance and factor of a light as light_term does, for lights of every kind.
 bool evaluate_light(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
     if (is_directional(light)) return parallel_term(normal, light_at(light).forward, direction, distance, factor);
     bool of_two_sides = light_kinds != 0u && light_at(light).kind == kLightOfTwoSides;
@@ -23,13 +24,14 @@ bool evaluate_light(uint light, vec3 position, vec3 normal, out vec3 direction, 
     return factor > 0.0;
 }
 
-// `facet`: along the triangle's normal, of any length; zero where light counts by `normal` alone (lit_facet).
+// Returns the diffuse and emitted radiance of a surface point. `facet` points along the triangle's normal and has any
+// length. A zero `facet` makes `normal` alone decide how much light counts (lit_facet).
 vec3 shade(Surface surface, vec3 position, vec3 normal, vec3 facet) {
     vec3 direct = vec3(0);
     uint all = one_light != 0u ? 1u : frame.value.light_count;
     uint count = surface.albedo == vec3(0) ? 0u : all;
     uint light = 0u;
-    do { // asked at its end: see lib/trace.glsl
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;
         bool is_lit = light < count && evaluate_light(light, position, normal, direction, distance, factor);

@@ -1,16 +1,16 @@
-// Which kinds of lights a scene has, and what is known of them.
+// Access to the lights of a scene.
 #ifndef CATOPTRIC_LIGHTS_GLSL
 #define CATOPTRIC_LIGHTS_GLSL
 
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 
-// 1: some light has no surface, or two sides.
+// 1: some light has no surface, or is a lamp that emits on both sides.
 layout(constant_id = LIGHT_KINDS_CONSTANT) const uint light_kinds = 0u;
-// 1: there is one light, whose data are at hand: no loop (docs/performance.md).
+// 1: the scene has exactly one light, whose data are in variables, so that shading needs no loop (docs/performance.md).
 layout(constant_id = ONE_LIGHT_CONSTANT) const uint one_light = 0u;
 
-#ifndef CATOPTRIC_DRAWN_GLSL // of a compute shader, which reads them once for all lanes as long as none went another way
+#ifndef CATOPTRIC_DRAWN_GLSL // a compute shader reads light data once for all lanes, as long as no lanes have diverged
 Light only_light = lights[0];
 Light first_light() { return only_light; }
 float ambient_of_frame = frame.value.ambient;

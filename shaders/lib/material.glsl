@@ -1,22 +1,23 @@
-// What surfaces are where they are more than one colour: textures, colours at vertices, parts that are cut out, and
-// how much of it a sharp one reflects. The same for raster and rays; a scene without such surfaces pays nothing.
+// Materials that vary over a surface: textures, vertex colours, alpha tests, and the reflectance of smooth surfaces.
+// The rasteriser and the ray tracer share this code. Specialisation constants remove it for scenes without such
+// materials.
 #ifndef CATOPTRIC_MATERIAL_GLSL
 #define CATOPTRIC_MATERIAL_GLSL
 
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 
-layout(constant_id = DETAILS_CONSTANT) const uint details = 0u; // 1: some surface is more than one colour, or has two sides
-layout(constant_id = MASKS_CONSTANT) const uint masks = 0u;     // 1: something is cut out
-TEXEL_LIST(DETAILS_BINDING, detail_quads, uvec4, usamplerBuffer, false) // see MaterialParameters
-TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // two each
-// First what 256 bytes of sRGB are in linear light, as floats; then texels, red in the low byte.
+layout(constant_id = DETAILS_CONSTANT) const uint details = 0u; // 1: some material needs its MaterialParameters
+layout(constant_id = MASKS_CONSTANT) const uint masks = 0u;     // 1: some material has an alpha test
+TEXEL_LIST(DETAILS_BINDING, detail_quads, uvec4, usamplerBuffer, false) // list of MaterialParameters
+TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // two texels for each attribute
+// List of words: first a table that maps an sRGB byte to linear light as a float, then all texels, red in the low byte.
 TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
-// Four words of a MaterialParameters.
+// Returns four words of a MaterialParameters.
 uvec4 detail_quad(uint detail, uint quad) { return detail_quads_at(kMaterialQuads * detail + quad); }
 
-// What is not used is not read.
+// Reads a MaterialParameters. The compiler removes reads of members that the caller does not use.
 MaterialParameters detail_at(uint detail) {
     uvec4 q0 = detail_quad(detail, 0), q1 = detail_quad(detail, 1), q2 = detail_quad(detail, 2), q3 = detail_quad(detail, 3);
     uvec4 q4 = detail_quad(detail, 4), q5 = detail_quad(detail, 5), q6 = detail_quad(detail, 6), q7 = detail_quad(detail, 7);
@@ -41,7 +42,7 @@ vec4 texel_colour(TextureUse use, int x, int y) {
                 uintBitsToFloat(texture_words_at(texel >> 16u & 0xffu)), float(texel >> 24u) / 255.0);
 }
 
-// `uv`: both texture spaces. White where there is no texture.
+// Samples a texture. `uv` holds both sets of texture coordinates. Returns white if the material has no such texture.
 vec4 texture_colour(TextureUse use, vec4 uv) {
     if (use.size == 0u) return vec4(1);
     vec3 place = vec3((use.how & kTextureSecondUv) != 0u ? uv.zw : uv.xy, 1);
@@ -58,7 +59,7 @@ vec4 texture_colour(TextureUse use, vec4 uv) {
                mix(texel_colour(use, left, bottom), texel_colour(use, right, bottom), across), down);
 }
 
-// Whether the surface is not there. `number`: of its MaterialParameters.
+// Returns whether the alpha test cuts the surface out at a point. `number` is the index of its MaterialParameters.
 bool fails_alpha_test(uint number, Attribute at) {
     MaterialParameters detail = detail_at(number);
     float alpha = detail.alpha * at.colour.a;
@@ -66,20 +67,21 @@ bool fails_alpha_test(uint number, Attribute at) {
     return !(alpha * texture_colour(detail.albedo, at.uv).a >= detail.alpha_cutoff);
 }
 
-// The normal on the side of the facet that `direction` comes from, where the surface has two sides.
+// Returns the shading normal. For a two-sided material, the normal is turned to the side of the facet from which
+// `direction` comes.
 vec3 turned_normal(uint detail, vec3 normal, vec3 facet, vec3 direction) {
     if ((detail_at(detail).flags & kMaterialTurns) == 0u) return normal;
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
 
-// The facet as `shade` wants it: zero where the mesh's normals nowhere leave those of its facets.
+// Returns the facet normal for `shade`, or zero if the mesh's vertex normals agree with its facet normals everywhere.
 vec3 lit_facet(uint detail, vec3 facet) {
     if (details == 0u || (detail_at(detail).flags & kMaterialFacets) == 0u) return vec3(0);
     return facet;
 }
 
-// What the surface is here: albedo becomes what is left for diffuse light, reflectance what a ray that is mirrored
-// counts. `cosine`: between the normal and the direction to who looks.
+// Evaluates the material at a point. Sets the surface's albedo to the diffuse part, and its reflectance to the weight
+// of a mirrored ray. `cosine` is the cosine between the normal and the direction to the viewer.
 void evaluate(inout Surface surface, Attribute at, float cosine) {
     MaterialParameters detail = detail_at(surface.detail);
     bool is_constant = (detail.flags & kMaterialConstant) != 0u;
@@ -97,7 +99,7 @@ void evaluate(inout Surface surface, Attribute at, float cosine) {
     bool is_sharp = detail.roughness * rough.g <= detail.max_specular_roughness;
     if (!is_constant && is_sharp)
         surface.reflectance = schlick(mix(detail.f0, colour, metallic), mix(detail.f90, vec3(1), metallic), cosine);
-    // The metal part of what is rough is drawn as diffuse.
+    // A rough metal is drawn as if it were diffuse.
     if (is_constant || is_sharp) colour *= (1.0 - metallic) * (1.0 - surface.reflectance);
     surface.albedo = colour;
 }

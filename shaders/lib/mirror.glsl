@@ -1,8 +1,8 @@
-// A mirror that looks its reflection up in captures. The including shader (one for each technique)
-// defines, before it includes this,
+// Draws a mirror that looks its reflection up in captures. Each technique has a shader that includes this file and
+// first defines the function
 //   Lookup search(uint mirror, vec3 offset, vec3 direction)
-// where in capture `mirror` (from 0) to find what arrives against `direction` (unit) at the point
-// `offset` from the capture's centre, scene units.
+// The function finds the surface that a reflected ray meets in capture `mirror` (from 0). The ray starts at `offset`
+// from the capture's centre, in scene units, and runs along the unit vector `direction`.
 #ifndef CATOPTRIC_MIRROR_GLSL
 #define CATOPTRIC_MIRROR_GLSL
 
@@ -10,33 +10,33 @@
 #include "lib/next_mirror.glsl"
 #include "lib/probe.glsl"
 #include "lib/surface.glsl"
-#ifdef LIT
+#ifndef ABLATE
 #include "lib/lit.glsl"
 #endif
 
-// Other mirrors that the reflected ray is followed through. Exact spheres are met before the search, where a
-// test of the ray costs no fetch; those of any other shape where a search ends on them.
+// The number of further mirrors through which the reflected ray is followed. Exact spheres are intersected before the
+// search, because the intersection costs no texture fetch. Other mirrors are met if a search ends on them.
 layout(constant_id = HOPS_CONSTANT) const uint hops = 0u;
-// 1: captures keep number and normal of their surfaces; always where some mirror is no exact sphere.
+// 1: captures store number and normal of their surfaces, as is needed if some mirror is no exact sphere.
 layout(constant_id = HAS_SURFACES_CONSTANT) const uint has_surfaces = 0u;
-// 1: where a mirror's own capture does not know, those of the others are asked.
+// 1: where a search in the mirror's own capture ends unknown, the other mirrors' captures are searched, too.
 layout(constant_id = ASKS_OTHERS_CONSTANT) const uint asks_others = 0u;
 const uint kShowColour = 0u, kShowState = 1u, kShowResidual = 2u;
 layout(constant_id = SHOW_CONSTANT) const uint show = kShowColour;
 
-// The number of the tracing that takes over where the search ends unknown; 0: none does.
+// The number of the tracer that takes over pixels where the search ends unknown; 0: no tracer does.
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
-// 1: it takes over everywhere, no answer is believed.
+// 1: the tracer takes over all pixels, whatever the search answers.
 layout(constant_id = TRUSTS_NONE_CONSTANT) const uint trusts_none = 0u;
 
-// The reflected ray that is looked up: it leaves mirror `mirror` (from 0) at `at`.
+// The reflected ray that is looked up. The ray leaves mirror `mirror` (from 0) at the point `at`.
 struct Path {
     uint mirror;
     vec3 at;
-    vec3 direction; // unit
-    vec3 centre;    // of the mirror's capture
-    vec3 weight;    // reflectances on the way from the eye
-    uint hops;      // mirrors met after the one that is drawn
+    vec3 direction; // unit direction of the reflected ray
+    vec3 centre;    // centre of the mirror's capture
+    vec3 weight;    // product of the reflectances on the way from the eye
+    uint hops;      // number of mirrors that the path met after the drawn mirror
 };
 
 bool is_mirror(vec4 surface) { return surface.x > 0.0; }
@@ -45,7 +45,8 @@ vec4 captured_surface(uint mirror, vec3 direction) {
     RETURN_OF_ARRAY(mirror, SURFACE)
 }
 
-// Of a ray that meets the mirror. A mirror without a capture is black where others show it.
+// Returns the reflectance of a mirror for a ray that meets the mirror. A mirror without a capture has reflectance 0, so
+// it is black in other mirrors.
 vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
     if (!is_captured(mirror)) return vec3(0);
     vec3 reflectance = probe_at(mirror).reflectance;
@@ -53,7 +54,8 @@ vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
     return is_metal ? schlick(reflectance, vec3(1), abs(dot(n, direction))) : reflectance;
 }
 
-// On from the exact sphere that the ray meets next, if there is one in sight.
+// Reflects the path at the next exact sphere that the ray meets. Returns false, without a change, if the ray meets no
+// sphere or the sphere is hidden.
 bool follow_sphere(inout Path path) {
     uint next;
     float t;
@@ -61,7 +63,7 @@ bool follow_sphere(inout Path path) {
     if (!first_sphere(ray, path.mirror, next, t)) return false;
     vec3 error;
     vec3 met = sphere_point(probe_at(next).sphere, probe_at(next).radius, ray, t, error);
-    // Something that stands more than the sphere's radius in front of it hides it.
+    // A captured surface that is more than the sphere's radius nearer hides the sphere.
     vec3 seen = met - path.centre;
     if (captured_distance(path.mirror, normalize(seen)) + probe_at(next).radius < length(seen)) return false;
     vec3 n = (met - probe_at(next).sphere) / probe_at(next).radius;
@@ -70,13 +72,16 @@ bool follow_sphere(inout Path path) {
     return true;
 }
 
-// On from a mirror of any shape that the search ended on: from where the ray meets its tangent plane.
+// Reflects the path at the mirror, of any shape, on which the search ended. The reflected ray starts where the path
+// meets the mirror's tangent plane. Returns false, without a change, if the search ended on no such mirror.
 bool follow_captured(inout Path path, Lookup lookup) {
     vec4 surface = captured_surface(path.mirror, lookup.direction);
     if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror(surface)) return false;
     uint next = uint(surface.x) - 1u;
-    if (probe_at(next).radius > 0.0) return false; // an exact sphere that the ray is known to miss
-    if (details != 0u && probe_at(next).kind == kProbeLit) return false; // only the capture knows its own light
+    // Exact sphere: follow_sphere has found that the ray misses the sphere.
+    if (probe_at(next).radius > 0.0) return false;
+    // Only the capture knows the light of a lit mirror.
+    if (details != 0u && probe_at(next).kind == kProbeLit) return false;
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
@@ -86,30 +91,31 @@ bool follow_captured(inout Path path, Lookup lookup) {
     return true;
 }
 
-#ifndef OWN_LOOKUP_COLOUR // the including shader's own, where captures hold more than one colour
+#ifndef OWN_LOOKUP_COLOUR // the including shader may define these functions itself, for captures of two layers
 vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
-// How far from the centre the last search, or whoever sets it, looks.
+// Returns the distance from the capture's centre to the last found surface; 0: not known.
 float last_hit_distance() { return 0.0; }
 void set_last_hit_distance(float distance) {}
 #endif
 
-// How far along the path a search in capture `mirror` ends.
+// Returns the distance along the path at which a search in capture `mirror` ends.
 float end_of(uint mirror, Path path, Lookup lookup) {
     float distance = last_hit_distance() > 0.0 ? last_hit_distance() : captured_distance(mirror, lookup.direction);
     vec3 end = probe_at(mirror).centre + lookup.direction * distance;
     return lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
 }
 
-// Where another capture knows how the ray ends, if one does. What a mirror shows there is for another eye.
+// Searches the other mirrors' captures for the end of the ray, and takes the first that finds a surface. A search that
+// ends on a mirror does not count, because the capture shows that mirror's reflection for another eye.
 void fall_back_to_other_captures(inout Path path, inout Lookup lookup) {
     float distance = last_hit_distance();
     Ray ray = Ray(path.at, path.direction, 0u);
-    // The first mirror that the ray meets, or may, is the same whoever is asked.
+    // The first mirror whose sphere or bounds the ray meets is the same for all captures.
     uint first;
     float met;
     bool meets = mirror_tree != 0u && first_by_tree(ray, path.mirror, false, first, met);
     uint next = 0u, count = frame.value.mirror_count;
-    do { // loops ask at their end: see lib/trace.glsl
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         uint i = next++;
         if (i == path.mirror || !is_captured(i)) continue;
         Lookup other = search(i, path.at - probe_at(i).centre, path.direction);
@@ -124,7 +130,7 @@ void fall_back_to_other_captures(inout Path path, inout Lookup lookup) {
     set_last_hit_distance(distance);
 }
 
-// The path's end and where it is to be looked up.
+// Follows the path through further mirrors to its end. Returns the place of the path's end in a capture.
 Lookup follow(inout Path path) {
     Lookup lookup;
     bool goes_on;
@@ -157,9 +163,7 @@ vec3 shown(vec3 colour, Lookup lookup) {
 
 void main() {
     vec3 facet = normalize(cross(dFdx(from_eye), dFdy(from_eye)));
-#ifdef PEEL
-    if (is_peeled()) discard; // not before the derivatives
-#endif
+    if (peels != 0u && is_peeled()) discard; // a discard before the derivatives would make them undefined
     leave_out_what_is_cut();
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
@@ -170,15 +174,13 @@ void main() {
     vec3 colour = ablated_radiance(path, lookup);
 #else
     vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
-#ifdef LIT
-    colour += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
-#endif
+    if (lights_mirrors != 0u) colour += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
 #endif
     write_surface(shown(colour, lookup));
     if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) out_distance = float(tracer);
     if (keeps_surface == 0u)
         out_more = vec4(lookup.direction, float(1u + lookup.state) + 4.0 * lookup.layer + 8.0 * float(path.mirror) +
-                                              clamp(lookup.residual, 0.0, 0.996)); // below one at 8 bits of mirror
+                                              clamp(lookup.residual, 0.0, 0.996)); // residual: a fraction below 1
 }
 
 #endif

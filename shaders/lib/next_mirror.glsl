@@ -1,21 +1,23 @@
-// Which other mirror a ray meets first. Few are asked one by one. More are found by a tree over their bounds, which is
-// walked without a stack, and with the same answer: boxes are wider than whatever the tests let through.
+// Finds the first other mirror that a ray meets. Few mirrors are tested one by one. Many mirrors are found by a
+// stackless walk of a tree over their bounds. Both ways give the same answer, because the tree's boxes are widened by
+// more than the errors of the mirror tests.
 #ifndef CATOPTRIC_NEXT_MIRROR_GLSL
 #define CATOPTRIC_NEXT_MIRROR_GLSL
 
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 
-// 1: there is a tree (engine/render/mirror_tree.hpp).
+// 1: the mirrors have a tree (engine/render/mirror_tree.hpp).
 layout(constant_id = MIRROR_TREE_CONSTANT) const uint mirror_tree = 0u;
-// Two a node: lowest corner, mirror from 1 or 0; highest corner, number of the node after all that is below it.
+// Two texels for each tree node: lowest corner of the box and mirror number (from 1; 0: inner node); highest corner and
+// the number of the node that follows the node's subtree.
 TEXEL_LIST(MIRROR_NODES_BINDING, mirror_nodes, vec4, samplerBuffer, false)
 
-// An accepted sphere may lie 22 roundings of the largest coordinate aside of a ray, and its first point by the root of
-// what that is before it is entered; box_ray's slack is 16 of them, and three times that is more than both.
+// The factor by which boxes are widened for spheres. The sphere test accepts a sphere that misses the ray by up to 22
+// roundings of the largest coordinate. box_ray widens boxes by 16 roundings, and 3 times 16 is more than 22.
 const float kSphereSlack = 3.0;
 
-// Where the ray meets a mirror that is an exact sphere, or the bounds of any other.
+// Intersects the ray with a mirror: with its exact sphere, or with the bounds of a mirror of another shape.
 bool meets_mirror(uint mirror, Ray ray, out float t) {
     Probe probe = probe_at(mirror);
     return probe.radius > 0.0
@@ -23,8 +25,8 @@ bool meets_mirror(uint mirror, Ray ray, out float t) {
                : slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest, 1.0), kLargest, t);
 }
 
-// The first mirror on the ray, but for `except`; of equally near ones that with the lowest number. `only_spheres`: those
-// that are no exact sphere are passed by.
+// Finds the first mirror on the ray other than `except`. Of equally near mirrors the lowest number wins. `only_spheres`
+// ignores mirrors that are no exact sphere.
 bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out float t) {
     vec4 low = mirror_nodes_at(0u), high = mirror_nodes_at(1u);
     BoxRay boxes = box_ray(ray, low.xyz, high.xyz, kSphereSlack);
@@ -32,13 +34,13 @@ bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out 
     bool found = false;
     t = kLargest;
     uint node = 0u;
-    do { // loops ask at their end: see lib/trace.glsl
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         low = mirror_nodes_at(2u * node);
         high = mirror_nodes_at(2u * node + 1u);
         float enters, met;
         bool inside = slab_test(low.xyz, high.xyz, boxes, t, enters);
         node = inside ? node + 1u : floatBitsToUint(high.w) & kBvhIdMask;
-        uint number = floatBitsToUint(low.w) & kBvhIdMask; // from 1
+        uint number = floatBitsToUint(low.w) & kBvhIdMask; // mirror number, from 1
         uint mirror = number - 1u;
         if (!inside || number == 0u || mirror == except || (only_spheres && !(probe_at(mirror).radius > 0.0))) continue;
         if (!meets_mirror(mirror, ray, met)) continue;
@@ -51,7 +53,7 @@ bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out 
     return found;
 }
 
-// The first exact sphere on the ray, but for `except`.
+// Finds the first exact sphere on the ray, other than mirror `except`.
 bool first_sphere(Ray ray, uint except, out uint first, out float t) {
     if (mirror_tree != 0u) return first_by_tree(ray, except, true, first, t);
     bool found = false;
@@ -70,7 +72,7 @@ bool first_sphere(Ray ray, uint except, out uint first, out float t) {
     return found;
 }
 
-// Whether the ray meets another mirror than `except`, or its bounds, not after `end`.
+// Returns whether the ray meets a mirror other than `except`, or that mirror's bounds, at or before `end`.
 bool meets_mirror_before(Ray ray, uint except, float end) {
     uint i = 0u, count = frame.value.mirror_count;
     bool meets = false;

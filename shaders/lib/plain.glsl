@@ -1,19 +1,20 @@
-// What ray tracers commonly do where this one follows a rule of robustness: for measuring what a rule costs and
-// what it is worth (docs/robustness.md). `without` names the one rule that is left out.
+// Common, less robust methods of ray tracers, to measure the cost and the benefit of each of this tracer's robustness
+// rules (docs/robustness.md). `without` is the number of the rule that a common method replaces; 0 keeps all rules.
 #ifndef CATOPTRIC_PLAIN_GLSL
 #define CATOPTRIC_PLAIN_GLSL
 
 #include "lib/constants.glsl"
 #include "lib/math.glsl"
 
-// In the order of raytrace's knob.
+// Numbers of the robustness rules, in the order of the `without` knob of technique `raytrace`.
 const uint kWatertight = 1u, kBoxSlack = 2u, kSpawnBound = 3u, kShadowEnd = 4u, kStableSphere = 5u;
 layout(constant_id = WITHOUT_CONSTANT) const uint without = 0u;
-layout(constant_id = FIXED_OFFSET_CONSTANT) const float fixed_offset = 0.0; // scene units, in place of kSpawnBound
+// Offset off a surface without kSpawnBound, scene units.
+layout(constant_id = FIXED_OFFSET_CONSTANT) const float fixed_offset = 0.0;
 
 bool keeps(uint rule) { return without != rule; }
 
-// Moeller and Trumbore 1997, without a threshold.
+// Intersects a ray with a triangle (Moeller and Trumbore 1997), without an epsilon.
 bool plain_triangle_test(vec3 a, vec3 b, vec3 c, Ray ray, out float t, out vec3 weights) {
     vec3 e = b - a, f = c - a;
     vec3 p = cross(ray.direction, f);
@@ -28,7 +29,7 @@ bool plain_triangle_test(vec3 a, vec3 b, vec3 c, Ray ray, out float t, out vec3 
 
 BoxRay plain_box_ray(Ray ray) { return BoxRay(ray.origin, ray.origin, 1.0 / ray.direction); }
 
-// Kay and Kajiya 1986.
+// Intersects a ray with a box by slabs (Kay and Kajiya 1986).
 bool plain_slab_test(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near) {
     vec3 t_lo = (lo - ray.near_origin) * ray.inverse, t_hi = (hi - ray.near_origin) * ray.inverse;
     vec3 enter = min(t_lo, t_hi), leave = max(t_lo, t_hi);
@@ -36,7 +37,7 @@ bool plain_slab_test(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near
     return t_near <= min(t_max, min(leave.x, min(leave.y, leave.z)));
 }
 
-// The formula of school books.
+// Intersects a ray with a sphere by the textbook quadratic formula.
 bool plain_sphere_test(vec3 centre, float radius, Ray ray, float t_max, out float t) {
     vec3 f = ray.origin - centre;
     float a = dot(ray.direction, ray.direction), half_b = dot(f, ray.direction);

@@ -1,27 +1,27 @@
-// Looking into a capture: colour, distance, and what a search for the right direction returns.
+// Lookups in a capture: colour, distance, and the result of a search.
 #ifndef CATOPTRIC_PROBE_GLSL
 #define CATOPTRIC_PROBE_GLSL
 
 #include "lib/captures.glsl"
 #include "lib/environment.glsl"
 
-// A hit: the search ended on a captured surface. Unknown: the ray went behind something that hides
-// the rest of it from the capture's centre. A miss: the ray leaves without meeting anything captured.
+// Answers of a search. Hit: the search ended on a captured surface. Unknown: the ray went behind a surface that hides
+// the rest of the ray from the capture's centre. Miss: the ray leaves the scene without meeting a captured surface.
 const uint kHit = 0u, kUnknown = 1u, kMiss = 2u;
 
-// Where in a capture the radiance that arrives along a ray is to be found.
+// The result of a search: the place in a capture that shows the radiance along a reflected ray.
 struct Lookup {
-    vec3 direction; // from the capture's centre, unit
-    uint state;
-    float residual; // relative distance between the found point and the captured surface there
-    float layer;    // 0: the nearest surface; 1: the one behind it, where captures have two; see kLeaves
+    vec3 direction; // unit direction of the lookup from the capture's centre
+    uint state;     // answer of the search: kHit, kUnknown or kMiss
+    float residual; // relative distance between the found point and the captured surface in its direction
+    float layer;    // capture layer: 0 for the nearest surface, 1 for the surface behind it; or kLeaves
 };
 
-// Lookup::layer of an unknown whose best guess is that the ray leaves: it went behind a silhouette beside
-// which nothing was captured. Its direction is the ray's own, and it sees the environment.
+// Lookup::layer of an unknown ray that probably leaves the scene, because it went behind a silhouette beside which no
+// surface was captured. The lookup's direction is then the ray's own, and its colour is the environment's.
 const float kLeaves = 1.0;
 
-// 1: colours are mixed only from texels of one object.
+// 1: a lookup interpolates colours only between texels of one object.
 layout(constant_id = BY_OBJECT_CONSTANT) const uint by_object = 0u;
 
 vec3 bilinear_colour(uint mirror, vec3 direction) {
@@ -29,7 +29,7 @@ vec3 bilinear_colour(uint mirror, vec3 direction) {
     RETURN_OF_ARRAY(mirror, COLOUR)
 }
 
-// Each of the four texels around a direction: which object it shows, and red, green or blue.
+// Each of these functions gathers one value of the four texels around a direction: object number, red, green or blue.
 vec4 object_numbers(uint mirror, vec3 direction) {
 #define NUMBERS(i) textureGather(SURFACE_CUBES(i), vec4(direction, cube_of(mirror)), 0)
     RETURN_OF_ARRAY(mirror, NUMBERS)
@@ -47,7 +47,7 @@ vec4 four_blues(uint mirror, vec3 direction) {
     RETURN_OF_ARRAY(mirror, BLUES)
 }
 
-// Texels along an edge of the mirror's capture.
+// Returns the number of texels along a face's edge of the mirror's capture.
 int surface_edge(uint mirror) {
 #define SURFACE_EDGE(i) textureSize(SURFACE_CUBES(i), 0).x
     RETURN_OF_ARRAY(mirror, SURFACE_EDGE)
@@ -57,14 +57,15 @@ int distance_edge(uint mirror) {
     RETURN_OF_ARRAY(mirror, DISTANCE_EDGE)
 }
 
-// How much each of the four texels around a direction counts, in the order of textureGather.
+// Returns the bilinear weights of the four texels around a direction, in the order of textureGather.
 vec4 texel_weights(vec3 direction, int edge) {
     vec3 place = cube_coordinates(cube_face(direction), direction);
     vec2 share = fract((place.xy / place.z * 0.5 + 0.5) * float(edge) - 0.5);
     return vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
 }
 
-// Of the objects in the four texels around a direction the one with the greatest weight, from its texels only.
+// Returns the colour of the object with the greatest weight among the four texels around a direction. Only this
+// object's texels contribute.
 vec3 colour_of_object(uint mirror, vec3 direction) {
     vec4 numbers = object_numbers(mirror, direction);
     if (all(equal(numbers, numbers.xxxx))) return bilinear_colour(mirror, direction);
@@ -83,29 +84,30 @@ vec3 captured_colour(uint mirror, vec3 direction) {
     return by_object != 0u ? colour_of_object(mirror, direction) : bilinear_colour(mirror, direction);
 }
 
-// What a search that captures one layer found: the environment where it takes the ray to leave.
+// Returns the colour that a search in a capture of one layer found. A ray that leaves the scene sees the environment.
 vec3 found_colour(uint mirror, Lookup lookup) {
     bool leaves = lookup.state == kUnknown && lookup.layer == kLeaves;
     if (leaves || (environment_kind != kNoEnvironment && lookup.state == kMiss)) return environment(lookup.direction);
     return captured_colour(mirror, lookup.direction);
 }
 
-#ifdef ABLATE // see lib/ablate.glsl
+#ifdef ABLATE // functions that lib/ablate.glsl defines
 bool ablates(uint cause);
 float exact_distance(uint mirror, vec3 direction);
 #endif
 
-// 0: only for measuring what the test costs and what it is worth (docs/robustness.md).
+// 1: lookups test whether a texel holds no surface. 0 measures the cost and the benefit of the test
+// (docs/robustness.md).
 layout(constant_id = TESTS_VOID_CONSTANT) const uint tests_void = 1u;
 
-// 1: the device cannot filter 32-bit floats, so this program does.
+// 1: the device cannot filter textures of 32-bit floats, so the shader interpolates distances itself.
 layout(constant_id = DISTANCES_BY_GATHER_CONSTANT) const uint distances_by_gather = 0u;
 vec4 four_distances(uint mirror, vec3 direction) {
 #define DISTANCES(i) textureGather(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_of(mirror)), 0)
     RETURN_OF_ARRAY(mirror, DISTANCES)
 }
 
-// As stored, bilinear, and of the nearest texel.
+// Returns the stored distance in a direction, interpolated bilinearly. nearest_stored_distance takes the nearest texel.
 float stored_distance(uint mirror, vec3 direction) {
     if (distances_by_gather != 0u)
         return dot(texel_weights(direction, distance_edge(mirror)), four_distances(mirror, direction));
@@ -117,15 +119,15 @@ float nearest_stored_distance(uint mirror, vec3 direction) {
     RETURN_OF_ARRAY(mirror, NEAREST_STORED)
 }
 
-// Distance from the capture's centre, bilinear. Where one of the four texels holds nothing
-// (+infinity), the sum is not finite and the nearest texel decides.
+// Returns the captured distance in a direction, scene units, interpolated bilinearly. If one of the four texels holds
+// no surface (+infinity), the sum is not finite, and the nearest texel decides.
 float captured_distance(uint mirror, vec3 direction) {
 #ifdef ABLATE
     if (ablates(kAblateDistance)) return exact_distance(mirror, direction);
 #endif
     float d = stored_distance(mirror, direction);
     if (tests_void != 0u && is_miss(d)) d = nearest_stored_distance(mirror, direction);
-    precise float in_units = d * stored_unit_of(mirror); // or what follows could be reordered around it
+    precise float in_units = d * stored_unit_of(mirror); // `precise` forbids the compiler to reorder this product
     return in_units;
 }
 

@@ -1,4 +1,4 @@
-// What dispatches of ray tracing share: which pixels a work group takes, and the counting of rays.
+// Code that all ray tracing dispatches share: the order of work groups, and the ray counters.
 #ifndef CATOPTRIC_RAY_COUNTS_GLSL
 #define CATOPTRIC_RAY_COUNTS_GLSL
 
@@ -8,8 +8,9 @@ layout(set = 0, binding = COUNTERS_BINDING, scalar) buffer CountersBuffer { Coun
 
 layout(constant_id = GROUPS_IN_ORDER_CONSTANT) const uint groups_in_order = 0u;
 
-// Neighbouring work groups cost alike, and a software driver gives each of its threads one contiguous
-// run of them: scattered, the threads finish together. Rows of work groups follow each other.
+// Returns the number of the work group whose pixels this work group traces. A software driver gives each of its threads
+// a contiguous run of work groups, and neighbouring work groups cost about the same. Scattered numbers let all threads
+// finish at about the same time. Work groups are numbered row by row.
 uint work_group() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 #ifdef NAIVE
@@ -21,7 +22,8 @@ uint work_group() {
 #endif
 }
 
-// Once for every invocation, at its end; `inside`: it traced a camera ray.
+// Adds the rays of an invocation to the counters. Every invocation calls this function once, at its end. `inside` says
+// whether the invocation traced a camera ray.
 void count(bool inside) {
     uint primary = subgroupAdd(inside ? 1u : 0u);
     uint mirrors = subgroupAdd(mirror_rays);

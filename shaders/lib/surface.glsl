@@ -1,4 +1,4 @@
-// What the fragment shaders of captures and view share: inputs, outputs, and how a distance is stored.
+// Code that the fragment shaders of captures and of the camera's view share: inputs, outputs and stored distances.
 #ifndef CATOPTRIC_SURFACE_GLSL
 #define CATOPTRIC_SURFACE_GLSL
 
@@ -8,55 +8,64 @@
 #include "lib/material.glsl"
 
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 from_eye; // position - eye
-layout(location = 3) in vec4 in_uv; // see Attribute
+layout(location = 2) in vec3 from_eye; // vector from the eye to the surface: position - eye
+layout(location = 3) in vec4 in_uv; // Attribute::uv, two sets of texture coordinates
 layout(location = 4) in vec4 in_colour;
 
 layout(location = 0) out vec4 out_colour;
-// Captures that hold distances keep them. A view that leaves pixels to tracing keeps which tracer takes each, from 1;
-// there distance_scale is 0.
+// A capture stores the distance from its centre. A camera view that leaves pixels to tracing instead stores the number,
+// from 1, of the tracer that takes the pixel. In such a view distance_scale is 0.
 layout(location = 1) out float out_distance;
-// Views keep where a mirror looked: direction; 1 + state + 4 layer + 8 mirror + residual, as a number; else 0.
-// Some captures keep the surface: mirror n as n, from 1, any other object as a negative number; its normal.
+// The camera's view stores the lookup of a mirror: its direction, and 1 + state + 4 layer + 8 mirror + residual as one
+// number. Pixels without a mirror store 0.
+// Some captures store the surface: the number of a mirror, from 1, or a negative number for another object; its normal.
 layout(location = 2) out vec4 out_more;
 
-// Where the surface is. A perspective interpolation errs along the ray from the eye, by a part of its length: the floor
-// that a low eye sees stays a floor. Interpolated itself, the position would err towards the origin instead.
+// Returns the position of the surface, scene units. `from_eye` is interpolated instead of the position, because its
+// error lies along the ray from the eye. An interpolated position would have an error towards the origin, off the
+// surface.
 vec3 surface_position() { return eye() + from_eye; }
 
-// The way that who looks looks here, of any length.
+// Returns the direction from the viewer to the surface, of any length.
 vec3 seen_along() { return orthographic != 0u ? views[draw.first_view].forward : from_eye; }
 
-// How far that may be off along a unit normal. No specification bounds what a rasteriser's interpolation may do:
-// 2^-16 of the way along the ray and 2^-20 across it are some ten times what was seen (docs/extremes.md).
+// Returns the largest error of surface_position along a unit normal. No specification bounds the error of a
+// rasteriser's interpolation. The assumed 2^-16 of the distance along the ray and 2^-20 across the ray are about ten
+// times the measured errors (docs/extremes.md).
 float surface_error(vec3 n) {
     return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n), gamma_bound(2) * abs(eye() + from_eye));
 }
 
-// 1 stores scene units; unorm8 stores distance / range.
+// The factor from distance to stored distance: 1 stores scene units, and unorm8 stores distance / range.
 layout(constant_id = DISTANCE_SCALE_CONSTANT) const float distance_scale = 1.0;
+
+// 1: mirrors show their diffuse and emitted light, too.
+layout(constant_id = LIGHTS_MIRRORS_CONSTANT) const uint lights_mirrors = 0u;
 
 layout(constant_id = KEEPS_SURFACE_CONSTANT) const uint keeps_surface = 0u;
 
-#ifdef PEEL
-// Rounding of a stored distance, beside the relative one.
+// 1: the pass draws the second layer of a capture (depth peeling).
+layout(constant_id = PEELS_CONSTANT) const uint peels = 0u;
+// The absolute rounding error of a stored distance, in addition to the relative error.
 layout(constant_id = HALF_STEP_CONSTANT) const float half_step = 0.0;
-layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_layer; // distances of this capture
+// Distances of the capture's first layer.
+layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_layer;
 
-// Depth peeling keeps only what faces the capture's centre behind the first layer. 2^-10 lies above the
-// relative rounding of a binary16 and of an interpolated distance.
+// Returns whether depth peeling removes the fragment from the second layer. The second layer keeps only surfaces behind
+// the first layer that face the capture's centre. The margin 2^-10 exceeds the relative rounding error of a 16-bit
+// float and of an interpolated distance.
 bool is_peeled() {
     float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, view_layer()), 0).r;
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
-#endif
 
-// Before anything is written, after the derivatives.
+// Discards fragments that fail the alpha test. Shaders call this function after their derivatives, before any output.
 void leave_out_what_is_cut() {
     if (masks != 0u && fails_alpha_test(drawn_detail(), Attribute(in_uv, in_colour))) discard;
 }
 
-// The object's surface here. `facet`: along its triangle's normal.
+// Returns the object's surface at the fragment, and turns the normal `n` of a two-sided material to the viewer's side.
+// `facet` points along the triangle's normal.
 Surface surface_here(inout vec3 n, vec3 facet) {
     Surface surface = drawn_surface();
     if (details != 0u) {
@@ -67,18 +76,19 @@ Surface surface_here(inout vec3 n, vec3 facet) {
     return surface;
 }
 
-// Exact as a half; objects that far apart in the scene's list may share one.
+// Returns the number that captures store for the surface. A 16-bit float holds the number exactly. Two objects that are
+// no mirrors may share a number if they are far apart in the scene's list.
 float surface_number() {
     return drawn_mirror() != 0u ? float(drawn_mirror()) : -1.0 - float(drawn_object() % 2047u);
 }
 
-// Of the format. Colour saturates there, so that no capture ever holds an infinity.
+// The largest colour of the image format. Colours are clamped to this value, so that no capture holds an infinity.
 layout(constant_id = LARGEST_COLOUR_CONSTANT) const float largest_colour = 3.402823466e38;
 
 void write_surface(vec3 colour) {
     out_colour = vec4(min(colour, vec3(largest_colour)), 1);
     out_distance = length(from_eye) * distance_scale;
-    out_more = vec4(0); // an output that is not written is not zero, it is undefined
+    out_more = vec4(0); // an output that is not written would be undefined
     if (keeps_surface != 0u) out_more = vec4(surface_number(), normalize(normal));
 }
 

@@ -1,6 +1,6 @@
-// Lists that each invocation reads at an index of its own. They are uniform texel buffers, because a software driver
-// reads storage buffers lane by lane (docs/performance.md). On devices that allow few texels in a buffer
-// (gpu::Device::texels_in_storage) the same bytes are bound as storage buffers.
+// Texel lists: lists that each invocation reads at a different index. Texel lists are uniform texel buffers, because a
+// software driver reads storage buffers lane by lane (docs/performance.md). On devices that allow few texels in a
+// buffer (gpu::Device::texels_in_storage), the same data is bound as storage buffers.
 #ifndef CATOPTRIC_TEXELS_GLSL
 #define CATOPTRIC_TEXELS_GLSL
 
@@ -8,10 +8,10 @@
 
 layout(constant_id = TEXELS_IN_STORAGE_CONSTANT) const uint texels_in_storage = 0u;
 
-#define STORED_TEXELS 64 // what is added to a binding's number for the storage buffer
+#define STORED_TEXELS 64 // offset from a texel buffer's binding number to that of the storage buffer with the same data
 
-// A list of `vector`s (vec4, uvec4 or uint) that the engine binds as `name`, read by name_at(i) and, if `stored`,
-// from a storage buffer on every device.
+// Declares a texel list of type `vector` (vec4, uvec4 or uint), which the engine binds as `name` and name_at(i) reads.
+// With `stored`, the list is in a storage buffer on every device.
 #define TEXEL_LIST(number, name, vector, sampler, stored)                                                              \
     layout(set = 0, binding = number) uniform sampler name;                                                            \
     layout(set = 0, binding = number + STORED_TEXELS, std430) readonly buffer name##_in_storage {                      \

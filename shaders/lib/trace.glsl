@@ -1,14 +1,16 @@
-// Ray tracing in compute shaders: a walk over the two-child hierarchy of engine/bvh/bvh.hpp.
-// The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
-// TRACE_LOCAL_SIZE where its work group has not 64 invocations. It can be specialised to fetch both from storage
-// buffers (bvh_in_storage).
-// TRACE_PRIVATE_STACK: for stages that have no shared memory. TRACE_SEES(object): false for objects that
-// rays pass through. TRACE_BALLS: whether the hierarchy may hold some. TRACE_IS_THERE(stored triangle, object,
-// barycentric): false where one of kBvhMasked is cut out.
-// What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that diverge, and loops
-// that ask at their end whether to go on: a software driver, which jumps nowhere but at a loop's end, computes the body
-// of one that asks first once more than needed. NAIVE is what one would write first, kept for the benchmark that shows
-// it: storage buffers, the stack in a private array.
+// Traces rays through the BVH of engine/bvh/bvh.hpp in compute shaders.
+// The including shader defines these macros before the include:
+// BVH_NODES_BINDING and BVH_TRIANGLES_BINDING: the bindings in set 0. The specialisation constant bvh_in_storage reads
+// nodes and triangles from storage buffers instead of texel buffers.
+// TRACE_LOCAL_SIZE: the number of invocations of a work group, if it is not 64.
+// TRACE_PRIVATE_STACK: puts the stack into a private array, for shader stages without shared memory.
+// TRACE_SEES(object): returns false for objects that rays pass through.
+// TRACE_BALLS: whether the BVH may hold spheres in place of triangles.
+// TRACE_IS_THERE(stored triangle, object, barycentric): returns false where a kBvhMasked triangle is cut out.
+// Four choices make the walk fast on a processor: uniform texel buffers, the stack in shared memory, divergent lanes,
+// and loops that test their condition at the end. The software driver jumps only at a loop's end, so it runs the body
+// of a loop that tests first once more than needed. NAIVE selects storage buffers and a private stack, the obvious
+// implementation, for a benchmark.
 #ifndef CATOPTRIC_TRACE_GLSL
 #define CATOPTRIC_TRACE_GLSL
 
@@ -44,29 +46,29 @@ shared uint trace_stack[kBvhMaxStack * TRACE_LOCAL_SIZE];
 #define STACK(i) trace_stack[(i) * TRACE_LOCAL_SIZE + gl_LocalInvocationIndex]
 #endif
 
-// Node visits and triangle tests of this invocation, all its rays together.
+// The number of node visits and triangle tests of all rays of this invocation.
 uint trace_steps = 0u;
-// True once a walk ended before it was done: then its answer is worthless. Either it reached
-// kMaxTraceSteps, or the driver stopped the loop: one software driver silently ends all loops of an
-// invocation after 65,535 iterations, counted over the eight lanes that run together.
-// It ends the caller's loops too, and a lane whose walk was just done is not told: a caller that
-// loops over rays checks that its own loop ran to its end.
+// Whether some walk of this invocation stopped before its end, so that its answer is wrong. A walk stops at
+// kMaxTraceSteps, or because the driver stops its loops. The software driver silently ends all loops of an invocation
+// after 65,535 iterations, counted over the eight lanes that run together.
+// The driver then ends the caller's loops, too, even if a lane's own walk was complete. A caller that loops over rays
+// must therefore check that its own loop ran to its end.
 bool trace_exhausted = false;
 const uint kMaxTraceSteps = 60000u;
 
 struct Hit {
     float t;
-    vec3 barycentric; // weights of a, b, c
-    uint triangle;    // original number
+    vec3 barycentric; // weights of the corners a, b, c
+    uint triangle;    // original number of the triangle
     uint object;
-    uint place;       // where triangle_corners finds it; kOnSphere
-    uint inside;      // the record of the thing in whose own space it lies; 0: in the scene's
+    uint place;       // stored index of the triangle, for triangle_corners; or kOnSphere
+    uint inside;      // record of the instance in whose object space the hit lies; 0: the hit is in scene units
 };
-const uint kOnSphere = 0xffffffffu; // the exact sphere that a thing in its own space stands for
+const uint kOnSphere = 0xffffffffu; // Hit::place of a hit on the exact sphere of an instance
 
-// 1: some things have spaces of their own (engine/bvh/tlas.hpp).
+// 1: some objects are instances in object space (engine/bvh/tlas.hpp).
 layout(constant_id = OWN_SPACES_CONSTANT) const uint object_spaces = 0u;
-// What the origin of the next ray lacks as a sum of two floats. A walk uses it up.
+// The rounding error of the next ray's origin: the exact origin is origin + trace_low. Each walk resets it to 0.
 vec3 trace_low = vec3(0);
 
 Place place_at(uint record) {
@@ -74,20 +76,21 @@ Place place_at(uint record) {
     return Place(bvh_nodes_at(i).xyz, bvh_nodes_at(i + 1u).xyz, bvh_nodes_at(i + 2u).xyz, bvh_nodes_at(i + 4u).xyz,
                  bvh_nodes_at(i + 5u).xyz, bvh_nodes_at(i + 6u).xyz, bvh_nodes_at(i + 3u).xyz, bvh_nodes_at(i + 7u).xyz);
 }
-// What is added to the number of a triangle below the record.
+// Returns the number that is added to the triangle numbers of an instance, given the instance's record.
 uint number_shift(uint record) { return floatBitsToUint(bvh_nodes_at(4u * record + 2u).w) & kBvhIdMask; }
 float own_radius(uint record) { return bvh_nodes_at(4u * record + 9u).w; }
 
-// The tree that is walked: its ray, and what stands in its triangles' place of object, flags and number.
+// The state of a walk in one tree: the ray in the tree's coordinates, and the object, flags and number shift that
+// replace those of an instance's triangles.
 struct Walked {
     Ray ray;
     BoxRay boxes;
     RayShear shear;
-    uint record; // 0: the scene's own
+    uint record; // record of the instance; 0: the walk is in the scene's own tree
     uint object, flags, shift;
 };
 
-// Corners in scene units or in those of the thing's own space.
+// Returns the corners of a stored triangle, in scene units or in the object space of an instance.
 void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
     a = bvh_triangles_at(3u * place).xyz;
     b = bvh_triangles_at(3u * place + 1u).xyz;
@@ -98,7 +101,8 @@ bool meets_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) 
     return keeps(kStableSphere) ? sphere_test(centre, radius, ray, t_max, t) : plain_sphere_test(centre, radius, ray, t_max, t);
 }
 
-// One triangle or ball against the best hit so far; of equal t the lowest original number wins.
+// Intersects the ray with a stored triangle or sphere, and updates the best hit. If two hits have equal t, the lower
+// original triangle number wins.
 void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
     Ray ray = walked.ray;
     vec4 a = bvh_triangles_at(3u * place);
@@ -138,7 +142,8 @@ bool trace_box(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near) {
     return keeps(kBoxSlack) ? slab_test(lo, hi, ray, t_max, t_near) : plain_slab_test(lo, hi, ray, t_max, t_near);
 }
 
-// Two boxes of a node: the nearer child that the ray meets (or kBvhNothing), and the other.
+// Intersects the ray with the two child boxes of a node. `first` is the word of the nearer child that the ray meets,
+// `second` that of the other child. A word is kBvhNothing if the ray misses the child.
 void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint second) {
     vec4 lo_0 = bvh_nodes_at(4u * node);
     vec4 hi_0 = bvh_nodes_at(4u * node + 1u);
@@ -154,7 +159,7 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
     second = swap ? child_0 : child_1;
 }
 
-// The scene's own tree.
+// Returns the state of a walk in the scene's own tree.
 Walked trace_outside(Ray ray) {
     vec3 lo = bvh_nodes_at(0u).xyz, hi = bvh_nodes_at(1u).xyz;
     float times = object_spaces != 0u ? bvh_nodes_at(2u).x : 1.0;
@@ -162,7 +167,8 @@ Walked trace_outside(Ray ray) {
     return Walked(ray, boxes, ray_shear(ray.direction), 0u, 0u, 0u, 0u);
 }
 
-// The tree of a thing in its own space, and its root.
+// Returns the state of a walk in an instance's tree, and the tree's root. `low` is the rounding error of the ray's
+// origin.
 Walked trace_inside(uint record, Ray ray, vec3 low, out uint root) {
     uint i = 4u * record;
     root = floatBitsToUint(bvh_nodes_at(i).w);
@@ -172,7 +178,7 @@ Walked trace_inside(uint record, Ray ray, vec3 low, out uint root) {
                   floatBitsToUint(bvh_nodes_at(i + 3u).w) & kBvhIdMask, number_shift(record));
 }
 
-// A thing that stands for an exact sphere around the middle of its space, where spheres are exact.
+// Intersects the ray with the exact sphere of an instance. The sphere's centre is the origin of the object space.
 void trace_sphere(Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
     float t;
     float radius = own_radius(walked.record);
@@ -183,6 +189,8 @@ void trace_sphere(Walked walked, uint skipped_flags, inout Hit best, inout bool 
     }
 }
 
+// Walks the trees to the closest hit with 0 < t < t_max, or with `any` to the first hit that is found. Ignores
+// triangles with a flag of `skipped_flags`. Returns whether the ray has a hit.
 bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best) {
     best = Hit(t_max, vec3(0), 0u, 0u, 0u, 0u);
     vec3 low = trace_low;
@@ -197,7 +205,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
     uint waiting = 0u;
     uint child = kBvhRoot;
     do {
-        // Down to a leaf. A child that is not met leaves `child` for the next on the stack.
+        // Descends to a leaf. If the ray meets neither child of a node, the next node comes from the stack.
         do {
             if (bvh_is_inner(child)) {
                 uint second;
@@ -243,7 +251,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
                 ++i;
             }
         } while (i < count);
-        // Out of steps, or stopped by the driver: one of the two loops has work left.
+        // If one of the two loops above has work left, the walk ran out of steps or the driver stopped its loops.
         if (!enters && (bvh_is_inner(child) || i < count)) break;
         if (enters) continue;
         child = kBvhNothing;
@@ -257,12 +265,12 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
     return found;
 }
 
-// The first triangle that the ray meets at a t in (0, t_max), except those with a flag of `skipped`.
+// Finds the closest triangle or sphere that the ray meets at 0 < t < t_max. Ignores those with a flag of `skipped`.
 bool closest_hit(Ray ray, float t_max, uint skipped, out Hit hit) {
     return trace_walk(ray, t_max, skipped, false, hit);
 }
 
-// Whether some triangle without a flag of `skipped` is met at a t in (0, t_max).
+// Returns whether the ray meets a triangle or sphere without a flag of `skipped` at 0 < t < t_max.
 bool any_hit(Ray ray, float t_max, uint skipped) {
     Hit hit;
     return trace_walk(ray, t_max, skipped, true, hit);

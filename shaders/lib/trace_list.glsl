@@ -1,8 +1,8 @@
-// The list of pixels to trace: what its writer and its reader agree on.
+// Constants of the list of pixels to trace, shared by the shaders that write and read the list.
 #define LOOKUP_BINDING 24
 #define LIST_BINDING 25
 #define ARGUMENTS_BINDING 26
 #define MARKS_BINDING 27
 
-const uint kListGroup = 64u;     // pixels of one work group
-const uint kListGroups = 32768u; // work groups across, before a further row begins: every device allows 65535
+const uint kListGroup = 64u;     // listed pixels that one work group traces
+const uint kListGroups = 32768u; // most work groups in a row of the dispatch; every device allows 65535

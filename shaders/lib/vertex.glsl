@@ -1,6 +1,6 @@
-// Every raster pass: triangles into the view of this layer. With LAYERED the layer is written here; otherwise the
-// pass draws one layer at a time. gl_InstanceIndex holds the layer and the object. PLACED: vertices in a space of their own.
-// CLIPPED: nothing behind the view's plane.
+// The vertex shader of every raster pass. Transforms triangles into the view of a layer. gl_InstanceIndex encodes the
+// layer and the object. LAYERED writes gl_Layer; without LAYERED the pass draws one layer at a time. PLACED reads
+// vertices in object space. CLIPPED clips triangles at the view's clip plane.
 #ifndef CATOPTRIC_VERTEX_GLSL
 #define CATOPTRIC_VERTEX_GLSL
 
@@ -21,7 +21,8 @@ invariant gl_Position;
 #ifdef PLACED
 layout(set = 0, binding = PLACEMENTS_BINDING, scalar) readonly buffer Placements { Placement placements[]; };
 
-// By the cofactors of the matrix, scaled so that small things do not underflow.
+// Transforms a normal from object space to the scene by the matrix's cofactors. The matrix is scaled first, so that
+// small objects do not underflow.
 vec3 scene_direction(Placement placement, vec3 n) {
     float size = max(largest(abs(placement.x)), max(largest(abs(placement.y)), largest(abs(placement.z))));
     vec3 x = placement.x / size, y = placement.y / size, z = placement.z / size;

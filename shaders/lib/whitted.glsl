@@ -1,7 +1,6 @@
-// Whitted ray tracing of one pixel: camera, shadow and mirror rays. What the reference traces and what others
-// trace where they know nothing is this one function.
-// Builds: SHADOW_MAP can also ask the raster world's shadow map; DOUBLES computes hit points in doubles; NAIVE see
-// lib/trace.glsl.
+// Whitted ray tracing of one pixel with camera rays, mirror rays and shadow rays. The reference uses this code for all
+// pixels, and hybrid techniques use it for pixels whose search ends unknown.
+// Variants: DOUBLES computes hit points in double precision. NAIVE is the simple implementation of lib/trace.glsl.
 #ifndef CATOPTRIC_WHITTED_GLSL
 #define CATOPTRIC_WHITTED_GLSL
 
@@ -11,7 +10,8 @@
 #include "lib/lights.glsl"
 #include "lib/material.glsl"
 
-// A texel a corner: its normal, and the number of its attribute as a word of engine/bvh/words.hpp.
+// The list of triangle corners, one texel each: the normal, and the index of the corner's Attribute as a word of
+// engine/bvh/words.hpp.
 #ifdef NAIVE
 TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, true)
 #else
@@ -21,7 +21,7 @@ TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, false)
 
 Attribute attribute_of(uint corner) { return attribute_at_vertex(floatBitsToUint(normals_at(corner).w) & kBvhIdMask); }
 
-// At a place of the triangle whose corners are stored from `corner` on.
+// Returns the attribute at a point of the triangle whose corners are stored from index `corner` on.
 Attribute attribute_at(uint corner, vec3 barycentric) {
     Attribute a = attribute_of(corner), b = attribute_of(corner + 1u), c = attribute_of(corner + 2u);
     return Attribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
@@ -37,43 +37,41 @@ layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #define TRACE_BALLS (exact_spheres != 0u)
 
 #include "lib/trace.glsl"
-#ifdef SHADOW_MAP
 #include "lib/shadow.glsl"
-#endif
 #ifdef DOUBLES
 #include "lib/double_hit.glsl"
 #endif
 
 layout(constant_id = MAX_DEPTH_CONSTANT) const uint max_depth = 8u;
-layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // kShadowNone, kShadowMap, kShadowRay
-#ifndef SHADOW_BY // what shadows are made by, where that changes
+layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // shadow method: kShadowNone, kShadowMap or kShadowRay
+#ifndef SHADOW_BY // the including shader may define SHADOW_BY as a variable
 #define SHADOW_BY shadow
 #endif
 
 uint mirror_rays = 0u;
 uint shadow_rays = 0u;
 
-// A place on a surface, and the bound of its error (see triangle_point).
+// A point on a surface, with a bound of its position's error (see triangle_point).
 struct Point {
     vec3 position;
     vec3 error;
-    vec3 normal; // interpolated, unit
-    vec3 facet;  // geometric, unit
-    float lift;  // how far above it the surface is that its corners' normals tell of
+    vec3 normal; // interpolated shading normal, unit
+    vec3 facet;  // geometric normal of the triangle, unit
+    float lift;  // height above the triangle of the smooth surface that the corners' normals describe
     uint object;
-    uint leaves; // for the rays that start here (see Ray)
-    uint inside; // the record of the thing in whose own space it lies; 0: none
+    uint leaves; // Ray::leaves of rays that start at this point
+    uint inside; // record of the instance in whose object space the triangle lies; 0: the triangle is in scene units
     Attribute at;
-    vec3 arm;    // from that thing's centre, scene units, and the bound of its error
-    vec3 arm_error;
+    vec3 arm;       // vector from the instance's centre to the point, scene units
+    vec3 arm_error; // bound of the error of `arm`
 };
-Point point; // what is being shaded
+Point point; // the point that is shaded
 
-// When spheres are exact, meshes that stand for one are passed by: in a space of their own the walk knows the sphere,
-// and in the scene's a ball is in their place.
+// Returns the flags of triangles that rays ignore. If spheres are exact, rays ignore meshes that approximate a sphere.
+// A sphere in the scene's tree, or the walk's own test of an instance's sphere, takes the place of such a mesh.
 uint ray_mask() { return exact_spheres != 0u ? kBvhSphere : 0u; }
 
-// From the own space in which it was found.
+// Transforms a point from an instance's object space to scene units.
 void put_into_scene(inout Point p, uint record) {
     Place place = place_at(record);
     p.inside = record;
@@ -100,7 +98,7 @@ Point on_triangle(Hit hit) {
     p.arm = p.arm_error = vec3(0);
     vec3 normal_a = NORMAL(corner), normal_b = NORMAL(corner + 1u), normal_c = NORMAL(corner + 2u);
     p.normal = normalize(w.x * normal_a + w.y * normal_b + w.z * normal_c);
-    vec3 lit_a = a, lit_b = b, lit_c = c; // in the scene's units
+    vec3 lit_a = a, lit_b = b, lit_c = c; // corners in scene units
     if (object_spaces != 0u && hit.inside != 0u) {
         Place place = place_at(hit.inside);
         lit_a = arm_of(place, a), lit_b = arm_of(place, b), lit_c = arm_of(place, c);
@@ -146,7 +144,7 @@ Point on_sphere(Ray ray, float t, uint object) {
     return p;
 }
 
-// On the exact sphere that a thing in its own space stands for; `low`: what the ray's origin lacks.
+// Returns the point of a hit on the exact sphere of an instance. `low` is the rounding error of the ray's origin.
 Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
     Point p;
     Place place = place_at(hit.inside);
@@ -177,27 +175,29 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
     return found;
 }
 
-// What the surface is at the point, whose normal turns to where `direction` comes from if it has two sides.
+// Evaluates the material at a point. The normal of a two-sided material turns to the side from which `direction` comes.
 Surface surface_at(inout Point p, vec3 direction) {
     Surface surface = surface_of(p.object);
     if (details != 0u) {
         vec3 turned = turned_normal(surface.detail, p.normal, p.facet, direction);
-        if (turned != p.normal) p.lift = 0.0; // hollow from there
+        // From the back the smooth surface is hollow, so it lies below the triangle.
+        if (turned != p.normal) p.lift = 0.0;
         p.normal = turned;
         evaluate(surface, p.at, -dot(p.normal, direction));
     }
     return surface;
 }
 
-// A ray that leaves the point along `direction`.
+// Returns the origin of a ray that leaves the point along `direction`. Sets trace_low if the point is on an instance.
 vec3 leaving(Point p, vec3 direction) {
     if (object_spaces != 0u && p.inside != 0u)
         return scene_point(place_at(p.inside), spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
     return keeps(kSpawnBound) ? spawn_origin(p.position, p.error, p.facet, direction) : plain_spawn_origin(p.position, p.facet, direction);
 }
 
-// Where a shadow ray begins that goes below the facet, as the shading normal allows: on the surface that the normals
-// tell of. From the facet it would meet its neighbours, and each facet would show at a smooth body's terminator.
+// Returns the origin of a shadow ray that goes below the facet's plane, although the light is above the shading
+// normal's plane. The ray starts on the smooth surface that the vertex normals describe. From the facet itself, the ray
+// would hit neighbouring facets, and a smooth body's shadow terminator would show its facets.
 vec3 leaving_lifted(Point p, vec3 normal) {
     if (object_spaces != 0u && p.inside != 0u)
         return scene_point(place_at(p.inside), spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
@@ -206,9 +206,8 @@ vec3 leaving_lifted(Point p, vec3 normal) {
 
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
-#ifdef SHADOW_MAP
-    if (SHADOW_BY == kShadowMap) return shadow_map_visible(light, position, normal, dot(abs(normal), point.error));
-#endif
+    if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
+        return shadow_map_visible(light, position, normal, dot(abs(normal), point.error));
     ++shadow_rays;
     bool goes_below = keeps(kSpawnBound) && dot(direction, facet_side(normal, point.facet)) < 0.0;
     vec3 origin;
@@ -224,8 +223,8 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
 }
 #include "lib/lighting.glsl"
 
-View camera_view = views[0]; // read before lanes go different ways
-// Through a place in a picture of `size` pixels.
+View camera_view = views[0]; // the view is read before the lanes diverge
+// Returns the camera ray through a position, in pixels, of a picture of `size` pixels.
 Ray camera_ray(vec2 place, uvec2 size) {
     View view = camera_view;
     vec2 ndc = place / vec2(size) * 2.0 - 1.0;
@@ -237,9 +236,10 @@ Ray camera_ray(vec2 place, uvec2 size) {
                                    ndc.y * view.down / dot(view.down, view.down)), 0u);
 }
 
-// Radiance along a ray that has met `first` mirrors before; `met` = number of the first that it meets, and
-// of the second << kMetBits (not 0 either where the first surface reflects and is no mirror: then `met` has no first).
-// Camera rays, which have met none, do not see what is hidden from them.
+// Returns the radiance along a ray that has met `first` mirrors before. `met` is the number of the first mirror that
+// the ray meets, and the number of the second << kMetBits. If the first surface reflects but is no mirror, the first
+// number is 0 and the second kMostMirrors. A ray with `first` 0 is a camera ray and passes through objects hidden from
+// the camera.
 vec3 radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
@@ -261,7 +261,8 @@ vec3 radiance(Ray ray, uint first, out uint met) {
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
         if (details != 0u && bounce == 0u && reflects && surface.mirror == 0u) met = kMostMirrors << kMetBits;
-        // One call for both: the driver's compiler inlines each, with the walk of its shadow ray.
+        // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
+        // the whole BVH walk of its shadow ray.
         if (!reflects || details != 0u) result += weight * shade(surface, point.position, point.normal, lit_facet(surface.detail, point.facet));
         if (!reflects) {
             done = true;
@@ -280,7 +281,7 @@ vec3 radiance(Ray ray, uint first, out uint met) {
             ++bounce;
         }
     } while (!done);
-    // A driver that stopped the walk's loops stops this one too, without a word.
+    // The software driver silently stops this loop, too, after it has stopped a loop of the BVH walk.
     trace_exhausted = trace_exhausted || !done;
     return result;
 }

@@ -1,25 +1,26 @@
-// What searches share: the reflected ray as an arc about the capture's centre.
+// The reflected ray as an arc of directions from the capture's centre. Several searches share this code.
 //
-// Everything is said in inverse distances. A direction of the arc is a place, a unit vector in the plane of
-// the ray and the centre. There one over the ray's distance is a linear function of the place, one over that
-// of any plane is another, and nothing at all is 0: no infinity to step around, and on a plane one false
-// position is exact, from as far away as may be.
+// All distances are inverse distances from the centre. A place is a unit vector in the plane of the ray and the centre,
+// and stands for a direction of the arc. The inverse distance of the ray is a linear function of the place, and so is
+// the inverse distance of any plane. No surface has the inverse distance 0, so no infinities occur. If the captured
+// surface is a plane, one step of false position finds the exact intersection, however far away it is.
 #ifndef CATOPTRIC_ARC_GLSL
 #define CATOPTRIC_ARC_GLSL
 
 #include "reflect/silhouette.glsl"
 
-// The ray's points lie along `from` at first and along its own direction at last.
+// The arc. The ray's start lies in the direction `from`, and its end at infinity in the ray's own direction.
 struct Arc {
-    vec3 from, side; // unit, at a right angle: place (x, y) is the direction from x + side y
+    vec3 from, side; // orthogonal unit vectors; the place (x, y) is the direction from * x + side * y
     vec2 end;        // place of the ray's own direction
-    float height;    // of the ray above the centre
+    float height;    // distance of the ray's line from the centre
 };
 
-// Below this angle, a texel of the largest cube, the arc is one direction.
+// The angle, one texel of the largest cube map, below which an arc counts as a single direction.
 const float kOneDirection = kPi / 2.0 / 16384.0;
 
-// False: the ray goes straight away from the centre, or through it; then only its own direction is of use.
+// Sets up the arc of a ray that starts at `offset` from the capture's centre. Returns false if the ray's line passes
+// through the centre, so that the arc is only the ray's own direction.
 bool make_arc(vec3 offset, vec3 direction, out Arc arc) {
     float size = length(offset);
     arc.from = size > 0.0 ? offset / size : direction;
@@ -35,7 +36,8 @@ vec3 direction_at(Arc arc, vec2 place) { return arc.from * place.x + arc.side * 
 float sine_between(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 vec2 rotated(vec2 place, float sine) { return normalize(place + sine * vec2(-place.y, place.x)); }
 
-// One over the ray's distance at a place, and the vector whose product with the place it is.
+// Returns the ray's inverse distance at a place. ray_plane returns the vector whose dot product with a place is this
+// inverse distance.
 float ray_at(Arc arc, vec2 place) { return sine_between(place, arc.end) / arc.height; }
 vec2 ray_plane(Arc arc) { return vec2(arc.end.y, -arc.end.x) / arc.height; }
 

@@ -1,17 +1,18 @@
-// How a search ends: between two places of the arc, before and behind a surface, or before one and beside it.
-// The including shader says, as kEdge, to which part of a texel it wants to know where a surface ends beside
-// nothing.
+// The last steps of a search, which find the crossing of ray and surface between two places of the arc. At the first
+// place the ray is in front of a captured surface. At the second place the ray is behind the surface, or no surface was
+// captured. The including shader defines kEdge. A surface's edge, beside which no surface was captured, is located to
+// kEdge texels.
 #ifndef CATOPTRIC_CROSSING_GLSL
 #define CATOPTRIC_CROSSING_GLSL
 
 #include "reflect/arc.glsl"
 #include "reflect/silhouette.glsl"
 
-// What is captured at a place of the arc.
+// The captured surface at a place of the arc.
 struct Sample {
     vec2 place;
-    float captured; // one over its distance; 0: nothing
-    float depth;    // ... minus one over the ray's; see is_behind
+    float captured; // inverse captured distance; 0: no surface was captured
+    float depth;    // inverse captured distance minus inverse distance of the ray (see is_behind)
 };
 
 Sample sample_at(uint mirror, Arc arc, vec2 place) {
@@ -19,29 +20,31 @@ Sample sample_at(uint mirror, Arc arc, vec2 place) {
     return Sample(place, captured, captured - ray_at(arc, place));
 }
 
-// The ray is behind what is captured there. Nothing is never in front of it, not even where it ends.
+// Returns whether the ray is behind the captured surface at a sample. Without a captured surface, the ray is not
+// behind.
 bool is_behind(Sample s) { return s.captured > 0.0 && s.depth >= 0.0; }
 
-// Where the depth is 0 if one plane is seen at both, before and behind; between the two whatever is seen.
+// Returns the place between two samples, in front of and behind a surface, at which the depth is 0 if both show the
+// same plane.
 vec2 false_position(Sample front, Sample behind) {
     return normalize(front.place * behind.depth - behind.place * front.depth);
 }
 
 const uint kMaxRefinements = 16u;
-// A distance that near to the captured one, as a share of it, is found.
+// The largest difference, relative to the captured distance, at which a ray's point counts as on the captured surface.
 const float kOnSurface = 1.0 / 512.0;
 
 bool are_apart(Sample front, Sample behind, float texel) {
     return sine_between(front.place, behind.place) > (front.captured > 0.0 ? 0.5 : kEdge) * texel;
 }
 
-// A hit where a surface is crossed. Unknown at a silhouette: what is seen a texel beside it, or that the ray
-// leaves where nothing is.
+// Finds the crossing between two samples. Returns a hit if the ray crosses a surface. Returns unknown at a silhouette,
+// with the direction one texel beside the silhouette, or with kLeaves if no surface was captured beside the silhouette.
 Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
     float texel = texel_angle(mirror);
     uint i = 0u;
     bool is_wide = are_apart(front, behind, texel);
-    do { // loops ask at their end: see lib/trace.glsl
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (is_wide) {
             bool halves = (i & 1u) == 1u;
             Sample middle = sample_at(mirror, arc, halves ? normalize(front.place + behind.place) : false_position(front, behind));
@@ -62,9 +65,10 @@ Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
     return Lookup(direction_at(arc, false_position(front, behind)), kHit, (behind.depth - front.depth) / behind.captured, 0.0);
 }
 
-// From a sample before a surface to one where nothing is. Where the ray goes behind something on the way,
-// that is the new `next`. Otherwise the two are left on both sides of the surface's edge; true if the ray
-// meets the surface between them, in `front`, which goes on there as it did.
+// Bisects between `front`, a sample in front of a surface, and `next`, a sample without a captured surface. If the ray
+// goes behind a surface between the two, returns false with `next` behind that surface. Otherwise, leaves the samples
+// on the two sides of the surface's edge. Then returns whether the surface, extended linearly, meets the ray between
+// the two samples. `front` is the place of that intersection.
 bool meets_at_edge(uint mirror, Arc arc, inout Sample front, inout Sample next) {
     Sample earlier = front;
     float least = kEdge * texel_angle(mirror);

@@ -1,9 +1,9 @@
-// March through captures of two layers. Along the reflected ray's arc (arc.glsl) the number of captured
-// surfaces in front of the sample is watched. Where it changes, or what is ahead ends, bisection to a part of a
-// texel finds the border, and the planes that the texels on its two sides belong to say which of them the ray
-// meets; else it is a silhouette, behind which the ray passes on. Planes and colours are made only from texels
-// of the surface in question, whichever layer holds it. What a ray that is lost behind two surfaces last had
-// ahead of it is taken to go on there.
+// Technique `layered`: marches through captures of two layers. The march follows the reflected ray's arc (arc.glsl) and
+// counts the captured surfaces in front of the ray. If the number changes, or the next surface ahead ends, bisection to
+// a part of a texel finds the border. The planes of the texels on the two sides of the border then tell which surface
+// the ray meets. If the ray meets neither, the border is a silhouette, and the ray passes on behind it.
+// Planes and colours come only from texels of the surface in question, whichever layer holds the texel. For a ray that
+// is lost behind two surfaces, the last surface ahead of the ray is assumed to continue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -18,16 +18,16 @@ layout(set = 0, binding = 21) uniform FACES(distance2);
 layout(set = 0, binding = 22) uniform FACES(colour1);
 layout(set = 0, binding = 23) uniform FACES(colour2);
 
-const uint kLimit = 512u;       // samples in all
-const float kSameSurface = 0.125; // largest relative step from texel to texel within one surface
+const uint kLimit = 512u;       // most samples of one search
+const float kSameSurface = 0.125; // largest relative step of the distance between neighbouring texels of one surface
 
-// A place of the arc, and one over the distances there: of the ray, of both layers; 0: nothing.
+// A place of the arc, with the inverse distances of the ray and of both layers; 0: the layer has no surface.
 struct Sample {
     vec2 place;
     float ray, first, second;
 };
 
-// In scene units, of a texel in each layer.
+// Returns the captured distance, scene units, of a texel in the first layer. second_distance reads the second layer.
 float first_distance(uint mirror, ivec3 texel) {
 #define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_unit_of(mirror)
     RETURN_OF_ARRAY(mirror, FIRST)
@@ -36,7 +36,8 @@ float second_distance(uint mirror, ivec3 texel) {
 #define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_unit_of(mirror)
     RETURN_OF_ARRAY(mirror, SECOND)
 }
-// The same of the four texels around a place.
+// Returns the captured distances, scene units, of four texels in the first layer. second_distances reads the second
+// layer.
 vec4 first_distances(uint mirror, vec3 at) {
 #define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_unit_of(mirror)
     RETURN_OF_ARRAY(mirror, FIRSTS)
@@ -45,7 +46,7 @@ vec4 second_distances(uint mirror, vec3 at) {
 #define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_unit_of(mirror)
     RETURN_OF_ARRAY(mirror, SECONDS)
 }
-// Sum of their colours in both layers, with weights.
+// Returns the weighted sum of the colours of four texels in both layers.
 vec3 weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
 #define WEIGHTED(i)                                                                                                    \
     vec3(dot(in_first, textureGather(FACES_OF(colour1, i), at, 0)) +                                                   \
@@ -56,7 +57,7 @@ vec3 weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 2)))
     RETURN_OF_ARRAY(mirror, WEIGHTED)
 }
-// Position in texels on the face of a direction, and the layer of that face.
+// Returns a direction's position on its cube face, in texels, and the array layer of that face.
 vec3 texel_of(uint mirror, vec3 direction) {
     int face = cube_face(direction);
     vec3 c = cube_coordinates(face, direction);
@@ -73,29 +74,31 @@ Sample sample_at(uint mirror, Arc arc, vec2 place) {
 uint surfaces_in_front(Sample s) {
     return uint(s.first > 0.0 && s.first >= s.ray) + uint(s.second > 0.0 && s.second >= s.ray);
 }
-// What the ray has ahead of it: the first layer, or behind that the second; 0: nothing.
+// Returns the inverse distance of the next surface ahead of the ray: the first layer's, or behind the first layer the
+// second layer's; 0: no surface is ahead.
 float ahead(Sample s) {
     uint count = surfaces_in_front(s);
     return count == 0u ? s.first : count == 1u ? s.second : 0.0;
 }
 bool is_near(float a, float b) { return abs(a - b) <= kSameSurface * b; }
 
-// What is ahead at one of them, and not at the other.
+// Returns whether a surface is ahead of the ray at one of the samples only, with equal numbers of surfaces in front.
 bool ends(Sample a, Sample b) { return surfaces_in_front(a) == surfaces_in_front(b) && (ahead(a) > 0.0) != (ahead(b) > 0.0); }
 
-// Nothing happens between the two: as many surfaces in front, and the nearest is the same one.
+// Returns whether nothing changes between two samples: as many surfaces are in front, and the nearest is the same.
 bool are_alike(Sample a, Sample b) {
     uint count = surfaces_in_front(a);
     return count == surfaces_in_front(b) && (count == 0u || is_near(b.first, a.first)) && !ends(a, b);
 }
 
-// Of the two layers in a texel what is nearest to one over a distance.
+// Returns the texel's inverse distance from the layer whose inverse distance is closer to `about`.
 float nearest_to(uint mirror, float about, ivec3 texel) {
     vec2 both = vec2(inverse(first_distance(mirror, texel)), inverse(second_distance(mirror, texel)));
     return abs(both.y - about) < abs(both.x - about) ? both.y : both.x;
 }
 
-// From a texel to its two neighbours on an axis the lesser change of `mean`; none where it turns: an edge.
+// Returns the smaller change of `mean` from a texel to its two neighbours along an axis. Returns 0 if the two changes
+// have opposite signs, since the surface then has an edge.
 float change(uint mirror, float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates, vec3 move) {
     ivec3 low = texel - step, high = texel + step;
     bool has_low = all(greaterThanEqual(low.xy, ivec2(0))), has_high = all(lessThan(high.xy, ivec2(distance_edge(mirror))));
@@ -106,15 +109,15 @@ float change(uint mirror, float about, float mean, ivec3 texel, ivec3 step, vec3
     return least < kLargest ? least : 0.0;
 }
 
-// The plane of the surface at about one over a distance in the texel at a place: one over its distance at any
-// place near by is the product with that.
+// Returns the plane of the surface with the inverse distance `about` in the texel at a place. The dot product of the
+// result with a nearby place is the plane's inverse distance in that place.
 vec2 plane_at(uint mirror, Arc arc, vec2 place, float about) {
     int face = cube_face(direction_at(arc, place));
     ivec3 texel = ivec3(texel_of(mirror, direction_at(arc, place)));
     texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
     float size = 2.0 / float(distance_edge(mirror));
     vec3 centre = vec3((vec2(texel.xy) + 0.5) * size - 1.0, 1.0);
-    // On a plane one over the distance, times the length of the coordinates, is linear in them.
+    // For a plane, the inverse distance times the length of the face coordinates is linear in these coordinates.
     float mean = about * length(centre);
     vec2 slope = vec2(change(mirror, about, mean, texel, ivec3(1, 0, 0), centre, vec3(size, 0, 0)),
                       change(mirror, about, mean, texel, ivec3(0, 1, 0), centre, vec3(0, size, 0))) / size;
@@ -122,10 +125,10 @@ vec2 plane_at(uint mirror, Arc arc, vec2 place, float about) {
     return vec2(dot(plane, cube_coordinates(face, arc.from)), dot(plane, cube_coordinates(face, arc.side)));
 }
 
-// The four texels around a direction, counted as textureGather does.
+// The four texels around a direction, in the order of textureGather.
 struct Taps {
-    vec3 at; // where the four meet
-    vec4 weights, first;
+    vec3 at; // texture coordinates of the common corner of the four texels
+    vec4 weights, first; // bilinear weights, and distances in the first layer
 };
 Taps taps_at(uint mirror, vec3 direction) {
     vec3 texel = texel_of(mirror, direction);
@@ -137,13 +140,14 @@ Taps taps_at(uint mirror, vec3 direction) {
     return taps;
 }
 
-// Which of four distances are those of the surface at about `distance`.
+// Returns 1 for each of four distances that belongs to the surface at about `distance`, else 0.
 vec4 on_surface(vec4 distances, float distance) {
     return vec4(lessThanEqual(abs(distances - distance), vec4(kSameSurface * distance)));
 }
 bool is_whole(vec4 chosen) { return dot(chosen, vec4(1)) == 4.0; }
 
-// In each texel the layer that holds the surface, if one does: weights of the first, of the second.
+// Chooses, for each of the four texels, the layer that shows the surface at about `distance`. Returns the texels'
+// weights in the first and second layer. A texel whose layers do not show the surface has weight 0 in both.
 void choose(uint mirror, Taps taps, float distance, out vec4 second, out vec4 in_first, out vec4 in_second) {
     second = second_distances(mirror, taps.at);
     vec4 is_second = vec4(lessThan(abs(second - distance), abs(taps.first - distance)));
@@ -151,7 +155,9 @@ void choose(uint mirror, Taps taps, float distance, out vec4 second, out vec4 in
     in_second = taps.weights * is_second * on_surface(second, distance);
 }
 
-float found_distance; // of the lookup; 0: nothing was found. Without initial value, on which -gVS of glslang 12 trips
+// The distance of the looked-up surface from the capture's centre; 0: no surface was found. The variable has no initial
+// value, because glslang 12 fails with -gVS on initial values.
+float found_distance;
 
 float last_hit_distance() { return found_distance; }
 void set_last_hit_distance(float distance) { found_distance = distance; }
@@ -167,18 +173,19 @@ vec3 lookup_colour(uint mirror, Lookup lookup) {
     return weighted_colours(mirror, taps.at, in_first, in_second) / weight;
 }
 
-// Where the ray meets a plane near `place`.
+// Returns the intersection of the ray with a plane near `place`.
 Lookup meet(uint mirror, Arc arc, vec2 plane, vec2 place, float layer) {
     vec2 depth = plane - ray_plane(arc), met = normalize(vec2(-depth.y, depth.x));
     if (dot(met, place) < 0.0) met = -met;
-    // No further away than texels reach.
+    // The intersection may be at most four half texels from `place`, as far as a texel's plane is valid.
     float reach = 4.0 / float(distance_edge(mirror)), apart = sine_between(place, met);
     if (!(abs(apart) <= reach)) met = place;
     found_distance = 1.0 / dot(plane, met);
     return Lookup(direction_at(arc, met), kHit, min(abs(dot(depth, met)) * found_distance, 1.0), layer);
 }
 
-// Between two samples, a part of a texel apart: whether the ray meets a surface of either.
+// Returns whether the ray meets a surface of either of two samples that are a part of a texel apart. `is_lost` tells
+// whether the surface ahead of the ray at `a` ends before `b`.
 bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool is_lost) {
     vec2 ray = ray_plane(arc);
     uint count = surfaces_in_front(a);
@@ -194,13 +201,14 @@ bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool
         float at_b = dot(plane, b.place);
         bool in_first = is_near(dot(first, b.place), at_b), in_second = is_near(dot(second, b.place), at_b);
         if (i == count) is_lost = !in_first && !in_second;
-        // It goes on to b and is behind the ray there, or ends on the way after the ray has met it.
+        // The ray meets a surface that continues to `b` and is in front of the ray there. The ray also meets a surface
+        // that ends on the way, behind the ray's intersection.
         bool is_behind = at_b >= b.ray || (in_first && b.first >= b.ray) || (!in_first && in_second && b.second >= b.ray);
         if (!is_behind) continue;
         found = meet(mirror, arc, plane, a.place, in_first || i == 0u ? 0.0 : 1.0);
         return true;
     } while (next < 2u);
-    // What begins at b is met if it is ahead there.
+    // The ray meets a surface that begins at `b` if this surface is ahead of the ray there.
     if (count == 0u && b.first >= b.ray && b.first > 0.0 && dot(first, b.place) < b.ray) {
         found = meet(mirror, arc, first, b.place, 0.0);
         return true;
@@ -219,7 +227,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     }
     float whole = atan(arc.end.y, arc.end.x);
     vec2 turn = vec2(cos(whole / float(steps)), sin(whole / float(steps)));
-    float half_texel = 1.0 / float(distance_edge(mirror)); // in the middle of a face
+    float half_texel = 1.0 / float(distance_edge(mirror)); // angle of half a texel in the middle of a face
     uint step = 1u;
     vec2 next = steps == 1u ? arc.end : turn;
     Sample a = sample_at(mirror, arc, vec2(1, 0)), b = sample_at(mirror, arc, next);
@@ -227,8 +235,8 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float guessed_distance = 0.0;
     uint samples = 0u;
     bool is_done = false;
-    do { // loops ask at their end: see lib/trace.glsl
-        bool changes = false; // from a to b, a texel on
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
+        bool changes = false; // whether a and b differ and are less than a texel apart
         do {
             if (are_alike(a, b)) {
                 a = b;
@@ -261,8 +269,8 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         if (++samples > kLimit || a.place == arc.end) break;
         b = sample_at(mirror, arc, next);
     } while (true);
-    // Never met: it leaves, in front of or behind all there is along its own direction, or it was lost
-    // behind two surfaces that face the centre.
+    // The ray met no surface. A ray that left the scene with at most one captured surface in front is a miss. Any other
+    // ray was lost behind two surfaces that face the centre.
     uint count = surfaces_in_front(a);
     if (count < 2u) return Lookup(direction, kMiss, 0.0, float(count));
     found_distance = guessed_distance;

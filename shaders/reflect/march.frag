@@ -1,9 +1,9 @@
-// Equal-angle march: the reflected ray, seen from the capture's centre, is an arc; equal steps along it
-// are equal steps in texels, where equal steps along the ray waste themselves near by and skip far away.
-// The last step ends at the ray's own direction, which it reaches at infinity, behind all there is.
-// Nothing wider than arc / steps is skipped. Past a silhouette the march goes on: the ray may come back into
-// sight, and what it meets then is the answer, though an unknown one. If it does not, what was last seen
-// beside the silhouette is taken to go on behind it.
+// Technique `march`: marches along the reflected ray in equal angles. Seen from the capture's centre, the ray is an
+// arc, so equal angles are equal steps in texels. Equal steps along the ray itself would be too dense near its start
+// and too wide far away. The last step ends at the ray's own direction, which the ray reaches at infinity.
+// The march skips no surface that is wider than arc / steps. After a silhouette the march continues, because the ray
+// may come back into sight of the centre. A surface that the ray then meets is the result, with the state unknown.
+// Otherwise, the surface last seen beside the silhouette is assumed to continue behind the silhouette.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -24,7 +24,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     uint state = is_behind(last) ? kUnknown : kHit;
     Lookup guess = Lookup(direction, kUnknown, 1.0, 0.0);
     uint k = 0u;
-    do { // loops ask at their end: see lib/trace.glsl
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         Sample next;
         bool goes_behind = false, ends = false;
         do {

@@ -1,5 +1,5 @@
-// Plain environment mapping (the report's parts one and two): the reflected direction as it is, as if
-// the surroundings were infinitely far away.
+// Technique `naive`: plain environment mapping, as in parts one and two of the seed report. The reflected direction is
+// looked up unchanged, as if the surroundings were infinitely far away.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/probe.glsl"

@@ -1,6 +1,6 @@
-// One correction step (the report's part three; first step of Szirmay-Kalos et al. 2005, "Approximate
-// Ray-Tracing on the GPU with Distance Impostors"): what is seen along the reflected direction from the
-// capture's centre is taken for a plane across that direction.
+// Technique `parallax`: one step of parallax correction, as in part three of the seed report. This is the first step of
+// Szirmay-Kalos et al. 2005, "Approximate Ray-Tracing on the GPU with Distance Impostors". The surface that the
+// capture's centre sees in the reflected direction is assumed to be a plane perpendicular to that direction.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/probe.glsl"

@@ -1,12 +1,8 @@
-// A flat mirror: what a view of its own shows at this very pixel, made by an eye as far behind the mirror as the
-// picture's is in front of it. LIT: and what light it throws back itself.
+// Technique `planar`: draws a flat mirror. The reflection is the same pixel of the mirrored view, whose eye is as far
+// behind the mirror's plane as the camera is in front. The shader can add the mirror's diffuse and emitted light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#ifdef LIT
 #include "lib/lit.glsl"
-#else
-#include "lib/surface.glsl"
-#endif
 
 layout(set = 0, binding = 20) uniform sampler2D mirrored;
 
@@ -16,8 +12,6 @@ void main() {
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
     vec3 shown = surface.reflectance * texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0).rgb;
-#ifdef LIT
-    shown += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
-#endif
+    if (lights_mirrors != 0u) shown += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
     write_surface(shown);
 }

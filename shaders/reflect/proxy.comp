@@ -1,5 +1,6 @@
-// Box and sphere that stand for each mirror's surroundings, from its captured distances: one work group
-// a mirror, kAcross x kAcross texels a face. A flat wall across an axis gives its exact place at any texel.
+// Computes the box and the sphere that approximate each mirror's surroundings, from the captured distances. Each work
+// group handles one mirror and reads kAcross x kAcross texels of each face. This sampling is exact for a flat wall
+// perpendicular to an axis, since any texel of such a wall gives the wall's position.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/captures.glsl"
@@ -13,7 +14,7 @@ const uint kAcross = 64u;
 
 shared vec3 lows[gl_WorkGroupSize.x];
 shared vec3 highs[gl_WorkGroupSize.x];
-shared vec2 sums[gl_WorkGroupSize.x]; // of solid angle times distance, and of solid angle
+shared vec2 sums[gl_WorkGroupSize.x]; // sum of solid angle times distance, and sum of solid angle
 
 int face_edge(uint mirror) {
 #define FACE_EDGE(i) textureSize(FACES_OF(distance_faces, i), 0).x
@@ -33,7 +34,7 @@ void main() {
     for (uint i = me; i < 6u * across * across; i += gl_WorkGroupSize.x) {
         uvec2 cell = uvec2(i % across, i / across % across);
         uint side = i / (across * across);
-        // The middle texel of the cell; no product overflows below 2^26 texels an edge.
+        // The middle texel of the sampled cell. No product overflows if a face's edge has fewer than 2^26 texels.
         uvec2 texel = (cell * face + face / 2u) / across;
         float stored = stored_at(mirror, ivec3(texel, first_face_of(mirror) + side));
         if (is_miss(stored) || (range_ends_of(mirror) && stored >= 1.0)) continue;

@@ -1,6 +1,6 @@
-// The surroundings taken for one box (Lagarde and Zanuttini 2012) or one sphere (Brennan 2002) around
-// the capture's centre. The box is exact where a room has six walls across the axes and nothing in it.
-// From outside the proxy the ray is taken to where it enters.
+// Technique `proxy`: approximates the surroundings by one box (Lagarde and Zanuttini 2012) or one sphere (Brennan 2002)
+// around the capture's centre. The box is exact for an empty room with six walls perpendicular to the axes. A ray that
+// starts outside the box or sphere is looked up where it enters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -11,7 +11,8 @@
 layout(set = 0, binding = 20, scalar) readonly buffer Proxies { Proxy proxies[]; };
 const uint kBox = 0u, kSphere = 1u;
 layout(constant_id = OWN_CONSTANTS) const uint shape = kBox;
-// A captured surface further than this from the proxy is something else.
+// A lookup is a hit if the captured surface is at most this far from the box or sphere, relative to the distance from
+// the centre.
 const float kTolerance = 0.05;
 
 bool meets_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
@@ -30,7 +31,7 @@ bool meets_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
     return leave > 0.0 && leave <= kLargest && enter <= leave;
 }
 
-// Past the proxy, or through it where nothing was captured: the ray leaves.
+// Returns the lookup of a ray that leaves the scene, because it misses the box or sphere, or no surface was captured.
 Lookup outward(uint mirror, vec3 direction) {
     bool empty = is_miss(captured_distance(mirror, direction));
     return Lookup(direction, empty ? kMiss : kUnknown, 0.0, empty ? 0.0 : kLeaves);

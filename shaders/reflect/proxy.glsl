@@ -1,6 +1,7 @@
-// What stands for a capture's surroundings: a box and a sphere around its centre, scene units.
+// The box and the sphere that approximate a capture's surroundings. Lengths are in scene units from the capture's
+// centre.
 struct Proxy {
-    vec3 lo; // bounds of the captured points, from the centre; lo > hi: nothing was captured
-    vec3 hi;
-    float radius; // their mean distance over all directions that show one; 0: none does
+    vec3 lo; // lowest corner of the box around all captured points; lo > hi: no surface was captured
+    vec3 hi; // highest corner of the box
+    float radius; // radius of the sphere: mean captured distance over the solid angle; 0: no surface was captured
 };

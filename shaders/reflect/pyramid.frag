@@ -1,19 +1,19 @@
-// Hierarchical search: the reflected ray, seen from the capture's centre, is an arc; on each face of the
-// cube a straight line. It is followed through the cells of a pyramid that bounds the captured distance
-// from both sides. A cell in which the ray stays in front of everything, or behind everything, is passed in
-// one step; any other is opened, down to texels, where the distance itself decides.
+// Technique `pyramid`: hierarchical search. Seen from the capture's centre, the reflected ray is an arc, which is
+// a straight line on each face of the cube map. The search follows this line through the cells of a pyramid that bounds
+// the captured distance from both sides. A cell is passed in one step if the ray stays in front of all its surfaces, or
+// behind all. Any other cell is opened, down to single texels, whose distances decide.
 //
-// What is guaranteed, for the captured distance as a bilinear lookup shows it (a surface that is a function
-// of the direction), barring rounding:
-// - A HIT is a point where the ray goes from before that surface to behind it, no silhouette is there, and
-//   up to it the ray was in sight of the centre. So it is the first such point: no cell is passed in which
-//   the ray could change sides, because a cell's bounds include the ring of one texel around it that
-//   bilinear lookups mix in, across the edges of faces too. Two changes inside one texel cancel unseen.
-// - A MISS is a ray that stays in sight of the centre and leaves where nothing was captured.
-// - Everything else is UNKNOWN: the ray went behind a silhouette, began behind something, or took more than
-//   kMaxVisits cells. If it came back into sight, the direction is that of a later crossing. Otherwise what
-//   was last seen beside the silhouette is taken to go on behind it: a surface is looked up there, and
-//   where nothing was, the ray leaves along its own direction and sees nothing.
+// The search guarantees the following, apart from rounding errors. The bilinearly interpolated captured distance is
+// taken as the surface, a function of the direction.
+// - A hit is a point at which the ray goes from the surface's front to its back, away from any silhouette. Up to this
+//   point, the ray is in sight of the centre. A hit is the first such point, because no cell is passed in which the ray
+//   could change sides. A cell's bounds include a ring of one texel around the cell, which bilinear lookups read, also
+//   across the edges of faces. Two changes inside one texel cancel and are not found.
+// - A miss is a ray that stays in sight of the centre and leaves where no surface was captured.
+// - All other rays are unknown: they went behind a silhouette, started behind a surface, or took more than kMaxVisits
+//   cells. If the ray came back into sight, the lookup's direction is that of the next crossing. Otherwise, the surface
+//   last seen beside the silhouette is assumed to continue behind the silhouette, and is looked up. If no surface was
+//   captured beside the silhouette, the ray leaves along its own direction and sees the environment.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -23,40 +23,44 @@
 
 layout(set = 0, binding = 20) uniform WHOLE_FACES(bounds);
 
-// A driver that stops an invocation's loops does it after 65,535 turns.
+// The most cells that a search visits. The software driver stops an invocation's loops after 65,535 iterations.
 const int kMaxVisits = 4096;
 const int kRefinements = 3;
-const int kBelowTop = 3; // where it begins; measured, one level more or less costs little
-// Distances and bounds are each off by a few roundings.
+// The level at which the search starts, counted from the pyramid's top. Measurements show that one level more or less
+// costs little.
+const int kBelowTop = 3;
+// The factor that widens comparisons of distances with bounds, since both have errors of a few roundings.
 const float kOutwards = 1.0 + 1.0 / 1048576.0;
-// Below this bend, a texel of the largest cube on its face, the arc is one direction.
+// The length of Arc::bend, one texel of the largest cube map, below which an arc counts as a single direction.
 const float kOneDirection = 1.0 / 16384.0;
-const float kNever = 2.0; // after the arc's end
+const float kNever = 2.0; // a parameter s after the arc's end
 
-// Points offset + t direction of the ray, by s = t / (size + t) in [0, 1]: their directions are those of
-// from + s * bend, so every plane through the centre is met where a linear function of s is zero.
+// The directions of a ray's points from the capture's centre. The point offset + t * direction has the parameter
+// s = t / (size + t) in [0, 1]. Its direction is from + s * bend. Therefore the ray meets a plane through the centre
+// where a linear function of s is zero.
 struct Arc {
-    vec3 from;   // unit
-    vec3 bend;   // unit direction of the ray - from
+    vec3 from;   // unit direction of the ray's start
+    vec3 bend;   // unit direction of the ray, minus `from`
     float size;  // distance of the ray's start from the centre
-    float turn;  // where the ray is nearest to the centre
-    float least; // and how near
+    float turn;  // parameter s of the ray's point nearest to the centre
+    float least; // distance of that point from the centre
 };
 
-// The arc on one face, in the coordinates of cube_coordinates.
+// The part of an arc on one cube face, in the coordinates of cube_coordinates.
 struct Line {
     int face;
     vec3 from;
     vec3 bend;
-    ivec2 ahead; // -1, 0, 1: where the line goes
+    ivec2 ahead; // signs of the line's direction in x and y: -1, 0 or 1
 };
 
 vec3 direction_at(Arc arc, float s) { return arc.from + s * arc.bend; }
 
-// At the end it is infinite: to be asked for before.
+// Returns the ray's distance from the centre at s < 1. At s = 1 the distance is infinite.
 float distance_at(Arc arc, float s) { return arc.size * length(direction_at(arc, s)) / (1.0 - s); }
 
-// Positive behind what was captured, `captured` away; distance behind it times 1 - s, which is about linear.
+// Returns the ray's distance minus the captured distance, times 1 - s, which is about linear in s. The result is
+// positive if the ray is behind the captured surface.
 float depth_at(Arc arc, float s, float captured) {
     return is_miss(captured) ? -kLargest : arc.size * length(direction_at(arc, s)) - captured * (1.0 - s);
 }
@@ -66,20 +70,21 @@ Line line_on(int face, Arc arc) {
     return Line(face, from, bend, ivec2(sign(bend.xy * from.z - from.xy * bend.z)));
 }
 
-// The texel that holds the line's point.
+// Returns the texel that contains the line's point at s.
 ivec2 texel_at(Line line, float s, int face) {
     vec3 at = line.from + s * line.bend;
     return ivec2(clamp(floor((at.xy / at.z * 0.5 + 0.5) * float(face)), vec2(0), vec2(face - 1)));
 }
 
-// Where on the arc the line passes x (or y) = border ahead of it; kNever if it ends before that.
+// Returns the parameter s at which the line passes the border x = border, or y = border, ahead. Returns kNever if the
+// line does not reach the border.
 float passes(float from, float bend, float from_z, float bend_z, int ahead, float border, float s) {
     float before = from - border * from_z, towards = bend - border * bend_z;
     if (ahead == 0 || !(towards * float(ahead) > 0.0)) return kNever;
     return max(s, -before / towards);
 }
 
-// Where the line leaves a cell, by x and by y.
+// Returns the parameters s at which the line leaves a cell through its x border and through its y border.
 vec2 leaves(Line line, ivec2 first, ivec2 end, int face, float s) {
     vec2 border = vec2(line.ahead.x > 0 ? end.x : first.x, line.ahead.y > 0 ? end.y : first.y) / float(face) * 2.0 - 1.0;
     return vec2(passes(line.from.x, line.bend.x, line.from.z, line.bend.z, line.ahead.x, border.x, s),
@@ -88,16 +93,16 @@ vec2 leaves(Line line, ivec2 first, ivec2 end, int face, float s) {
 
 struct Walk {
     Line line;
-    ivec2 texel; // where it is
-    int level;   // of the cell that is looked at next, 0 for the texel itself
-    float s;
+    ivec2 texel; // current texel of the walk
+    int level;   // level of the cell that is tested next; 0: the texel itself
+    float s;     // current parameter on the arc
 };
 
 ivec2 cell_first(Walk walk) { return walk.texel >> walk.level << walk.level; }
 ivec2 cell_end(Walk walk, int face) { return min(cell_first(walk) + (1 << walk.level), ivec2(face)); }
 
-// On to the texel behind the border that the line passes first, on the next face where the face ends; one
-// level up where that is in another cell of the level above.
+// Advances the walk to the texel behind the cell border that the line passes first. At the end of a face, the walk
+// moves to the next face. The level rises by one if the new texel is in another cell of the level above.
 void advance(inout Walk walk, Arc arc, vec2 leave, int face) {
     int axis = leave.x <= leave.y ? 0 : 1, other = 1 - axis;
     ivec2 first = cell_first(walk), end = cell_end(walk, face);
@@ -124,7 +129,8 @@ uint packed_bounds(uint mirror, ivec3 place) {
     RETURN_OF_ARRAY(mirror, PACKED)
 }
 
-// Least and largest captured distance in the cell; infinite as in the pyramid.
+// Returns the least and the largest captured distance in the walk's cell, scene units. Infinities mean the same as in
+// pack_bounds.
 vec2 cell_bounds(Walk walk, uint mirror, int face) {
     ivec2 cell = walk.texel >> walk.level;
     uint both = packed_bounds(mirror, ivec3(level_column(face, walk.level) + cell.x, cell.y,
@@ -132,7 +138,7 @@ vec2 cell_bounds(Walk walk, uint mirror, int face) {
     return unpackHalf2x16(both) * stored_unit_of(mirror);
 }
 
-// Whether the ray cannot change sides in the cell, which it leaves at s = end.
+// Returns whether the ray stays on one side of all surfaces in a cell, which it leaves at s = end.
 bool is_passed(Arc arc, vec2 bound, float s, float end) {
     if (isinf(bound.x)) return true;
     float enters = distance_at(arc, s);
@@ -141,7 +147,8 @@ bool is_passed(Arc arc, vec2 bound, float s, float end) {
     return farthest * kOutwards < bound.x || nearest > bound.y * kOutwards;
 }
 
-// The crossing between two points of the arc, before and behind the surface, by false position.
+// Finds the crossing of ray and surface between two points of the arc, in front of and behind the surface, by false
+// position.
 Lookup refined(uint mirror, Arc arc, float before, float behind, float depth_before, float depth_behind, uint state) {
     float residual = 0.0;
     vec3 direction;
@@ -153,7 +160,7 @@ Lookup refined(uint mirror, Arc arc, float before, float behind, float depth_bef
         residual = abs(depth) / (arc.size * length(direction_at(arc, s)));
         if (depth < 0.0) {
             before = s, depth_before = depth;
-            depth_behind *= 0.5; // Illinois: neither end stays for ever
+            depth_behind *= 0.5; // Illinois variant of false position: halving makes both ends move
         } else {
             behind = s, depth_behind = depth;
             depth_before *= 0.5;
@@ -173,10 +180,10 @@ Arc arc_of(vec3 offset, vec3 direction) {
     return arc;
 }
 
-// Past cells in which nothing can happen, up to a texel or to the arc's end.
+// Advances the walk past cells in which the ray cannot change sides, up to a texel to test or to the arc's end.
 void pass_cells(inout Walk walk, inout int visits, Arc arc, uint mirror, int face) {
-    bool goes_on = walk.level > 0; // it is before the arc's end
-    do { // loops ask at their end: see lib/trace.glsl
+    bool goes_on = walk.level > 0; // callers ensure that the walk is before the arc's end
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (goes_on) {
             ++visits;
             vec2 leave = leaves(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
@@ -192,7 +199,7 @@ void pass_cells(inout Walk walk, inout int visits, Arc arc, uint mirror, int fac
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     Arc arc = arc_of(offset, direction);
-    // Straight away from the centre, or through it.
+    // The ray's line passes through the centre, so that the ray's own direction is the only direction to look up.
     if (!(length(arc.bend) > kOneDirection && length(direction + arc.from) > kOneDirection))
         return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
     int face = distance_edge(mirror);
@@ -201,7 +208,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     bool in_sight = depth_at(arc, 0.0, captured_distance(mirror, arc.from)) < 0.0;
     uint state = in_sight ? kHit : kUnknown;
     float last_in_sight = in_sight ? 0.0 : 1.0;
-    bool nothing_beside = false; // the last silhouette
+    bool nothing_beside = false; // whether no surface was captured beside the last silhouette
     int visits = 0;
     do {
         pass_cells(walk, visits, arc, mirror, face);
@@ -220,7 +227,8 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
                 return refined(mirror, arc, walk.s, end, depth, depth_end, between == kEnds ? kUnknown : state);
             state = kUnknown;
             nothing_beside = is_miss(captured);
-            last_in_sight = max(walk.s - 2.0 / (float(face) * length(arc.bend)), 0.0); // a texel before its ramp
+            // One texel before the steep texel of the silhouette.
+            last_in_sight = max(walk.s - 2.0 / (float(face) * length(arc.bend)), 0.0);
         }
         in_sight = depth_end < 0.0;
         advance(walk, arc, leave, face);

@@ -1,18 +1,21 @@
-// The pyramid of distances: for each face of each capture levels 1, 2, ... of cells that cover 2^level
-// texels an edge, cut off at the face's end. A cell holds the least and the largest distance of its
-// texels and of the ring of one texel around them, across the face's edges too: a bilinear lookup
-// anywhere in the cell takes its four texels from there, so the two bound it.
-// All levels lie side by side in one layer a face; a texel packs both bounds as halves, rounded outwards.
+// The distance pyramid. Each face of each capture has levels 1, 2, ... of cells. A cell covers 2^level x 2^level
+// texels, cut off at the face's end. A cell holds the least and the largest distance of its texels and of the ring of
+// one texel around them. The ring continues across the face's edges. A bilinear lookup in the cell reads its four
+// texels from this
+// area, so the two distances bound its result.
+// All levels of a face lie side by side in one array layer. A texel holds both bounds as 16-bit floats, rounded
+// outwards.
 #ifndef CATOPTRIC_PYRAMID_GLSL
 #define CATOPTRIC_PYRAMID_GLSL
 
-// Cells along an edge.
+// Returns the number of cells along an edge of a level, for a face with `face` texels along its edge.
 int level_edge(int face, int level) { return (face + (1 << level) - 1) >> level; }
 
-// The topmost level: one cell a face. At least 1.
+// Returns the number of the topmost level, at least 1. The topmost level has one cell for the face.
 int top_level(int face) { return face <= 2 ? 1 : findMSB(uint(face - 1)) + 1; }
 
-// Where the level begins: edges of full levels are halved, so their sum stays below the first.
+// Returns the column at which a level begins in its layer. Each level is half as wide as the level below, so all levels
+// fit into twice the width of level 1.
 int level_column(int face, int level) {
     int full = 1 << top_level(face);
     return full - (full >> (level - 1));
@@ -21,7 +24,8 @@ int level_column(int face, int level) {
 const uint kHalfInfinity = 0x7c00u;
 const float kLargestStoredHalf = 65504.0, kSmallestHalf = 6.103515625e-5;
 
-// `low` is +infinity where there is nothing at all, `high` where there is nothing somewhere.
+// Packs the least and the largest distance of a cell into a word. `low` is +infinity if the cell shows no surface at
+// all, `high` is +infinity if some texel shows no surface.
 uint pack_bounds(float low, float high) {
     uint a = kHalfInfinity, b = kHalfInfinity;
     if (!isinf(low)) {

@@ -1,10 +1,10 @@
-// Secant search (Szirmay-Kalos, Aszodi, Lazanyi, Premecz 2005; GPU Gems 3, chapter 17): the point of the
-// reflected ray where its distance from the capture's centre equals what was captured in that direction.
-// steps + 2 fetches where the distance is smooth. It begins where the ray's own direction, which is behind
-// all there is, says that it ends (seed eq. p = x + R d_p), and goes on by false position, of inverse
-// distances: on a plane the first step is exact. Picks any of several crossings.
-// More is asked only where that finds nothing: at silhouettes, and where the ray's own direction meets
-// nothing, so that no distance says where to begin. There halves of the arc are tried.
+// Technique `secant`: secant search (Szirmay-Kalos, Aszodi, Lazanyi, Premecz 2005; GPU Gems 3, chapter 17). Finds the
+// point of the reflected ray whose distance from the capture's centre equals the captured distance in that direction.
+// The first guess uses the captured distance in the ray's own direction (seed report: p = x + R d_p). The next steps
+// are false position of inverse distances, for which the first step is exact on a plane. The search needs steps + 2
+// fetches where the captured distance is smooth. Of several crossings it finds an arbitrary one.
+// More steps follow only if these find no crossing: at silhouettes, and if the ray's own direction shows no surface. In
+// the second case no distance gives a first guess, so the search bisects the arc.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -17,16 +17,17 @@ layout(constant_id = OWN_CONSTANTS) const uint steps = 2u;
 
 const uint kHalves = 6u;
 
-// The place where the ray is as far away as what its own direction meets.
+// Returns the place at which the ray is as far along as the surface that the capture shows in the ray's own direction.
 vec2 first_guess(Arc arc, vec3 offset, vec3 direction, float distance) {
     float t = max(distance - dot(offset, direction), 0.0);
     return normalize(vec2(length(offset) + t * arc.end.x, t * arc.end.y));
 }
 
-// Its own direction meets nothing: halves of the arc are tried, towards the edge of what was captured.
+// Bisects the arc towards the edge of the captured surface, because the ray's own direction shows no surface. Stops at
+// a place where the ray is behind a surface.
 void halve(uint mirror, Arc arc, inout Sample front, inout Sample end) {
     uint i = 0u;
-    do { // loops ask at their end: see lib/trace.glsl
+    do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (!is_behind(end)) {
             Sample middle = sample_at(mirror, arc, normalize(front.place + end.place));
             if (middle.captured > 0.0 && !is_behind(middle)) front = middle;

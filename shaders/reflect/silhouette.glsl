@@ -1,33 +1,38 @@
-// What tells a surface that a ray crosses from the outline of one that it passes behind.
+// Distinguishes a surface that a ray crosses from the silhouette of a surface behind which the ray passes.
 #ifndef CATOPTRIC_SILHOUETTE_GLSL
 #define CATOPTRIC_SILHOUETTE_GLSL
 
 #include "lib/probe.glsl"
 
-// A surface steeper than this against the directions from the centre (tangent of the angle at which it is
-// seen) may be two that bilinear lookup joins.
+// The slope of captured distances above which a surface may be two surfaces that bilinear interpolation joins. The
+// slope is the tangent of the angle between the surface and the plane perpendicular to the lookup's direction.
 const float kSteepest = 4.0;
-// ... unless the step from texel to texel is that small a part of the distance: one of unorm8 is.
+// The step between neighbouring texels, relative to the distance, below which the slope does not matter. A rounding
+// step of unorm8 distances is smaller than this step.
 const float kSmallStep = 1.0 / 128.0;
 
-float texel_angle(uint mirror) { return 2.0 / float(distance_edge(mirror)); } // in the middle of a face
-float inverse(float distance) { return is_miss(distance) ? 0.0 : 1.0 / distance; } // 0: nothing
+// Angle of a texel in the middle of a face.
+float texel_angle(uint mirror) { return 2.0 / float(distance_edge(mirror)); }
+float inverse(float distance) { return is_miss(distance) ? 0.0 : 1.0 / distance; } // inverse distance; 0: no surface
 
-// One surface goes on; or it ends and one further away begins, either of which the ray may meet, but nothing
-// it could pass behind; or one nearer by begins, and the ray is behind that.
+// Changes of the captured surface between two directions. kGoesOn: the same surface continues. kEnds: the surface ends
+// and a surface farther away begins, and the ray may meet either. kSilhouette: a nearer surface begins, and the ray is
+// behind this surface.
 const uint kGoesOn = 0u, kEnds = 1u, kSilhouette = 2u;
 
-// Between two unit directions that are close together, where the ray is before and behind what is captured,
-// one over which distance is given. At most four more lookups, where the two are steep.
+// Classifies the captured surface between two close unit directions. In direction `front` the ray is in front of the
+// captured surface, in direction `behind` it is behind. The inverse captured distances of both directions are given.
+// Takes four more lookups if the surface is steep between the directions.
 uint what_is_between(uint mirror, vec3 front, vec3 behind, float captured_front, float captured_behind) {
     if (captured_front == 0.0) return kSilhouette;
     float rise = captured_behind - captured_front, angle = length(behind - front);
     if (abs(rise) <= max(kSteepest, kSmallStep / texel_angle(mirror)) * angle * captured_front) return kGoesOn;
-    // A plane seen at a grazing angle goes on as steeply on one side at least, beyond the texel that a
-    // bilinear lookup mixes in.
+    // A plane seen at a grazing angle is as steep on at least one of the two sides. The lookups lie beyond the texels
+    // that the given distances interpolate.
     float apart = 1.25 * texel_angle(mirror);
     vec3 move = (behind - front) * (apart / angle);
-    // One lookup in a loop, which is unrolled unless it is one that traces (lib/ablate.glsl).
+    // The loop contains one lookup, so that the compiler need not inline a traced lookup (lib/ablate.glsl) four times.
+    // Other lookups are unrolled.
     const vec4 away = vec4(-1, -2, 2, 1);
     vec4 beside;
     for (int i = 0; i < 4; ++i)

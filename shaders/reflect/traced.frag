@@ -1,4 +1,4 @@
-// A mirror that nobody looks up: every pixel of it is left to tracing.
+// Marks every pixel of a mirror for the ray tracer. The mirror looks nothing up in a capture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/surface.glsl"

@@ -1,4 +1,4 @@
-// tests/gpu/cube_face_test.cpp: what a world direction (xyz) finds in the cubes of a mirror (w).
+// Shader of tests/gpu/cube_face_test.cpp: samples the colour and distance cubes of a mirror (w) in a direction (xyz).
 #version 460
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform samplerCubeArray colour_cubes;

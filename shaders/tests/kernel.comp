@@ -1,5 +1,5 @@
-// tests/support/kernel.hpp: the ray tracer's own walk over rays from a buffer, one ray an invocation.
-// Everything travels as words, so that no bit of a float is lost on the way.
+// Shader of tests/support/kernel.hpp: runs the ray tracer's BVH walk for rays from a buffer, one ray per invocation.
+// Buffers hold 32-bit words instead of floats, so that no bit of a float changes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define BVH_NODES_BINDING 0
@@ -10,16 +10,18 @@ layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #include "lib/trace.glsl"
 
 layout(local_size_x = TRACE_LOCAL_SIZE) in;
-layout(set = 0, binding = 2, std430) readonly buffer Rays { uvec4 rays[]; };  // origin, t_max; direction, leaves
-layout(set = 0, binding = 3, std430) writeonly buffer Hits { uvec4 hits[]; }; // t, weights; triangle, object, outcome, steps
-layout(set = 0, binding = 4, std430) readonly buffer Lows { uvec4 lows[]; };  // what origins lack
+// Two words of four per ray: origin, t_max; direction, leaves.
+layout(set = 0, binding = 2, std430) readonly buffer Rays { uvec4 rays[]; };
+// Two elements per ray: t, weights; triangle, object, outcome, steps.
+layout(set = 0, binding = 3, std430) writeonly buffer Hits { uvec4 hits[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Lows { uvec4 lows[]; };  // rounding errors of the origins
 layout(push_constant) uniform Push {
     uint count;
-    uint skipped;  // flags of triangles that the rays pass by
-    uint occluded; // 1: ask any_hit, which says no more than whether
+    uint skipped;  // flags of triangles that rays ignore
+    uint occluded; // 1: call any_hit, which returns only whether the ray has a hit
 };
 
-const uint kFound = 1u, kExhausted = 2u; // outcome
+const uint kFound = 1u, kExhausted = 2u; // bits of a hit's outcome
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

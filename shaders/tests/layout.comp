@@ -1,5 +1,5 @@
-// tests/gpu/layout_test.cpp: writes every member of the second element of an array of each shared
-// structure, word by word in order of declaration.
+// Shader of tests/gpu/layout_test.cpp: writes all members of the second array element of each structure of shared.h,
+// word by word in order of declaration.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

@@ -1,4 +1,4 @@
-// tests/gpu/lifetimes_test.cpp: what the middle of an image with mips looks like at a level of detail.
+// Shader of tests/gpu/lifetimes_test.cpp: samples the middle of an image at a level of detail.
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D before;

@@ -1,11 +1,14 @@
-// Which mirror rays meet first, one an invocation: by the tree and one by one (tests/gpu/next_mirror_test.cpp).
+// Shader of tests/gpu/next_mirror_test.cpp: finds the first mirror on each ray, with or without the mirror tree. Each
+// invocation handles one ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/next_mirror.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 6, std430) readonly buffer Rays { uvec4 rays[]; };      // origin, end; direction, mirror that is left
-layout(set = 0, binding = 7, std430) writeonly buffer Answers { uvec4 answers[]; }; // sphere from 1, its t; any from 1, before the end
+// Two elements per ray: origin, end; direction, mirror to ignore.
+layout(set = 0, binding = 6, std430) readonly buffer Rays { uvec4 rays[]; };
+// First sphere (from 1), its t, whether a mirror is met before the end, 0.
+layout(set = 0, binding = 7, std430) writeonly buffer Answers { uvec4 answers[]; };
 layout(push_constant) uniform Push { uint count; };
 
 void main() {

@@ -1,5 +1,5 @@
-// tests/support/kernel.hpp: points on triangles, their normals, and the rays that leave them, as the ray tracer
-// makes them; one an invocation. Everything travels as words.
+// Shader of tests/support/kernel.hpp: computes points on triangles, their normals, and origins of rays that leave them,
+// as the ray tracer does. Each invocation computes one point. Buffers hold 32-bit words instead of floats.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define BVH_NODES_BINDING 0
@@ -7,8 +7,10 @@
 #include "lib/trace.glsl"
 
 layout(local_size_x = TRACE_LOCAL_SIZE) in;
-layout(set = 0, binding = 2, std430) readonly buffer Starts { uvec4 starts[]; };   // weights, place; direction, unused
-layout(set = 0, binding = 3, std430) writeonly buffer Leavings { uvec4 leavings[]; }; // point, 0; normal, 0; origin, 0
+// Two elements per point: barycentric weights, stored triangle; direction, 0.
+layout(set = 0, binding = 2, std430) readonly buffer Starts { uvec4 starts[]; };
+// Three elements per point: point, 0; normal, 0; ray origin, 0.
+layout(set = 0, binding = 3, std430) writeonly buffer Leavings { uvec4 leavings[]; };
 layout(push_constant) uniform Push { uint count; };
 
 void main() {

@@ -1,5 +1,5 @@
-// tests/gpu/timer_test.cpp and loop_limit_test.cpp: counts `turns` turns of a loop in every invocation;
-// the first of each work group tells its count.
+// Shader of tests/gpu/timer_test.cpp and loop_limit_test.cpp: every invocation counts `turns` iterations of a loop. The
+// first invocation of each work group writes its count.
 #version 460
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) writeonly buffer Counts { uint counts[]; };
@@ -9,7 +9,8 @@ void main() {
     uint count = 0u;
     uint hash = gl_GlobalInvocationID.x + 1u;
     for (uint i = 0u; i < turns; ++i) {
-        // A permutation of the words that leaves only 0 in place: never 0, but no compiler knows.
+        // The hash is a permutation of all words that maps only 0 to 0. The hash is therefore never 0, but the compiler
+        // cannot know and must keep the loop.
         hash = (hash ^ (hash >> 15)) * 2246822519u;
         count += hash == 0u ? 2u : 1u;
     }

@@ -1,4 +1,4 @@
-// tests/gpu/previous_test.cpp: fills an image with a pattern.
+// Shader of tests/gpu/previous_test.cpp: fills an image with a pattern.
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, r32f) writeonly uniform image2D after;

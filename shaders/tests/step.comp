@@ -1,4 +1,5 @@
-// tests/gpu/previous_test.cpp: out = 3 in + where + number, whole numbers in float.
+// Shader of tests/gpu/previous_test.cpp: computes after = 3 * before + (index of the pixel) + number, modulo 2^20, in
+// floats that hold whole numbers.
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D before;

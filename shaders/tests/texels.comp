@@ -1,5 +1,5 @@
-// tests/gpu/texels_test.cpp: every member of one of each structure that lists of texels hold, word by word in order of
-// declaration.
+// Shader of tests/gpu/texels_test.cpp: reads one element of each structure in a texel list, and writes all members,
+// word by word in order of declaration.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/material.glsl"

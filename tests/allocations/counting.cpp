@@ -1,4 +1,5 @@
-// In a source of its own: a compiler that sees both sides of these operators warns of free().
+// These operators have their own source file, because a compiler that sees both `new` and `delete`
+// warns about free().
 #include "allocations/counting.hpp"
 
 #include <atomic>
@@ -9,7 +10,7 @@ namespace {
 
 thread_local std::size_t taken = 0;
 constexpr std::size_t kAll = ~std::size_t{0};
-std::atomic<std::size_t> granted = kAll; // before one is refused
+std::atomic<std::size_t> granted = kAll; // allocations left before one is refused
 
 bool is_refused() { return granted != kAll && granted-- == 0; }
 

@@ -4,12 +4,11 @@
 
 namespace test {
 
-/// How often this thread took memory with operator new, which this program replaces. What a
-/// driver's threads take is theirs.
+/// Returns how often this thread has allocated memory with operator new, which this program
+/// replaces. Allocations of a driver's threads do not count.
 std::size_t allocations();
 
-/// While it lives, one request for memory is refused: that which comes after so many others, on
-/// whichever thread.
+/// Makes one allocation fail while this object exists: the one after `after` others, on any thread.
 class Refusal {
 public:
     explicit Refusal(std::size_t after);

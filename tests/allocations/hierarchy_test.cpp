@@ -1,4 +1,5 @@
-// Where there is no memory for a tree its builder says so, whichever of its threads wanted some.
+// Tests that building a tree throws std::bad_alloc if an allocation fails, on whichever of its
+// threads.
 #include "allocations/counting.hpp"
 #include "support/hierarchies.hpp"
 
@@ -8,8 +9,9 @@ namespace {
 
 using namespace catoptric;
 
-TEST(Hierarchy, MemoryThatIsRefusedToAnyThreadIsSaidByTheCall) {
-    const std::vector<bvh::Triangle> triangles = test::soup(10000, 1); // a few subtrees
+TEST(Hierarchy, BuildThrowsIfAnAllocationFailsOnAnyThread) {
+    // 10000 triangles are enough for a few subtrees, so that several threads allocate.
+    const std::vector<bvh::Triangle> triangles = test::soup(10000, 1);
     const bvh::Bvh whole = bvh::build(triangles, {}, bvh::kMaxLeaf, 3);
     std::size_t refused = 0;
     for (bool done = false; !done; refused += done ? 0 : 1) {

@@ -1,4 +1,4 @@
-// What a frame takes of the heap: the same for each frame of a steady scene.
+// Tests that each frame of a still scene makes the same number of heap allocations.
 #include "allocations/counting.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/passes.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using namespace catoptric;
 
-/// Allocations of one frame of a technique's row.
+/// Number of heap allocations for declaring and for recording one frame.
 struct Taken {
     std::size_t declaring = 0, recording = 0;
     friend auto operator<=>(const Taken&, const Taken&) = default;
@@ -28,8 +28,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrame,
                              return text.substr(0, text.find(':'));
                          });
 
-TEST_P(SteadyFrame, TakesTheSameOfTheHeapEachTime) {
-    gpu::Device device({}); // the validation layer would be counted
+TEST_P(SteadyFrame, EachFrameMakesTheSameNumberOfAllocations) {
+    gpu::Device device({}); // without the validation layer, whose allocations would count
     gpu::Pipelines pipelines(device);
     const scene::Scene scene = scene::cornell_mirrors();
     render::GpuScene gpu_scene(device, scene);
@@ -53,7 +53,7 @@ TEST_P(SteadyFrame, TakesTheSameOfTheHeapEachTime) {
     std::cout << "[ MEASURED ] " << GetParam() << ", " << passes
               << " passes: " << seen.begin()->declaring << " allocations declaring, "
               << seen.begin()->recording << " recording\n";
-    EXPECT_GT(seen.begin()->declaring, 0u); // or nothing is counted
+    EXPECT_GT(seen.begin()->declaring, 0u); // shows that allocations are counted
 }
 
 } // namespace

@@ -1,9 +1,9 @@
-// Ratios that the documentation quotes: pairs of runs, interleaved in one process, since times here
-// drift and only ratios inside one run are sound. Prints medians with spread; judges nothing.
-//   catoptric_bench [ROUNDS]        the shapes of shaders and passes that the engine chose
-//   catoptric_bench rules [ROUNDS]  what each rule of robustness costs: the table of
-//   docs/robustness.md
-//   catoptric_bench repeats TIMES ROW ROW...   how often a comparison says that rows are apart
+// Measures the ratios of times that the documentation quotes. Each ratio compares two runs that
+// alternate in one process, because times drift and only ratios within one run are reliable. Prints
+// medians with their spread and judges nothing.
+//   catoptric_bench [ROUNDS]        compares ways to organise shaders and passes
+//   catoptric_bench rules [ROUNDS]  measures the cost of each rule of docs/robustness.md
+//   catoptric_bench repeats TIMES ROW ROW...   counts how often a comparison calls rows different
 #include "app/bench_subjects.hpp"
 #include "measure/statistics.hpp"
 #include "render/nearest.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace catoptric;
 
-/// One side of a pair: an engine and a technique.
+/// One side of a compared pair: an engine and a technique.
 struct Side {
     const char* name;
     app::Engine& engine;
@@ -31,7 +31,7 @@ app::Subject frames_of(const Side& side, app::Request request, int rounds) {
     request.techniques = {side.technique};
     const auto session = std::make_shared<app::Session>(side.engine, request.scene);
     app::Subject subject = app::frame_subject(session, request, rounds * request.frames);
-    subject.name = side.name; // two engines may draw the same
+    subject.name = side.name; // two engines may draw the same technique
     subject.caller.clear();
     return subject;
 }
@@ -43,7 +43,7 @@ std::vector<double> gpu_ms(const measure::Benchmark& benchmark) {
     return samples;
 }
 
-/// Milliseconds of each side, and the first by the second, pair by pair.
+/// GPU milliseconds of each side, and the ratio a / b of each pair of frames.
 struct Pairs {
     measure::Summary a, b, ratio;
 };
@@ -86,18 +86,20 @@ void compare_shapes(const app::Request& base, int rounds) {
             base, rounds);
 }
 
-/// Rules of which the processor's time is all there is to tell.
+/// Measures the rules that run on the processor. They are always in use, so only their time is
+/// printed.
 void compare_processor_rules(const app::Request& base) {
     constexpr int kTimes = 25;
     const render::Space space = render::space_of(base.scene);
     const render::Geometry geometry = render::make_geometry(base.scene, space);
     render::Nearest nearest;
     nearest.lay_out(geometry);
-    volatile float kept = 0; // or the compiler would not look for it
+    volatile float kept = 0; // volatile, so that the compiler keeps the measured work
     const std::vector<app::Subject> subjects{
         app::subject_of("near planes from the nearest gap | frame",
                         [&] {
-                            for (int i = 0; i < 6; ++i) // camera, four captures, light
+                            // One search each for the camera, four captures and the light.
+                            for (int i = 0; i < 6; ++i)
                                 kept = nearest.distance(
                                     geometry, dvec3(0.1 * i),
                                     [](std::size_t, const render::DrawRange&) { return false; });
@@ -122,8 +124,8 @@ void compare_processor_rules(const app::Request& base) {
     }
 }
 
-/// Rules that a row can leave out, in the device's time of a frame; then those on the processor,
-/// which are never left out: the time they take.
+/// Compares the device's time of a frame with and without each rule that a row can leave out. Then
+/// measures the rules on the processor, which are never left out.
 void compare_rules(const app::Request& base, int rounds) {
     struct Rule {
         const char* name;

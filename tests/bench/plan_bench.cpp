@@ -1,4 +1,5 @@
-// What declaring, planning and showing a frame cost, by pass: build/ci/catoptric_plan_bench.
+// Measures the time of declaring, planning and dumping a render graph, per pass. The program is
+// build/ci/catoptric_plan_bench.
 #include "graph/dump.hpp"
 #include "graph/plan.hpp"
 #include "support/frames.hpp"
@@ -11,7 +12,7 @@ using namespace catoptric;
 
 constexpr graph::Limits kLimits{.max_layers = 1u << 20};
 
-/// Time by pass, beside the time of a frame.
+/// Adds the time per pass to the result, beside the time per graph.
 void count(benchmark::State& state, const graph::Graph& graph) {
     state.counters["a pass"] = benchmark::Counter(
         static_cast<double>(state.iterations()) * static_cast<double>(graph.passes().size()),
@@ -38,7 +39,7 @@ void dump(benchmark::State& state) {
     count(state, graph);
 }
 
-// Passes of the frame.
+// The arguments are the numbers of passes of a graph.
 BENCHMARK(declare)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
 BENCHMARK(plan)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
 BENCHMARK(dump)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);

@@ -1,7 +1,7 @@
-// Our walk of the hierarchy beside the device's own ray query on the same rays, in turn in one
-// process: processor time of all threads, since the driver that has ray queries may be a second
-// one.
-//   catoptric_ray_query [ROUNDS]   at least 6; exit code 69 where no device has them
+// Compares the engine's walk of the BVH with the device's own ray query on the same rays. Both
+// alternate in one process. Measures the processor time of all threads, because the ray query may
+// run on a second driver.
+//   catoptric_ray_query [ROUNDS]   at least 6 rounds; exit code 69 if no device has ray queries
 #include "drivers/ray_query.hpp"
 #include "app/bench_subjects.hpp"
 #include "drivers/witness_rays.hpp"
@@ -19,12 +19,12 @@ using namespace catoptric;
 using test::KernelHit;
 using test::KernelRay;
 
-constexpr int kAcross = 512;           // of the picture, in rays
-constexpr std::size_t kFewRays = 64;   // what a call costs besides its rays
-constexpr std::size_t kMostOther = 40; // hits of one that the other has not, at edges
+constexpr int kAcross = 512;           // rays per row and per column of the picture
+constexpr std::size_t kFewRays = 64;   // a small call, to measure the fixed cost of a call
+constexpr std::size_t kMostOther = 40; // largest number of rays that may differ, at edges
 constexpr int kNoDevice = 69;
 
-/// One through each pixel of the scene's first camera, neighbours beside each other: blocks of 8x8.
+/// Returns one ray through each pixel of the scene's first camera, in blocks of 8x8 pixels.
 std::vector<KernelRay> camera_rays(const scene::Scene& scene, const render::Space& space) {
     const scene::Camera& camera = scene.cameras.front();
     const dvec3 forward = normalize(camera.target - camera.eye),
@@ -54,7 +54,7 @@ double processor_ms(const measure::Benchmark& found, std::size_t round) {
     return costs_of(found, measure::Cost::cpu_time)[round];
 }
 
-/// Prints how many times our processor time the ray query takes.
+/// Prints the processor time of the ray query as a multiple of that of the engine's walk.
 void compare(const char* name, std::span<const bvh::Triangle> triangles,
              const std::vector<KernelRay>& rays, const test::RayQuery& query, int rounds) {
     test::Kernel kernel(triangles);
@@ -104,7 +104,7 @@ int main(int argc, char** argv) try {
     compare("camera", triangles, camera_rays(scene, space), query, rounds);
     compare("scattered", triangles,
             test::rays_anywhere(triangles, std::size_t{kAcross} * kAcross, numbers), query, rounds);
-    test::detail::devices = {}; // drivers do not like to be called while the program is unloaded
+    test::detail::devices = {}; // drivers can crash if called while the program is unloaded
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "catoptric_ray_query: %s\n", error.what());

@@ -14,7 +14,7 @@ namespace {
 
 struct Count {
     int faster = 0, slower = 0;
-    std::vector<double> ratios; ///< of median times
+    std::vector<double> ratios; ///< ratios of the two rows' median times
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// catoptric bench: what it measures, and how two measurements are judged.
+// Tests of `catoptric bench`: which times it measures, and how it judges two measurements.
 #include "cli/program.hpp"
 
 #include "catoptric/bench_against.hpp"
@@ -12,7 +12,7 @@ using namespace catoptric;
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Six rounds of one benchmark, milliseconds each.
+/// Returns a file of benchmark results with one round per value of `ms`, in milliseconds.
 std::string file_of(const std::vector<double>& ms, const std::string& name = "frame/x") {
     json list = json::array();
     for (const double value : ms)
@@ -22,7 +22,7 @@ std::string file_of(const std::vector<double>& ms, const std::string& name = "fr
 }
 const std::vector<double> kSix{10, 11, 12, 13, 14, 15}, kMore{12, 13, 14, 15, 16, 17};
 
-TEST_F(Cli, BenchMeasuresFramesAndWhatComesBefore) {
+TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
     const test::Ended ended = cli({"bench", "flat", "--techniques", "raytrace:depth=1", "--size",
                                    "16x16", "--frames", "6", "--warmup", "1", "-o", "out.json",
                                    "--quiet"});
@@ -49,12 +49,12 @@ TEST_F(Cli, BenchMeasuresFramesAndWhatComesBefore) {
                             testing::Pair("host/flat/16x16/raytrace:depth=1", 6)));
     EXPECT_THAT(ended.out,
                 HasSubstr(counted ? "Mcycles" : "cycles are not counted (perf_event_open: "));
-    // The same run twice is the same.
+    // A measurement compared with itself has no slower benchmark.
     const test::Ended same = cli({"bench", "--compare", "out.json", "out.json"});
     EXPECT_EQ(same.exit_code, 0) << same.err;
 }
 
-TEST_F(Cli, BenchCompareNamesWhatIsSlower) {
+TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {
     write("before.json", file_of(kSix)), write("after.json", file_of(kMore));
     const test::Ended slower = cli({"bench", "--compare", "before.json", "after.json"});
     EXPECT_EQ(slower.exit_code, 1);
@@ -72,7 +72,7 @@ TEST_F(Cli, BenchCompareNamesWhatIsSlower) {
     EXPECT_EQ(read("out.json"), faster.out);
 }
 
-TEST_F(Cli, BenchSaysWhatIsWrong) {
+TEST_F(Cli, BenchRefusesInvalidOptionsAndFiles) {
     write("good.json", file_of(kSix)), write("bad.json", "{\"benchmarks\": 3}");
     expect_refused({"bench", "--compare", "good.json"}, 2,
                    {"--compare: wanted OLD and NEW, found 1 file"});
@@ -107,7 +107,7 @@ TEST_F(Cli, BenchSaysWhatIsWrong) {
 
 class BenchTune : public Cli {
 protected:
-    /// As the user's configuration lies in this folder.
+    /// Runs the program with the user's configuration folder inside the folder of the test.
     test::Ended cli_at_home(const Words& words) const {
         test::Start asked = start(words);
         asked.environment = {{"XDG_CONFIG_HOME", (folder / "mine").string()}};
@@ -122,7 +122,7 @@ protected:
     }
 };
 
-TEST_F(BenchTune, WritesTheProfileThatThenHolds) {
+TEST_F(BenchTune, TuningWritesAProfileThatLaterRunsUse) {
     const test::Ended tuned = cli_at_home({"bench", "flat", "--tune", "--size", "16x16", "--frames",
                                            "6", "--warmup", "0", "--quiet"});
     ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
@@ -142,14 +142,14 @@ TEST_F(BenchTune, WritesTheProfileThatThenHolds) {
         EXPECT_THAT(tuned.out, testing::ContainsRegex(one["variant"].get<std::string>() + " .*" +
                                                       (below ? "  taken" : "not taken")));
     }
-    info.erase("lanes"); // counted by a dispatch, which a list has none of
+    info.erase("lanes"); // `list devices` runs no dispatch that counts lanes
     EXPECT_EQ(device_of({"list", "devices", "--json"}), info);
     const json none = device_of({"info", "--json", "--device-profile", "none"});
     EXPECT_TRUE(none["profile"].is_null());
     EXPECT_EQ(none["variants"]["groups"], "scattered");
 }
 
-TEST_F(BenchTune, AProfileThatIsNamedHoldsOrIsRefused) {
+TEST_F(BenchTune, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
     const json device = device_of({"info", "--json"});
     json profile{{"schema", "catoptric/device-profile/1"},
                  {"variants", {{"hierarchy", "storage"}}}};
@@ -175,7 +175,7 @@ TEST_F(BenchTune, AProfileThatIsNamedHoldsOrIsRefused) {
                     "', found 'of last year'"});
 }
 
-TEST_F(BenchTune, SaysWhatIsWrong) {
+TEST_F(BenchTune, InvalidOptionsAreRefused) {
     expect_refused({"bench", "--tune", "--compare", "a", "b"}, 2,
                    {"--tune and --compare: wanted one of them, found both"});
     expect_refused({"bench", "--tune", "--against", "a"}, 2,
@@ -187,7 +187,7 @@ TEST_F(BenchTune, SaysWhatIsWrong) {
     expect_refused({"bench", "--tune", "-o", "none/p.json"}, 73, {"none/p.json"});
 }
 
-TEST(BenchAgainst, EachRoundIsAskedForWhatTheLineAsksFor) {
+TEST(BenchAgainst, EachRoundGetsTheOptionsOfTheCommandLine) {
     EXPECT_THAT(cli::words_for_round({"room.glb", "--against", "old/catoptric", "--size=64x64",
                                       "--rounds=8", "-q", "-o", "x.json", "--frames", "99",
                                       "--json", "--techniques", "reuse", "march"},
@@ -198,7 +198,8 @@ TEST(BenchAgainst, EachRoundIsAskedForWhatTheLineAsksFor) {
 
 class BenchInTurn : public Cli {
 protected:
-    /// A program that notes that it was called, and with what, and says how long it took.
+    /// Writes an executable script that appends its name and arguments to the file `log`, then runs
+    /// the shell text `rest`. Returns the path of the script.
     std::string program(const std::string& name, const std::string& rest) const {
         const std::filesystem::path path = folder / name;
         write(name, "#!/bin/sh\necho \"" + name + " $*\" >> '" + (folder / "log").string() + "'\n" +
@@ -209,7 +210,7 @@ protected:
     std::string measured(double ms) const { return "echo '" + file_of({ms}) + "'\n"; }
 };
 
-TEST_F(BenchInTurn, ThereAndBackAndEveryRoundIsKept) {
+TEST_F(BenchInTurn, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
     const std::array runs = cli::bench_in_turn(
         {program("old", measured(10)), program("new", measured(12))}, {"flat"}, 6, {});
     EXPECT_EQ(read("log"), "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
@@ -220,7 +221,7 @@ TEST_F(BenchInTurn, ThereAndBackAndEveryRoundIsKept) {
     EXPECT_EQ(runs[0].benchmarks[0].rounds.size(), 6U);
 }
 
-TEST_F(BenchInTurn, AProgramThatFailsIsNamed) {
+TEST_F(BenchInTurn, ErrorNamesTheProgramThatFailed) {
     const auto refused = [&](const std::string& rest, const std::string& message) {
         const std::string wrong = program("wrong", rest);
         try {
@@ -237,7 +238,7 @@ TEST_F(BenchInTurn, AProgramThatFailsIsNamed) {
                            "bench --json' writes it, found a list");
 }
 
-TEST_F(BenchInTurn, ASignalEndsTheProgramUnderWay) {
+TEST_F(BenchInTurn, SignalEndsTheRunningProgram) {
     const std::string slow = program("slow", "exec sleep 600\n");
     const std::atomic<int> stop{15};
     app::Watcher watcher;

@@ -1,5 +1,6 @@
-// Small files that would take gigabytes or hours, and lies: refused, or harmless, within 1 GiB. The
-// table in docs/extremes.md ("bombs") is what they print.
+// Tests of small scene files that would take gigabytes of memory or hours, or that hold false
+// numbers. Each file must be refused, or render within 1 GiB. The tests print the table "bombs" of
+// docs/extremes.md.
 #include "cli/triangle.hpp"
 
 #include <algorithm>
@@ -17,18 +18,20 @@ const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 class Bomb : public Cli {
 protected:
-    /// Renders the file: ends with the code, `parts` in what it says, little of it, and little
-    /// memory. 0: it loads and renders.
+    /// Renders the file and expects the exit code, each of `parts` in stderr, short messages and
+    /// little memory. Exit code 0 means that the file loads and renders. Prints a row of the table.
     void expect(const std::string& what, const std::string& file, int exit_code,
                 const Words& parts = {}) const {
-        // The program as it is built: what it takes is what a user would see.
+        // The program runs without limits, so that its time and memory are those that a user would
+        // see.
         const test::Ended ended = test::run_process(
             start(quick({"render", file, "--technique", "raytrace", "-o", "x.png"})));
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
         EXPECT_LE(ended.peak_bytes, 1ull << 30);
         EXPECT_LE(ended.seconds, 10) << "the longest takes 1.2 where nothing else runs";
-        // A refusal is one line; what renders may have several things to say, each in one.
+        // A refusal prints one line. A scene that renders may print several warnings of one line
+        // each.
         std::istringstream lines(ended.err);
         for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 300u) << line;
         EXPECT_LE(std::ranges::count(ended.err, '\n'), exit_code == 0 ? 5 : 1) << ended.err;
@@ -46,7 +49,7 @@ protected:
         write(file, scene.dump());
         expect(what, file, exit_code, parts);
     }
-    /// 20,000 triangles in a.bin, and how to show them.
+    /// Writes 20,000 triangles to a.bin. Returns a glTF document that shows them once.
     Json many_triangles() const {
         Json scene = triangle("a.bin");
         scene["accessors"][0]["count"] = 60'000;
@@ -59,7 +62,7 @@ protected:
     void SetUp() override { write("a.bin", corners()); }
 };
 
-TEST_F(Bomb, ListsOfEmptyObjects) {
+TEST_F(Bomb, ManyEmptyObjectsExceedTheMaterialBudget) {
     std::string text = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
     for (int i = 0; i < 330'000; ++i) text += ",{}";
     write("empty.gltf", text + "]}");
@@ -67,8 +70,8 @@ TEST_F(Bomb, ListsOfEmptyObjects) {
            {"empty.gltf", "wanted at most 125000 materials, the budget of a scene, found 125001"});
 }
 
-/// All of the budget for JSON and what is made of it.
-TEST_F(Bomb, ListsOfAccessors) {
+/// 600,000 accessors exceed the memory budget for a parsed JSON document.
+TEST_F(Bomb, ManyAccessorsExceedTheMemoryBudget) {
     Json scene = triangle("a.bin");
     std::string text = scene.dump(), more;
     for (int i = 0; i < 600'000; ++i)
@@ -78,7 +81,7 @@ TEST_F(Bomb, ListsOfAccessors) {
     expect("600,000 accessors", "accessors.gltf", 65, {"bytes of memory for its JSON"});
 }
 
-TEST_F(Bomb, AnAccessorOfFourThousandMillion) {
+TEST_F(Bomb, AccessorOfFourThousandMillionElementsIsRefused) {
     Json scene = triangle("a.bin");
     scene["accessors"][0]["count"] = 4'000'000'000;
     expect("accessor of 4e9 elements", "count.gltf", scene, 65,
@@ -88,7 +91,7 @@ TEST_F(Bomb, AnAccessorOfFourThousandMillion) {
            {"accessors[0]: wanted at most 134217728 bytes of sparse accessors"});
 }
 
-TEST_F(Bomb, NodesThatDouble) {
+TEST_F(Bomb, NodeWithTwoParentsIsRefused) {
     Json scene = triangle("a.bin");
     scene["nodes"] = Json::array();
     for (int i = 0; i < 30; ++i) scene["nodes"].push_back({{"children", {i + 1, i + 1}}});
@@ -97,7 +100,7 @@ TEST_F(Bomb, NodesThatDouble) {
            {"nodes[1]: wanted one parent at most, found nodes[0] and nodes[0]"});
 }
 
-TEST_F(Bomb, NodesAndPrimitivesThatShare) {
+TEST_F(Bomb, ManyUsesOfOneMeshExceedTheVertexBudget) {
     Json nodes = many_triangles();
     for (int i = 0; i < 20'000; ++i) nodes["nodes"].push_back({{"mesh", 0}});
     expect("20,000 nodes of a mesh of 20,000 triangles", "nodes.gltf", nodes, 65,
@@ -110,7 +113,7 @@ TEST_F(Bomb, NodesAndPrimitivesThatShare) {
            {"wanted at most 4000000 vertices in meshes, the budget of a scene, found "});
 }
 
-TEST_F(Bomb, LibrariesNamedAgainAndAgain) {
+TEST_F(Bomb, MaterialLibraryNamedManyTimesIsReadOnce) {
     std::string text = "mtllib m.mtl", materials;
     for (int i = 0; i < 80'000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
     for (int i = 0; i < 600; ++i) text += " m.mtl";
@@ -119,7 +122,7 @@ TEST_F(Bomb, LibrariesNamedAgainAndAgain) {
     expect("600 times a library of 80,000 materials: read once", "library.obj", 0);
 }
 
-TEST_F(Bomb, ObjThatWantsMuch) {
+TEST_F(Bomb, ExpensiveObjFileIsRefused) {
     std::string text, face = "f", materials;
     for (int i = 0; i < 20'000; ++i) {
         const double angle = i * 2 * M_PI / 20'000, radius = 1 + i % 2;
@@ -141,7 +144,7 @@ TEST_F(Bomb, ObjThatWantsMuch) {
     expect("a name of 100 kB in 400 materials", "names.obj", 65, {"bytes of names"});
 }
 
-TEST_F(Bomb, ALongNameIsLookedUpAtOnce) {
+TEST_F(Bomb, LongUnknownNameIsLookedUpQuickly) {
     std::string materials;
     for (int i = 0; i < 50'000; ++i) materials += "newmtl material" + std::to_string(i) + "\n";
     write("m.mtl", materials);
@@ -151,7 +154,7 @@ TEST_F(Bomb, ALongNameIsLookedUpAtOnce) {
            {"drawn grey: 1", "mmm...' (20000 bytes)"});
 }
 
-TEST_F(Bomb, FilesThatAreOthers) {
+TEST_F(Bomb, FileOutsideTheFolderOrOfAnotherNameIsRefused) {
     fs::create_directories(folder / "in");
     write("secret.bin", corners()), write("a b.bin", corners());
     fs::create_symlink("../secret.bin", folder / "in/link.bin");
@@ -161,7 +164,7 @@ TEST_F(Bomb, FilesThatAreOthers) {
            {"'a+b.bin' is not there"});
 }
 
-TEST_F(Bomb, ValuesThatCannotBe) {
+TEST_F(Bomb, InvalidGltfValueIsRefused) {
     Json scene = triangle("a.bin");
     scene["nodes"][0]["rotation"] = {0, 0, 0, 0};
     expect("a quaternion of zeros", "rotation.gltf", scene, 65,

@@ -1,9 +1,10 @@
-// How much a scene may ask for: a refusal names the option that allows more.
+// Test of scene budgets: the error for a scene over its budget names the option that raises the
+// limit.
 #include "cli/program.hpp"
 
 namespace {
 
-TEST_F(Cli, ARefusalNamesTheOptionThatAllowsMore) {
+TEST_F(Cli, SceneBudgetErrorNamesTheOptionThatRaisesIt) {
     write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
     expect_refused({"info", "two.obj", "--max-triangles", "1"}, 65,
                    {"two.obj",

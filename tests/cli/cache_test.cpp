@@ -1,4 +1,5 @@
-// Compiled pipelines kept from run to run: a convenience, whose failure costs a sentence.
+// Tests of the cache that keeps compiled pipelines from run to run. A failure of the cache prints
+// one warning and has no other effect.
 #include "cli/program.hpp"
 
 #include <algorithm>
@@ -10,13 +11,13 @@ namespace fs = std::filesystem;
 
 class Cache : public Cli {
 protected:
-    /// A picture with this cache folder; what it says is in `err`.
+    /// Renders a.png with XDG_CACHE_HOME set to `cache_home`. Messages are in `err` of the result.
     test::Ended render(const std::string& cache_home) const {
         test::Start asked = start({"render", "--technique", "naive:bounces=1,face=8,shadow=none",
                                    "--size", "16x16", "-o", "a.png", "-q"});
         asked.environment = {{"XDG_CACHE_HOME", cache_home},
                              {"HOME", folder.string()},
-                             {"MESA_SHADER_CACHE_DISABLE", "true"}}; // whose words are its own
+                             {"MESA_SHADER_CACHE_DISABLE", "true"}}; // avoids driver messages
         return test::run_process(asked);
     }
     std::string picture() const { return read("a.png"); }
@@ -27,7 +28,7 @@ protected:
     }
 };
 
-TEST_F(Cache, IsMadeWhereTheUserKeepsCaches) {
+TEST_F(Cache, PipelineCacheIsMadeInTheUsersCacheFolder) {
     ASSERT_EQ(render((folder / "mine").string()).err, "");
     ASSERT_EQ(files_in(folder / "mine" / "catoptric").size(), 1u);
     ASSERT_EQ(render("").err, "");
@@ -36,7 +37,7 @@ TEST_F(Cache, IsMadeWhereTheUserKeepsCaches) {
     EXPECT_FALSE(fs::exists(folder / "relative")) << "no absolute path counts as none";
 }
 
-TEST_F(Cache, IsSaidToBeUsedWhereItWas) {
+TEST_F(Cache, ReportSaysWhetherThePipelineCacheWasUsed) {
     test::Start asked = start({"compare", "-o", "out", "--techniques", "raytrace:depth=0", "--size",
                                "16x16", "--frames", "1", "--warmup", "0", "--reference",
                                "raytrace:depth=0", "-q"});
@@ -54,7 +55,7 @@ TEST_F(Cache, IsSaidToBeUsedWhereItWas) {
         EXPECT_GT(last[part], 0) << part;
 }
 
-TEST_F(Cache, ThatIsBrokenIsSaidOnceAndMadeAnew) {
+TEST_F(Cache, BrokenCacheFileGivesOneWarningAndIsReplaced) {
     ASSERT_EQ(render(folder.string()).exit_code, 0);
     const std::string wanted = picture();
     const std::vector<fs::path> files = files_in(folder / "catoptric");
@@ -73,7 +74,7 @@ TEST_F(Cache, ThatIsBrokenIsSaidOnceAndMadeAnew) {
     }
 }
 
-TEST_F(Cache, ThatCannotBeWrittenIsSaidAndNothingMore) {
+TEST_F(Cache, UnwritableCacheFolderOnlyGivesAWarning) {
     std::ofstream(folder / "file") << "not a folder";
     const test::Ended said = render((folder / "file").string());
     EXPECT_EQ(said.exit_code, 0);

@@ -1,4 +1,4 @@
-// Many copies of a mesh take one mesh's memory, and transforms.
+// Tests of memory: many copies of a mesh take the memory of one mesh and a transform per copy.
 #include "cli/triangle.hpp"
 
 #include <cmath>
@@ -8,7 +8,8 @@ namespace {
 
 using namespace test::loading;
 
-/// A ball of 2 * 70 * 70 triangles, its corners apart, in a file of its own.
+/// Returns the vertex positions of a ball of 2 * 70 * 70 triangles, as bytes of a glTF buffer.
+/// Triangles share no vertices.
 std::string ball() {
     constexpr int kEdge = 70;
     std::vector<float> floats;
@@ -25,7 +26,8 @@ std::string ball() {
     return {reinterpret_cast<const char*>(floats.data()), floats.size() * sizeof(float)};
 }
 
-/// `count` balls beside one another.
+/// Returns a glTF document with `count` balls side by side that share one mesh. `bytes` is the size
+/// of the mesh's buffer.
 Json balls(std::size_t bytes, int count) {
     Json scene = triangle("ball.bin");
     scene["accessors"][0]["count"] = bytes / 12;
@@ -37,7 +39,7 @@ Json balls(std::size_t bytes, int count) {
     return scene;
 }
 
-TEST_F(Cli, CopiesTakeTheMemoryOfOneAndTransforms) {
+TEST_F(Cli, CopiesOfAMeshShareItsMemory) {
     const std::string bytes = ball();
     write("ball.bin", bytes);
     std::uint64_t peaks[2];
@@ -48,11 +50,12 @@ TEST_F(Cli, CopiesTakeTheMemoryOfOneAndTransforms) {
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         peaks[k] = ended.peak_bytes;
     }
-    // 20 million triangles would be 2 GB of what rays alone read.
+    // If each copy stored its own triangles, ray tracing 20 million triangles would read 2 GB.
     EXPECT_LT(peaks[1], peaks[0] + (64u << 20));
 }
 
-/// 100,000 objects of one triangle each, in one place or side by side.
+/// Returns an OBJ file of 100,000 objects of one triangle each. The objects lie side by side if
+/// `apart` is set, else in one place.
 std::string objects(bool apart) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 100'000; ++i) {
@@ -68,7 +71,8 @@ std::string objects(bool apart) {
     return text;
 }
 
-/// 100,000 nodes that share one triangle, in one place or side by side.
+/// Returns a glTF document of 100,000 nodes that share one triangle. The nodes lie side by side if
+/// `apart` is set, else in one place.
 Json nodes(bool apart) {
     Json scene = triangle("corners.bin");
     scene["nodes"] = Json::array();
@@ -78,7 +82,7 @@ Json nodes(bool apart) {
     return scene;
 }
 
-TEST_F(Cli, ManyObjectsTakeAtMostHalfAGibibyte) {
+TEST_F(Cli, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
     write("corners.bin", corners());
     for (const bool apart : {false, true}) {
         write("many.obj", objects(apart));

@@ -1,4 +1,4 @@
-// What reflects without being a mirror: a polished floor.
+// Tests of a smooth dielectric: a polished floor that reflects without being a mirror.
 #include "cli/program.hpp"
 
 #include <cmath>
@@ -8,7 +8,8 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// A room with a mirror at its back and a polished floor over a good third of the picture.
+/// Writes a scene of a room with a mirror at the back wall. A polished floor covers about 39 % of
+/// the picture.
 class Dielectrics : public Cli {
 protected:
     Dielectrics() {
@@ -37,7 +38,7 @@ protected:
     }
 };
 
-TEST_F(Dielectrics, RowsAreChargedForReflectionsThatTheyDoNotDraw) {
+TEST_F(Dielectrics, RowsShowTheErrorOfMissingDielectricReflections) {
     const json report = compared({});
     const json &planar = report["rows"][0], &traced = report["rows"][1];
     const double pixels = planar["error_dielectrics"]["pixels"];
@@ -59,7 +60,7 @@ TEST_F(Dielectrics, RowsAreChargedForReflectionsThatTheyDoNotDraw) {
     EXPECT_THAT(read("out/rows.csv"), HasSubstr("dielectrics_flip"));
 }
 
-TEST_F(Dielectrics, AreMirrorsWhereAsked) {
+TEST_F(Dielectrics, OptionMakesSmoothDielectricsMirrors) {
     const json report = compared({"--dielectric-mirrors"});
     const json& planar = report["rows"][0];
     EXPECT_EQ(planar["error_dielectrics"]["pixels"], 0);
@@ -69,7 +70,7 @@ TEST_F(Dielectrics, AreMirrorsWhereAsked) {
     EXPECT_THAT(read("out/report.md"), testing::Not(HasSubstr("Not drawn: ")));
 }
 
-TEST_F(Dielectrics, WhyNamesWhatNoRowDraws) {
+TEST_F(Dielectrics, GraphWhyNamesReflectionsThatNoRowDraws) {
     const test::Ended text = cli({"graph", "room.obj", "--why"});
     EXPECT_EQ(text.exit_code, 0) << text.err;
     EXPECT_THAT(text.out,

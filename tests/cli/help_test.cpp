@@ -1,4 +1,4 @@
-// What help, version and lists print.
+// Tests of the output of `catoptric help`, `--version` and `list`.
 #include "cli/program.hpp"
 
 #include <sstream>
@@ -41,7 +41,7 @@ TEST_F(Cli, HelpShowsCommonOptionsFirst) {
     }
 }
 
-TEST_F(Cli, HelpVerbPrintsWhatTheOptionPrints) {
+TEST_F(Cli, HelpVerbPrintsTheTextOfTheHelpOption) {
     EXPECT_EQ(cli({"help"}).out, cli({"--help"}).out);
     for (const std::string& verb : kVerbs) {
         const test::Ended ended = cli({"help", verb});
@@ -57,7 +57,7 @@ TEST_F(Cli, ShortVersionFlagPrintsTheVersion) {
     EXPECT_THAT(cli({"-V"}).out, testing::StartsWith("catoptric "));
 }
 
-TEST_F(Cli, ListOfTechniquesHasOneLineEach) {
+TEST_F(Cli, ListOfTechniquesHasOneLinePerTechnique) {
     const std::string text = cli({"list", "techniques"}).out;
     EXPECT_THAT(text, HasSubstr("\nparallax "));
     EXPECT_THAT(text, HasSubstr("\nauto "));
@@ -70,9 +70,9 @@ TEST_F(Cli, ListOfOneTechniqueShowsItsKnobs) {
     EXPECT_THAT(text, testing::StartsWith("parallax "));
     EXPECT_THAT(text, HasSubstr("shadow_map"));
     EXPECT_THAT(text, Not(HasSubstr("hybrid ")));
-    const auto json = nlohmann::json::parse(cli({"list", "techniques", "march", "--json"}).out);
-    ASSERT_EQ(json["techniques"].size(), 1U);
-    EXPECT_EQ(json["techniques"][0]["name"], "march");
+    const auto listed = nlohmann::json::parse(cli({"list", "techniques", "march", "--json"}).out);
+    ASSERT_EQ(listed["techniques"].size(), 1U);
+    EXPECT_EQ(listed["techniques"][0]["name"], "march");
     EXPECT_THAT(cli({"list", "techniques", "auto"}).out, testing::StartsWith("auto "));
     expect_refused({"list", "techniques", "parralax"}, 2,
                    {"'parralax'", "did you mean 'parallax'"});

@@ -1,4 +1,5 @@
-// Names of files, objects and materials that talk to a terminal, a spreadsheet or a browser.
+// Tests of files, objects and materials whose names hold control characters of a terminal, formulas
+// of a spreadsheet or HTML.
 #include "cli/program.hpp"
 
 namespace {
@@ -20,7 +21,8 @@ protected:
         write("m.mtl", "newmtl " + name + "\nillum 3\nKs 1 1 1\n" + name + "\n");
     }
 
-    /// Nothing that a terminal obeys, and no line that a name began.
+    /// Expects text without control characters and invalid bytes. No line of the text may start
+    /// with text that a line break in a name moved there.
     static void expect_plain(const std::string& text, const std::string& where) {
         for (const char c : text)
             ASSERT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << where << text;
@@ -36,7 +38,7 @@ protected:
     }
 };
 
-TEST_F(Hostile, NoVerbSpeaksToTheTerminal) {
+TEST_F(Hostile, VerbsPrintNoTerminalControlCharacters) {
     const std::string file = scene + ".obj";
     EXPECT_THAT(plain({"info", file}).out, HasSubstr("=1+1\\x1b[2J"));
     plain({"graph", file, "--technique", "auto", "--why"});
@@ -56,7 +58,7 @@ TEST_F(Hostile, NoVerbSpeaksToTheTerminal) {
     plain({"stress", "--only", scene}, 2);
 }
 
-TEST_F(Hostile, JsonKeepsItWhole) {
+TEST_F(Hostile, JsonWithHostileNamesIsValid) {
     const std::string file = scene + ".obj";
     for (const Words& words :
          {Words{"info", file, "--json"},
@@ -68,11 +70,12 @@ TEST_F(Hostile, JsonKeepsItWhole) {
     }
 }
 
-TEST_F(Hostile, ReportsHoldText) {
+TEST_F(Hostile, ReportsEscapeHostileNames) {
     plain(quick({"compare", scene + ".obj", "-o", "out", "--techniques", "reuse"}));
     for (const char* name : {"report.json", "report.md", "report.html"})
         expect_plain(read(std::string("out/") + name), name);
-    // A quoted cell may hold a line's end (RFC 4180); nothing else of the name is obeyed.
+    // A quoted CSV cell may hold a line break (RFC 4180). All other control characters of the name
+    // must be escaped.
     const std::string csv = read("out/rows.csv");
     EXPECT_THAT(csv, HasSubstr(",\"'=1+1\\x1b[2J|\"\"`<script>x\\xff\ncatoptric: forged\","));
     for (const char c : csv)

@@ -1,15 +1,16 @@
-// Input that is not there or makes no sense: 66, 65; no device: 69.
+// Tests of exit codes: 66 for a missing input file, 65 for an invalid file, 69 without a Vulkan
+// device.
 #include "cli/program.hpp"
 
 namespace {
 
-TEST_F(Cli, MissingFiles) {
+TEST_F(Cli, MissingInputFileIsRefused) {
     for (const std::string name : {"none.glb", "none.gltf", "none.obj"})
         expect_refused({"render", name, "--technique", "reuse", "-o", "x.png"}, 66, {name});
     expect_refused({"diff", "none.exr", "none.png"}, 66, {"none.exr"});
 }
 
-TEST_F(Cli, GarbageScenes) {
+TEST_F(Cli, InvalidSceneFileIsRefused) {
     write("garbage.glb", "this is no scene at all, whatever its name says");
     expect_refused({"render", "garbage.glb", "--technique", "reuse", "-o", "x.png"}, 65,
                    {"garbage.glb"});
@@ -21,8 +22,8 @@ TEST_F(Cli, GarbageScenes) {
                    {"garbage.gltf"});
 }
 
-/// The first thing said is what is missing and how to make it; what the loader has to say comes
-/// after.
+/// The first message says that the scene lacks a mirror and how to make a mirror. Messages of the
+/// loader may only follow after it.
 TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
     write("plain.obj", "o a b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const test::Ended ended = cli({"compare", "plain.obj", "-o", "out"});
@@ -32,7 +33,7 @@ TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
               "found none; make one with --mirror PATTERN[=REFLECTANCE], such as\n"
               "  --mirror 'a b'\n");
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
-    // Pasted, it works.
+    // The option that the message suggests makes the command succeed.
     EXPECT_EQ(cli(quick({"compare", "plain.obj", "-o", "out", "--mirror", "a b", "--techniques",
                          "reuse"}))
                   .exit_code,
@@ -49,8 +50,9 @@ TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
     }
 }
 
-TEST_F(Cli, TruncatedGlb) {
-    // Says that it is 4096 bytes long, and ends after its header and a piece of JSON.
+TEST_F(Cli, TruncatedGlbIsRefused) {
+    // The header of this .glb file states a length of 4096 bytes, but the file ends within its
+    // JSON.
     std::string bytes = "glTF";
     for (const unsigned word : {2U, 4096U, 2048U, 0x4E4F534AU})
         for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift);
@@ -58,20 +60,20 @@ TEST_F(Cli, TruncatedGlb) {
     expect_refused({"render", "cut.glb", "--technique", "reuse", "-o", "x.png"}, 65, {"cut.glb"});
 }
 
-TEST_F(Cli, ObjWithoutTriangles) {
+TEST_F(Cli, ObjWithoutTrianglesIsRefused) {
     write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     expect_refused({"render", "points.obj", "--technique", "reuse", "-o", "x.png"}, 65,
                    {"points.obj"});
 }
 
-TEST_F(Cli, PicturesThatAreNone) {
+TEST_F(Cli, DiffRefusesFilesThatAreNoPictures) {
     write("a.png", "no PNG");
     write("a.exr", "no EXR");
     expect_refused({"diff", "a.png", "a.png"}, 65, {"a.png"});
     expect_refused({"diff", "a.exr", "a.exr"}, 65, {"a.exr"});
 }
 
-TEST_F(Cli, NoCameraIsSaidAndReplaced) {
+TEST_F(Cli, SceneWithoutACameraGetsOneWithAMessage) {
     write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const test::Ended ended = cli(
         quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
@@ -82,7 +84,7 @@ TEST_F(Cli, NoCameraIsSaidAndReplaced) {
     EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));
 }
 
-TEST_F(Cli, WithoutADriverSaysWhatToInstall) {
+TEST_F(Cli, ErrorForAMissingDriverSaysWhatToInstall) {
     const auto without = [&](const Words& words) {
         test::Start process = start(words);
         for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})

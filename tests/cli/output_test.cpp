@@ -1,4 +1,5 @@
-// Output that cannot be made: 73; that breaks off: 74, with the old file as it was; signals: 130.
+// Tests of exit codes: 73 if an output cannot be created, 74 if writing breaks off, 130 or 143
+// after a signal. The old file stays in each case.
 #include "cli/program.hpp"
 
 #include <cstring>
@@ -9,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(Cli, IntoAMissingFolder) {
+TEST_F(Cli, OutputFileInAMissingFolderIsRefused) {
     expect_refused({"render", "--technique", "reuse", "-o", "none/x.png"}, 73,
                    {"none/x.png", "no folder none"});
     expect_refused({"render", "--technique", "reuse", "-o", "x.png", "--trace", "none/t.json"}, 73,
@@ -19,8 +20,9 @@ TEST_F(Cli, IntoAMissingFolder) {
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
-/// A folder for many files is made with its parents, whichever way it is spelt.
-TEST_F(Cli, FolderIsMadeWithItsParents) {
+/// `-o DIR` creates the output folder and its parents, also for paths with `..` or a trailing
+/// slash.
+TEST_F(Cli, OutputFolderIsMadeWithItsParents) {
     for (const std::string name : {"./a/../b/out/", "b/out/again"}) {
         const test::Ended ended = cli(
             quick({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
@@ -33,7 +35,7 @@ TEST_F(Cli, FolderIsMadeWithItsParents) {
     EXPECT_TRUE(fs::exists(folder / "c/d/stress.json"));
 }
 
-TEST_F(Cli, FolderThatCannotBeMadeIsNamedBeforeAnyWork) {
+TEST_F(Cli, ImpossibleOutputFolderIsRefusedBeforeAnyWork) {
     write("file", "old");
     fs::create_symlink("nowhere", folder / "dangling");
     for (const Words& verb : {Words{"compare"}, Words{"stress"}}) {
@@ -50,7 +52,7 @@ TEST_F(Cli, FolderThatCannotBeMadeIsNamedBeforeAnyWork) {
     EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
-TEST_F(Cli, NameOfAFolderOrFile) {
+TEST_F(Cli, OutputPathOfTheWrongKindIsRefused) {
     expect_refused({"render", "--technique", "reuse", "-o", folder.string()}, 73,
                    {folder.string(), "found a folder"});
     fs::create_directory(folder / "x.png");
@@ -62,7 +64,7 @@ TEST_F(Cli, NameOfAFolderOrFile) {
     EXPECT_EQ(read("file"), "old");
 }
 
-TEST_F(Cli, FullDevice) {
+TEST_F(Cli, WritingToAFullDeviceExitsWith74) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
     fs::create_symlink("/dev/full", folder / "full.png");
     const test::Ended ended = cli(
@@ -90,7 +92,7 @@ TEST_F(Cli, FullDiskLeavesTheOldFile) {
     EXPECT_EQ(entries, 1) << "a temporary was left behind";
 }
 
-TEST_F(Cli, ReaderThatHasGone) {
+TEST_F(Cli, ClosedPipeOnStdoutExitsWith74) {
     for (const Words& words : {Words{"list", "techniques"}, Words{"info", "--json"}}) {
         test::Start process = start(words);
         process.no_reader = true;
@@ -100,7 +102,7 @@ TEST_F(Cli, ReaderThatHasGone) {
     }
 }
 
-TEST_F(Cli, PngToStdout) {
+TEST_F(Cli, RenderWritesAPngToStdout) {
     const test::Ended ended = cli(quick({"render", "--technique", "reuse", "-o", "-"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::StartsWith("\x89PNG\r\n"));
@@ -108,7 +110,7 @@ TEST_F(Cli, PngToStdout) {
     EXPECT_EQ(read("x.png"), ended.out);
 }
 
-/// Eight rows in five rounds.
+/// Returns the command line of a comparison of eight rows in five rounds.
 std::vector<std::string> eight_rows() {
     std::vector<std::string> words{"compare",
                                    "-o",
@@ -128,7 +130,7 @@ std::vector<std::string> eight_rows() {
     return words;
 }
 
-TEST_F(Cli, InterruptedCompareKeepsItsRows) {
+TEST_F(Cli, InterruptedCompareKeepsItsFinishedRows) {
     test::Start process = start(eight_rows());
     process.signal = SIGINT;
     process.signal_at = "[2/40] parallax:face=64, round 1 of 5";
@@ -142,7 +144,7 @@ TEST_F(Cli, InterruptedCompareKeepsItsRows) {
     EXPECT_TRUE(fs::exists(folder / "out/report.html"));
 }
 
-TEST_F(Cli, InterruptedInALaterRoundKeepsTheRounds) {
+TEST_F(Cli, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
     test::Start process = start(eight_rows());
     process.signal = SIGINT;
     process.signal_at = "reuse:face=64, round 4 of 5";
@@ -157,7 +159,7 @@ TEST_F(Cli, InterruptedInALaterRoundKeepsTheRounds) {
     }
 }
 
-TEST_F(Cli, InterruptedBeforeTheFirstRow) {
+TEST_F(Cli, CompareInterruptedBeforeTheFirstRowWritesNothing) {
     test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "1000",
                                  "--warmup", "1", "--progress", "always", "--techniques", "reuse"});
     process.signal = SIGTERM;
@@ -168,7 +170,7 @@ TEST_F(Cli, InterruptedBeforeTheFirstRow) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out/report.json"));
 }
 
-TEST_F(Cli, InterruptedLagKeepsTheRows) {
+TEST_F(Cli, CompareInterruptedDuringLagKeepsItsRows) {
     test::Start process = start({"compare", "-o", "out", "--lag", "--size", "32x32", "--frames",
                                  "1", "--warmup", "1", "--progress", "always", "--techniques",
                                  "raytrace", "reuse:face=16"});
@@ -184,7 +186,7 @@ TEST_F(Cli, InterruptedLagKeepsTheRows) {
     EXPECT_EQ(document["lag"]["without_history"], nlohmann::json::array({"raytrace"}));
 }
 
-TEST_F(Cli, InterruptedRenderLeavesNoPicture) {
+TEST_F(Cli, InterruptedRenderKeepsTheOldPicture) {
     write("x.png", "old");
     test::Start process = start({"render", "-o", "x.png", "--size", "32x32", "--frames", "100000",
                                  "--technique", "reuse", "--progress", "always"});

@@ -1,4 +1,5 @@
-// Pictures that claim more than they hold, or than is read, are refused by their headers.
+// Tests of picture files whose headers claim more pixels than the file holds or than the program
+// accepts. The program must refuse such files by their headers.
 #include "cli/program.hpp"
 
 #include <bit>
@@ -18,7 +19,7 @@ std::string little_endian(std::uint32_t value) {
     return {bytes.rbegin(), bytes.rend()};
 }
 
-/// The CRC-32 of PNG.
+/// Returns the CRC-32 checksum that PNG chunks use.
 std::uint32_t crc_of(const std::string& bytes) {
     std::uint32_t crc = ~0U;
     for (const char byte : bytes) {
@@ -33,7 +34,7 @@ std::string chunk(const std::string& kind, const std::string& content) {
            big_endian(crc_of(kind + content));
 }
 
-/// RGB of 8 bits a side, whose values cannot be decoded.
+/// Returns a PNG file of 8-bit RGB with `bytes` bytes of pixel data that cannot be decoded.
 std::string png(std::uint32_t width, std::uint32_t height, std::size_t bytes) {
     return "\x89PNG\r\n\x1a\n" +
            chunk("IHDR",
@@ -46,7 +47,8 @@ std::string attribute(const std::string& name, const std::string& type, const st
            value;
 }
 
-/// ZIP of three floats a pixel, with an empty table of chunks.
+/// Returns an OpenEXR file with ZIP compression, three float channels and an empty table of chunks.
+/// `last_x`, `last_y`: the largest pixel coordinates. `more`: further header attributes.
 std::string exr(std::uint32_t last_x, std::uint32_t last_y, const std::string& more = {}) {
     std::string channels;
     for (const char* name : {"B", "G", "R"})
@@ -75,7 +77,7 @@ protected:
     }
 };
 
-TEST_F(PictureBudget, DiffLooksAtTheHeaderFirst) {
+TEST_F(PictureBudget, DiffRefusesPicturesByTheirHeaders) {
     write("many.png", png(40000, 40000, 5'000'000));
     expect_cheap({"diff", "many.png", "many.png"},
                  "many.png: wanted at most 536870912 values, found 40000x40000 with 3 channels");
@@ -91,8 +93,9 @@ TEST_F(PictureBudget, DiffLooksAtTheHeaderFirst) {
     expect_cheap({"diff", "dark.hdr", "dark.hdr"}, "bytes for 9000x9000 pixels, found 51");
 }
 
-/// Numbers for which OpenEXR would allocate memory before it finds that nothing is there.
-TEST_F(PictureBudget, OpenExrIsNotBelieved) {
+/// Each attribute holds a number for which the OpenEXR library would allocate memory before it
+/// notices that the file ends.
+TEST_F(PictureBudget, ExrHeaderWithHugeNumbersIsRefused) {
     const std::string huge = little_endian(0x7fffffff);
     const std::pair<std::string, std::string> wrong[] = {
         {attribute("chunkCount", "int", huge), "bytes behind its header"},
@@ -106,14 +109,14 @@ TEST_F(PictureBudget, OpenExrIsNotBelieved) {
     }
 }
 
-TEST_F(PictureBudget, AnEnvironmentIsJudgedBeforeItIsDecoded) {
+TEST_F(PictureBudget, TooLargeEnvironmentIsRefusedBeforeDecoding) {
     write("sky.png", png(8192, 8192, 196'000));
     expect_cheap({"render", "cornell-mirrors", "--technique", "reuse", "-o", "x.png",
                   "--environment", "sky.png"},
                  "sky.png: wanted an environment of at most 33554432 texels, found 8192x8192");
 }
 
-TEST_F(PictureBudget, AMaskOfAnotherSizeIsNotDecoded) {
+TEST_F(PictureBudget, MaskOfAnotherSizeIsRefusedBeforeDecoding) {
     write("mask.png", png(8192, 8192, 196'000));
     const test::Ended made = cli(
         quick({"render", "cornell-mirrors", "--technique", "reuse", "-o", "a.png"}));
@@ -122,14 +125,14 @@ TEST_F(PictureBudget, AMaskOfAnotherSizeIsNotDecoded) {
                  "mask.png: wanted a mask of 32x32 as the pictures, found 8192x8192");
 }
 
-TEST_F(PictureBudget, ATextureIsJudgedBeforeItIsDecoded) {
+TEST_F(PictureBudget, TooLargeTextureIsRefusedBeforeDecoding) {
     write("wood.png", png(60000, 60000, 11'000'000));
     write("m.mtl", "newmtl m\nmap_Kd wood.png\n");
     write("x.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
     expect_cheap({"info", "x.obj"}, "wanted at most 67108864 texels in pictures");
 }
 
-TEST_F(PictureBudget, OnlyOurOwnSentenceIsSaidOfABrokenPng) {
+TEST_F(PictureBudget, BrokenPngGivesASingleErrorLine) {
     write("broken.png", png(8, 8, 100));
     expect_cheap({"diff", "broken.png", "broken.png"}, "broken.png: cannot be decoded: ");
 }

@@ -1,5 +1,5 @@
-// No output is an input or another output, by any path: 2, naming both, before anything is
-// rendered.
+// Tests that an output path may not name an input file or another output, also through links. The
+// program exits with 2 and names both paths before it renders.
 #include "cli/program.hpp"
 
 namespace {
@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(Places, TheSceneAndItsFilesAreNotWritten) {
+TEST_F(Places, OutputOverASceneFileIsRefused) {
     fs::create_directory(folder / "sub");
     fs::create_symlink("../room.obj", folder / "sub/link.png");
     fs::create_directory_symlink("sub", folder / "also");
@@ -52,7 +52,7 @@ TEST_F(Places, TheSceneAndItsFilesAreNotWritten) {
     expect_unharmed();
 }
 
-TEST_F(Places, EveryFileOfAComparisonIsAskedAbout) {
+TEST_F(Places, CompareRefusesToOverwriteFilesOfItsScene) {
     fs::create_directories(folder / "out/images");
     for (const std::string name :
          {"report.json", "report.html", "report.md", "rows.csv", "images/reference.png",
@@ -73,7 +73,7 @@ TEST_F(Places, EveryFileOfAComparisonIsAskedAbout) {
     expect_unharmed();
 }
 
-TEST_F(Places, TheBuffersOfAScene) {
+TEST_F(Places, OutputOverAGltfBufferIsRefused) {
     write("room.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
                        R"("nodes":[{"mesh":0}],)"
                        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
@@ -90,7 +90,7 @@ TEST_F(Places, TheBuffersOfAScene) {
     EXPECT_EQ(read("room.bin"), bytes);
 }
 
-TEST_F(Places, OutputsAreApart) {
+TEST_F(Places, TwoOutputsInTheSameFileAreRefused) {
     expect_refused(render("room.obj", {"-o", "x.png", "--trace", "./x.png"}), 2,
                    {"./x.png: cannot be written: it is the same file as x.png, which is written "
                     "too"});
@@ -99,7 +99,7 @@ TEST_F(Places, OutputsAreApart) {
     expect_refused(
         render("room.obj", {"-o", "x.png", "--trace", "t.json", "--profile", "./t.json"}), 2,
         {"./t.json", "the same file as t.json, which is written too"});
-    fs::create_symlink("t.json", folder / "later.png"); // neither is there yet
+    fs::create_symlink("t.json", folder / "later.png"); // neither file exists yet
     expect_refused(render("room.obj", {"-o", "later.png", "--trace", "t.json"}), 2,
                    {"t.json", "the same file as later.png, which is written too"});
     fs::create_directory(folder / "out");
@@ -113,8 +113,9 @@ TEST_F(Places, OutputsAreApart) {
     EXPECT_FALSE(fs::exists(folder / "x.png"));
 }
 
-/// What the shell opened for the result is an output too; what it does not write is none.
-TEST_F(Places, StdoutIsAnOutput) {
+/// The file to which the shell redirects stdout counts as an output if the program prints its
+/// result, as with `--json`.
+TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
     test::Start process = start(render("room.obj", {"-o", "x.png", "--trace", "t.json", "--json"}));
     process.out_path = (folder / "t.json").string();
     expect_ended(test::run_process(process), 2, {"t.json", "the same file as /dev/stdout"});
@@ -123,8 +124,8 @@ TEST_F(Places, StdoutIsAnOutput) {
     EXPECT_EQ(test::run_process(process).exit_code, 0);
 }
 
-/// What is thrown away may be so twice.
-TEST_F(Places, DevicesMayBeNamedTwice) {
+/// Two outputs may both name /dev/null.
+TEST_F(Places, DeviceFileMayBeNamedForTwoOutputs) {
     fs::create_symlink("/dev/null", folder / "null.png");
     const test::Ended ended = cli(render("room.obj", {"-o", "null.png", "--trace", "/dev/null"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -1,4 +1,4 @@
-// A technique per mirror, as a user asks for it and reads it back.
+// Tests of plans: rules that give each mirror a technique, and the plan that the program reports.
 #include "cli/program.hpp"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kMixed = "1=reuse:face=16 2=hybrid:face=16 *=raytrace:shadow=map";
 
-TEST_F(Cli, PlanIsReadBackFromRenderAsItWasDrawn) {
+TEST_F(Cli, RenderJsonContainsThePlanThatWasDrawn) {
     const test::Ended ended = cli({"render", "--plan", kMixed, "--size", "16x16", "--frames", "1",
                                    "--warmup", "0", "-o", "p.png", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -31,7 +31,7 @@ TEST_F(Cli, PlanIsReadBackFromRenderAsItWasDrawn) {
     EXPECT_EQ(plan[3]["settings"]["shadow"], "map");
     EXPECT_EQ(plan[3]["settings"]["capture"], 256);
     EXPECT_EQ(plan[3]["why"], "rule '*'");
-    // What was written is a plan again.
+    // The JSON that `render` prints can be given to `--plan` and draws the same picture.
     std::ofstream(folder / "saved.json") << document.dump();
     const test::Ended again = cli({"render", "--plan", (folder / "saved.json").string(), "--size",
                                    "16x16", "--frames", "1", "--warmup", "0", "-o", "q.png",
@@ -40,8 +40,9 @@ TEST_F(Cli, PlanIsReadBackFromRenderAsItWasDrawn) {
     EXPECT_EQ(Json::parse(again.out)["mean"], document["mean"]);
 }
 
-/// What a scene suggests is read back mirror by mirror, with reasons, and is a plan itself.
-TEST_F(Cli, AutoIsReadBackAsThePlanThatItIs) {
+/// `auto` reports a technique and a reason for each mirror. The same techniques given as a plan
+/// draw the same picture.
+TEST_F(Cli, AutoReportsAPlanThatDrawsTheSamePicture) {
     const Words size{"--size", "48x48", "--frames", "1", "--warmup", "1", "--json"};
     const auto render = [&](Words words) {
         words.insert(words.end(), size.begin(), size.end());
@@ -67,8 +68,8 @@ TEST_F(Cli, AutoIsReadBackAsThePlanThatItIs) {
     EXPECT_NE(list.out.find("\nauto  "), std::string::npos);
 }
 
-/// What a technique cannot draw stands in the row of the table and on stderr.
-TEST_F(Cli, ARowSaysWhatItsTechniqueCannotDraw) {
+/// If a technique cannot draw a mirror, its row of the table and stderr say so.
+TEST_F(Cli, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
     const test::Ended ended = cli(quick({"compare", "-o", "out", "--techniques", "planar"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const std::string said = "not flat, drawn by reuse";
@@ -83,7 +84,7 @@ TEST_F(Cli, ARowSaysWhatItsTechniqueCannotDraw) {
     EXPECT_NE(read("out/report.md").find(said), std::string::npos);
 }
 
-TEST_F(Cli, PlansAreRowsOfACompare) {
+TEST_F(Cli, CompareAcceptsPlansAsRows) {
     std::ofstream(folder / "mixed.json") << R"([{"mirror": "ball1,2", "technique": "reuse:face=16"},
                {"mirror": "*", "technique": "raytrace:capture=none"}])";
     const std::string file = "plan:" + (folder / "mixed.json").string();
@@ -107,7 +108,7 @@ TEST_F(Cli, PlansAreRowsOfACompare) {
         EXPECT_TRUE(exists(folder / "out" / row["image"].get<std::string>())) << row["image"];
 }
 
-TEST_F(Cli, PicturesOfWhatIsRequiredAreThoseOfEverything) {
+TEST_F(Cli, ModelRequiredDrawsTheSamePictureAsModelEverything) {
     for (const char* model : {"everything", "required"}) {
         const test::Ended ended = cli({"render", "--plan", kMixed, "--size", "16x16", "--model",
                                        model, "-o", std::string(model) + ".exr", "--json"});
@@ -121,7 +122,7 @@ TEST_F(Cli, PicturesOfWhatIsRequiredAreThoseOfEverything) {
     EXPECT_THAT(plan, testing::StartsWith("2 passes"));
 }
 
-TEST_F(Cli, CompareShowsRowsWithBothModels) {
+TEST_F(Cli, CompareWithModelBothHasARowForEachModel) {
     const test::Ended ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames", "6",
                                    "--model", "both", "--techniques", "parallax:face=16",
                                    "raytrace", "--json"});
@@ -141,7 +142,7 @@ TEST_F(Cli, CompareShowsRowsWithBothModels) {
     EXPECT_TRUE(exists(folder / "out/images/parallax-face16-required.png"));
 }
 
-TEST_F(Cli, PlanThatCannotBeIsRefused) {
+TEST_F(Cli, InvalidPlanIsRefused) {
     const auto refused = [&](const std::vector<std::string>& options, int exit_code,
                              const std::vector<std::string>& words) {
         std::vector<std::string> arguments{"render", "-o", "x.png", "--size", "16x16"};

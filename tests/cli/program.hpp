@@ -11,7 +11,8 @@
 #include <fstream>
 #include <iterator>
 
-/// The program in a folder of its own that is gone after the test.
+/// Fixture for tests that run the program `catoptric` in a temporary folder, which is deleted after
+/// the test.
 class Cli : public test::InFolder {
 protected:
     using Words = std::vector<std::string>;
@@ -24,13 +25,14 @@ protected:
     }
     test::Ended cli(const Words& words) const { return test::run_process(start(words)); }
 
-    /// A verb that renders, small and quick.
+    /// Appends options for one small and quick frame to the command line of a verb that renders.
     static Words quick(Words words) {
         words.insert(words.end(), {"--size", "32x32", "--frames", "1", "--warmup", "1"});
         return words;
     }
 
-    /// The exit code, and stderr with every one of `parts` in it.
+    /// Runs the program and expects the exit code, an empty stdout, and every one of `parts` in
+    /// stderr.
     void expect_refused(const Words& words, int exit_code, const Words& parts) const {
         expect_ended(cli(words), exit_code, parts);
     }

@@ -1,4 +1,5 @@
-// Figures that leave the program, read back and computed again from the files beside them.
+// Tests of printed figures: each test computes the figures again from the written pictures and
+// compares.
 #include "cli/program.hpp"
 
 #include "measure/picture_file.hpp"
@@ -12,7 +13,8 @@ using catoptric::measure::Picture;
 using catoptric::measure::read_picture;
 using nlohmann::json;
 
-/// By channel, of the pixels that count.
+/// Returns the mean of each channel over the pixels that `counts` accepts. Values are clamped to
+/// [0, `most`].
 std::vector<double> mean_of(const Picture& picture, double most,
                             const std::function<bool(std::size_t)>& counts) {
     std::vector<double> sum(3);
@@ -34,7 +36,7 @@ void expect_near(const json& found, const std::vector<double>& wanted) {
         EXPECT_NEAR(found[i].get<double>(), wanted[i], 1e-6) << i;
 }
 
-TEST_F(Cli, RenderSaysTheMeanOfItsPictureAndTracesItsPasses) {
+TEST_F(Cli, RenderReportsThePicturesMeanAndThePassesTimes) {
     const test::Ended ended = cli({"render", "--technique", "parallax:face=32", "-o", "x.exr",
                                    "--size", "48x32", "--frames", "3", "--warmup", "1", "--trace",
                                    "t.json", "--json"});
@@ -63,14 +65,14 @@ TEST_F(Cli, RenderSaysTheMeanOfItsPictureAndTracesItsPasses) {
     EXPECT_NEAR(end - first, 1000 * document["gpu_ms"]["samples"][2].get<double>(), 1e-6);
 }
 
-TEST_F(Cli, DiffSaysWhatItsPicturesAndMaskSay) {
+TEST_F(Cli, DiffFiguresMatchThePicturesUnderTheMask) {
     for (const std::string technique : {"reuse:face=32", "raytrace"})
         ASSERT_EQ(
             cli(quick({"render", "--technique", technique, "-o", technique.substr(0, 5) + ".exr"}))
                 .exit_code,
             0);
     ASSERT_EQ(cli(quick({"render", "--technique", "naive:bounces=0", "-o", "mask.png"})).exit_code,
-              0); // black are its mirrors and what is nothing
+              0); // mirrors and background are black, so they are masked out
     const json found = json::parse(
         cli({"diff", "reuse.exr", "raytr.exr", "--mask", "mask.png", "--json"}).out);
     const Picture a = read_picture(folder / "reuse.exr"), b = read_picture(folder / "raytr.exr"),
@@ -107,8 +109,8 @@ TEST_F(Cli, DiffSaysWhatItsPicturesAndMaskSay) {
               json::parse(cli({"diff", "reuse.exr", "raytr.exr", "--json"}).out)["flip"]);
 }
 
-/// Nothing to judge is no agreement, whatever the threshold.
-TEST_F(Cli, DiffWithNothingToJudgeIsOverEveryThreshold) {
+/// A mask without pixels leaves nothing to compare. `diff` must then fail every threshold.
+TEST_F(Cli, DiffWithAnEmptyMaskFailsEveryThreshold) {
     write("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     ASSERT_EQ(cli(quick({"render", "scene.obj", "--technique", "raytrace", "--camera",
                          "0,0,9:0,0,20:40", "--environment", "none", "-o", "black.png"}))

@@ -1,4 +1,4 @@
-// What comes out when all is well.
+// Tests of successful commands: lists, pictures, JSON, traces and reports.
 #include "cli/program.hpp"
 #include "measure/metric.hpp"
 
@@ -6,7 +6,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST_F(Cli, ListsParse) {
+TEST_F(Cli, ListJsonIsValid) {
     for (const std::string kind : {"techniques", "scenes", "devices", "metrics"}) {
         const test::Ended ended = cli({"list", kind, "--json"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -18,8 +18,9 @@ TEST_F(Cli, ListsParse) {
     }
 }
 
-/// `list metrics` is the table of quantities; `diff` gives each that two pictures have.
-TEST_F(Cli, ListsEveryQuantity) {
+/// `list metrics` prints every row of the table of metrics. `diff` prints every metric that
+/// compares two pictures.
+TEST_F(Cli, ListMetricsShowsEveryMetric) {
     std::vector<std::string> names, of_differences;
     for (const auto& quantity : catoptric::measure::metrics()) names.emplace_back(quantity.name);
     for (const auto& quantity : catoptric::measure::difference_metrics())
@@ -46,7 +47,7 @@ TEST_F(Cli, ListsEveryQuantity) {
     }
 }
 
-TEST_F(Cli, ReportSaysHowManyLanesRunTogether) {
+TEST_F(Cli, ReportStatesTheNumberOfLanes) {
     ASSERT_EQ(cli(quick({"compare", "-o", "out", "--techniques", "reuse:face=8"})).exit_code, 0);
     const json report = json::parse(read_path(folder / "out/report.json"))["device"],
                info = json::parse(cli({"info", "--json"}).out)["device"];
@@ -56,7 +57,7 @@ TEST_F(Cli, ReportSaysHowManyLanesRunTogether) {
                 testing::HasSubstr(" " + report["lanes"].dump() + " lanes"));
 }
 
-TEST_F(Cli, InfoParses) {
+TEST_F(Cli, InfoJsonIsValid) {
     const json document = json::parse(cli({"info", "--json"}).out);
     EXPECT_EQ(document["version"], "0.1.0");
     EXPECT_TRUE(document["device"]["usable"].get<bool>());
@@ -65,7 +66,7 @@ TEST_F(Cli, InfoParses) {
                 testing::HasSubstr(document["device"]["name"].get<std::string>()));
 }
 
-TEST_F(Cli, SameCommandSameBytes) {
+TEST_F(Cli, SameRenderCommandWritesTheSameBytes) {
     for (const std::string ending : {".png", ".exr"})
         for (const std::string technique : {"raytrace:samples=3", "parallax:face=32"}) {
             ASSERT_EQ(
@@ -77,8 +78,8 @@ TEST_F(Cli, SameCommandSameBytes) {
         }
 }
 
-TEST_F(Cli, PlacedCameraLooksFromThere) {
-    // The built-in camera, spelt out.
+TEST_F(Cli, CameraOptionPlacesTheCamera) {
+    // The text `same` below describes the camera that the scene uses by default.
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.png"})).exit_code, 0);
     const std::string same = "278,273,-800:278,273,0:37.5", other = "278,273,-700:278,273,0:37.5";
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.png", "--camera", same}))
@@ -95,7 +96,7 @@ TEST_F(Cli, PlacedCameraLooksFromThere) {
     EXPECT_EQ(read("a.png"), read("d.png"));
 }
 
-TEST_F(Cli, SeededCameraCanBeTypedAgain) {
+TEST_F(Cli, SeededCameraCanBeRepeatedFromItsPrintedText) {
     const auto render = [&](const std::string& picture, const Words& more) {
         Words words{"render", "--technique", "parallax:face=32", "-o", picture};
         words.insert(words.end(), more.begin(), more.end());
@@ -118,7 +119,7 @@ TEST_F(Cli, SeededCameraCanBeTypedAgain) {
     EXPECT_EQ(render("e.exr", {"--camera", "seeded", "--quiet"}), "");
 }
 
-TEST_F(Cli, RenderJsonAndTrace) {
+TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
     const test::Ended ended = cli(
         quick({"render", "--technique", "naive:bounces=1", "--model", "everything", "-o", "x.exr",
                "--trace", "t.json", "--json"}));
@@ -139,8 +140,9 @@ TEST_F(Cli, RenderJsonAndTrace) {
     EXPECT_EQ(passes, document["passes"].size());
 }
 
-/// As --json prints it; the frames are timed, also where nothing else asks for that.
-TEST_F(Cli, RenderProfile) {
+/// `--profile FILE` writes the JSON that `--json` prints. The option also turns on the timing of
+/// frames.
+TEST_F(Cli, RenderProfileFileEqualsItsJson) {
     const test::Ended ended = cli({"render", "flat", "--technique", "reuse:face=16", "--size",
                                    "16x16", "-o", "x.png", "--profile", "p.json", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -156,8 +158,9 @@ TEST_F(Cli, RenderProfile) {
     EXPECT_THAT(document["passes"].back()["name"], "compose");
 }
 
-/// A still takes no more frames than change anything, and shows what compare's 28 show.
-TEST_F(Cli, RenderOfAStillStopsWhereNothingChanges) {
+/// Without `--frames`, a still scene is rendered until frames stop changing. Its picture equals the
+/// picture after 20 frames.
+TEST_F(Cli, RenderOfAStillSceneStopsWhenFramesStopChanging) {
     const auto render = [&](const std::string& technique, Words more) {
         Words words{"render", "--technique", technique, "--size", "48x48", "--time", "1.3"};
         words.insert(words.end(), {"--camera", "300,300,545:300,90,200:75", "--json"});
@@ -182,7 +185,7 @@ TEST_F(Cli, RenderOfAStillStopsWhereNothingChanges) {
     EXPECT_EQ(render("reuse:face=32", {"-o", "x.exr", "--animate"})["gpu_ms"]["n"], 20);
 }
 
-TEST_F(Cli, PixelsThatAreNotFiniteAreTold) {
+TEST_F(Cli, PixelsThatAreNotFiniteAreReported) {
     const Words too_bright{"--ambient", "1e300", "--quiet"};
     Words render = quick({"render", "--technique", "raytrace", "-o", "x.exr"});
     render.insert(render.end(), too_bright.begin(), too_bright.end());
@@ -195,7 +198,7 @@ TEST_F(Cli, PixelsThatAreNotFiniteAreTold) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/report.json"));
 }
 
-TEST_F(Cli, QuietSaysNothing) {
+TEST_F(Cli, QuietRenderPrintsNothing) {
     const test::Ended ended = cli(
         quick({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
     EXPECT_EQ(ended.exit_code, 0);
@@ -203,7 +206,7 @@ TEST_F(Cli, QuietSaysNothing) {
     EXPECT_EQ(ended.out, "");
 }
 
-TEST_F(Cli, GraphInThreeFormats) {
+TEST_F(Cli, GraphPrintsTextDotAndJson) {
     EXPECT_THAT(cli({"graph", "--technique", "reuse"}).out, testing::HasSubstr("capture"));
     EXPECT_THAT(cli({"graph", "--technique", "reuse", "--format", "dot"}).out,
                 testing::HasSubstr("digraph"));
@@ -212,7 +215,7 @@ TEST_F(Cli, GraphInThreeFormats) {
     EXPECT_EQ(cli({"graph", "--technique", "reuse", "--json"}).out, document);
 }
 
-TEST_F(Cli, SaysHowOldCapturesCanBe) {
+TEST_F(Cli, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
     const std::string said = "captures: at most 1 of 4 mirrors a frame; none shows what is older "
                              "than 3 frames, and 4 more for each further mirror that it is seen by";
     const Words small{"--technique", "parallax:face=8,shadow_map=16", "--size", "16x16"};
@@ -229,7 +232,7 @@ TEST_F(Cli, SaysHowOldCapturesCanBe) {
     EXPECT_EQ(moving["captures"]["round_frames"], 4);
 }
 
-TEST_F(Cli, GraphSaysWhatAPictureRequires) {
+TEST_F(Cli, GraphWhyListsTheCapturesThatAPictureRequires) {
     const std::string text = cli({"graph", "flat", "--why"}).out;
     EXPECT_THAT(text, testing::HasSubstr("mirror 1 'mirror': in the camera's view; captured, faces "
                                          "+X -X +Y -Y -Z, no other mirror in it"));
@@ -245,7 +248,7 @@ TEST_F(Cli, GraphSaysWhatAPictureRequires) {
     EXPECT_THAT(dot.err, testing::HasSubstr("--why: wanted --format text or json, found dot"));
 }
 
-TEST_F(Cli, FlipIsOfFloatsUnlessAFileHoldsEightBits) {
+TEST_F(Cli, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
     const auto render = [&](const char* depth, const char* name) {
         ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "--exposure", depth, "-o", name}))
                       .exit_code,
@@ -257,13 +260,14 @@ TEST_F(Cli, FlipIsOfFloatsUnlessAFileHoldsEightBits) {
     };
     EXPECT_EQ(diff("a.exr", "a.exr", "0")["flip_source"], "float");
     EXPECT_EQ(diff("a.png", "b.png", "0")["flip_source"], "8-bit");
-    // A picture beside its own PNG is the same, rounded.
+    // A float picture and its own PNG differ only by rounding to 8 bits, so FLIP is 0 but rmse is
+    // not.
     EXPECT_EQ(diff("a.exr", "a.png", "0")["flip_source"], "8-bit");
     EXPECT_EQ(diff("a.exr", "a.png", "0")["flip"], 0.0);
     EXPECT_GT(diff("a.exr", "a.png", "0")["rmse"], 0.0);
 }
 
-TEST_F(Cli, DiffOfEqualAndOtherPictures) {
+TEST_F(Cli, DiffIsZeroForEqualPicturesOnly) {
     ASSERT_EQ(cli(quick({"render", "--technique", "naive:bounces=0", "-o", "a.exr"})).exit_code, 0);
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.exr"})).exit_code, 0);
     const json equal = json::parse(cli({"diff", "a.exr", "a.exr", "--json"}).out);
@@ -291,7 +295,7 @@ TEST_F(Cli, DiffOfEqualAndOtherPictures) {
     EXPECT_THAT(rmse.err, testing::Not(testing::HasSubstr("--max-flip")));
 }
 
-TEST_F(Cli, DiffOfPngAndItsExr) {
+TEST_F(Cli, DiffOfAPngAndItsExrHasFlipZero) {
     for (const std::string name : {"a.exr", "a.png"})
         ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", name})).exit_code, 0);
     const json document = json::parse(cli({"diff", "a.exr", "a.png", "--json"}).out);
@@ -302,7 +306,7 @@ TEST_F(Cli, DiffOfPngAndItsExr) {
     EXPECT_LT(masked["pixels"], 32 * 32 + 1);
 }
 
-TEST_F(Cli, DiffOfOtherSizes) {
+TEST_F(Cli, DiffRefusesPicturesOfDifferentSizes) {
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.png"})).exit_code, 0);
     ASSERT_EQ(cli({"render", "--technique", "raytrace", "-o", "b.png", "--size", "16x32",
                    "--frames", "1", "--warmup", "0"})
@@ -313,7 +317,7 @@ TEST_F(Cli, DiffOfOtherSizes) {
     expect_refused({"diff", "a.png", "a.png", "--max-flip", "nan"}, 2, {"--max-flip", "'nan'"});
 }
 
-TEST_F(Cli, CompareWritesAndPrints) {
+TEST_F(Cli, CompareWritesReportFilesAndPrintsTheTable) {
     const Words words = quick(
         {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
     const test::Ended ended = cli(words);
@@ -329,14 +333,15 @@ TEST_F(Cli, CompareWritesAndPrints) {
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
-TEST_F(Cli, CompareJsonIsTheReport) {
+TEST_F(Cli, CompareJsonEqualsTheReportFile) {
     const test::Ended ended = cli(quick({"compare", "-o", "out", "--json", "--together",
                                          "--techniques", "reuse:face=32", "raytrace:depth=1"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(json::parse(ended.out), json::parse(read("out/report.json")));
 }
 
-/// Two facing mirrors and a lamp, standing still: an instant and a few frames a speed.
+/// An OBJ scene of two facing mirrors and a lamp. Nothing moves, so lag is measured at one time
+/// with a few frames per speed.
 constexpr const char* kTwoMirrors = R"(mtllib two.mtl
 v -1 0 -1
 v 1 0 -1
@@ -358,7 +363,7 @@ usemtl lamp
 f 7 8 9
 )";
 
-TEST_F(Cli, CompareSaysTheLagWhenAsked) {
+TEST_F(Cli, CompareReportsLagIfAsked) {
     write("two.obj", kTwoMirrors);
     write("two.mtl", "newmtl mirror\nillum 3\nKs 1 1 1\nnewmtl lamp\nKe 5 5 5\n");
     Words words = quick({"compare", "two.obj", "-o", "out", "--lag", "--json", "--techniques",
@@ -378,7 +383,7 @@ TEST_F(Cli, CompareSaysTheLagWhenAsked) {
     EXPECT_FALSE(json::parse(cli(words).out).contains("lag"));
 }
 
-TEST_F(Cli, WatchedByTheValidationLayer) {
+TEST_F(Cli, CompareGivesNoValidationMessages) {
     const test::Ended ended = cli(quick(
         {"compare", "-o", "out", "--validate", "--techniques", "parallax:face=32", "raytrace"}));
     if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;

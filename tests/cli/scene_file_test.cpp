@@ -1,4 +1,5 @@
-// Scene files that reach out, ask for too much, or talk to the terminal.
+// Tests of scene files that name files outside their folder, use unknown extensions, have many
+// mirrors, or hold control characters in names.
 #include "cli/triangle.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ protected:
     }
 };
 
-TEST_F(SceneFile, FilesElsewhereNeedRoot) {
+TEST_F(SceneFile, FilesOutsideTheFolderNeedTheRootOption) {
     fs::create_directories(folder / "in");
     write("secret.bin", corners());
     fs::create_symlink("../secret.bin", folder / "in/link.bin");
@@ -38,7 +39,7 @@ TEST_F(SceneFile, FilesElsewhereNeedRoot) {
     expect_refused(render("in/x.gltf", {"--root", ""}), 2, {"--root"});
 }
 
-TEST_F(SceneFile, APlusIsAPlus) {
+TEST_F(SceneFile, PlusInAUriIsNotReadAsASpace) {
     write("a b.bin", "not this one");
     write("x.gltf", triangle("a+b.bin").dump());
     expect_refused(render("x.gltf"), 66, {"'a+b.bin' is not there"});
@@ -46,7 +47,7 @@ TEST_F(SceneFile, APlusIsAPlus) {
     EXPECT_EQ(cli(render("x.gltf")).exit_code, 0);
 }
 
-TEST_F(SceneFile, WhatIsNotReadIsNamed) {
+TEST_F(SceneFile, UnreadExtensionIsNamed) {
     Json scene = triangle("a.bin");
     scene["extensions"]["EXT_moon"] = Json::object();
     write("a.bin", corners());
@@ -57,8 +58,9 @@ TEST_F(SceneFile, WhatIsNotReadIsNamed) {
                                    "(first: of the whole file)\n"));
 }
 
-// Said by every verb that loads the scene, and kept in the report.
-TEST_F(SceneFile, WhatManyMirrorsCostIsSaid) {
+// Every verb that loads a scene with more than 64 mirrors warns of the cost of captures. The report
+// keeps the warning.
+TEST_F(SceneFile, CostOfManyMirrorsIsReported) {
     write("a.bin", corners());
     const auto write_mirrors = [&](int count) {
         Json scene = triangle("a.bin");
@@ -86,8 +88,9 @@ TEST_F(SceneFile, WhatManyMirrorsCostIsSaid) {
                 testing::Contains(Json(sentence)));
 }
 
-/// Names that clear a terminal, set its title, begin a line of their own or turn the writing.
-TEST_F(SceneFile, TheTerminalIsNotSpokenTo) {
+/// The names in this scene hold codes that clear a terminal, set its title, begin a line or reverse
+/// the direction of writing.
+TEST_F(SceneFile, NamesPrintNoTerminalControlCharacters) {
     const std::string evil = "\x1b[2J\x1b]0;title\x07\rcatoptric: \xc2\x9b"
                              "31m\xe2\x80\xae";
     write(evil + ".obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no " + evil + "\nusemtl " + evil +

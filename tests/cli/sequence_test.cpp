@@ -1,4 +1,5 @@
-// A picture a frame, progress off a terminal, rounds, and the columns of rows.csv.
+// Tests of sequences with a picture per frame, of progress messages without a terminal, of rounds,
+// and of the columns of rows.csv.
 #include "catoptric/sequence.hpp"
 #include "cli/program.hpp"
 #include "report/report.hpp"
@@ -16,7 +17,7 @@ using testing::Not;
 
 namespace fs = std::filesystem;
 
-TEST(SequenceName, HasTheNumberInItsPlace) {
+TEST(SequenceName, FrameNumberReplacesThePlaceholder) {
     EXPECT_EQ(Sequence::find("a{n}.png")->file(7), "a7.png");
     EXPECT_EQ(Sequence::find("a{n:3}.png")->file(7), "a007.png");
     EXPECT_EQ(Sequence::find("a{n:04}.exr")->file(12345), "a12345.exr");
@@ -26,7 +27,7 @@ TEST(SequenceName, HasTheNumberInItsPlace) {
     EXPECT_FALSE(Sequence::find("{a}.png"));
 }
 
-TEST_F(Cli, RefusesSequenceNamesThatAreNone) {
+TEST_F(Cli, InvalidSequenceNameIsRefused) {
     for (const std::string name : {"{n}{n}.png", "%d{n:2}.png", "{n:x}.png", "{n.png"})
         expect_refused({"render", "--technique", "reuse", "--frames", "2", "-o", name}, 2,
                        {"-o", name});
@@ -34,7 +35,7 @@ TEST_F(Cli, RefusesSequenceNamesThatAreNone) {
                    {"--frames or --animate", "{n}.png"});
 }
 
-TEST_F(Cli, RenderWritesAPictureAFrame) {
+TEST_F(Cli, RenderOfASequenceWritesOnePicturePerFrame) {
     const test::Ended ended = cli({"render", "--technique", "reuse:face=16", "--animate",
                                    "--frames", "3", "--warmup", "2", "--size", "32x32", "-o",
                                    "s_{n:3}.png"});
@@ -43,13 +44,14 @@ TEST_F(Cli, RenderWritesAPictureAFrame) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         files.insert(entry.path().filename().string());
     EXPECT_EQ(files, (std::set<std::string>{"s_001.png", "s_002.png", "s_003.png"}));
-    // The last one is the picture that the same run without a sequence writes.
+    // The last picture of the sequence equals the picture that the same command writes without a
+    // sequence.
     ASSERT_EQ(cli({"render", "--technique", "reuse:face=16", "--animate", "--frames", "3",
                    "--warmup", "2", "--size", "32x32", "-o", "last.png"})
                   .exit_code,
               0);
     EXPECT_EQ(read("s_003.png"), read("last.png"));
-    // Each is that of a run with so many frames.
+    // Picture N of a sequence equals the picture of a run of N frames.
     ASSERT_EQ(cli({"render", "--technique", "reuse:face=16", "--animate", "--frames", "1",
                    "--warmup", "2", "--size", "32x32", "-o", "first.png"})
                   .exit_code,
@@ -57,7 +59,7 @@ TEST_F(Cli, RenderWritesAPictureAFrame) {
     EXPECT_EQ(read("s_001.png"), read("first.png"));
 }
 
-TEST_F(Cli, SequenceOverASceneFileIsRefused) {
+TEST_F(Cli, SequenceThatWouldOverwriteASceneFileIsRefused) {
     write("2.png", "mine");
     write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
     write("t.mtl", "newmtl m\nmap_Kd 2.png\n");
@@ -74,7 +76,7 @@ TEST_F(Cli, MoreRoundsThanFramesAreRefused) {
     EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_F(Cli, CompareSaysTenthsWhereStderrIsNoTerminal) {
+TEST_F(Cli, CompareReportsTenthsOfProgressIfStderrIsNoTerminal) {
     const Words words = quick({"compare", "-o", "out", "--techniques", "naive:bounces=0",
                                "reuse:face=16", "parallax:face=16"});
     const test::Ended ended = cli(words);
@@ -88,7 +90,8 @@ TEST_F(Cli, CompareSaysTenthsWhereStderrIsNoTerminal) {
     }
 }
 
-/// The cells of the first line and of the second by name. Cells of this test hold no quotes.
+/// Returns the cells of the second line of a CSV text, by the names in its first line. Cells of
+/// this test hold no quotes.
 std::map<std::string, std::string> first_row(const std::string& csv) {
     std::istringstream lines(csv);
     std::string header, row;
@@ -103,7 +106,7 @@ std::map<std::string, std::string> first_row(const std::string& csv) {
     return cells;
 }
 
-TEST_F(Cli, RowsHaveTheColumnsOfTheTableAndAllOnDemand) {
+TEST_F(Cli, CsvHasTheColumnsOfTheTableOrAllIfAsked) {
     const Words words = quick({"compare", "-o", "out", "--techniques", "reuse:face=16"});
     ASSERT_EQ(cli(words).exit_code, 0);
     const auto few = first_row(read("out/rows.csv"));

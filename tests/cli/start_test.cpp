@@ -1,4 +1,5 @@
-// What the program loads when it starts, and what it says where that is missing.
+// Tests of the libraries that the program loads, and of the error if the image module is missing.
+// The image module is a plug-in that reads and writes pictures with OpenImageIO.
 #include "cli/program.hpp"
 
 namespace {
@@ -11,13 +12,14 @@ class Start : public Cli {
 protected:
     static constexpr const char* kLibrary = "libOpenImageIO.so";
 
-    /// The libraries that it loads, on stderr.
+    /// Runs the program so that the dynamic linker prints the libraries that it loads to stderr.
     test::Ended traced(const Words& words) const {
         test::Start asked = start(words);
         asked.environment = {{"LD_DEBUG", "files"}};
         return test::run_process(asked);
     }
-    /// An OpenEXR, which the library reads; a PNG is read without it.
+    /// Writes a.exr. The program needs OpenImageIO to read OpenEXR files, but not to read PNG
+    /// files.
     void write_picture() const {
         const test::Ended ended = test::run_process(start(quick(
             {"render", "--technique", "raytrace:depth=0,shadow=none", "--quiet", "-o", "a.exr"})));
@@ -25,7 +27,7 @@ protected:
     }
 };
 
-TEST_F(Start, TheLibraryOfPicturesIsLoadedWhenAFileNeedsIt) {
+TEST_F(Start, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
     const auto expect_none = [&](const Words& words) {
         const test::Ended ended = traced(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -41,8 +43,8 @@ TEST_F(Start, TheLibraryOfPicturesIsLoadedWhenAFileNeedsIt) {
     EXPECT_THAT(reading.err, HasSubstr(kLibrary));
 }
 
-/// Not that its module is broken.
-TEST_F(Start, NoMemoryForTheLibraryOfPictures) {
+/// If memory ends while OpenImageIO is loaded, the error names memory and not a broken module.
+TEST_F(Start, NoMemoryForOpenImageIoExitsWith75) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer itself takes address space without end";
 #endif
@@ -52,7 +54,8 @@ TEST_F(Start, NoMemoryForTheLibraryOfPictures) {
     expect_ended(test::run_process(limited), 75, {"no memory for OpenImageIO", "ulimit -v"});
 }
 
-/// The program as it is installed, in bin/, with and without its module in lib/.
+/// Fixture with the program in bin/, as it is installed. Tests put the image module into lib/ or
+/// leave it out.
 class Installed : public Start {
 protected:
     void SetUp() override {
@@ -66,7 +69,7 @@ protected:
     test::Ended installed(const Words& words) const {
         test::Start asked = start(words);
         asked.command.front() = program.string();
-        asked.environment = {{"VK_DRIVER_FILES", "/none"}}; // what is missing is said before
+        asked.environment = {{"VK_DRIVER_FILES", "/none"}}; // no driver is needed
         return test::run_process(asked);
     }
     void expect_missing(const Words& words, const Words& parts) const {
@@ -84,14 +87,14 @@ protected:
     const fs::path module = modules / "catoptric-images.so";
 };
 
-TEST_F(Installed, FindsTheModule) {
+TEST_F(Installed, ProgramFindsTheImageModule) {
     fs::create_symlink(CATOPTRIC_IMAGES, module);
     EXPECT_EQ(installed(diff).exit_code, 0) << installed(diff).err;
     fs::rename(module, folder / "bin/catoptric-images.so");
     EXPECT_EQ(installed(diff).exit_code, 0) << installed(diff).err;
 }
 
-TEST_F(Installed, SaysWhereItLookedForTheModule) {
+TEST_F(Installed, ErrorListsTheFoldersSearchedForTheImageModule) {
     const std::string bin = program.parent_path().string();
     const Words places = {"catoptric-images.so is in none of " + bin + ", " + bin + "/catoptric, " +
                           modules.string() + ". "};
@@ -102,7 +105,7 @@ TEST_F(Installed, SaysWhereItLookedForTheModule) {
     EXPECT_EQ(installed({"--version"}).exit_code, 0);
 }
 
-TEST_F(Installed, SaysWhatIsWrongWithTheModule) {
+TEST_F(Installed, ErrorSaysWhyTheImageModuleCannotBeLoaded) {
     write(fs::relative(module, folder).string(), "no library");
     expect_missing(diff, {module.string() + " cannot be loaded: "});
     fs::remove(module);

@@ -1,11 +1,11 @@
-// catoptric stress: measured values beside thresholds.
+// Tests of `catoptric stress`, which prints measured values beside their thresholds.
 #include "cli/program.hpp"
 
 namespace {
 
 using nlohmann::json;
 
-TEST_F(Cli, StressMeasuresBesideThresholds) {
+TEST_F(Cli, StressReportsMeasuredValuesAndThresholds) {
     const std::vector<std::string> ids{"N4", "N10", "C8"};
     Words words{"stress", "-o", "out", "--json", "--size", "64x64", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
@@ -25,7 +25,7 @@ TEST_F(Cli, StressMeasuresBesideThresholds) {
     EXPECT_THAT(read("out/stress.html"), testing::HasSubstr("N10"));
 }
 
-TEST_F(Cli, StressTakesItsScenesFromTheSeed) {
+TEST_F(Cli, StressDrawsItsScenesFromTheSeed) {
     const auto measured = [&](const std::string& seed) {
         return json::parse(
             cli({"stress", "--json", "--size", "32x32", "--only", "C11", "--seed", seed})
@@ -35,7 +35,7 @@ TEST_F(Cli, StressTakesItsScenesFromTheSeed) {
     EXPECT_NE(measured("3"), measured("4"));
 }
 
-TEST_F(Cli, StressTellsWhatLooksWorseWithoutFailing) {
+TEST_F(Cli, StressReportsQualityWarningsWithoutFailing) {
     const test::Ended ended = cli({"stress", "--size", "32x32", "--only", "C5"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     EXPECT_THAT(ended.out, testing::HasSubstr("quality-warning"));

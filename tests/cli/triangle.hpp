@@ -2,12 +2,12 @@
 
 #include "cli/program.hpp"
 
-/// A scene file to be changed.
+/// A minimal glTF scene that tests change before they write it to a file.
 namespace test::loading {
 
 using Json = nlohmann::json;
 
-/// A triangle that lies in a file of its own.
+/// Returns a glTF document of one triangle whose buffer is the file `uri`.
 inline Json triangle(const std::string& uri) {
     return {{"asset", {{"version", "2.0"}}},
             {"nodes", {{{"mesh", 0}}}},

@@ -1,9 +1,10 @@
-// What cannot be asked for: exit code 2, and a message with option, wanted and found.
+// Tests of invalid command lines: exit code 2 and a message with the option, the wanted value and
+// the value found.
 #include "cli/program.hpp"
 
 namespace {
 
-TEST_F(Cli, WithoutArgumentsShowsHelp) {
+TEST_F(Cli, CallWithoutArgumentsShowsHelp) {
     const test::Ended ended = cli({});
     EXPECT_EQ(ended.exit_code, 2);
     EXPECT_EQ(ended.out, "");
@@ -59,18 +60,18 @@ TEST_F(Cli, HelpNamesEveryCommonOption) {
         EXPECT_THAT(help, testing::HasSubstr(option));
 }
 
-TEST_F(Cli, Version) {
+TEST_F(Cli, VersionOptionPrintsNumberAndCommit) {
     const test::Ended ended = cli({"--version"});
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.out, testing::MatchesRegex("catoptric 0\\.1\\.0 \\([0-9a-z]+\\)\n"));
 }
 
-TEST_F(Cli, UnknownVerbSuggests) {
+TEST_F(Cli, ErrorForAnUnknownVerbSuggestsASimilarName) {
     expect_refused({"rendr"}, 2, {"'rendr'", "did you mean 'render'"});
     expect_refused({"--versoin"}, 2, {"'--versoin'", "did you mean '--version'"});
 }
 
-TEST_F(Cli, UnknownOptionSuggests) {
+TEST_F(Cli, ErrorForAnUnknownOptionSuggestsASimilarName) {
     expect_refused({"render", "--sizee", "32x32"}, 2,
                    {"'render'", "'--sizee'", "did you mean '--size'"});
     expect_refused({"compare", "-o", "x", "--tecniques", "reuse"}, 2,
@@ -79,11 +80,11 @@ TEST_F(Cli, UnknownOptionSuggests) {
     expect_refused({"list", "scenes", "devices"}, 2, {"'devices'"});
 }
 
-TEST_F(Cli, OptionWithoutItsValue) {
+TEST_F(Cli, OptionWithoutItsValueIsRefused) {
     expect_refused({"render", "--size"}, 2, {"--size", "render --help"});
 }
 
-TEST_F(Cli, UnknownTechniqueSuggests) {
+TEST_F(Cli, ErrorForAnUnknownTechniqueSuggestsASimilarName) {
     expect_refused({"render", "--technique", "paralax", "-o", "x.png"}, 2,
                    {"'paralax'", "did you mean 'parallax'"});
     expect_refused({"compare", "-o", "x", "--techniques", "reuse", "naiv:bounces=1"}, 2,
@@ -96,13 +97,13 @@ TEST_F(Cli, UnknownTechniqueSuggests) {
                    {"'raytracer'", "did you mean 'raytrace'"});
 }
 
-TEST_F(Cli, SceneAfterTheTechniques) {
+TEST_F(Cli, SceneAfterTheTechniquesIsRefused) {
     expect_refused({"compare", "-o", "x", "--techniques", "reuse", "room.glb"}, 2,
                    {"'room.glb'", "SCENE comes before"});
 }
 
-/// What the parser of command lines refuses is said in the program's own words.
-TEST_F(Cli, WhatTheParserRefusesIsSaidInOneManner) {
+/// Errors that the command line parser finds are worded like the program's own errors.
+TEST_F(Cli, ParserErrorsUseTheProgramsOwnWording) {
     const std::pair<Words, std::string> cases[] = {
         {{"render", "--size"}, "--size: wanted a value, WxH, found none"},
         {{"render", "-o"}, "--output: wanted a value, OUT, found none"},
@@ -119,12 +120,12 @@ TEST_F(Cli, WhatTheParserRefusesIsSaidInOneManner) {
     }
 }
 
-TEST_F(Cli, UnknownKnobSuggests) {
+TEST_F(Cli, ErrorForAnUnknownKnobSuggestsASimilarName) {
     expect_refused({"render", "--technique", "naive:bounce=3", "-o", "x.png"}, 2,
                    {"naive", "'bounce'", "did you mean 'bounces'"});
 }
 
-TEST_F(Cli, KnobOutOfRangeNamesTheRange) {
+TEST_F(Cli, ErrorForAKnobOutOfRangeNamesTheRange) {
     expect_refused({"render", "--technique", "naive:bounces=9", "-o", "x.png"}, 2,
                    {"'bounces'", "0 to 8", "9"});
     expect_refused({"render", "--technique", "reuse:face=0", "-o", "x.png"}, 2,
@@ -133,19 +134,19 @@ TEST_F(Cli, KnobOutOfRangeNamesTheRange) {
                    {"'face'", "whole number", "'many'"});
 }
 
-TEST_F(Cli, UnknownSceneSuggests) {
+TEST_F(Cli, ErrorForAnUnknownSceneSuggestsASimilarName) {
     expect_refused({"render", "cornel-mirrors", "--technique", "reuse", "-o", "x.png"}, 2,
                    {"'cornel-mirrors'", "did you mean 'cornell-mirrors'"});
 }
 
-TEST_F(Cli, UnknownCameraNamesTheScenesOwn) {
+TEST_F(Cli, ErrorForAnUnknownCameraListsTheScenesCameras) {
     expect_refused({"render", "--camera", "nowhere", "--technique", "reuse", "-o", "x.png"}, 2,
                    {"'nowhere'", "it has: 0 '"});
     expect_refused({"render", "--camera", "7", "--technique", "reuse", "-o", "x.png"}, 2,
                    {"'7'", "it has: 0 '"});
 }
 
-TEST_F(Cli, CameraThatCannotBe) {
+TEST_F(Cli, InvalidCameraIsRefused) {
     const auto camera = [](const std::string& text) {
         return Words{"render", "--camera", text, "--technique", "reuse", "-o", "x.png"};
     };
@@ -159,15 +160,15 @@ TEST_F(Cli, CameraThatCannotBe) {
     expect_refused(camera("0,0,0:0,0,1"), 2, {"--camera", "EX,EY,EZ:TX,TY,TZ:FOV"});
 }
 
-TEST_F(Cli, UnknownDeviceIsNamed) {
+TEST_F(Cli, ErrorForAnUnknownDeviceNamesIt) {
     expect_refused({"info", "--device", "no such device"}, 2, {"no such device"});
 }
 
-TEST_F(Cli, UnknownKindOfListSuggests) {
+TEST_F(Cli, ErrorForAnUnknownListSuggestsASimilarName) {
     expect_refused({"list", "scene"}, 2, {"'scene'", "did you mean 'scenes'"});
 }
 
-TEST_F(Cli, NumbersThatCannotBe) {
+TEST_F(Cli, InvalidNumberOfAnOptionIsRefused) {
     const auto refused = [&](const std::string& option, const std::string& found,
                              const std::string& wanted) {
         expect_refused({"render", "--technique", "reuse", "-o", "x.png", option, found}, 2,
@@ -196,7 +197,7 @@ TEST_F(Cli, NumbersThatCannotBe) {
         refused("--seed", seed, "whole number");
 }
 
-TEST_F(Cli, ChoicesThatAreNone) {
+TEST_F(Cli, UnknownChoiceOfAnOptionIsRefused) {
     expect_refused({"render", "--timing", "isolate"}, 2,
                    {"--timing", "isolated, pipelined", "did you mean 'isolated'"});
     expect_refused({"render", "--progress", "sometimes"}, 2, {"--progress", "auto, always, never"});
@@ -206,7 +207,7 @@ TEST_F(Cli, ChoicesThatAreNone) {
                    {"--format", "--json"});
 }
 
-TEST_F(Cli, WishesForNothingThatIsThere) {
+TEST_F(Cli, SceneOverrideThatMatchesNothingIsRefused) {
     const auto refused = [&](const Words& wish, const Words& parts) {
         Words words{"render", "--technique", "reuse", "-o", "x.png"};
         words.insert(words.end(), wish.begin(), wish.end());
@@ -225,7 +226,7 @@ TEST_F(Cli, WishesForNothingThatIsThere) {
     expect_refused({"info", "--force"}, 2, {"--force: wanted --write"});
 }
 
-TEST_F(Cli, ModelsThatCannotBe) {
+TEST_F(Cli, InvalidModelOptionIsRefused) {
     expect_refused({"render", "--model", "evrything"}, 2, {"--model", "did you mean 'everything'"});
     expect_refused({"render", "--technique", "reuse", "--model", "both", "-o", "x.png"}, 2,
                    {"--model both: wanted everything or required, of which a picture has one"});
@@ -241,7 +242,7 @@ TEST_F(Cli, ModelsThatCannotBe) {
     expect_refused({"graph", "--why", "--budget-ms", "4"}, 2, {"'graph'", "--technique T"});
 }
 
-TEST_F(Cli, WhatIsNeeded) {
+TEST_F(Cli, MissingRequiredArgumentIsRefused) {
     expect_refused({"compare"}, 2, {"'compare'", "-o DIR"});
     expect_refused({"render", "-o", "x.png"}, 2, {"'render'", "--technique T"});
     expect_refused({"render", "--technique", "reuse"}, 2, {"'render'", "-o OUT"});
@@ -251,16 +252,16 @@ TEST_F(Cli, WhatIsNeeded) {
     expect_refused({"list"}, 2, {"wanted WHAT, techniques", "found nothing", "list --help"});
 }
 
-TEST_F(Cli, PictureNameWithoutAKnownEnding) {
+TEST_F(Cli, PictureNameWithoutAKnownEndingIsRefused) {
     expect_refused({"render", "--technique", "reuse", "-o", "x.jpg"}, 2,
                    {"'x.jpg'", ".exr or .png"});
 }
 
-TEST_F(Cli, TwoResultsForStdout) {
+TEST_F(Cli, TwoResultsForStdoutAreRefused) {
     expect_refused({"render", "--technique", "reuse", "-o", "-", "--json"}, 2, {"-o -", "--json"});
 }
 
-TEST_F(Cli, SameTechniqueTwice) {
+TEST_F(Cli, SameTechniqueTwiceIsRefused) {
     expect_refused(quick({"compare", "-o", "x", "--techniques", "reuse", "reuse", "--together"}), 2,
                    {"'reuse'", "twice"});
     expect_refused(quick({"compare", "-o", "x", "--techniques", "reuse", "reuse:face=256"}), 2,

@@ -1,4 +1,5 @@
-// Errors over drawn views, against pictures that `render` makes of the same views.
+// Tests of errors over drawn views: they must equal errors of pictures that `render` writes for the
+// same views.
 #include "cli/program.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ constexpr int kViews = 6;
 
 class DrawnViews : public Cli {
 protected:
-    /// A comparison over drawn views, small and quick.
+    /// Runs a small and quick comparison over drawn views. Returns its JSON document.
     json compared(const std::string& folder_name, const std::string& seed,
                   const Words& techniques) const {
         Words words = quick({"compare", "-o", folder_name, "--views", std::to_string(kViews),
@@ -24,7 +25,7 @@ protected:
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
-    /// The picture of a view, by what the report says of it.
+    /// Renders the picture of a view with the camera and time that the report states for the view.
     void render(const json& view, const std::string& technique, const std::string& file) const {
         const test::Ended ended = cli({"render", "--technique", technique, "-o", file, "--size",
                                        "32x32", "--camera", view["camera"]["name"], "--time",
@@ -40,8 +41,8 @@ std::string camera_text(const json& camera) {
                        target[2].get<double>(), camera["vertical_fov_degrees"].get<double>());
 }
 
-/// `reuse` remembers, so its picture takes the frames that it needs.
-TEST_F(DrawnViews, ErrorsAreThoseOfPicturesRenderedThere) {
+/// `reuse` shows captures of earlier frames, so `render` draws frames until they stop changing.
+TEST_F(DrawnViews, ErrorsMatchPicturesRenderedFromTheSameViews) {
     const json document = compared("out", "1", {"reuse:face=32", "naive:bounces=0"});
     ASSERT_EQ(document["views"].size(), kViews);
     for (const int i : {0, 4}) {
@@ -58,7 +59,7 @@ TEST_F(DrawnViews, ErrorsAreThoseOfPicturesRenderedThere) {
                     << row["label"] << " " << figure << " view " << i;
         }
     }
-    // A camera is drawn from its own seed again, and typed in full it is the same.
+    // The seed of a view gives its camera again. The same camera as text gives the same picture.
     const json& view = document["views"][4];
     render({{"camera", {{"name", camera_text(view["camera"])}}}, {"time", view["time"]}},
            "raytrace:depth=1", "typed.exr");
@@ -71,7 +72,7 @@ TEST_F(DrawnViews, ErrorsAreThoseOfPicturesRenderedThere) {
     EXPECT_EQ(read("typed.exr"), read("drawn.exr"));
 }
 
-TEST_F(DrawnViews, AreDrawnFromTheSeedAndSeeAMirror) {
+TEST_F(DrawnViews, ViewsAreDrawnFromTheSeedAndSeeAMirror) {
     const json one = compared("one", "1", {"naive:bounces=0"}),
                again = compared("again", "1", {"naive:bounces=0"}),
                other = compared("other", "2", {"naive:bounces=0"});
@@ -88,7 +89,7 @@ TEST_F(DrawnViews, AreDrawnFromTheSeedAndSeeAMirror) {
             << "of six views, the range";
     }
     EXPECT_EQ(cameras.size(), 2 * kViews);
-    // The worst is pictured: the row beside the reference.
+    // For each row the report has a picture of its worst view, beside the reference.
     std::set<std::size_t> worst_views;
     for (const auto& [place, document] : {std::pair("one", &one), std::pair("other", &other)}) {
         const json& views = (*document)["rows"][0]["views"];
@@ -103,8 +104,8 @@ TEST_F(DrawnViews, AreDrawnFromTheSeedAndSeeAMirror) {
     EXPECT_THAT(read("one/report.html"), testing::HasSubstr("<h2>Worst views</h2>"));
 }
 
-/// The page of a run without them stays as it is.
-TEST_F(DrawnViews, AreNoneUnlessAskedFor) {
+/// With `--views 1`, the report has no drawn views and no pictures of worst views.
+TEST_F(DrawnViews, ReportHasNoDrawnViewsUnlessAsked) {
     const test::Ended ended = cli(quick(
         {"compare", "-o", "out", "--json", "--views", "1", "--techniques", "naive:bounces=0"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -112,7 +113,7 @@ TEST_F(DrawnViews, AreNoneUnlessAskedFor) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out/images/worst-naive-bounces0.png"));
 }
 
-TEST_F(DrawnViews, RefuseCountsThatBoundNoMedian) {
+TEST_F(DrawnViews, TooFewViewsForAMedianAreRefused) {
     for (const std::string count : {"0", "-3", "x", "1e9"})
         expect_refused({"compare", "-o", "out", "--views", count}, 2,
                        {"--views: wanted a whole number from 1 to 10000, found '" + count + "'"});

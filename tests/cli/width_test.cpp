@@ -1,11 +1,13 @@
-// Vectors of the software driver: which width runs, and what the environment asks for.
+// Tests of the vector width of the software driver: how many lanes run, and what
+// LP_NATIVE_VECTOR_WIDTH sets.
 #include "cli/program.hpp"
 
 namespace {
 
 class Width : public Cli {
 protected:
-    /// With a cache of compiled shaders in this folder.
+    /// Runs `info` with LP_NATIVE_VECTOR_WIDTH set to `width`, unless empty. The driver keeps
+    /// compiled shaders in the folder `cache`.
     test::Ended info(const std::string& width, const std::string& cache) const {
         test::Start asked = start({"info", "--json"});
         asked.environment = {{"MESA_SHADER_CACHE_DIR", (folder / cache).string()}};
@@ -24,15 +26,16 @@ protected:
     }
 };
 
-TEST_F(Width, IsCountedByADispatch) {
+TEST_F(Width, VectorWidthIsCountedByADispatch) {
     const test::Ended wide = info("256", "wide"), narrow = info("128", "narrow");
     EXPECT_EQ(lanes(wide), 8);
     EXPECT_EQ(lanes(narrow), 4);
     EXPECT_EQ(wide.err + narrow.err, "");
 }
 
-/// The driver's cache holds code of one width under the other's name: what runs is said.
-TEST_F(Width, OtherThanAskedForIsWarnedOf) {
+/// The driver's shader cache may hold code of another vector width than the user asks for. The
+/// program must report the width that runs.
+TEST_F(Width, VectorWidthOtherThanAskedForGivesAWarning) {
     EXPECT_EQ(lanes(info("256", "shared")), 8);
     const test::Ended stale = info("128", "shared");
     EXPECT_EQ(lanes(stale), 8);
@@ -40,8 +43,8 @@ TEST_F(Width, OtherThanAskedForIsWarnedOf) {
                                               "128 bits, the driver runs code of 256 bits"));
 }
 
-/// A width whose code crashes is refused before the device is opened.
-TEST_F(Width, ThatTheDriverCannotRunIsRefused) {
+/// A vector width for which the driver's code crashes is refused before the device is opened.
+TEST_F(Width, UnsupportedVectorWidthIsRefused) {
     for (const std::string width : {"512", "64", "1024", "0", "0x200", "-1"}) {
         test::Start asked = start(
             {"render", "--technique", "hybrid:face=16", "--size", "16x16", "-o", "x.png"});

@@ -1,4 +1,4 @@
-// What a user says of a scene, and what `info` answers.
+// Tests of scene overrides and of the output of `catoptric info`.
 #include "cli/program.hpp"
 
 #include <fstream>
@@ -10,7 +10,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// A floor and a board above it, without light, camera or mirror.
+/// Writes a scene of a floor and a board above the floor, without light, camera or mirror.
 class SceneOverrides : public Cli {
 protected:
     SceneOverrides() {
@@ -33,7 +33,7 @@ protected:
     }
 };
 
-TEST_F(SceneOverrides, InfoSaysWhatASceneIs) {
+TEST_F(SceneOverrides, InfoJsonDescribesTheScene) {
     const json found = info();
     EXPECT_EQ(found["schema"], "catoptric/scene/1");
     EXPECT_EQ(found["scene"], "x");
@@ -62,7 +62,7 @@ TEST_F(SceneOverrides, InfoSaysWhatASceneIs) {
     EXPECT_TRUE(found["gaps"][2]["pixel_share"].is_null());
 }
 
-TEST_F(SceneOverrides, AMirrorByNameIsOneThatInfoKnows) {
+TEST_F(SceneOverrides, InfoShowsAMirrorThatWasChosenByName) {
     const json found = info({"--mirror", "the board=.5,.25,1", "--environment", "none"});
     ASSERT_EQ(found["mirrors"].size(), 1u);
     const json& mirror = found["mirrors"][0];
@@ -78,8 +78,8 @@ TEST_F(SceneOverrides, AMirrorByNameIsOneThatInfoKnows) {
     EXPECT_EQ(found["ambient"], .05);
 }
 
-/// The same words without --json.
-TEST_F(SceneOverrides, InfoAsText) {
+/// Without `--json`, `info` prints the same facts as text.
+TEST_F(SceneOverrides, InfoTextShowsSceneMirrorsAndGaps) {
     const test::Ended ended = cli({"info", "x.obj", "--size", "64x64", "--mirror", "tin"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, StartsWith("scene        x, hash "));
@@ -92,16 +92,17 @@ TEST_F(SceneOverrides, InfoAsText) {
                 HasSubstr("  --mirror 'floor'\n  --mirror 'the board'"));
 }
 
-TEST_F(SceneOverrides, SharesOfPixelsAreThoseOfTheCamera) {
+TEST_F(SceneOverrides, InfoReportsAnOrthographicCamera) {
     write("m.mtl", "newmtl wood\nKd .5 .4 .3\nnewmtl tin\nKd .8 .8 .8\nillum 3\nKs 1 1 1\n");
-    // Straight down, 4 units wide: the floor is 2 by 2.
+    // The orthographic camera looks straight down and sees a height of 4 units. The floor is 2 by 2
+    // units.
     const json found = info({"--camera", "0,10,0:0,0,0:h=4", "--mirror", "floor"});
     EXPECT_EQ(found["camera"]["orthographic_height"], 4);
     EXPECT_TRUE(found["camera"]["vertical_fov_degrees"].is_null());
 }
 
-/// `info` and `render` find it by the same camera: the one that is given.
-TEST_F(SceneOverrides, AutomaticExposureIsOfTheGivenCamera) {
+/// `info` and `render` compute automatic exposure with the camera that `--camera` gives.
+TEST_F(SceneOverrides, AutomaticExposureUsesTheGivenCamera) {
     const Words floor{"--camera", "0,.4,0:0,0,.1:40", "--environment", "studio", "--mirror", "tin"};
     const json by_info = info(floor);
     EXPECT_NE(by_info["exposure"], info({"--mirror", "tin"})["exposure"]);
@@ -116,7 +117,7 @@ TEST_F(SceneOverrides, AutomaticExposureIsOfTheGivenCamera) {
     EXPECT_THAT(cli(text).out, HasSubstr(" stops (auto, by camera '0,.4,0:0,0,.1:40')"));
 }
 
-TEST_F(SceneOverrides, WhatIsWrittenBesideIsRead) {
+TEST_F(SceneOverrides, OverrideFileBesideTheSceneIsRead) {
     const Words write_it{"info",     "x.obj",          "--write",    "--mirror", "tin=.5",
                          "--camera", "0,1,9:0,1,0:30", "--exposure", "1"};
     EXPECT_EQ(cli(write_it).exit_code, 0);
@@ -148,7 +149,7 @@ TEST_F(SceneOverrides, WhatIsWrittenBesideIsRead) {
     EXPECT_EQ(cli(without).exit_code, 0);
 }
 
-TEST_F(SceneOverrides, ACameraThatWasDrawnIsWrittenInNumbers) {
+TEST_F(SceneOverrides, DrawnCameraIsWrittenAsNumbers) {
     const Words words{"--mirror", "tin", "--camera", "seeded", "--seed", "5"};
     Words write_it{"info", "x.obj", "--write"};
     write_it.insert(write_it.end(), words.begin(), words.end());
@@ -160,14 +161,14 @@ TEST_F(SceneOverrides, ACameraThatWasDrawnIsWrittenInNumbers) {
     EXPECT_EQ(info()["camera"], info(drawn)["camera"]);
 }
 
-TEST_F(SceneOverrides, OutputsMayNotReplaceTheSceneFile) {
+TEST_F(SceneOverrides, OutputOverTheOverrideFileIsRefused) {
     write("x.obj.catoptric.json", "{}");
     expect_refused(quick({"render", "x.obj", "--technique", "raytrace", "-o", "y.png", "--quiet",
                           "--mirror", "tin", "--trace", "x.obj.catoptric.json"}),
                    2, {"x.obj.catoptric.json", "which the scene is read from"});
 }
 
-TEST_F(SceneOverrides, CompareSaysWhatItCompared) {
+TEST_F(SceneOverrides, CompareReportsGapsAndOverridesOfTheScene) {
     const test::Ended ended = cli(quick({"compare", "x.obj", "-o", "out", "--mirror", "tin",
                                          "--exposure", "-1", "--techniques", "reuse"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -187,7 +188,7 @@ TEST_F(SceneOverrides, CompareSaysWhatItCompared) {
     }
 }
 
-TEST_F(SceneOverrides, SeveralScenesAreOneReport) {
+TEST_F(SceneOverrides, CompareOfSeveralScenesWritesOneReport) {
     Words words = quick({"compare", "x.obj", "cornell-mirrors", "-o", "out", "--mirror", "*o*",
                          "--techniques", "reuse", "proxy"});
     const test::Ended ended = cli(words);
@@ -214,7 +215,7 @@ TEST_F(SceneOverrides, SeveralScenesAreOneReport) {
     const std::string csv = read("out/rows.csv");
     EXPECT_EQ(std::ranges::count(csv, '\n'), 5) << "a header and four rows";
 
-    // A later scene's fault is known before any work.
+    // An error in a later scene is found before any scene is rendered.
     words[2] = "gone.obj";
     EXPECT_EQ(cli(words).exit_code, 66);
     words[2] = "x.obj";
@@ -222,7 +223,7 @@ TEST_F(SceneOverrides, SeveralScenesAreOneReport) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/images/2-x/reuse.png"));
 }
 
-TEST_F(SceneOverrides, SeveralScenesInOneDocument) {
+TEST_F(SceneOverrides, CompareOfSeveralScenesPrintsOneJsonDocument) {
     const test::Ended ended = cli(quick({"compare", "cornell-mirrors", "cornell-mirrors-closed",
                                          "-o", "out", "--techniques", "proxy", "--json"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

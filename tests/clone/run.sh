@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# What a newcomer does: clones this checkout, with changes that are not committed, into an empty folder
-# (WORK) and types the README's first command there, small.
-# Called by CTest: run.sh SOURCE WORK.
+# Tests the README's first command as a newcomer would run it. Clones this checkout with its uncommitted changes into an
+# empty folder (WORK) and runs `./dev demo` there, with a small picture. Called by CTest: run.sh SOURCE WORK.
 set -euo pipefail
 source=$1 work=$2
 rm -rf "$work"

@@ -8,7 +8,8 @@
 
 namespace test {
 
-/// Embree's robust mode on the CPU: a ray tracer by other people, in float as the device's walk is.
+/// Traces rays with Embree on the CPU, in its robust mode. Embree is an independent ray tracer that
+/// computes in float, as the project's BVH traversal on the device does.
 class Embree {
 public:
     explicit Embree(std::span<const bvh::Triangle> triangles)
@@ -17,7 +18,7 @@ public:
         EXPECT_NO_THROW(scene_.commit());
     }
 
-    /// What each ray meets first; `object` and `steps` stay 0.
+    /// Returns the first hit of each ray. `object` and `steps` of a hit stay 0.
     std::vector<KernelHit> closest(const std::vector<KernelRay>& rays) const {
         std::vector<KernelHit> hits(rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -1,5 +1,5 @@
-// tests/drivers/ray_query.hpp: what the device's own ray query says of rays from a buffer, one ray an invocation.
-// Rays and hits as in kernel.comp.
+// Traces rays from a buffer with the device's own ray query, one ray per invocation (tests/drivers/ray_query.hpp).
+// Rays and hits have the layout that kernel.comp uses.
 #version 460
 #extension GL_EXT_ray_query : require
 
@@ -9,7 +9,7 @@ layout(set = 0, binding = 1, std430) readonly buffer Rays { uvec4 rays[]; };  //
 layout(set = 0, binding = 2, std430) writeonly buffer Hits { uvec4 hits[]; }; // t, weights; triangle, object, outcome, steps
 layout(push_constant) uniform Push { uint count; };
 
-const uint kFound = 1u; // outcome
+const uint kFound = 1u; // value of `outcome` if the ray hits a triangle
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -23,7 +23,7 @@ void main() {
     hits[2u * i] = uvec4(0);
     hits[2u * i + 1u] = uvec4(0);
     if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionTriangleEXT) return;
-    vec2 weights = rayQueryGetIntersectionBarycentricsEXT(query, true); // of b and c
+    vec2 weights = rayQueryGetIntersectionBarycentricsEXT(query, true); // weights of the corners b and c
     vec4 hit = vec4(rayQueryGetIntersectionTEXT(query, true), 1.0 - weights.x - weights.y, weights);
     hits[2u * i] = floatBitsToUint(hit);
     hits[2u * i + 1u] = uvec4(rayQueryGetIntersectionPrimitiveIndexEXT(query, true), 0u, kFound, 0u);

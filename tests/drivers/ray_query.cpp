@@ -17,7 +17,7 @@ constexpr VkBufferUsageFlags kBuildInput =
 
 } // namespace
 
-/// An acceleration structure and the memory it lies in.
+/// An acceleration structure of Vulkan and its memory.
 struct RayQuery::Structure {
     Memory memory;
     VkAccelerationStructureKHR handle = VK_NULL_HANDLE;
@@ -46,7 +46,7 @@ RayQuery::RayQuery(const RayQueryDevice& device) : device_(device) {
     layout.pPushConstantRanges = &push;
     VkPipelineLayout layout_handle = VK_NULL_HANDLE;
     check_vk(vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_handle),
-             "create a pipeline_ layout");
+             "create a pipeline layout");
     pipeline_layout_ = {device_.handle(), layout_handle};
 
     VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -136,7 +136,7 @@ RayQuery::Structure RayQuery::bottom(const Memory& corners, std::uint32_t triang
     return build(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometry, triangles);
 }
 
-/// `bottom` once, where it is.
+/// Builds a top-level structure with one instance of `bottom` that is not moved.
 RayQuery::Structure RayQuery::top(const Structure& bottom) const {
     VkAccelerationStructureInstanceKHR once{};
     for (int i = 0; i < 3; ++i) once.transform.matrix[i][i] = 1;

@@ -8,12 +8,12 @@
 
 namespace test {
 
-/// The driver's own ray tracer: a pipeline that asks it about rays from a buffer (ray_query.comp).
+/// Traces rays with the ray queries of the driver, in a compute pipeline (ray_query.comp).
 class RayQuery {
 public:
     explicit RayQuery(const RayQueryDevice& device);
 
-    /// What each ray meets first; `object` and `steps` stay 0.
+    /// Returns the first hit of each ray. `object` and `steps` of a hit stay 0.
     std::vector<KernelHit> closest(std::span<const bvh::Triangle> triangles,
                                    const std::vector<KernelRay>& rays) const;
 

@@ -96,7 +96,7 @@ void RayQueryDevice::make_device() {
     structure.accelerationStructure = true;
     gpu::Features features;
     features.v12.bufferDeviceAddress = true;
-    features.v13.maintenance4 = true; // work-group sizes as glslang writes them for Vulkan 1.3
+    features.v13.maintenance4 = true; // glslang's code for Vulkan 1.3 needs this feature
     features.v13.synchronization2 = true;
     features.v13.pNext = &structure;
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};

@@ -11,18 +11,20 @@ namespace test {
 
 using namespace catoptric;
 
-/// A buffer in memory that both sides see, with an address.
+/// A buffer in memory that host and device can access, with its device address.
 struct Memory {
-    gpu::UniqueMemory memory; // before the buffer: destroyed after it
+    gpu::UniqueMemory memory; // declared before the buffer, so destroyed after it
     gpu::UniqueBuffer buffer;
     void* mapped = nullptr;
     VkDeviceAddress address = 0;
 };
 
-/// A validated device with ray queries, beside the engine's own, which asks for no such thing.
+/// A Vulkan device with ray queries and validation. The engine's own device does not enable ray
+/// queries.
 class RayQueryDevice {
 public:
-    /// The first device that has them; null where none has, and then `reason` says so.
+    /// Opens the first device with ray queries. If no device has them, returns null and sets
+    /// `reason`.
     static std::unique_ptr<RayQueryDevice> open(std::string& reason);
     ~RayQueryDevice();
     RayQueryDevice(const RayQueryDevice&) = delete;
@@ -31,10 +33,10 @@ public:
     const std::string& name() const { return name_; }
     VkPhysicalDevice physical() const { return physical_; }
     gpu::DeviceHandle handle() const { return {device_}; }
-    /// Messages of the validation layer so far.
+    /// Returns the messages of the validation layer so far.
     const std::vector<std::string>& messages() const { return messages_; }
 
-    /// A function of one of the extensions.
+    /// Returns the address of a function of a device extension.
     template <typename Function>
     Function find(const char* function) const {
         return reinterpret_cast<Function>(vkGetDeviceProcAddr(device_, function));
@@ -42,7 +44,7 @@ public:
     Memory make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
                        const void* contents = nullptr) const;
 
-    /// Records with `record`, submits and waits.
+    /// Calls `record` to fill a command buffer, submits the buffer and waits for the device.
     template <typename Record>
     void submit(Record&& record) const {
         VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};

@@ -1,4 +1,4 @@
-// D4: two versions of a driver show the same pictures.
+// Test of case D4 of docs/extremes.md: two versions of a driver draw the same pictures.
 #include "cli/program.hpp"
 #include "drivers/second_driver.hpp"
 #include "measure/flip.hpp"
@@ -21,7 +21,7 @@ protected:
         return nlohmann::json::parse(ended.out);
     }
 
-    /// Pictures of the techniques in `place`/images.
+    /// Renders a picture of each technique into the folder `place`/images.
     void render(const Words& techniques, const std::string& place,
                 const Environment& environment) const {
         Words words = {"compare", "-o",       place, "--size",  "256x256",     "--frames",
@@ -34,7 +34,7 @@ protected:
     }
 };
 
-TEST_F(SamePicture, D4_TwoDriverVersions) {
+TEST_F(SamePicture, TwoDriverVersionsDrawTheSamePictures) {
     constexpr double kFlip = 0.0005;
     const auto second = test::second_driver();
     if (!second) GTEST_SKIP() << test::kNoSecondDriver;

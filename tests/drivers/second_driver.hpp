@@ -7,14 +7,14 @@
 #include <optional>
 #include <string>
 
-/// Mesa 25 as ./dev drivers unpacks it beside the system's driver.
+/// The second driver: Mesa 25, which `./dev drivers` unpacks beside the system's driver.
 namespace test {
 
 inline constexpr const char* kNoSecondDriver =
     "no second driver: ./dev drivers unpacks Mesa 25 under build/drivers";
 
-/// What a process needs in its environment to see that driver and no other; nothing where it was
-/// not set up.
+/// Returns the environment variables with which a process sees only the second driver. Returns
+/// nothing if that driver is not unpacked.
 inline std::optional<std::map<std::string, std::string>> second_driver() {
     const std::filesystem::path place = source_folder() / "build/drivers/mesa25";
     if (!std::filesystem::exists(place / "icd.json")) return {};

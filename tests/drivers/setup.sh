@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Unpacks Mesa's Vulkan drivers from Debian's backports under build/drivers/mesa25, beside the system's, which stay
-# as they are, and prints the path of the file that tells the Vulkan loader about the software driver there.
-# Exit code 1 with the reason where it cannot be had. Called by ./dev drivers.
+# Unpacks Mesa's Vulkan drivers from Debian's backports into build/drivers/mesa25. The system's drivers stay unchanged.
+# Prints the path of the file by which the Vulkan loader finds the unpacked software driver. Exits with 1 and the reason
+# if the drivers cannot be downloaded. Called by ./dev drivers.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 drivers=$PWD/build/drivers
@@ -10,11 +10,12 @@ give_up() { echo "drivers: $*" >&2; exit 1; }
 command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null || give_up "needs apt-get and dpkg-deb"
 release=$(. /etc/os-release; echo "${VERSION_CODENAME:-}")
 
-# The mirror is the one from which the system takes its release.
+# Use the Debian mirror from which the system installs its own packages.
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' "Release: $release" 'Component: main' | sed -n 1p)
 [[ $mirror ]] || give_up "no source of apt's names the release '$release'"
 
-# An apt of its own: lists, archives and sources lie here, only what is installed is read from the system.
+# Run apt-get with its own lists, archives and sources in build/drivers/apt. From the system it only reads which
+# packages are installed.
 work=$drivers/apt
 mkdir -p "$work/state/lists/partial" "$work/cache/archives/partial"
 printf 'deb %s %s main\n' "$mirror" "$release" "$mirror" "$release-backports" >"$work/sources.list"
@@ -23,7 +24,7 @@ apt=(apt-get -q -o Dir::State="$work/state" -o Dir::State::status=/var/lib/dpkg/
     -o Dir::Etc::Preferences=/dev/null -o Dir::Etc::PreferencesParts=/dev/null
     -o APT::Sandbox::User="$(id -un)" -o Debug::NoLocking=true)
 "${apt[@]}" update >&2 || give_up "$mirror has no suite '$release-backports'"
-# The drivers, and of the libraries that they need those that the system lacks or has in an older version.
+# Download the drivers, and the needed libraries that the system lacks or has in an older version.
 rm -f "$work"/cache/archives/*.deb
 "${apt[@]}" install -y --download-only --reinstall --no-install-recommends -t "$release-backports" mesa-vulkan-drivers >&2 ||
     give_up "cannot download mesa-vulkan-drivers of $release-backports"
@@ -40,5 +41,5 @@ library=$(find "$prefix/usr/lib" -name libvulkan_lvp.so)
 cat >"$prefix/icd.json" <<END
 {"file_format_version": "1.0.0", "ICD": {"library_path": "$library", "api_version": "1.3.0"}}
 END
-ln -s "$(dirname "$library")" "$prefix/lib" # for LD_LIBRARY_PATH
+ln -s "$(dirname "$library")" "$prefix/lib" # the folder that tests add to LD_LIBRARY_PATH
 echo "$prefix/icd.json"

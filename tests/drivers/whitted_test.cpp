@@ -1,5 +1,5 @@
-// The whole picture by a ray tracer of other people's: as Embree traces it, one ray at a time and
-// in packets, with the same rays.
+// Compares whole pictures of our ray tracer with pictures traced by Embree, an independent ray
+// tracer. Embree traces the same rays, one at a time and in packets.
 #include "peers/peer_scene.hpp"
 #include "support/rendering.hpp"
 
@@ -15,10 +15,10 @@ namespace {
 using namespace catoptric;
 
 constexpr uvec2 kSize{128, 128};
-/// Allowed difference of linear radiance, which is about 1.
+/// Allowed difference of a pixel's linear radiance, which is about 1.
 constexpr float kSame = 1e-3F;
-/// Pixels of kSize that may differ by more, because a reflection enlarges roundings: as many as
-/// differ between our own hit points in single and in double precision.
+/// How many pixels may differ by more than kSame, because reflections enlarge rounding errors. As
+/// many pixels differ between our own pictures with hit points in single and double precision.
 constexpr std::size_t kMostSensitive = 4;
 
 app::Part rendered(const scene::Scene& scene, const std::string& technique) {
@@ -28,7 +28,8 @@ app::Part rendered(const scene::Scene& scene, const std::string& technique) {
 
 float largest(const vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Returns for each pixel by how much our picture changes with hit points in double precision.
+/// Returns how much each pixel of our picture changes if hit points are computed in double
+/// precision.
 std::vector<float> sensitivity(const measure::Picture& single, const measure::Picture& precise) {
     std::vector<float> result;
     for (std::size_t i = 0; i < single.pixels.size(); ++i)
@@ -68,15 +69,16 @@ void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
     }
 }
 
-TEST(Whitted, MeshesAsEmbreeSeesThem) {
+TEST(Whitted, PictureOfMeshesMatchesEmbree) {
     for (const int depth : {1, 4}) expect_the_same(scene::cornell_mirrors(), depth, false);
 }
 
-TEST(Whitted, SpheresAsEmbreeSeesThem) {
+TEST(Whitted, PictureOfExactSpheresMatchesEmbree) {
     for (const int depth : {1, 4}) expect_the_same(scene::cornell_mirrors(), depth, true);
 }
 
-// Textures, smooth dielectrics, surfaces with two sides, lamps without a cosine, a spot.
-TEST(Whitted, TheRoomAsEmbreeSeesIt) { expect_the_same(scene::load("room"), 4, false); }
+// The scene `room` has textures, smooth dielectrics, two-sided surfaces, lamps without a cosine
+// factor and a spot light.
+TEST(Whitted, PictureOfTheRoomMatchesEmbree) { expect_the_same(scene::load("room"), 4, false); }
 
 } // namespace

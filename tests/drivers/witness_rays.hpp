@@ -9,7 +9,7 @@
 
 namespace test {
 
-/// Triangles and rays through them.
+/// A set of triangles, and rays to trace through them.
 struct Batch {
     std::string name;
     std::vector<bvh::Triangle> triangles;
@@ -18,7 +18,7 @@ struct Batch {
     bool grazing = false; ///< rays lie nearly in the planes of triangles
 };
 
-/// The built-in scene as the ray tracer holds it, in scene units.
+/// Returns the triangles of the built-in scene as the ray tracer stores them, in scene units.
 inline std::vector<bvh::Triangle> built_in_scene() {
     const scene::Scene scene = scene::cornell_mirrors();
     const render::Geometry geometry = render::make_geometry(scene::at(scene, 0),
@@ -32,7 +32,7 @@ inline std::vector<bvh::Triangle> built_in_scene() {
     return result;
 }
 
-/// From anywhere in the box of the triangles in any direction.
+/// Returns rays with random origins in the bounding box of the triangles and random directions.
 inline std::vector<KernelRay> rays_anywhere(const std::vector<bvh::Triangle>& triangles,
                                             std::size_t count, Numbers& numbers) {
     vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
@@ -47,7 +47,7 @@ inline std::vector<KernelRay> rays_anywhere(const std::vector<bvh::Triangle>& tr
     return rays;
 }
 
-/// A corner, or a point of an edge.
+/// Returns a random corner of a triangle, or a random point on an edge.
 inline vec3 on_an_edge(const std::vector<bvh::Triangle>& triangles, Numbers& numbers) {
     const bvh::Triangle& t = triangles[numbers.below(triangles.size())];
     const std::size_t first = numbers.below(3);
@@ -55,7 +55,7 @@ inline vec3 on_an_edge(const std::vector<bvh::Triangle>& triangles, Numbers& num
     return numbers.word() % 4 == 0 ? from : from + numbers.unit() * (to - from);
 }
 
-/// The same rays turned to a corner or to a point of an edge.
+/// Returns the rays, each turned towards a corner of a triangle or a point on an edge.
 inline std::vector<KernelRay> turned_to_edges(std::vector<KernelRay> rays,
                                               const std::vector<bvh::Triangle>& triangles,
                                               Numbers& numbers) {
@@ -66,7 +66,8 @@ inline std::vector<KernelRay> turned_to_edges(std::vector<KernelRay> rays,
     return rays;
 }
 
-/// At angles of 10^-1 to 10^-7 to a triangle's plane, through one of its points.
+/// Returns rays through random points of triangles, at angles of 10^-1 to 10^-7 to the triangle's
+/// plane.
 inline std::vector<KernelRay> grazing_rays(const std::vector<bvh::Triangle>& triangles,
                                            std::size_t count, Numbers& numbers) {
     std::vector<KernelRay> rays(count);
@@ -83,7 +84,7 @@ inline std::vector<KernelRay> grazing_rays(const std::vector<bvh::Triangle>& tri
     return rays;
 }
 
-/// From strictly inside, in any direction.
+/// Returns rays with origins strictly inside a closed mesh and random directions.
 inline std::vector<KernelRay> rays_inside(const ClosedMesh& closed, double scale, dvec3 offset,
                                           std::size_t count, Numbers& numbers) {
     std::vector<KernelRay> rays(count);

@@ -1,9 +1,10 @@
-// The device's walk of the hierarchy beside two ray tracers by other people, ray by ray: Embree on
-// the CPU and, where the device has them, ray queries.
+// Compares our BVH traversal on the device, ray by ray, with two independent ray tracers: Embree on
+// the CPU and, if the device has them, ray queries. This file calls each of the three ray tracers a
+// witness.
 //
-// A ray at an edge has two good answers, so witnesses may differ. Where they do, each answer is
-// judged: it is founded when a ray that is moved by no more than the roundings of a float gets it
-// in double precision.
+// A ray at an edge has two correct answers, so witnesses may differ. If they differ, each answer is
+// judged. An answer is founded if some ray within the rounding errors of a float gets the same
+// answer in double precision. Otherwise the answer is unfounded.
 #include "drivers/embree.hpp"
 #include "drivers/ray_query.hpp"
 #include "drivers/second_driver.hpp"
@@ -22,25 +23,25 @@ using test::Kernel;
 using test::KernelHit;
 using test::KernelRay;
 
-constexpr std::size_t kListed = 3; ///< unfounded answers of a witness in a batch
+constexpr std::size_t kListed = 3; ///< unfounded answers printed per witness and batch
 
-/// The worst that others do, as a share of a batch: lavapipe's ray query where all rays are aimed
-/// at a corridor's edges.
+/// Largest allowed share of unfounded answers in a batch. The ray query of lavapipe comes closest,
+/// for rays aimed at the edges of the mesh `corridor`.
 constexpr double kOthersAtEdges = 0.05;
 
 struct Witness {
     std::string name;
     std::vector<KernelHit> hits;
-    std::size_t leaks = 0; ///< misses from strictly inside a closed mesh
-    std::size_t off = 0;   ///< hits further from the triangle that they name than roundings explain
-    std::size_t at_corners = 0; ///< unfounded answers to rays through a corner, within roundings
-    std::size_t at_edges = 0;   ///< through an edge
-    std::size_t elsewhere = 0;  ///< and all others
+    std::size_t leaks = 0;      ///< misses from strictly inside a closed mesh
+    std::size_t off = 0;        ///< hits outside their triangle by more than rounding errors
+    std::size_t at_corners = 0; ///< unfounded answers to rays through a corner
+    std::size_t at_edges = 0;   ///< unfounded answers to rays through an edge
+    std::size_t elsewhere = 0;  ///< all other unfounded answers
     std::size_t unfounded() const { return at_corners + at_edges + elsewhere; }
 };
 
-/// How two witnesses answer one ray.
-enum Verdict { kSame, kSamePlace, kOtherSurface, kHitOrMiss };
+/// How the answers of two witnesses to one ray compare.
+enum Verdict { kSameTriangle, kSamePlace, kOtherSurface, kHitOrMiss };
 constexpr std::array kVerdicts{"same triangle", "another at the same distance", "another surface",
                                "hit or miss"};
 
@@ -50,7 +51,7 @@ std::array<dvec3, 3> corners(const bvh::Triangle& t) {
     return {dvec3(t.a), dvec3(t.b), dvec3(t.c)};
 }
 
-/// Unit normal, zero without an area.
+/// Returns the unit normal of the triangle, or zero if the triangle has no area.
 dvec3 normal_of(const bvh::Triangle& t) {
     const auto [a, b, c] = corners(t);
     const dvec3 normal = glm::cross(b - a, c - a);
@@ -64,7 +65,8 @@ double to_corner(const bvh::Triangle& t, const KernelRay& ray) {
     return nearest;
 }
 
-/// Signed distances to the lines along its edges: all of one sign where the ray goes through it.
+/// Returns the signed distances of the ray from the lines along the triangle's edges. All distances
+/// have one sign if the ray passes through the triangle.
 std::array<double, 3> to_edges(const bvh::Triangle& t, const KernelRay& ray) {
     const auto c = corners(t);
     std::array<double, 3> result{};
@@ -75,8 +77,8 @@ std::array<double, 3> to_edges(const bvh::Triangle& t, const KernelRay& ray) {
     return result;
 }
 
-/// How far the roundings of a float may move a ray where it meets the triangle: 16 of them, as in
-/// box_ray (shaders/lib/math/ray.glsl), of the offset of its farthest corner.
+/// Returns how far rounding errors of floats may move a ray at the triangle. The bound is 16
+/// roundings of the distance to the farthest corner, as in box_ray (shaders/lib/math/ray.glsl).
 double slack(const bvh::Triangle& t, const KernelRay& ray) {
     double reach = 0;
     for (const dvec3& corner : corners(t))
@@ -85,12 +87,14 @@ double slack(const bvh::Triangle& t, const KernelRay& ray) {
     return double{f32::gamma_bound(16)} * reach;
 }
 
-/// By how much t may be wrong then: the more, the more the ray grazes.
+/// Returns the error that roundings may cause in the ray parameter t. The error grows as the angle
+/// between ray and triangle shrinks.
 double slack_of_t(const bvh::Triangle& t, const KernelRay& ray) {
     return slack(t, ray) / std::abs(glm::dot(normal_of(t), dvec3(ray.direction)));
 }
 
-/// Whether the ray passes beside the triangle, or t is not where it meets the triangle's plane.
+/// Returns whether a hit is wrong by more than rounding errors. Such a ray passes beside its
+/// triangle, or t is not the parameter at which it meets the triangle's plane.
 bool is_off(const bvh::Triangle& t, const KernelRay& ray, const KernelHit& hit) {
     const auto [lowest, highest] = std::ranges::minmax(to_edges(t, ray));
     if (std::min(-lowest, highest) > slack(t, ray)) return true;
@@ -103,16 +107,16 @@ bool is_off(const bvh::Triangle& t, const KernelRay& ray, const KernelHit& hit) 
 
 Verdict verdict(const Batch& batch, const KernelRay& ray, const KernelHit& a, const KernelHit& b) {
     if (a.found() != b.found()) return kHitOrMiss;
-    if (!a.found() || a.triangle == b.triangle) return kSame;
+    if (!a.found() || a.triangle == b.triangle) return kSameTriangle;
     const double limit = slack_of_t(batch.triangles[a.triangle], ray) +
                          slack_of_t(batch.triangles[b.triangle], ray);
     return std::abs(double{a.t} - double{b.t}) <= limit ? kSamePlace : kOtherSurface;
 }
 
-/// Whether a ray within `distance` of this one gets the answer in double precision.
+/// Returns whether some ray within `distance` of the ray gets the same answer in double precision.
 bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& ray,
                 const KernelHit& answer, double distance) {
-    constexpr int kRings = 12, kAround = 16; // from distance / 2048 on, each twice as wide
+    constexpr int kRings = 12, kAround = 16; // radii from distance / 2048, doubling
     const dvec3 side = glm::normalize(
         glm::cross(along(ray), std::abs(along(ray).x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
     const dvec3 up = glm::cross(along(ray), side);
@@ -133,8 +137,8 @@ bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& 
     return false;
 }
 
-/// How far a ray may have to be moved for answer `which`: by the roundings at its own triangle and
-/// at those that it passes by, which are the other witnesses' nearer ones.
+/// Returns how far a ray may be moved to explain the answer of witness `which`. The distance covers
+/// rounding errors at the triangle of the answer, and at nearer triangles that other witnesses hit.
 double distance_allowed(const Batch& batch, const std::vector<Witness>& witnesses,
                         std::size_t which, std::size_t i) {
     const KernelHit& answer = witnesses[which].hits[i];
@@ -155,8 +159,8 @@ void list(const Batch& batch, const std::vector<Witness>& witnesses, std::size_t
         std::cout << "      " << witness.name << ": " << test::text(witness.hits[i]) << "\n";
 }
 
-/// Counts an unfounded answer where it belongs: near a corner or an edge of a triangle that a
-/// witness names.
+/// Counts an unfounded answer of the witness `charged` as near a corner, near an edge, or
+/// elsewhere. Corners and edges are those of the triangles that witnesses hit.
 void charge(const Batch& batch, const std::vector<Witness>& witnesses, Witness& charged,
             std::size_t i) {
     bool at_corner = false, at_edge = false;
@@ -222,7 +226,8 @@ void compare(const Batch& batch, const bvh::Bvh& hierarchy, std::vector<Witness>
                   << w.at_edges << " at edges, " << w.elsewhere << " elsewhere\n";
 }
 
-/// Through a mesh: anywhere, at edges, and nearly in the planes of its triangles.
+/// Adds three batches of rays for a closed mesh: from inside, from inside towards edges, and nearly
+/// in the planes of triangles.
 void add_closed(std::vector<Batch>& batches, const std::string& name,
                 const test::ClosedMesh& closed, double scale, dvec3 offset,
                 test::Numbers& numbers) {
@@ -251,12 +256,12 @@ std::vector<Batch> batches() {
     add_closed(result, "torus", test::torus(), 1, dvec3(0), numbers);
     add_closed(result, "room", test::box("room", 1), 1, dvec3(0), numbers);
     add_closed(result, "corridor", test::box("corridor", 1000), 1, dvec3(0), numbers);
-    // Where Embree's own tests put a ball: floats are 1/64 apart there.
+    // Embree's own tests place a ball at this position, where neighbouring floats are 1/64 apart.
     add_closed(result, "ball far out", test::ball(), 100, dvec3(148376, 1234, -223423), numbers);
     return result;
 }
 
-TEST(Witnesses, AgreeRayByRay) {
+TEST(Witnesses, RayTracersAgreeRayByRay) {
     std::string reason;
     const std::unique_ptr<test::RayQueryDevice> device = test::RayQueryDevice::open(reason);
     std::optional<test::RayQuery> ray_query;
@@ -296,13 +301,13 @@ TEST(Witnesses, AgreeRayByRay) {
     EXPECT_GT(found, rays / 2);
 }
 
-/// The same with the second driver, which has ray queries.
-TEST(Witnesses, AgreeOnTheSecondDriver) {
+/// Runs the test of this suite again on the second driver, which has ray queries.
+TEST(Witnesses, RayTracersAgreeOnTheSecondDriver) {
     const auto environment = test::second_driver();
     if (!environment) GTEST_SKIP() << test::kNoSecondDriver;
     const test::Ended ended = test::run_process(
         {.command = {std::filesystem::read_symlink("/proc/self/exe").string(),
-                     "--gtest_filter=Witnesses.AgreeRayByRay"},
+                     "--gtest_filter=Witnesses.RayTracersAgreeRayByRay"},
          .environment = *environment});
     std::cout << ended.out;
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -1,6 +1,7 @@
-// R2: the device is lost, or cannot be waited for: exit code 76 or 75, the passes or the copy that
-// it was in, within 5 s; nothing that the driver may still use is destroyed, and the library stays
-// usable. R3: what was rendered cannot be read back: a message and no picture.
+// Tests of failures R2 and R3 of docs/extremes.md. R2: if the device is lost or a wait for it
+// fails, the program exits with 76 or 75 within 5 s. It names the passes or the copy, destroys
+// nothing that the driver may still use, and the library stays usable. R3: if a rendered picture
+// cannot be read back, the program prints a message and writes no picture.
 #include "core/error.hpp"
 #include "faults/faults.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 using catoptric::Failure;
 
-constexpr double kLongest = 5; // seconds
+constexpr double kDeviceLostLongest = 5; // seconds
 
 class DeviceLost : public Faults {
 protected:
@@ -28,7 +29,7 @@ protected:
     }
     void expect_given_up(const Fault& fault, const Words& any_of) const {
         const std::string place = fault.call + std::to_string(fault.at) +
-                                  std::to_string(fault.result); // of several at a time
+                                  std::to_string(fault.result); // one folder per concurrent run
         std::filesystem::create_directory(folder / place);
         write(place + "/x.exr", "old");
         const Watched watched = watch(words, fault, place);
@@ -41,7 +42,7 @@ protected:
         EXPECT_TRUE(std::ranges::any_of(any_of, [&](const std::string& part) {
             return watched.ended.err.find(part) != std::string::npos;
         })) << where;
-        EXPECT_LT(watched.ended.seconds, kLongest) << where;
+        EXPECT_LT(watched.ended.seconds, kDeviceLostLongest) << where;
         EXPECT_EQ(watched.unfit(), "") << where;
         EXPECT_EQ(read(place + "/x.exr"), "old") << where;
         std::printf("  %s in %.2f s: %s", fault.call.c_str(), watched.ended.seconds,
@@ -55,7 +56,7 @@ protected:
     }
 };
 
-TEST_F(DeviceLost, AtTheFirstAMiddleAndTheLastSubmit) {
+TEST_F(DeviceLost, LossAtASubmitExitsWith76AndKeepsTheOldPicture) {
     const int last = calls("vkQueueSubmit2");
     ASSERT_GE(last, 3);
     const std::set chosen{1, 2, last / 2, last - 1, last};
@@ -66,8 +67,8 @@ TEST_F(DeviceLost, AtTheFirstAMiddleAndTheLastSubmit) {
     });
 }
 
-/// Every wait of the run in its turn; two of what is asked once it is over.
-TEST_F(DeviceLost, WhileAFrameOrACopyIsAwaited) {
+/// Each wait of the run fails in turn, and so do the first and the last read of timestamps.
+TEST_F(DeviceLost, FailedWaitExitsWithAnErrorAndKeepsTheOldPicture) {
     const Watched whole = watch(words, std::nullopt);
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
     std::vector<Fault> faults;
@@ -85,8 +86,9 @@ TEST_F(DeviceLost, WhileAFrameOrACopyIsAwaited) {
     });
 }
 
-/// The engine that was given up says so again; the next one of the same process renders as ever.
-TEST_F(DeviceLost, AnotherEngineCanBeMade) {
+/// An engine whose device was lost repeats its error. The next engine of the same process renders
+/// correctly.
+TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
     for (const auto& [result, failure] :
          {std::pair{VK_ERROR_DEVICE_LOST, Failure::device_lost},
           std::pair{VK_ERROR_OUT_OF_DEVICE_MEMORY, Failure::exhausted}}) {
@@ -133,13 +135,13 @@ TEST_F(DeviceLost, AnotherEngineCanBeMade) {
     }
 }
 
-TEST_F(DeviceLost, WhileItIsOpened) {
+TEST_F(DeviceLost, LossWhileOpeningTheDeviceExitsWith76) {
     const Watched watched = watch(words, Fault{"vkCreateDevice", 1, VK_ERROR_DEVICE_LOST});
     expect_ended(watched.ended, 76, {"open device '", "VK_ERROR_DEVICE_LOST"});
     EXPECT_EQ(watched.leaks(), "");
 }
 
-TEST_F(DeviceLost, InAComparisonLeavesTheOldReport) {
+TEST_F(DeviceLost, LossDuringAComparisonKeepsTheOldReport) {
     std::filesystem::create_directory(folder / "out");
     write("out/report.json", "old");
     const Words compare = {"compare",
@@ -162,7 +164,7 @@ TEST_F(DeviceLost, InAComparisonLeavesTheOldReport) {
 
 class ReadBack : public DeviceLost {};
 
-TEST_F(ReadBack, MemoryThatCannotBeMapped) {
+TEST_F(ReadBack, FailedMemoryMappingExitsWith75) {
     const int last = calls("vkMapMemory");
     for (const int at : std::set{1, last / 2, last}) {
         const Watched watched = watch(words, Fault{"vkMapMemory", at, VK_ERROR_MEMORY_MAP_FAILED});
@@ -174,8 +176,9 @@ TEST_F(ReadBack, MemoryThatCannotBeMapped) {
     EXPECT_THAT(end.ended.err, testing::HasSubstr("read-back of "));
 }
 
-/// A result that the standard does not name is a defect of the driver, and still ends in order.
-TEST_F(ReadBack, AnUnknownFailureIsInternal) {
+/// A result that Vulkan does not define for a call is a defect of the driver. The program exits
+/// with 70 and keeps the old picture.
+TEST_F(ReadBack, UnknownVulkanResultExitsWith70) {
     const int last = calls("vkQueueWaitIdle");
     const Watched watched = watch(words, Fault{"vkQueueWaitIdle", last, VK_ERROR_UNKNOWN});
     expect_ended(watched.ended, 70, {"read back image '", "-13"});

@@ -1,12 +1,13 @@
-// R4: drivers that are not there, cannot be loaded or have no device: exit code 69 with what to
-// install, within 2 s. (tests/cli/input_test.cpp asks every verb.) No memory for one is 75.
+// Tests of failure R4 of docs/extremes.md: a driver is missing, cannot be loaded or has no device.
+// The program exits with 69 within 2 s and names the package to install. Without memory for a
+// driver the exit code is 75. tests/cli/input_test.cpp covers a missing driver for every verb.
 #include "faults/faults.hpp"
 
 #include <vulkan/vulkan_core.h>
 
 namespace {
 
-constexpr double kLongest = 2; // seconds
+constexpr double kDeviceLongest = 2; // seconds
 constexpr int kFindsNone = VK_SUCCESS;
 
 class NoDevice : public Faults {
@@ -14,7 +15,7 @@ protected:
     const Words words = {"render", "--technique", "reuse", "-o", "x.png"};
 };
 
-TEST_F(NoDevice, WhereverTheDriverFilesPoint) {
+TEST_F(NoDevice, UnusableDriverFileExitsWith69) {
     write(
         "none.json",
         R"({"file_format_version": "1.0.0", "ICD": {"library_path": "/none/libnone.so", "api_version": "1.3.0"}})");
@@ -26,12 +27,12 @@ TEST_F(NoDevice, WhereverTheDriverFilesPoint) {
         const test::Ended ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 69) << name << ": " << ended.err;
         EXPECT_THAT(ended.err, testing::HasSubstr("apt-get install mesa-vulkan-drivers")) << name;
-        EXPECT_LT(ended.seconds, kLongest) << name;
+        EXPECT_LT(ended.seconds, kDeviceLongest) << name;
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
 }
 
-TEST_F(NoDevice, WhereTheDriverRefuses) {
+TEST_F(NoDevice, DriverThatRefusesExitsWith69) {
     for (const Fault& fault :
          {Fault{"vkCreateInstance", 1, VK_ERROR_INCOMPATIBLE_DRIVER},
           Fault{"vkCreateInstance", 1, VK_ERROR_INITIALIZATION_FAILED},
@@ -42,11 +43,11 @@ TEST_F(NoDevice, WhereTheDriverRefuses) {
         const Watched watched = watch(words, fault);
         expect_ended(watched.ended, 69, {"apt-get install mesa-vulkan-drivers"});
         EXPECT_EQ(watched.leaks(), "");
-        EXPECT_LT(watched.ended.seconds, kLongest);
+        EXPECT_LT(watched.ended.seconds, kDeviceLongest);
     }
 }
 
-TEST_F(NoDevice, WhereItCannotBeOpened) {
+TEST_F(NoDevice, DeviceThatCannotBeOpenedExitsWith69) {
     const Watched watched = watch(words,
                                   Fault{"vkCreateDevice", 1, VK_ERROR_INITIALIZATION_FAILED});
     expect_ended(watched.ended, 69,
@@ -54,8 +55,9 @@ TEST_F(NoDevice, WhereItCannotBeOpened) {
     EXPECT_EQ(watched.leaks(), "");
 }
 
-/// What the driver says is not there is no fault of the program's.
-TEST_F(NoDevice, WhereALayerExtensionOrFeatureIsMissing) {
+/// A layer, extension or feature that the driver lacks is no internal error, so the exit code is
+/// 69.
+TEST_F(NoDevice, MissingLayerExtensionOrFeatureExitsWith69) {
     for (const auto& [call, result, name] :
          {std::tuple{"vkCreateInstance", VK_ERROR_EXTENSION_NOT_PRESENT, "EXTENSION_NOT_PRESENT"},
           std::tuple{"vkCreateInstance", VK_ERROR_LAYER_NOT_PRESENT, "LAYER_NOT_PRESENT"},
@@ -67,13 +69,14 @@ TEST_F(NoDevice, WhereALayerExtensionOrFeatureIsMissing) {
         EXPECT_EQ(watched.leaks(), "");
     }
     test::Start process = start({"render", "--technique", "reuse", "-o", "x.png", "--validate"});
-    process.environment = {{"VK_LAYER_PATH", folder.string()}}; // which holds no layer
+    process.environment = {{"VK_LAYER_PATH", folder.string()}}; // a folder without layers
     expect_ended(test::run_process(process), 69,
                  {"--validate needs the layer", "apt-get install vulkan-validationlayers"});
 }
 
-/// One came or went between counting and fetching: what there is will do.
-TEST_F(NoDevice, DevicesThatComeAndGo) {
+/// The number of devices changes between counting and listing. The program goes on with the devices
+/// that are listed.
+TEST_F(NoDevice, ChangedNumberOfDevicesIsTolerated) {
     for (const int at : {1, 2}) {
         const Watched watched = watch({"list", "devices"},
                                       Fault{"vkEnumeratePhysicalDevices", at, VK_INCOMPLETE});
@@ -83,13 +86,13 @@ TEST_F(NoDevice, DevicesThatComeAndGo) {
     }
 }
 
-/// Out of memory before there is a device is not "no driver".
-TEST_F(NoDevice, NoMemoryForADriver) {
+/// If memory ends before a device is open, the error names memory and not a missing driver.
+TEST_F(NoDevice, DriverWithoutMemoryExitsWith75) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer itself takes address space without end";
 #endif
     test::Start process = start(words);
-    process.memory_limit = 200 << 20; // of which the program takes 40
+    process.memory_limit = 200 << 20; // bytes; the program itself takes 40 MiB
     expect_ended(test::run_process(process), 75, {"no memory for a Vulkan driver", "ulimit -v"});
 }
 

@@ -1,5 +1,6 @@
-// R5: every kind of file that is written meets a full disk, a limit of file size, a folder that
-// takes no files and a folder of its own name: 73 or 74, the old file intact, no temporary left.
+// Tests of failure R5 of docs/extremes.md: every output file meets a full disk, a limit of file
+// size, a folder that takes no files, or a folder of its own name. The program exits with 73 or 74,
+// keeps the old file and leaves no temporary file.
 #include "faults/faults.hpp"
 
 #include <cstring>
@@ -30,7 +31,7 @@ protected:
         return {"render",   "--technique", "raytrace:depth=1", "--size", "64x64", "--frames", "1",
                 "--warmup", "0",           "--quiet",          "-o",     path};
     }
-    /// Temporaries of whole-file writes.
+    /// Returns the temporary files that interrupted writes left behind.
     Words strays() const {
         Words found;
         for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -39,8 +40,8 @@ protected:
         return found;
     }
 
-    /// Comparisons, in each of which `prepare(place)` made one of the files impossible: exit code
-    /// and message.
+    /// Runs a comparison for each output file, after `prepare(path)` made that file impossible to
+    /// write. Expects the exit code and a message with the path and `why`.
     void compare_without_each_file(const std::function<void(const fs::path& file)>& prepare,
                                    int exit_code, const std::string& why) const {
         two_at_a_time(files.size(), [&](std::size_t i) {
@@ -54,7 +55,7 @@ protected:
     }
 };
 
-/// A folder in memory with no room left, gone at the end.
+/// A small file system in memory (tmpfs) mounted at a folder. The destructor unmounts it.
 struct FullDisk {
     explicit FullDisk(fs::path folder) : path(std::move(folder)) {
         fs::create_directories(path);
@@ -64,7 +65,7 @@ struct FullDisk {
     ~FullDisk() {
         if (mounted) ::umount(path.c_str());
     }
-    /// After this nothing more can be written.
+    /// Fills the file system, so that all further writes fail.
     void fill() const {
         std::ofstream filler(path / "filler", std::ios::binary);
         for (char page[4096] = {}; filler.write(page, sizeof page).flush();) {
@@ -75,7 +76,7 @@ struct FullDisk {
     std::string why;
 };
 
-TEST_F(Disk, FullForEveryFileOfAComparison) {
+TEST_F(Disk, FullDiskKeepsTheOldFilesOfAComparison) {
     const FullDisk disk(folder / "disk");
     if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
     for (const std::string& name : files)
@@ -88,7 +89,7 @@ TEST_F(Disk, FullForEveryFileOfAComparison) {
         EXPECT_EQ(read_path(disk.path / fs::path(name).filename()), "old");
 }
 
-TEST_F(Disk, FullForAPictureAndItsTrace) {
+TEST_F(Disk, FullDiskKeepsTheOldPictureAndTrace) {
     const FullDisk disk(folder / "disk");
     if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
     for (const char* name : {"x.exr", "x.png", "t.json"}) write(std::string("disk/") + name, "old");
@@ -104,8 +105,9 @@ TEST_F(Disk, FullForAPictureAndItsTrace) {
     EXPECT_EQ(strays(), Words{});
 }
 
-/// Needs no privilege, and breaks off in the middle of the file: `ulimit -f`.
-TEST_F(Disk, LimitOfFileSizeEndsAsAnErrorAndNotAsASignal) {
+/// The limit of file size (`ulimit -f`) breaks off a write in the middle of a file. Unlike a
+/// mounted full disk, this test needs no privilege.
+TEST_F(Disk, FileSizeLimitEndsInAnErrorAndNotASignal) {
     for (const std::string name : {"x.exr", "x.png"}) {
         write(name, "old");
         test::Start process = start(picture(name));
@@ -118,14 +120,14 @@ TEST_F(Disk, LimitOfFileSizeEndsAsAnErrorAndNotAsASignal) {
     Words words = comparison("out");
     words.insert(words.end(), {"--csv", "all"});
     test::Start process = start(words);
-    process.file_limit = 4096; // the pictures are smaller, the table is larger
+    process.file_limit = 4096; // bytes: pictures are smaller, rows.csv is larger
     expect_ended(test::run_process(process), 74, {"out/rows.csv: ", "File too large"});
     EXPECT_EQ(read("out/report.json"), "old");
     EXPECT_EQ(strays(), Words{});
 }
 
-/// Nobody may make files in /proc, not even root, whom permissions do not stop.
-TEST_F(Disk, FolderThatTakesNoFiles) {
+/// Not even root can make files in /proc. Permissions would not stop root in another folder.
+TEST_F(Disk, FolderThatTakesNoFilesExitsWith73) {
     if (!fs::is_directory("/proc/self"))
         GTEST_SKIP() << "no /proc, a folder in which not even root can make a file";
     compare_without_each_file(
@@ -139,7 +141,7 @@ TEST_F(Disk, FolderThatTakesNoFiles) {
     expect_ended(cli(comparison("/proc/out")), 73, {"/proc/out"});
 }
 
-TEST_F(Disk, ReadOnlyFolder) {
+TEST_F(Disk, ReadOnlyFolderExitsWith73) {
     const FullDisk disk(folder / "disk");
     if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
     write("disk/x.exr", "old");
@@ -151,7 +153,7 @@ TEST_F(Disk, ReadOnlyFolder) {
     expect_ended(cli(comparison("disk/out")), 73, {"disk/out", "Read-only file system"});
 }
 
-TEST_F(Disk, FolderInThePlaceOfEachFile) {
+TEST_F(Disk, FolderInPlaceOfAnOutputFileExitsWith73) {
     compare_without_each_file([](const fs::path& file) { fs::create_directory(file); }, 73,
                               "found a folder");
 }

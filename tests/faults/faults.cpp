@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Compiled shaders, shared by all runs: without it compiling would be most of the time.
+/// Returns the folder of the driver's shader cache, which all runs share. Without the cache,
+/// compiling shaders would take most of the time.
 const fs::path& shader_cache() {
     static const struct Folder {
         Folder()

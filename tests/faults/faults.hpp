@@ -7,53 +7,57 @@
 #include <functional>
 #include <optional>
 
-/// One Vulkan call that fails: the `at`-th, from 1, of that name.
+/// A Vulkan call that must fail: the `at`-th call of the name `call`, counted from 1.
 struct Fault {
     std::string call;
     int at = 1;
     int result = 0; ///< a VkResult
 };
 
-/// Calls of one name in a run, and how many of the objects that they made were never destroyed.
+/// How often a Vulkan call was made in a run, and how many objects that it created were never
+/// destroyed.
 struct Count {
     int calls = 0, alive = 0;
 };
 
-/// A run under the layer of tests/faults/layer.
+/// The result of a run under the fault layer (tests/faults/layer).
 struct Watched {
     test::Ended ended;
     std::map<std::string, Count>
-        counts;                   ///< empty when the program crashed or the layer was not there
-    int strays = 0;               ///< handles destroyed that were not alive
-    int untimely = 0;             ///< handles destroyed that the device may still use
-    int loose_stamps = 0;         ///< time stamps that no execution barrier follows at once
-    std::uint64_t most_bytes = 0; ///< of device memory at one time
+        counts;                   ///< by call; empty if the program crashed or had no fault layer
+    int strays = 0;               ///< handles destroyed although they were not alive
+    int untimely = 0;             ///< handles destroyed while the device may use them
+    int loose_stamps = 0;         ///< timestamps not directly followed by a barrier
+    std::uint64_t most_bytes = 0; ///< largest amount of device memory at one time
 
-    /// What is wrong with what it left on the device; empty = nothing.
+    /// Returns a text about objects that the run never destroyed or destroyed wrongly; empty: none.
     std::string leaks() const;
-    /// What is wrong with what it did after the device was lost or not waited for; empty = nothing:
-    /// it destroyed nothing, device and instance neither.
+    /// Returns a text about what the run destroyed after a lost device or a failed wait; empty:
+    /// nothing. After such a failure the engine must destroy nothing, not even device and instance.
     std::string unfit() const;
 };
 
-/// The command with that layer over its driver. Its shader cache is kept for the whole program.
+/// Fixture that runs the program with the fault layer over its driver. All runs of a test program
+/// share one shader cache.
 class Faults : public Cli {
 protected:
-    /// Fails where the loader does not load the layer.
+    /// Fails the test if the Vulkan loader does not load the layer.
     void SetUp() override;
 
-    /// Runs in `place`, a folder below the test's own that must be there.
+    /// Runs the program in `place`, an existing folder below the folder of the test. `fault`: the
+    /// call that must fail, if any.
     Watched watch(const Words& words, const std::optional<Fault>& fault,
                   const std::string& place = ".") const;
 };
 
-/// The layer over the driver of this process, for those that are to end (test::in_child): what is
-/// made from now on is watched, each instance anew. Keeps the driver loaded.
+/// Puts the fault layer over the driver of this process, which must be a child process
+/// (test::in_child). The layer counts calls of each Vulkan instance that is made afterwards. Keeps
+/// the driver loaded.
 class WatchedHere {
 public:
     explicit WatchedHere(std::filesystem::path report);
-    /// Makes an engine and gives it to `work`; `ended` has the message and exit code of the error
-    /// that came out of it, or 0.
+    /// Makes an engine and calls `work` with it. `ended` of the result has the exit code and
+    /// message of the error that was thrown, or exit code 0.
     Watched run(const std::optional<Fault>& fault,
                 const std::function<void(catoptric::app::Engine&)>& work);
 
@@ -62,5 +66,6 @@ private:
     catoptric::app::Engine keeps_driver_{{}};
 };
 
-/// Calls `run(i)` for each i below `count`, two at a time: most of a program's run is one thread's.
+/// Calls `run(i)` for each i below `count` on two threads, because a run of the program mostly uses
+/// one thread.
 void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run);

@@ -1,4 +1,4 @@
-// A device that is lost while frames are on their way says so where one of them is waited for.
+// Test of a device that is lost while frames are in flight: the wait for a frame reports the loss.
 #include "faults/faults.hpp"
 #include "graph/run.hpp"
 
@@ -27,8 +27,8 @@ std::string what_of(const std::function<void()>& action) {
     return "nothing was thrown";
 }
 
-/// Three frames are submitted; the first wait fails.
-TEST_F(LostInFlight, IsToldByTheWait) {
+/// The test submits three frames, and the first wait fails.
+TEST_F(LostInFlight, WaitReportsTheLostDevice) {
     const std::string said = test::in_child([&] {
         WatchedHere here(folder / "calls");
         std::string wrong;

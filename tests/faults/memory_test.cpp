@@ -1,6 +1,6 @@
-// R1: no memory for the k-th object of every kind: 75, a message that names what was wanted,
-// nothing left alive on the device (after a wait that failed: nothing destroyed), and no file
-// touched.
+// Tests of failure R1 of docs/extremes.md: there is no memory for the k-th object of every kind.
+// The program exits with 75 and names what needed memory. Nothing stays alive on the device and no
+// file changes. After a failed wait nothing is destroyed at all.
 #include "faults/faults.hpp"
 #include "support/rendering.hpp"
 
@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The calls that the standard lets fail for want of memory and that the engine makes, with a word
-/// that the message must have: what was wanted, not only how it is called.
+/// Vulkan calls that the engine makes and that may fail for lack of memory. Beside each call is a
+/// text that the error message must contain, because the message must say what needed memory.
 const std::map<std::string, std::string> kCalls = {
     {"vkCreateInstance", "an instance"},
     {"vkEnumeratePhysicalDevices", "enumerate devices"},
@@ -49,10 +49,10 @@ const std::map<std::string, std::string> kCalls = {
     {"vkQueueWaitIdle", "'"},
     {"vkGetQueryPoolResults", "time stamps"},
 };
-/// After these the device may still be at work.
+/// After a failure of one of these calls the device may still be at work.
 const std::set<std::string> kWaits = {"vkWaitSemaphores", "vkQueueWaitIdle"};
 
-/// Names and contents of all files below a folder.
+/// Returns the contents of all files below a folder, by relative path.
 std::map<std::string, std::string> files_of(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -67,7 +67,7 @@ using catoptric::uvec2;
 
 class Memory : public Faults {
 protected:
-    /// One frame of the built-in scene after `warmup` others.
+    /// Returns a request for one frame of the built-in scene after `warmup` other frames.
     static catoptric::app::Request request_of(const std::string& technique, uvec2 size,
                                               int warmup) {
         catoptric::app::Request request;
@@ -78,7 +78,8 @@ protected:
         request.frames = 1, request.warmup = warmup;
         return request;
     }
-    /// What a faulty run got wrong; empty = nothing. `speaker` begins its message.
+    /// Returns a text about what a run with a fault did wrong; empty: nothing. `speaker`: the
+    /// program's name at the start of its message.
     static std::string judge(const Fault& fault, const Watched& watched,
                              const std::string& speaker) {
         const std::string name = fault.result == VK_ERROR_OUT_OF_HOST_MEMORY
@@ -97,12 +98,13 @@ protected:
         return wrong.empty() ? ""
                              : fault.call + " " + std::to_string(fault.at) + ": " + wrong + "\n";
     }
-    /// One fault for each of the chosen calls of every name.
+    /// Returns one fault for each selected call. `choose` gets the number of calls of a name and
+    /// returns the numbers, from 1, of the calls that must fail.
     static std::vector<Fault> faults_of(const Watched& whole,
                                         std::vector<int> (*choose)(int calls)) {
         std::vector<Fault> faults;
         for (const auto& [call, count] : whole.counts) {
-            if (call.starts_with("vkCmd")) continue; // recorded, which cannot fail
+            if (call.starts_with("vkCmd")) continue; // recorded commands cannot fail
             EXPECT_TRUE(kCalls.contains(call))
                 << call << " is made " << count.calls << " times and not watched";
             for (const int k : choose(count.calls))
@@ -114,10 +116,10 @@ protected:
     }
 };
 
-/// In this program, where the driver is loaded once: the error comes out as an exception, and the
-/// next engine of the same process works.
-TEST_F(Memory, EveryCallOfARun) {
-    // A small scene: every call is made again for each of them.
+/// Renders in child processes of the test program, which load the driver once. The error is thrown
+/// as an exception, and the next engine of the same process works.
+TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
+    // The scene is small, because the whole run is repeated for each call.
     const catoptric::app::Request request = test::request(
         test::room(2, 1), {"hybrid:face=16,shadow_map=16"}, {16, 16});
     const auto render = [&](catoptric::app::Engine& engine) {
@@ -146,7 +148,7 @@ TEST_F(Memory, EveryCallOfARun) {
     });
 }
 
-TEST_F(Memory, TheMiddleCallOfEachKindOfAComparison) {
+TEST_F(Memory, FailureOfEachKindOfCallInAComparisonKeepsItsFiles) {
     const Words words{"compare",
                       "-o",
                       "out",
@@ -202,14 +204,14 @@ TEST_F(Memory, TheMiddleCallOfEachKindOfAComparison) {
     EXPECT_GT(kept, 0);
 }
 
-/// Z1: a run allocates what `graph` announces, a share of the scene that does not grow with the
-/// picture and is larger where rays are traced, and one buffer through which pictures are read: 16
-/// bytes a pixel.
-TEST_F(Memory, InUseIsWhatThePlanAnnounces) {
+/// Test of case Z1 of docs/extremes.md: a run allocates what `graph` announces and two more parts.
+/// One part belongs to the scene. It does not grow with the picture and is larger if rays are
+/// traced. The other part is a buffer of 16 bytes per pixel through which pictures are read.
+TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
     const std::string said = test::in_child([&] {
-        constexpr std::uint64_t kCounters = 256; // at 1x1 the buffer is that of what is counted
+        constexpr std::uint64_t kCounters = 256; // bytes; counters enlarge the buffer at 1x1
         WatchedHere here(folder / "calls");
-        std::map<bool, std::uint64_t> scenes; // without and with a hierarchy for rays
+        std::map<bool, std::uint64_t> scenes; // bytes without and with a BVH for rays
         std::string wrong;
         for (const std::string technique :
              {"raytrace", "parallax:face=64", "reuse:face=32", "hybrid:face=32"}) {
@@ -243,8 +245,8 @@ TEST_F(Memory, InUseIsWhatThePlanAnnounces) {
     EXPECT_EQ(said, "");
 }
 
-/// A full descriptor pool is no failure: the next one is made.
-TEST_F(Memory, AFullDescriptorPoolIsFollowedByAnother) {
+/// A full descriptor pool is no failure, because the engine makes another pool.
+TEST_F(Memory, FullDescriptorPoolIsFollowedByAnother) {
     const Words words = {"render", "--technique", "parallax:face=16,shadow_map=16",
                          "--size", "64x64",       "--frames",
                          "1",      "--warmup",    "1",

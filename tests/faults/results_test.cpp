@@ -1,5 +1,6 @@
-// R8: results survive. What ends a comparison or the properties early leaves the rows that there
-// are on disk, marked incomplete in every file with why and how many of how many.
+// Tests of failure R8 of docs/extremes.md: results survive. If a comparison or a stress run ends
+// early, its finished rows are on disk. Every file is marked incomplete, with the reason and the
+// number of finished rows.
 #include "faults/faults.hpp"
 
 #include <vulkan/vulkan_core.h>
@@ -10,7 +11,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// How often `part` is in `text`.
+/// Returns how often `part` occurs in `text`.
 std::size_t count_of(const std::string& text, const std::string& part) {
     std::size_t count = 0;
     for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++count;
@@ -19,7 +20,8 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 class Results : public Faults {
 protected:
-    /// `rows` rows, the fifth of which takes as long as `samples` make it.
+    /// Returns the command line of a comparison of `rows` rows. The fifth row traces `samples`
+    /// samples per pixel, which sets how long the row takes.
     static Words comparison(int rows, int samples = 2) {
         Words words{"compare", "-o",       "out", "--size",     "64x64",  "--frames",
                     "1",       "--warmup", "0",   "--progress", "always", "--techniques"};
@@ -29,14 +31,14 @@ protected:
         return words;
     }
 
-    /// Without what Markdown escapes.
+    /// Returns the text of a file without the backslashes that escape Markdown.
     std::string read_plain(const std::string& file) const {
         std::string text = read(file);
         std::erase(text, '\\');
         return text;
     }
 
-    /// Four of eight rows lie in out/, and every file says so and `why`.
+    /// Expects four of eight rows in out/. Every file must state this number and the reason `why`.
     void expect_four_rows(const std::string& why) const {
         const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
         EXPECT_EQ(document["complete"], false);
@@ -57,7 +59,8 @@ protected:
         EXPECT_EQ(std::distance(begin(pictures), end(pictures)), 1 + 3 * 4);
     }
 
-    /// A signal and the same again, in the fifth row's frame.
+    /// Sends a signal during the frame of the fifth row, and the same signal again after
+    /// `again_after`.
     test::Ended signalled(int signal, int samples, std::chrono::milliseconds after,
                           std::chrono::milliseconds again_after) const {
         test::Start process = start(comparison(8, samples));
@@ -70,7 +73,7 @@ protected:
     }
 };
 
-TEST_F(Results, DeviceGoneInTheFifthOfEightRows) {
+TEST_F(Results, FailureInTheFifthRowKeepsFourFinishedRows) {
     const Watched four = watch(comparison(4), std::nullopt);
     ASSERT_EQ(four.ended.exit_code, 0) << four.ended.err;
     for (const auto& [call, result, exit_code, why] :
@@ -91,8 +94,9 @@ TEST_F(Results, DeviceGoneInTheFifthOfEightRows) {
     }
 }
 
-/// `timeout` sends SIGTERM to its child and then to its group; a closed terminal sends SIGHUP.
-TEST_F(Results, SignalThatComesTwice) {
+/// The command `timeout` sends SIGTERM to its child and then to the process group, so the child
+/// gets the signal twice. A closed terminal sends SIGHUP.
+TEST_F(Results, SignalSentTwiceKeepsFinishedRows) {
     for (const auto& [signal, exit_code] : {std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
         fs::remove_all(folder / "out");
         const test::Ended ended = signalled(signal, 400, 300ms, 50ms);
@@ -103,8 +107,9 @@ TEST_F(Results, SignalThatComesTwice) {
     }
 }
 
-/// The frame would take minutes; what was finished before is there, and says that it is not all.
-TEST_F(Results, SignalThatComesAgainLaterEndsAtOnce) {
+/// The frame of the fifth row would take minutes. The second signal ends the program at once. The
+/// files then hold the finished rows and are marked incomplete.
+TEST_F(Results, SignalRepeatedLaterEndsTheProgramAtOnce) {
     const test::Ended ended = signalled(SIGTERM, 65536, 2000ms, 1200ms);
     EXPECT_EQ(ended.exit_code, 143);
     EXPECT_THAT(ended.err, testing::Not(HasSubstr("stopped by signal")));
@@ -122,7 +127,7 @@ TEST_F(Results, IgnoredSignalStaysIgnored) {
     EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["complete"], true);
 }
 
-TEST_F(Results, OfPropertiesAreKeptToo) {
+TEST_F(Results, InterruptedStressKeepsItsFinishedRows) {
     const auto words = [](Words ids) {
         Words all{"stress", "-o", "out", "--size", "16x16", "--progress", "always", "--only"};
         all.insert(all.end(), ids.begin(), ids.end());
@@ -152,7 +157,7 @@ TEST_F(Results, OfPropertiesAreKeptToo) {
           std::tuple{VK_ERROR_OUT_OF_HOST_MEMORY, 75, "VK_ERROR_OUT_OF_HOST_MEMORY"}}) {
         fs::remove_all(folder / "out");
         const int images = one.counts.at("vkCreateImage").calls;
-        if (exit_code == 75) { // a fault that leaves the device usable is no verdict either
+        if (exit_code == 75) { // no verdict, although the device stays usable
             expect_one_row(
                 watch(words({"N10", "N1", "N9"}), Fault{"vkCreateImage", images + 1, result}).ended,
                 exit_code, why);

@@ -1,5 +1,5 @@
-// D1: the same command gives the same bytes, every time, with one and two threads of the driver,
-// with and without validation.
+// Test of case D1 of docs/extremes.md: a command writes the same bytes every time, with one or two
+// driver threads, with or without validation.
 #include "faults/faults.hpp"
 
 #include <utility>
@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 class SameBytes : public Faults {};
 
-TEST_F(SameBytes, PicturesOfEveryTechnique) {
+TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
     Words words = {"compare", "-o",       "out", "--size",  "64x64",       "--frames",
                    "1",       "--warmup", "1",   "--quiet", "--techniques"};
     const nlohmann::json list = nlohmann::json::parse(

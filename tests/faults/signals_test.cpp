@@ -1,4 +1,4 @@
-// R7: signals in mid-run.
+// Tests of failure R7 of docs/extremes.md: signals during a run.
 #include "faults/faults.hpp"
 
 #include <array>
@@ -10,9 +10,9 @@ namespace fs = std::filesystem;
 
 class Signals : public Cli {};
 
-constexpr double kLongest = 2; // seconds from the signal to the end
+constexpr double kSignalsLongest = 2; // seconds from the signal to the end
 
-TEST_F(Signals, KeepTheRowsAndAreHeardSoon) {
+TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
     double longest = 0;
     const Words words{"compare", "-o",       "old", "--size",       "16x16",       "--frames",
                       "1",       "--warmup", "0",   "--techniques", "reuse:face=8"};
@@ -29,10 +29,10 @@ TEST_F(Signals, KeepTheRowsAndAreHeardSoon) {
             process.signal_at = at;
             const test::Ended ended = test::run_process(process);
             EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
-            EXPECT_LE(ended.seconds_after_signal, kLongest) << at;
+            EXPECT_LE(ended.seconds_after_signal, kSignalsLongest) << at;
             longest = std::max(longest, ended.seconds_after_signal);
             const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
-            if (document["complete"] == true) { // no row was done: the report of before stands
+            if (document["complete"] == true) { // no row was done: the old report stays
                 EXPECT_EQ(at, "[1/20]");
                 EXPECT_EQ(read("out/report.json"), read("old/report.json"));
                 EXPECT_THAT(ended.err, testing::HasSubstr("0 of 4 rows; nothing was written"));
@@ -47,8 +47,8 @@ TEST_F(Signals, KeepTheRowsAndAreHeardSoon) {
     std::printf("  from the signal to the end: at most %.2f s\n", longest);
 }
 
-/// A program, its driver not yet open, and a signal at a drawn instant. The dynamic linker says on
-/// stderr when it hands over (LD_DEBUG) and which libraries are opened later.
+/// Fixture that sends a signal at a random time before the driver is open. With LD_DEBUG the
+/// dynamic linker prints when it starts the program and which libraries are opened later.
 class EarlySignals : public Cli {
 protected:
     test::Ended signalled(const Words& words, int signal, const std::string& at, int milliseconds) {
@@ -73,8 +73,9 @@ protected:
         {"bench"}};
 };
 
-/// The driver is opened by main: from there on each signal is answered.
-TEST_F(EarlySignals, AreAnsweredWhileTheDriverIsOpened) {
+/// The function main opens the driver, and from then on the program answers each signal with a
+/// message.
+TEST_F(EarlySignals, SignalsAreAnsweredWhileTheDriverIsOpened) {
     std::mt19937 random(1);
     for (std::size_t i = 0; i < 2 * programs.size(); ++i) {
         const int signal = kSignals[i % kSignals.size()];
@@ -85,9 +86,9 @@ TEST_F(EarlySignals, AreAnsweredWhileTheDriverIsOpened) {
     }
 }
 
-/// From the instant at which the linker begins to run what the program is made of, whatever main
-/// has come to. Before, nothing of the program can answer.
-TEST_F(EarlySignals, AreAnsweredFromTheFirstObjectOn) {
+/// The program answers signals from its first static initialiser on, before main begins. An earlier
+/// signal ends the process without a message, because no code of the program has run yet.
+TEST_F(EarlySignals, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     std::mt19937 random(2);
     int answered = 0, wordless = 0;
     for (int i = 0; i < 30; ++i) {
@@ -100,11 +101,11 @@ TEST_F(EarlySignals, AreAnsweredFromTheFirstObjectOn) {
     }
     std::printf("  answered %d of 30 signals, %d came before the program's first object\n",
                 answered, wordless);
-    EXPECT_GE(answered, 24); // the others: between the linker's word and the program's first
+    EXPECT_GE(answered, 24); // the others came before the first initialiser
 }
 
-/// A frame is one submit, which ends; what it showed is not written.
-TEST_F(Signals, InTheLastFrameStopItToo) {
+/// A frame is one submit, which cannot be stopped. Its picture is not written after the signal.
+TEST_F(Signals, SignalInTheLastFrameWritesNoPicture) {
     test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size",
                                  "256x256", "--frames", "1", "--warmup", "0", "--progress",
                                  "always", "-o", "x.png"});

@@ -1,4 +1,5 @@
-// R6: a reader that has gone, and a shader cache that cannot be kept.
+// Tests of failure R6 of docs/extremes.md: the reader of stdout has closed the pipe, or a cache
+// cannot be written.
 #include "faults/faults.hpp"
 
 namespace {
@@ -13,7 +14,7 @@ protected:
     }
 };
 
-TEST_F(Surroundings, ReaderThatHasGoneAfterTheWork) {
+TEST_F(Surroundings, ClosedPipeAfterTheWorkExitsWith74) {
     for (const Words& words :
          {small({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
           small({"render", "--technique", "raytrace:depth=1", "--json", "-o", "x.png"}),
@@ -30,7 +31,7 @@ TEST_F(Surroundings, ReaderThatHasGoneAfterTheWork) {
         << "the files are there, whoever reads the table";
 }
 
-TEST_F(Surroundings, CacheFolderThatCannotBeWritten) {
+TEST_F(Surroundings, UnwritableCacheFolderOnlyGivesAWarning) {
     write("file", "");
     for (const fs::path& place : {fs::path("/proc/none"), folder / "file"}) {
         test::Start process = start(
@@ -39,7 +40,8 @@ TEST_F(Surroundings, CacheFolderThatCannotBeWritten) {
             process.environment[variable] = place.string();
         const test::Ended ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
-        // A word of ours, and one of the driver's about its own.
+        // stderr may hold one warning of the program and one of the driver, each about its own
+        // cache.
         EXPECT_LE(std::count(ended.err.begin(), ended.err.end(), '\n'), 2) << ended.err;
         EXPECT_THAT(ended.err, testing::HasSubstr("catoptric: warning: " + place.string()));
         EXPECT_EQ(ended.err.find("catoptric: "), ended.err.rfind("catoptric: ")) << ended.err;

@@ -1,13 +1,14 @@
-// What a user is told of when all calls succeed and the device does not do them, or does them in an
-// order that makes its clock lie.
+// Tests of faults in which all Vulkan calls succeed: the device skips recorded work, or a missing
+// barrier makes timestamps wrong.
 #include "faults/faults.hpp"
 
 namespace {
 
 class Verdict : public Faults {};
 
-/// A software driver takes a stamp that no barrier follows after the next pass's work.
-TEST_F(Verdict, AnExecutionBarrierFollowsEachStamp) {
+/// Without a barrier after a timestamp, a software driver may take the timestamp after the work of
+/// the next pass.
+TEST_F(Verdict, ExecutionBarrierFollowsEachTimestamp) {
     const Words words{"compare",  "-o", "out",          "--size",   "32x32",    "--frames", "2",
                       "--warmup", "0",  "--techniques", "parallax", "raytrace", "hybrid"};
     const Watched watched = watch(words, std::nullopt);
@@ -20,8 +21,8 @@ TEST_F(Verdict, AnExecutionBarrierFollowsEachStamp) {
         << "the layer sees none that is loose";
 }
 
-/// A frame whose rays are never traced fails its property, and the run with it. What its picture
-/// then holds is whatever the memory held, so that what is measured may be no number (null).
+/// The dispatch that traces rays is left out. The stress row must then fail, and the run too. The
+/// picture holds undefined memory, so the measured value may be no number (null).
 TEST_F(Verdict, StressWithAFailedRowExitsWithOne) {
     const Words words{"stress", "--json", "--size", "32x32", "--only", "N4"};
     const Watched sound = watch(words, std::nullopt);

@@ -11,15 +11,15 @@
 #include <string>
 #include <string_view>
 
-/// What the targets share: a folder of one process, and loading with a small budget, after which
-/// nothing but the two errors that a file can be to blame for may have been thrown.
+/// Shared code of the fuzz targets: a folder for each process, and loading with a small budget.
+/// Loading may only throw the two errors that blame a file: bad data and a missing input.
 namespace fuzz {
 
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// On a file system in memory, where there is one.
+/// Returns the folder of this process, on a file system in memory if the machine has one.
 inline const std::filesystem::path& folder() {
     static const std::filesystem::path kFolder = [] {
         const char* root = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
@@ -33,7 +33,7 @@ inline const std::filesystem::path& folder() {
     return kFolder;
 }
 
-/// Puts the bytes there as they are: no rename, no flush.
+/// Writes the bytes directly to a file of the folder, without the rename and flush of a safe write.
 inline void put(const std::string& name, std::string_view bytes) {
     std::FILE* const file = std::fopen((folder() / name).c_str(), "wb");
     if (file == nullptr) std::abort();
@@ -53,7 +53,8 @@ void expect_only_bad_data(Body&& body) {
     }
 }
 
-/// A scene that loads can be hashed, moved and asked for its lights.
+/// Loads a scene file. A scene that loads is also hashed, advanced to 0.5 s and asked for its
+/// lights.
 inline void load(const std::string& name) {
     expect_only_bad_data([&] {
         const catoptric::scene::Budget small{.file_bytes = 1 << 20,

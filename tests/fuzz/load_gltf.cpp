@@ -1,5 +1,5 @@
-// A .gltf as it is, or a .glb: as it is, or "glb" and a line's end, then JSON, a line "---", and
-// the binary chunk.
+// Fuzz target for the glTF loader. The input is a .gltf or .glb file, or text for a .glb. Such text
+// is a line "glb", JSON, a line "---" and the binary chunk.
 #include "fuzz.hpp"
 
 namespace {

@@ -1,4 +1,5 @@
-// An .obj, and after a line "%%" the m.mtl that it may name.
+// Fuzz target for the OBJ loader. The input is an .obj file and, after a line "%%", the file m.mtl
+// that the .obj may name.
 #include "fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,5 @@
-// A picture's bytes as they are, or "hex " and their digits.
+// Fuzz target for picture files. The input is the bytes of a picture, or "hex " and the bytes as
+// hexadecimal digits.
 #include "fuzz.hpp"
 
 #include "scene/image_file.hpp"

@@ -11,7 +11,7 @@ namespace test::fuzzed {
 
 namespace {
 
-/// Numbers at the ends of what formats and programs can hold.
+/// Numbers at the limits of common number formats.
 const std::array<const char*, 22> kExtremes{
     "0",     "-0",         "1",           "-1",         "2",          "255",
     "256",   "65535",      "65536",       "2147483647", "2147483648", "4294967295",
@@ -23,7 +23,7 @@ const auto& one_of(const List& list, Random& random) {
     return list[below(random, list.size())];
 }
 
-/// All values of a document, the document first.
+/// Appends pointers to all values of a document to `all`, the document itself first.
 void collect(Json& value, std::vector<Json*>& all) {
     all.push_back(&value);
     if (!value.is_structured()) return;
@@ -108,7 +108,7 @@ struct Chunk {
     std::string type, data;
 };
 
-constexpr std::size_t kPngSignature = 8, kChunkFrame = 12; // length, type and checksum
+constexpr std::size_t kPngSignature = 8, kChunkFrame = 12; // bytes of length, type and checksum
 
 std::vector<Chunk> chunks_of(const std::string& png) {
     std::vector<Chunk> chunks;
@@ -131,7 +131,7 @@ std::string png_of(const std::string& signature, const std::vector<Chunk>& chunk
     return png;
 }
 
-/// Replaces four bytes, or one, by an extreme number's.
+/// Replaces four bytes by an extreme number, or one byte by a random value.
 void put_extreme(std::string& bytes, Random& random, bool is_big_endian) {
     constexpr std::array<std::uint32_t, 9> kFields{
         0, 1, 0xff, 0xffff, 0x10000, 0x7fffffff, 0x80000000, 0xffffffff, 0x4000};
@@ -221,7 +221,7 @@ std::string changed_exr(const std::string& exr, Random& random) {
         std::size_t begin, size;
     };
     std::vector<Range>
-        values; // of the attributes: name, type, size, value; an empty name ends them
+        values; // of attributes: name, type, size, value; an empty name ends the list
     for (std::size_t at = 8; at < exr.size() && exr[at] != '\0';) {
         at = exr.find('\0', exr.find('\0', at) + 1) + 1;
         const std::uint32_t size = little_endian(exr, at);

@@ -1,6 +1,7 @@
-// Every reader of files from outside, against drawn files: half of them changed anywhere, half in
-// their structure, so that they pass the first parse. No signal, at most 10 s of processor time and
-// 1 GiB each, and a known exit code. CATOPTRIC_FUZZED says how many files a reader gets.
+// Tests of every file reader with randomly changed files. Half of the files are changed anywhere,
+// half in their structure, so that they pass the first parse. Each run must end with a known exit
+// code and no signal, within 10 s of processor time and 1 GiB. CATOPTRIC_FUZZED sets the number of
+// files per reader.
 #include "cli/program.hpp"
 #include "fuzzed/mutate.hpp"
 #include "measure/picture_file.hpp"
@@ -19,23 +20,25 @@ using namespace test::fuzzed;
 constexpr std::uint64_t kSeed = 20261124;
 constexpr std::uint64_t kMostBytes = 1ULL << 30;
 constexpr std::uint64_t kMostSeconds = 10;
-constexpr int kFewFiles = 24; ///< where nothing else is asked for
+constexpr int kFewFiles = 24; ///< files per reader if CATOPTRIC_FUZZED is not set
 
 int files_of_a_reader() {
     const char* asked = std::getenv("CATOPTRIC_FUZZED");
     return asked == nullptr ? kFewFiles : std::atoi(asked);
 }
 
-/// What a reader says of a file: taken, bad data, missing, out of memory; usage for what only the
-/// command line could have meant otherwise, and 1 where pictures differ or a benchmark is slower.
+/// Exit codes with which a reader may end: 0 accepted, 65 bad data, 66 missing file, 75 out of
+/// memory. 2 is for errors of a file that a command line could also cause. 1 means that pictures
+/// differ or a benchmark is slower.
 const std::set<int> kExitCodes{0, 1, 2, 65, 66, 75};
 
 class Readers : public Cli {
 protected:
     using Change = std::function<std::string(Random&)>;
 
-    /// Writes each changed file under the name `file` and reads it by `words`. `good`: the file
-    /// before it is changed, which must be taken, else no change would be looked at.
+    /// Writes each changed file under the name `file` and reads it with the command `words`.
+    /// `good`: the unchanged file, which must be accepted, because a file that is always refused
+    /// tests no change.
     void feed(const std::string& file, const std::string& good, const Words& words,
               const Change& anywhere, const Change& in_structure) const {
         write(file, good);
@@ -75,8 +78,8 @@ protected:
                   << " taken; at most " << (most_bytes >> 20) << " MiB and " << longest << " s\n";
     }
 
-    /// A scene with textures, lights, a camera and a motion, in scene.gltf or .glb, with pictures
-    /// beside it.
+    /// Returns a glTF document with textures, lights, a camera and a motion. `buffer`: the file of
+    /// its buffer; empty for a .glb.
     Json scene(const std::string& buffer) const {
         Json document = {
             {"asset", {{"version", "2.0"}}},
@@ -171,7 +174,7 @@ protected:
             made.pixels[i] = {static_cast<float>(i % 24) / 24, static_cast<float>(i) / 384, .5F};
         return made;
     }
-    /// Radiance: a header and plain pixels of four bytes.
+    /// Returns a Radiance picture file: a header and uncompressed pixels of four bytes.
     static std::string hdr() {
         std::string file = "#?RADIANCE\nEXPOSURE=1.0\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 6\n";
         for (int i = 0; i < 24; ++i) file += std::string("\x40\x80\x20\x80", 4);
@@ -201,7 +204,8 @@ private:
     static std::filesystem::path kept() {
         return std::filesystem::path(CATOPTRIC_CLI).parent_path() / "fuzzed";
     }
-    /// A file that was read wrongly stays for whoever looks into it.
+    /// Keeps a copy of a file that a reader handled wrongly, in the folder `fuzzed` beside the
+    /// program.
     void keep(const std::string& file, int index) const {
         std::error_code error;
         std::filesystem::copy_file(folder / file, kept() / (std::to_string(index) + "-" + file),
@@ -209,7 +213,7 @@ private:
     }
 };
 
-TEST_F(Readers, Gltf) {
+TEST_F(Readers, ChangedGltfFilesAreReadOrRefused) {
     const Json document = scene("a.bin");
     feed(
         "scene.gltf", document.dump(1), {"info", "scene.gltf"},
@@ -217,7 +221,7 @@ TEST_F(Readers, Gltf) {
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
 
-TEST_F(Readers, Glb) {
+TEST_F(Readers, ChangedGlbFilesAreReadOrRefused) {
     const std::string glb = glb_of(scene(""), buffer());
     feed(
         "scene.glb", glb, {"info", "scene.glb"},
@@ -225,21 +229,21 @@ TEST_F(Readers, Glb) {
         [&](Random& random) { return changed_glb(glb, random); });
 }
 
-TEST_F(Readers, Obj) {
+TEST_F(Readers, ChangedObjFilesAreReadOrRefused) {
     feed(
         "scene.obj", obj(), {"info", "scene.obj"},
         [&](Random& random) { return changed_bytes(obj(), random); },
         [&](Random& random) { return changed_lines(obj(), random); });
 }
 
-TEST_F(Readers, Mtl) {
+TEST_F(Readers, ChangedMtlFilesAreReadOrRefused) {
     feed(
         "m.mtl", mtl(), {"info", "good.obj"},
         [&](Random& random) { return changed_bytes(mtl(), random); },
         [&](Random& random) { return changed_lines(mtl(), random); });
 }
 
-TEST_F(Readers, Exr) {
+TEST_F(Readers, ChangedExrFilesAreReadOrRefused) {
     const std::string exr = read("good.exr");
     feed(
         "a.exr", exr, {"diff", "a.exr", "good.exr"},
@@ -247,7 +251,7 @@ TEST_F(Readers, Exr) {
         [&](Random& random) { return changed_exr(exr, random); });
 }
 
-TEST_F(Readers, Hdr) {
+TEST_F(Readers, ChangedHdrFilesAreReadOrRefused) {
     feed(
         "a.hdr", hdr(), {"info", "good.obj", "--environment", "a.hdr"},
         [&](Random& random) { return changed_bytes(hdr(), random); },
@@ -257,7 +261,7 @@ TEST_F(Readers, Hdr) {
         });
 }
 
-TEST_F(Readers, Png) {
+TEST_F(Readers, ChangedPngFilesAreReadOrRefused) {
     const std::string png = read("p.png");
     feed(
         "a.png", png, {"diff", "a.png", "p.png"},
@@ -265,7 +269,7 @@ TEST_F(Readers, Png) {
         [&](Random& random) { return changed_png(png, random); });
 }
 
-TEST_F(Readers, SceneFile) {
+TEST_F(Readers, ChangedSceneOverrideFilesAreReadOrRefused) {
     const Json document = {{"mirrors", Json::array({"mirror=0.9"})},
                            {"lights", Json::array({"sheet"})},
                            {"mirror_max_roughness", 0.1},
@@ -284,7 +288,7 @@ TEST_F(Readers, SceneFile) {
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
 
-TEST_F(Readers, Plan) {
+TEST_F(Readers, ChangedPlanFilesAreReadOrRefused) {
     const Json document = {
         {"plan",
          {{{"mirror", 1}, {"technique", "secant"}, {"settings", {{"face", 64}, {"steps", "2"}}}},
@@ -296,7 +300,7 @@ TEST_F(Readers, Plan) {
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
 
-TEST_F(Readers, Benchmarks) {
+TEST_F(Readers, ChangedBenchmarkFilesAreReadOrRefused) {
     Json document = {{"context", {{"date", "2026-11-24T03:00:00+00:00"}, {"num_cpus", 2}}},
                      {"benchmarks", Json::array()}};
     for (int round = 0; round < 6; ++round)
@@ -318,7 +322,7 @@ TEST_F(Readers, Benchmarks) {
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
 
-TEST_F(Readers, DeviceProfile) {
+TEST_F(Readers, ChangedDeviceProfilesAreReadOrRefused) {
     const Json info = Json::parse(cli({"list", "devices", "--json"}).out)["devices"][0];
     const Json document = {
         {"schema", "catoptric/device-profile/1"},

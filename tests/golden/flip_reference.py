@@ -9,7 +9,7 @@ The pictures are integer formulas, written a second time in the test: no file is
 import numpy
 import flip_evaluator
 
-PIXELS = [(0, 0), (0.5, 0.5), (0.3, 0.7), (0.9, 0.1), (0.999, 0.999)]  # as fractions of the size
+PIXELS = [(0, 0), (0.5, 0.5), (0.3, 0.7), (0.9, 0.1), (0.999, 0.999)]  # printed pixels, as fractions of the picture's size
 
 
 def scramble(x, y, c, seed):

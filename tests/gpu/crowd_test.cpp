@@ -1,5 +1,5 @@
-// Many mirrors: balls are drawn without the triangles that face away, and look as they do with
-// them.
+// Tests of captures with many mirror balls. Triangles of a ball that face away from the capture's
+// centre are culled, and the captures must look the same as with these triangles.
 #include "stress/texels.hpp"
 #include "support/captures.hpp"
 
@@ -11,9 +11,9 @@ using namespace catoptric;
 
 constexpr double kShell = 1, kBall = .25, kAway = 3;
 
-/// A ball in a shell around the origin, both balls, and eight balls outside; the last, with
-/// `turned_out`, turned inside out by its transform.
-scene::Scene crowd(bool turned_out) {
+/// Returns a scene with a mirror ball at the origin, a larger mirror ball (the shell) around it,
+/// and eight mirror balls outside. With `turned_out`, a transform turns the last ball inside out.
+scene::Scene crowd_crowd(bool turned_out) {
     scene::Scene scene{.name = "crowd"};
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     test::add_ball(scene, "inner", mirror, dvec3(0), kBall, 4);
@@ -27,10 +27,13 @@ scene::Scene crowd(bool turned_out) {
     return scene;
 }
 
-/// How far mirror `from` (from 0) sees along a direction, or around it.
+/// Nearest and farthest captured distance, in world units.
 struct Seen {
     double nearest = 1e9, farthest = 0;
 };
+/// Returns the range of the distances in the capture of mirror `from` (numbered from 0). Reads the
+/// directions whose cosine with `along` is at least `cosine`. A cosine of -1 selects all
+/// directions.
 Seen seen(const test::Captured& captured, std::uint32_t from, const dvec3& along, double cosine) {
     Seen seen;
     stress::for_texels(
@@ -44,17 +47,18 @@ Seen seen(const test::Captured& captured, std::uint32_t from, const dvec3& along
     return seen;
 }
 
-TEST(Crowd, ShowsTheFrontsOfBallsAndShellsFromWithin) {
+TEST(Crowd, CapturesShowBallsFromOutsideAndTheShellFromInside) {
     for (const bool turned_out : {false, true}) {
-        const test::Captured captured = test::capture(crowd(turned_out), 64, Format::r32f);
+        const test::Captured captured = test::capture(crowd_crowd(turned_out), 64, Format::r32f);
         const Seen within = seen(captured, 0, dvec3(1, 0, 0), -1);
         EXPECT_NEAR(within.nearest, kShell, .02);
         EXPECT_NEAR(within.farthest, kShell, .02) << "the shell is closed";
-        // From the first ball outside: the shell's front.
+        // The capture of the first outer ball shows the front of the shell.
         const dvec3 first = kAway * dvec3(-1), last = kAway * dvec3(1);
         EXPECT_NEAR(seen(captured, 2, glm::normalize(-first), .9995).nearest,
                     length(first) - kShell, .1);
-        // From the seventh along an edge of the cube that they make: the last.
+        // The capture of the seventh outer ball, looking along an edge of the cube of outer balls,
+        // shows the eighth ball.
         const dvec3 seventh(-kAway, kAway, kAway);
         EXPECT_NEAR(seen(captured, 8, glm::normalize(last - seventh), .9995).nearest,
                     length(last - seventh) - kBall, .1)

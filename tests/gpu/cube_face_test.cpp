@@ -1,5 +1,5 @@
-// Each face of a capture sees its wall, the right way round, at the right distance; a world
-// direction finds in the cube map what lies in that direction.
+// Tests that each face of a capture shows its wall, the right way round and at the right distance.
+// A cube map lookup along a world direction must find the surface that lies in that direction.
 #include "core/shader_math.hpp"
 #include "stress/glyph_room.hpp"
 #include "stress/texels.hpp"
@@ -14,10 +14,12 @@ using namespace catoptric;
 using stress::GlyphRoom;
 
 constexpr std::uint32_t kFace = 64;
-// Rasterisers snap corners to 1/256 of a texel, 2^-13 of a face's half width, which a wall seen at
-// a flat angle stretches; in shares of a wall.
+// Error of projected wall positions, as a share of a wall's width. Rasterisers snap vertices to
+// 1/256 of a texel, which is 2^-13 of a face's half width; a wall at a flat angle enlarges this
+// error.
 constexpr double kSnap = 0.001;
-// Half the diagonal of a texel that is looked up linearly, stretched likewise.
+// Error of a linear texture lookup, as a share of a wall's width. The error is half the diagonal of
+// a texel, enlarged by walls at a flat angle.
 constexpr double kTexel = 0.03;
 
 TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
@@ -27,7 +29,8 @@ TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
     stress::for_texels(kFace,
                        [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
                            const GlyphRoom::Seen seen = room.look(direction);
-                           if (seen.margin < kSnap) return; // the texel's centre lies on an edge
+                           // Skip texels whose centre lies on an edge of a glyph.
+                           if (seen.margin < kSnap) return;
                            ++judged, inked += seen.glyph;
                            wrong += captured.colour(0, face, x, y) != room.colour(seen);
                        });
@@ -36,9 +39,9 @@ TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
     EXPECT_EQ(wrong, 0u);
 }
 
-/// The middle of each stroke, projected by the table of the specification, falls on a texel of its
-/// colour.
-TEST(CubeFace, GlyphsLieWhereTheyProject) {
+/// Tests the middle of each stroke of a glyph. Projected by the cube map table of the Vulkan
+/// specification, this point must lie on a texel with the stroke's colour.
+TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
     const GlyphRoom room;
     const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
     for (int wall = 0; wall < 6; ++wall)
@@ -58,8 +61,9 @@ TEST(CubeFace, GlyphsLieWhereTheyProject) {
         }
 }
 
-/// The device's own cube lookup knows nothing of our views.
-TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
+/// Tests the device's cube map lookup, which does not use the views with which the engine draws the
+/// faces.
+TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     const GlyphRoom room;
     auto& [device, pipelines] = test::bench();
     const scene::Scene scene = room.scene();
@@ -102,7 +106,8 @@ TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
         if (seen.margin < kTexel) continue;
         ++judged;
         wrong += vec3(answers[i]) != room.colour(seen);
-        // Nearest texel: its centre is at most half a diagonal away, where distance changes little.
+        // A lookup of the nearest texel reads a distance at most half a texel's diagonal aside. The
+        // distance changes little over that length.
         EXPECT_NEAR(answers[i].w, gpu_scene.space().length(seen.distance),
                     0.02 * gpu_scene.space().length(seen.distance));
     }
@@ -115,9 +120,9 @@ INSTANTIATE_TEST_SUITE_P(Formats, Distances,
                          testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
                          [](const auto& instance) { return std::string(name_of(instance.param)); });
 
-TEST_P(Distances, AreThoseOfTheWalls) {
+TEST_P(Distances, CapturedDistancesEqualTheDistancesOfTheWalls) {
     const GlyphRoom room;
-    constexpr double kRange = 5; // some walls are farther
+    constexpr double kRange = 5; // range of unorm8 in world units; some walls are farther away
     const bool unorm = GetParam() == Format::r8_unorm;
     const test::Captured captured = test::capture(room.scene(), kFace, GetParam(), kRange);
     const double unit = unorm ? captured.space.length(kRange) : 1.0;
@@ -129,15 +134,17 @@ TEST_P(Distances, AreThoseOfTheWalls) {
             worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0))
                                           : std::abs(found - wanted) / wanted);
         });
-    // unorm8: one step. Otherwise half a step of binary16 is 2^-11; the rest is interpolation.
+    // Distances in unorm8 may be wrong by one step. Half a step of binary16 is 2^-11, and the rest
+    // of the bound is for interpolation in the rasteriser.
     EXPECT_LE(worst, unorm ? 1.0 / 255 : 0x1p-10);
 }
 
-TEST_P(Distances, WhereNothingIsTheyAreInfiniteOrTheEndOfTheRange) {
+TEST_P(Distances, EmptyDirectionsHaveInfiniteOrLargestDistance) {
     scene::Scene scene{.name = "one wall"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
-    test::add_mesh(scene, test::wall(0, {-2, -9, -9}, {2, 9, 9}), hot); // towards +X only
+    // The only wall lies towards +X of the ball.
+    test::add_mesh(scene, test::wall(0, {-2, -9, -9}, {2, 9, 9}), hot);
     test::add_ball(scene, "ball", mirror, {0, 0, 0}, 1);
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
     const test::Captured captured = test::capture(scene, kFace, GetParam(), 100);
@@ -153,7 +160,7 @@ TEST_P(Distances, WhereNothingIsTheyAreInfiniteOrTheEndOfTheRange) {
     EXPECT_EQ(wrong, 0u);
 }
 
-TEST(CubeFace, AMirrorIsNotInItsOwnCaptureButInTheOthers) {
+TEST(CubeFace, CaptureLeavesOutItsOwnMirrorAndShowsOtherMirrors) {
     const test::Captured captured = test::capture(test::furnace(2), kFace, Format::r32f);
     std::size_t black[2] = {0, 0}, hot[2] = {0, 0};
     for (std::uint32_t mirror = 0; mirror < 2; ++mirror)
@@ -162,7 +169,8 @@ TEST(CubeFace, AMirrorIsNotInItsOwnCaptureButInTheOthers) {
             black[mirror] += colour == vec3(0);
             hot[mirror] += colour == test::kFurnace;
         });
-    // The other ball, seen from outside: radius over distance gives its share of the directions.
+    // The other ball is seen from outside. Its radius over its distance is the sine of the half
+    // angle under which it is seen, and gives its share of all directions.
     const double gap = glm::length(dvec3(-1.2, -0.3, 1) - dvec3(1.3, 0.4, 1.5)),
                  texels = 6.0 * kFace * kFace;
     const double radii[2] = {1.2, 1};

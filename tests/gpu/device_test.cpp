@@ -1,4 +1,4 @@
-// Choosing a device.
+// Tests of the choice of a device by index or name.
 #include "gpu/device.hpp"
 #include "support/device.hpp"
 
@@ -6,14 +6,14 @@ namespace {
 
 using namespace catoptric;
 
-TEST(Device, AnIndexThatIsNoneIsRefusedWithTheirNumber) {
+TEST(Device, UnknownIndexIsRefusedWithTheNumberOfDevices) {
     const std::size_t count = gpu::list_devices().size();
     test::expect_refused(
         [] { gpu::Device device({.wanted = "99"}); }, Failure::usage,
         {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
 }
 
-TEST(Device, AnUnknownNameIsRefusedWithTheNearest) {
+TEST(Device, UnknownNameIsRefusedWithTheNearestName) {
     std::string name = gpu::list_devices().front().name;
     name.front() = '?';
     test::expect_refused(
@@ -21,13 +21,13 @@ TEST(Device, AnUnknownNameIsRefusedWithTheNearest) {
         {"no device '" + name + "'", "did you mean '" + gpu::list_devices().front().name + "'"});
 }
 
-TEST(Device, PartOfANameAndAnIndexChoose) {
+TEST(Device, DeviceIsChosenByIndexOrPartOfItsName) {
     const gpu::DeviceInfo first = gpu::list_devices().front();
     EXPECT_EQ(gpu::Device({.wanted = "0"}).info().name, first.name);
     EXPECT_EQ(gpu::Device({.wanted = first.name.substr(0, 4)}).info().name, first.name);
 }
 
-TEST(Device, TheListSaysWhatItIs) {
+TEST(Device, ListNamesDriverVersionAndThreads) {
     for (const gpu::DeviceInfo& info : gpu::list_devices()) {
         EXPECT_FALSE(info.name.empty());
         EXPECT_FALSE(info.driver.empty());
@@ -40,11 +40,11 @@ TEST(Device, LayeredRenderingCanBeSwitchedOff) {
     EXPECT_FALSE(gpu::Device({.layered = false}).layered());
 }
 
-TEST(Device, MoreMemoryThanThereIsIsRefusedWithBothNumbers) {
+TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
     auto& [device, pipelines] = test::bench();
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
-    // Images of 1 GiB each: more of them than the device has memory for.
+    // All images of 1 GiB together need more memory than the device has.
     const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
     for (std::uint64_t i = 0; i < count; ++i) {
         const graph::Image image = graph.image(

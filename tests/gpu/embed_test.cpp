@@ -1,5 +1,7 @@
-// Sessions on a device of the caller's, here that of other tests, which is validated: what they
-// leave in an image, and what is refused. samples/embedded is a program that does it.
+// Tests of sessions on a Vulkan device that the calling program made. A frame must leave the right
+// content and layout in the caller's image, and unusable devices and images must be refused. The
+// device is that of the other tests, so the validation layer checks it. samples/embedded is an
+// example of such a program.
 #include "app/session.hpp"
 #include "core/error.hpp"
 #include "embed/embed.hpp"
@@ -25,14 +27,16 @@ std::string refused(Call&& call) {
     return "nothing was thrown";
 }
 
-/// The device of other tests; nothing asks for its instance.
+/// Returns the handles of the device that the other tests use. The instance is a placeholder,
+/// because no function reads it.
 embed::Device given_device() {
     const gpu::Device& own = test::bench().device;
     return {reinterpret_cast<VkInstance>(std::uintptr_t{1}), own.physical(), own.handle(),
             own.queue(), own.queue_family()};
 }
 
-/// An image of the caller's, and what it holds when it was left in a layout.
+/// An image that belongs to the caller, as the target of frames. `read` returns its content, given
+/// the layout in which the frame left it.
 class Own {
 public:
     explicit Own(uvec2 size)
@@ -82,7 +86,7 @@ private:
     graph::Physical image_;
 };
 
-TEST(Embed, AnImageHoldsTheFrameAndIsLeftAsWasAskedFor) {
+TEST(Embed, TargetImageHoldsTheFrameInTheRequestedLayout) {
     app::Engine engine = embed::make_engine(given_device());
     app::Session session(engine, scene::cornell_mirrors(), 2);
     const app::FrameSpec spec{.techniques = {"reuse:face=16,shadow_map=16"},
@@ -97,23 +101,24 @@ TEST(Embed, AnImageHoldsTheFrameAndIsLeftAsWasAskedFor) {
     }
 }
 
-TEST(Embed, TheQueueMustBeOneThatDoes) {
+TEST(Embed, UnknownQueueFamilyIsRefused) {
     embed::Device given = given_device();
     given.queue_family = 7;
     EXPECT_THAT(refused([&] { embed::make_engine(given); }),
                 HasSubstr("queue families, number 7 was given"));
 }
 
-TEST(Embed, ADeviceMustBeThere) {
+TEST(Embed, MissingDeviceHandlesAreRefused) {
     EXPECT_THAT(refused([] { embed::make_engine({}); }),
                 HasSubstr("wants an instance, a physical device, a device and a queue"));
 }
 
-TEST(Embed, ATargetMustBeOneThatCanBeWritten) {
+TEST(Embed, UnusableTargetIsRefused) {
     app::Session session(test::engine(), scene::flat());
     app::FrameSpec spec{
         .techniques = {"reuse"}, .camera = session.scene().cameras.front(), .size = {16, 16}};
-    const auto image = reinterpret_cast<VkImage>(std::uintptr_t{1}); // never touched
+    // The image is a placeholder, because the calls are refused before they use it.
+    const auto image = reinterpret_cast<VkImage>(std::uintptr_t{1});
     EXPECT_THAT(refused([&] { embed::frame_into(session, spec, {}); }), HasSubstr("an image"));
     EXPECT_THAT(refused([&] {
                     embed::frame_into(session, spec, {image, VK_IMAGE_LAYOUT_UNDEFINED});

@@ -1,5 +1,5 @@
-// Several frames on their way at once hold the same as one after the other; what is asked of a
-// frame that is gone is refused.
+// Tests of several frames in flight. They must produce the same results as one frame after the
+// other, and a read of a frame whose slot was reused must be refused.
 #include "gpu/steps.hpp"
 
 namespace {
@@ -7,7 +7,8 @@ namespace {
 using namespace catoptric;
 using test::expect_refused;
 
-/// Each frame steps on from the last one, by way of an image of its own.
+/// Adds a frame of three passes. The frame computes a new `kept` image from that of the frame
+/// before, through an image `between`.
 graph::Image add_frame(graph::Graph& graph, int frame) {
     const graph::Image kept = test::add_image(graph, "kept");
     const graph::Image between = test::add_image(graph, "between");
@@ -30,7 +31,7 @@ std::vector<float> expected_of(int frame, std::vector<float>& kept) {
 class InFlight : public testing::TestWithParam<std::uint32_t> {};
 INSTANTIATE_TEST_SUITE_P(Frames, InFlight, testing::Values(1u, 2u, 3u));
 
-TEST_P(InFlight, FramesHoldWhatTheyHoldOneByOne) {
+TEST_P(InFlight, FramesInFlightEqualFramesOneByOne) {
     constexpr int kFrames = 12;
     graph::Runner runner(test::bench().device, test::bench().pipelines, GetParam());
     std::vector<float> kept(test::kWidth * test::kHeight, 0.0f);
@@ -56,7 +57,7 @@ TEST_P(InFlight, FramesHoldWhatTheyHoldOneByOne) {
     EXPECT_EQ(runner.plans_made(), 1u);
 }
 
-TEST_P(InFlight, TimesAreThoseOfTheFrameThatIsAsked) {
+TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, GetParam());
     std::vector<graph::Ticket> tickets;
     for (std::uint32_t frame = 1; frame <= GetParam(); ++frame) {
@@ -64,7 +65,8 @@ TEST_P(InFlight, TimesAreThoseOfTheFrameThatIsAsked) {
         const graph::Image image = test::add_image(graph, "image");
         test::add_start(graph, image, 1);
         graph.mark_output(image);
-        for (std::uint32_t i = 1; i < frame; ++i) { // one pass more each
+        // Each frame has one pass more than the frame before.
+        for (std::uint32_t i = 1; i < frame; ++i) {
             const graph::Image next = test::add_image(graph, "image" + std::to_string(i));
             test::add_step(graph, "step" + std::to_string(i), image, next, 1);
             graph.mark_output(next);
@@ -72,7 +74,7 @@ TEST_P(InFlight, TimesAreThoseOfTheFrameThatIsAsked) {
         tickets.push_back(runner.submit(graph, graph::Timing::isolated));
         EXPECT_EQ(tickets.back().frame, frame);
     }
-    for (std::uint32_t frame = GetParam(); frame >= 1; --frame) { // the last one first
+    for (std::uint32_t frame = GetParam(); frame >= 1; --frame) { // read the newest frame first
         const graph::FrameTimes& times = runner.wait(tickets[frame - 1]);
         EXPECT_EQ(times.passes.size(), frame);
         EXPECT_GT(times.record_ms, 0);
@@ -82,7 +84,7 @@ TEST_P(InFlight, TimesAreThoseOfTheFrameThatIsAsked) {
     }
 }
 
-TEST(InFlight, WhatIsGoneIsRefused) {
+TEST(InFlight, ReadingAFrameWhoseSlotWasReusedIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
     std::vector<graph::Ticket> tickets;
     graph::Image out;
@@ -102,14 +104,14 @@ TEST(InFlight, WhatIsGoneIsRefused) {
     EXPECT_NO_THROW(runner.read(tickets[2], kKept));
 }
 
-TEST(InFlight, MoreThanThreeOrNoneAreRefused) {
+TEST(InFlight, FewerThanOneOrMoreThanThreeFramesInFlightAreRefused) {
     for (const std::uint32_t count : {0u, 4u})
         expect_refused([&] { graph::Runner(test::bench().device, test::bench().pipelines, count); },
                        Failure::usage,
                        {"frames in flight must be 1 to 3, not " + std::to_string(count)});
 }
 
-TEST(InFlight, ARunnerWithFramesOnTheirWayCanBeDestroyed) {
+TEST(InFlight, RunnerCanBeDestroyedWithFramesInFlight) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, 3);
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
@@ -118,7 +120,8 @@ TEST(InFlight, ARunnerWithFramesOnTheirWayCanBeDestroyed) {
     }
 }
 
-/// A graph whose shape depends on `kind`: so many steps, of images so large.
+/// Adds a chain of `kind` passes and returns its last image. The number of passes and images makes
+/// the shape of the graph.
 graph::Image add_shape(graph::Graph& graph, int kind) {
     graph::Image last = test::add_image(graph, "start");
     test::add_start(graph, last, 1);
@@ -137,7 +140,7 @@ std::vector<float> expected_of_shape(int kind) {
     return values;
 }
 
-TEST(Shapes, ArePlannedOnceWhileTheyAreAmongTheLastEight) {
+TEST(Shapes, TheLastEightShapesAreNotPlannedAgain) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
     for (int round = 0; round < 4; ++round)
         for (int kind = 0; kind < 8; ++kind) {
@@ -149,7 +152,7 @@ TEST(Shapes, ArePlannedOnceWhileTheyAreAmongTheLastEight) {
     EXPECT_EQ(runner.plans_made(), 8u);
     graph::Graph ninth;
     add_shape(ninth, 8);
-    test::run(runner, ninth); // instead of 0, which was used longest ago
+    test::run(runner, ninth); // replaces the plan of shape 0, which was used longest ago
     graph::Graph second, first;
     add_shape(second, 1);
     test::run(runner, second);
@@ -159,7 +162,7 @@ TEST(Shapes, ArePlannedOnceWhileTheyAreAmongTheLastEight) {
     EXPECT_EQ(runner.plans_made(), 10u);
 }
 
-TEST(Shapes, AreAllThatIsDeclaredButBodiesAndClears) {
+TEST(Shapes, ShapeDependsOnAllDeclarationsExceptBodiesAndClearValues) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     const auto frame = [&](const std::string& name, float red) {
         graph::Graph graph;
@@ -179,7 +182,7 @@ TEST(Shapes, AreAllThatIsDeclaredButBodiesAndClears) {
     EXPECT_EQ(runner.plans_made(), 2u);
 }
 
-TEST(Shapes, AWrongGraphOfAKnownShapeIsStillRefused) {
+TEST(Shapes, InvalidGraphOfAPlannedShapeIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     for (const bool wrong : {false, true}) {
         graph::Graph graph;

@@ -1,4 +1,5 @@
-// How many work groups run is what the buffer says when the dispatch runs.
+// Tests of indirect dispatches: the number of work groups is the one in the argument buffer at the
+// time when the GPU runs the dispatch.
 #include "support/device.hpp"
 
 namespace {
@@ -7,7 +8,9 @@ using namespace catoptric;
 
 constexpr std::uint32_t kTurns = 7;
 
-/// What each of four work groups counted, of those that ran: `groups` in each dimension.
+/// Dispatches `groups` work groups in x, y and z indirectly. Returns what each of the first four
+/// work groups counted; 0: the group did not run. `declared`: the pass declares the buffer as
+/// indirect arguments.
 std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
@@ -34,13 +37,13 @@ std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true)
     return test::read_as<std::uint32_t>(runner, counts);
 }
 
-TEST(Indirect, DispatchesWhatTheBufferSays) {
+TEST(Indirect, NumberOfWorkGroupsComesFromTheBuffer) {
     EXPECT_EQ(counts_of(0), (std::vector<std::uint32_t>{0, 0, 0, 0}));
     EXPECT_EQ(counts_of(1), (std::vector<std::uint32_t>{kTurns, 0, 0, 0}));
     EXPECT_EQ(counts_of(3), (std::vector<std::uint32_t>{kTurns, kTurns, kTurns, 0}));
 }
 
-TEST(Indirect, ABufferThatIsNotDeclaredSoIsRefused) {
+TEST(Indirect, BufferNotDeclaredAsIndirectIsRefused) {
     test::expect_refused([] { counts_of(1, false); }, Failure::internal,
                          {"'spin'", "'arguments'", "indirect"});
 }

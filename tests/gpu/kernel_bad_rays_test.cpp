@@ -1,5 +1,5 @@
-// Rays that are no rays: they miss, and cost no more than others do. The cost is the walk's own
-// count of steps.
+// Tests of invalid rays, such as rays with NaN. They must miss, and must cost no more traversal
+// steps than valid rays.
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 
@@ -35,7 +35,8 @@ Steps steps_of(const std::vector<KernelHit>& hits) {
     return result;
 }
 
-/// `reach` 0.5: all from inside the ball.
+/// Returns rays with random origins and directions. A `reach` of 0.5 puts all origins inside the
+/// ball.
 std::vector<KernelRay> normal_rays(std::size_t count, float reach) {
     test::Numbers numbers(16);
     std::vector<KernelRay> rays(count);
@@ -51,7 +52,8 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
     const std::vector<KernelRay> normal = normal_rays(10000, 0.5f);
     const Steps usual = steps_of(kernel.closest(normal));
     std::vector<KernelRay> bad;
-    // Quiet and signalling NaN of either sign, the infinities; an infinite t_max is the usual one.
+    // The words are quiet and signalling NaN of both signs and the two infinities. An infinite
+    // t_max is skipped below, because that is a valid ray.
     for (const std::uint32_t word : {0x7fc00000u, 0xffc00000u, 0x7f800001u, 0xff800001u,
                                      0x7fffffffu, 0x7f800000u, 0xff800000u})
         for (std::size_t i = 0; i < 7; ++i)
@@ -84,14 +86,16 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
     }
 }
 
-/// Where a coordinate is zero, its sign changes neither the hit nor, beyond the bound, the cost.
-TEST(KernelBadRays, N16_NegativeZeroIsZero) {
+/// Tests that the sign of a zero coordinate of a ray changes neither its hit nor, beyond the bound,
+/// its number of steps.
+TEST(KernelBadRays, N16_NegativeZeroActsAsZero) {
     Kernel kernel(ball());
     std::vector<KernelRay> positive = normal_rays(60000, 1.2f);
     for (std::size_t i = 0; i < positive.size(); ++i) {
         field(positive[i], i % 6) = 0.0f;
         if (i % 4 == 0)
-            field(positive[i], (i + 1) % 6) = 0.0f; // axis-aligned, in a plane, from the centre
+            // Some rays lie along an axis or in a coordinate plane, or start at the centre.
+            field(positive[i], (i + 1) % 6) = 0.0f;
         if (i % 8 == 0) field(positive[i], (i + 2) % 6) = 0.0f;
     }
     std::vector<KernelRay> negative = positive;
@@ -105,7 +109,7 @@ TEST(KernelBadRays, N16_NegativeZeroIsZero) {
     for (std::size_t i = 0; i < hits.size(); ++i) {
         found += hits[i].found() ? 1 : 0;
         steps += hits[i].steps, usual += expected[i].steps;
-        // A weight of exactly 0 may have the other sign.
+        // Hits may differ in the sign of a weight that is exactly 0, because == ignores that sign.
         const bool alike = hits[i].outcome == expected[i].outcome && hits[i].t == expected[i].t &&
                            hits[i].barycentric == expected[i].barycentric &&
                            hits[i].triangle == expected[i].triangle;

@@ -1,4 +1,5 @@
-// Balls among the triangles of a hierarchy: met as exact spheres, on the device and in its mirror.
+// Tests of balls among the triangles of a BVH. Rays must intersect balls as exact spheres, both on
+// the device and in the C++ version of the traversal.
 #include "support/kernel.hpp"
 #include "support/numbers.hpp"
 
@@ -9,9 +10,10 @@ using test::Kernel;
 using test::KernelHit;
 using test::KernelRay;
 
-constexpr std::uint32_t kHalf = 150; ///< of the drawn things; as many are balls
+constexpr std::uint32_t kHalf = 150; ///< number of triangles, and also the number of balls
 
-/// Triangles and balls in turn, in a cube of edge 2; some balls are hidden, some far off or large.
+/// Returns triangles and balls in turn, at random places in a cube of edge 2. Some balls are hidden
+/// from the camera, some are far away, and some are large.
 std::vector<bvh::Triangle> drawn(test::Numbers& numbers) {
     std::vector<bvh::Triangle> things;
     for (std::uint32_t i = 0; i < 2 * kHalf; ++i) {
@@ -28,8 +30,9 @@ std::vector<bvh::Triangle> drawn(test::Numbers& numbers) {
     return things;
 }
 
-/// From anywhere, in any direction; every fourth grazes a ball.
-std::vector<KernelRay> rays_among(std::span<const bvh::Triangle> things, test::Numbers& numbers) {
+/// Returns rays with random origins and directions. Every fourth ray grazes a ball.
+std::vector<KernelRay> kernel_balls_rays_among(std::span<const bvh::Triangle> things,
+                                               test::Numbers& numbers) {
     std::vector<KernelRay> rays(6000);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         KernelRay& ray = rays[i];
@@ -37,7 +40,7 @@ std::vector<KernelRay> rays_among(std::span<const bvh::Triangle> things, test::N
         ray.direction = numbers.in_cube();
         if (i % 4 != 0) continue;
         const bvh::Triangle& ball = things[2 * numbers.below(kHalf) + 1];
-        if (i % 8 == 0) { // along an axis, past where its box touches it
+        if (i % 8 == 0) { // a ray along an axis, close to where the ball touches its bounding box
             const int along = static_cast<int>(i / 8 % 3), across = (along + 1) % 3;
             ray.origin = ball.a, ray.direction = vec3(0);
             ray.origin[across] += .9999f * ball.b.x;
@@ -50,7 +53,7 @@ std::vector<KernelRay> rays_among(std::span<const bvh::Triangle> things, test::N
     return rays;
 }
 
-/// What a ray meets first, without a hierarchy.
+/// Returns the first hit of a ray, found by testing all triangles and balls without a BVH.
 KernelHit nearest(std::span<const bvh::Triangle> things, const KernelRay& from,
                   std::uint32_t skipped) {
     const f32::Ray ray{from.origin, from.direction, 0};
@@ -93,15 +96,15 @@ void expect_nearest(Kernel& kernel, std::span<const bvh::Triangle> things,
     }
 }
 
-TEST(KernelBalls, AreMetWhereTheirSpheresAre) {
+TEST(KernelBalls, RaysHitBallsAsExactSpheres) {
     test::Numbers numbers(51);
     const std::vector<bvh::Triangle> things = drawn(numbers);
     Kernel kernel(things);
-    expect_nearest(kernel, things, rays_among(things, numbers));
+    expect_nearest(kernel, things, kernel_balls_rays_among(things, numbers));
 }
 
-/// Moved and grown, in the same tree.
-TEST(KernelBalls, AreMetInARefittedTree) {
+/// Tests a refitted tree after its balls have moved and grown.
+TEST(KernelBalls, RaysHitMovedBallsInARefittedTree) {
     test::Numbers numbers(52);
     std::vector<bvh::Triangle> things = drawn(numbers);
     bvh::Bvh tree = bvh::build(things);
@@ -115,7 +118,7 @@ TEST(KernelBalls, AreMetInARefittedTree) {
     }
     bvh::refit(tree, things);
     Kernel kernel(std::move(tree));
-    expect_nearest(kernel, things, rays_among(things, numbers));
+    expect_nearest(kernel, things, kernel_balls_rays_among(things, numbers));
 }
 
 } // namespace

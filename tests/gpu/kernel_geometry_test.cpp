@@ -1,4 +1,4 @@
-// Geometry that no modeller makes: random bits, and heaps of triangles in one place.
+// Tests of extreme geometry: triangles of random bits, and many triangles at the same place.
 #include "core/error.hpp"
 #include "scene/repair.hpp"
 #include "support/kernel.hpp"
@@ -23,7 +23,8 @@ vec3 random_bits3(test::Numbers& numbers) {
     return {x, y, random_bits(numbers)};
 }
 
-/// What a loader leaves of the triangles; `dropped` grows by those without an area.
+/// Returns the triangles that remain after a scene loader has repaired a mesh of `triangles`. Adds
+/// the number of triangles without area to `dropped`.
 std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
                                   std::size_t& dropped) {
     scene::Mesh mesh{.name = "bits"};
@@ -41,7 +42,8 @@ std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
     return result;
 }
 
-/// Random bits, and from random points at corners.
+/// Returns rays of which every second consists of random bits. The others start at random points
+/// and aim at corners of the triangles.
 std::vector<KernelRay> rays_at(const std::vector<bvh::Triangle>& triangles,
                                test::Numbers& numbers) {
     std::vector<KernelRay> rays(128);
@@ -55,7 +57,7 @@ std::vector<KernelRay> rays_at(const std::vector<bvh::Triangle>& triangles,
     return rays;
 }
 
-TEST(KernelGeometry, N19_RandomBits) {
+TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) {
     constexpr std::size_t kSeeds = 1000, kTriangles = 60;
     std::size_t not_finite = 0, flat = 0, kept = 0, hits = 0;
     std::uint32_t most_steps = 0;
@@ -73,7 +75,8 @@ TEST(KernelGeometry, N19_RandomBits) {
             finite.insert(i);
             good.push_back(t);
         }
-        // Straight to the build, and what the loader makes of the finite ones.
+        // Build a BVH of all triangles without repair, and check the loader's result on the finite
+        // triangles.
         Kernel kernel(triangles);
         const bvh::Bvh& hierarchy = kernel.hierarchy();
         ASSERT_EQ(hierarchy.dropped, kTriangles - finite.size());
@@ -113,7 +116,7 @@ std::vector<bvh::Triangle> copies(std::size_t count, bool of_one_object) {
     return result;
 }
 
-/// At the triangle, from both sides, and past it.
+/// Returns rays that start on either side of the triangle. Some hit the triangle, others pass it.
 std::vector<KernelRay> rays_at_the_copies() {
     test::Numbers numbers(21);
     std::vector<KernelRay> rays(256);
@@ -125,9 +128,9 @@ std::vector<KernelRay> rays_at_the_copies() {
     return rays;
 }
 
-/// Every one of 100,000 copies is at the same t, so a ray would have to look at all of them. Those
-/// of one object cannot be told apart, and one of them is enough.
-TEST(KernelGeometry, N21_CopiesOfOneTriangle) {
+/// Tests 100,000 copies of one triangle. A ray meets all copies at the same t, so it would have to
+/// test every copy. Copies of one object cannot be distinguished, so the BVH keeps one copy.
+TEST(KernelGeometry, N21_CopiesOfOneTriangleAreTracedAsOne) {
     const std::vector<bvh::Triangle> triangles = copies(100000, true);
     const auto start = std::chrono::steady_clock::now();
     bvh::Bvh hierarchy = bvh::build(triangles);
@@ -150,10 +153,10 @@ TEST(KernelGeometry, N21_CopiesOfOneTriangle) {
     EXPECT_LT(build.count(), 5);
 }
 
-/// Copies in different objects are all kept. Fewer than a walk may look at: the lowest number wins.
-/// More: the walk says that it gave up, and so may the lanes beside it, whose loops the driver ends
-/// too.
-TEST(KernelGeometry, N21_CopiesInAsManyObjects) {
+/// Tests that the BVH keeps all copies that belong to different objects. If a ray can test all
+/// copies within its step limit, the lowest number wins. Otherwise the ray reports that it gave up.
+/// Its neighbouring lanes may give up too, because the driver ends their loops as well.
+TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
     const std::vector<KernelRay> rays = rays_at_the_copies();
     for (const std::size_t count : {std::size_t{5000}, std::size_t{100000}}) {
         Kernel kernel(copies(count, false));
@@ -178,10 +181,10 @@ TEST(KernelGeometry, N21_CopiesInAsManyObjects) {
     }
 }
 
-/// A ball twice, and once more with the corners in another order: of equal t the lowest number
-/// wins, whichever leaf it is in, so nobody meets the second ball. Prints a checksum of all hits
-/// for the test below.
-TEST(KernelGeometry, N21_CoplanarDuplicates) {
+/// Tests a ball whose triangles are in the list three times, the third time with the corners in
+/// another order. Among hits of equal t the lowest number must win, whichever leaf holds it. No ray
+/// may hit the second copy. The test prints a checksum of all hits, which the next test compares.
+TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
     std::vector<bvh::Triangle> triangles = *test::placed(scene::ball("ball", 5), 1, dvec3(0));
     const std::size_t once = triangles.size();
     for (std::size_t i = 0; i < once; ++i) triangles.push_back(triangles[i]);
@@ -198,7 +201,7 @@ TEST(KernelGeometry, N21_CoplanarDuplicates) {
     }
     const std::vector<KernelHit> hits = kernel.closest(rays);
     std::size_t not_lowest = 0;
-    std::uint64_t checksum = 14695981039346656037u; // FNV-1a
+    std::uint64_t checksum = 14695981039346656037u; // offset basis of the FNV-1a hash
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const auto lowest = bvh::closest_hit<float>(
             kernel.hierarchy(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
@@ -220,7 +223,8 @@ TEST(KernelGeometry, N21_OneAndTwoDriverThreadsAgree) {
         GTEST_SKIP() << "only a software driver can be told its number of threads";
     const auto checksum = [](const char* threads) {
         const test::Ended ended = test::run_process(
-            {.command = {"/proc/self/exe", "--gtest_filter=KernelGeometry.N21_CoplanarDuplicates"},
+            {.command = {"/proc/self/exe", "--gtest_filter=KernelGeometry."
+                                           "N21_LowestNumberWinsAmongCoplanarDuplicates"},
              .environment = {{"LP_NUM_THREADS", threads}}});
         EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
         const std::size_t at = ended.out.find("checksum ");

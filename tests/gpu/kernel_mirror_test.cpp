@@ -1,4 +1,4 @@
-// The device walks the hierarchy as its mirror in C++ does, bit for bit.
+// Tests that the device and the C++ version of the BVH traversal find the same hits, bit for bit.
 #include "app/rays.hpp"
 #include "scene/load.hpp"
 #include "support/kernel.hpp"
@@ -24,7 +24,7 @@ std::vector<KernelRay> random_rays(std::size_t count, vec3 lo, vec3 hi, unsigned
     return rays;
 }
 
-TEST(KernelMirror, HitsInTheBuiltInRoom) {
+TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
     const scene::Scene room = scene::cornell_mirrors();
     const render::Geometry geometry = render::make_geometry(room, render::space_of(room));
     Kernel kernel(app::hierarchy_without(geometry, geometry.ranges.size()));
@@ -48,8 +48,9 @@ TEST(KernelMirror, HitsInTheBuiltInRoom) {
     }
 }
 
-/// Triangles and rays times a power of two: every rounding is the same, so everything but t is.
-TEST(KernelMirror, N2b_PowersOfTwoChangeNoBit) {
+/// Scales triangles and rays by a power of two. Every rounding stays the same, so a hit keeps all
+/// its bits, except that t may scale too.
+TEST(KernelMirror, N2b_ScalingByPowersOfTwoChangesNoBit) {
     test::Numbers numbers(2);
     std::vector<bvh::Triangle> triangles(2000);
     for (bvh::Triangle& t : triangles) {
@@ -73,7 +74,8 @@ TEST(KernelMirror, N2b_PowersOfTwoChangeNoBit) {
         std::vector<KernelRay> moved = rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             moved[i].origin *= s;
-            if (i % 4 < 2) moved[i].direction *= s; // of the others t grows
+            // Half of the directions keep their length, so their t scales.
+            if (i % 4 < 2) moved[i].direction *= s;
         }
         const std::vector<KernelHit> hits = Kernel(scaled).closest(moved);
         for (std::size_t i = 0; i < rays.size(); ++i) {

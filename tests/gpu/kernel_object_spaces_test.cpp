@@ -1,5 +1,5 @@
-// Things in spaces of their own: the device walks their trees as its mirror in C++ does, bit for
-// bit, and no power of two changes what it meets.
+// Tests of meshes in their own object spaces. The device must traverse their trees as the C++
+// version does, bit for bit. Scaling by a power of two must not change a hit.
 #include "support/crowd.hpp"
 #include "support/kernel.hpp"
 
@@ -14,7 +14,7 @@ using test::Kernel;
 using test::KernelHit;
 using test::KernelRay;
 
-/// As the kernel takes them.
+/// The rays of a crowd in the layout that the kernel reads.
 struct Batch {
     explicit Batch(const std::vector<CrowdRay>& from) {
         for (const CrowdRay& ray : from) {
@@ -30,7 +30,7 @@ std::size_t found(const std::vector<KernelHit>& hits) {
     return static_cast<std::size_t>(std::ranges::count_if(hits, &KernelHit::found));
 }
 
-TEST(KernelOwnSpaces, HitsAreThoseOfTheMirror) {
+TEST(KernelOwnSpaces, HitsEqualTheCppTraversal) {
     Crowd crowd(41);
     const Batch batch(crowd.rays(40000));
     Kernel kernel(crowd.hierarchy());
@@ -50,8 +50,9 @@ TEST(KernelOwnSpaces, HitsAreThoseOfTheMirror) {
     }
 }
 
-/// Without what the origins lack, rays start beside small things elsewhere: the test would notice.
-TEST(KernelOwnSpaces, OriginsAreSumsOfTwoFloats) {
+/// Tests that rays need both floats of their origins. Without the low parts, rays start beside
+/// small objects, and some hits differ.
+TEST(KernelOwnSpaces, OriginsNeedTheSumOfTwoFloats) {
     Crowd crowd(41);
     const Batch batch(crowd.rays(40000));
     Kernel kernel(crowd.hierarchy());
@@ -62,9 +63,9 @@ TEST(KernelOwnSpaces, OriginsAreSumsOfTwoFloats) {
     EXPECT_GT(different, with.size() / 100);
 }
 
-/// The scene's lengths, or those of the things' spaces, times a power of two: every rounding is the
-/// same.
-TEST(KernelOwnSpaces, N2b_PowersOfTwoChangeNoBit) {
+/// Scales either the lengths of the scene or those of the object spaces by a power of two. Every
+/// rounding stays the same, so hits keep their bits.
+TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
     Crowd crowd(42);
     const std::vector<CrowdRay> rays = crowd.rays(10000);
     const Batch batch(rays);
@@ -75,7 +76,8 @@ TEST(KernelOwnSpaces, N2b_PowersOfTwoChangeNoBit) {
             const float s = std::ldexp(1.0f, k), in_scene = scene ? s : 1, in_own = scene ? 1 : s;
             std::vector<CrowdRay> moved;
             for (std::size_t i = 0; i < rays.size(); ++i)
-                moved.push_back(test::scaled(rays[i], in_scene, i % 8 < 4)); // of others t grows
+                // Half of the directions keep their length, so their t scales.
+                moved.push_back(test::scaled(rays[i], in_scene, i % 8 < 4));
             const Batch next(moved);
             const std::vector<KernelHit> hits =
                 Kernel(crowd.hierarchy(in_scene, in_own)).closest(next.rays, 0, next.lows);
@@ -95,9 +97,9 @@ TEST(KernelOwnSpaces, N2b_PowersOfTwoChangeNoBit) {
     EXPECT_GT(hit, 22 * rays.size() / 2);
 }
 
-/// Things that stand for exact spheres are met as such where spheres are exact, and as meshes where
-/// not.
-TEST(KernelOwnSpaces, ExactSpheresAreMetInTheirSpaces) {
+/// Tests objects that have an exact sphere. Rays hit the spheres if kSphere is among the skipped
+/// flags, and the meshes otherwise.
+TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
     Crowd crowd(43);
     for (bvh::Instance& thing : crowd.things())
         if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kSphere;
@@ -121,7 +123,7 @@ TEST(KernelOwnSpaces, ExactSpheresAreMetInTheirSpaces) {
                                  nearest, t))
                 nearest = t, wanted = {t, vec3(0), 0, thing.object, 1};
         on_spheres += wanted.found() && wanted.object > 0 && wanted.object % 2 == 0;
-        // The device's square roots are its own.
+        // The device's square root rounds differently from that of C++, so t may differ slightly.
         const float apart = std::abs(wanted.t - hits[i].t);
         different += wanted.found() != hits[i].found() || wanted.object != hits[i].object ||
                      !(apart <= 1e-5f * std::max(wanted.t, 1e-3f));

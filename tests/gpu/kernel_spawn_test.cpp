@@ -1,4 +1,4 @@
-// Points on triangles and the rays that leave them, computed on the device.
+// Tests of points on triangles and of the rays that start there, computed on the device.
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 
@@ -15,10 +15,13 @@ using test::KernelRay;
 using test::KernelStart;
 
 struct SelfHits {
-    std::size_t rays = 0, named = 0, unnamed = 0; ///< with Ray::leaves and without
+    /// Counts of self-intersections: `named` with Ray::leaves, which names the triangle that the
+    /// ray leaves, and `unnamed` without.
+    std::size_t rays = 0, named = 0, unnamed = 0;
 };
 
-/// 1000 rays from random points of the triangle into random directions.
+/// Traces 1000 rays from random points of the triangle into random directions, and counts their
+/// hits on the same triangle.
 void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& count,
            const gpu::Constants& rules = {}) {
     constexpr std::size_t kRays = 1000;
@@ -46,10 +49,10 @@ void tell(const char* what, const SelfHits& hits) {
               << " of them) of those that do not\n";
 }
 
-/// Each coordinate of its own magnitude: half of these triangles are slivers thirty to a billion
-/// times longer than high. The bound alone lifts a ray off them; it does not need to name what it
-/// leaves.
-TEST(KernelSpawn, N17_CoordinatesOfAnyMagnitude) {
+/// Tests triangles whose coordinates each have a random magnitude. Half of these triangles are
+/// slivers, 30 to 1e9 times longer than high. The error bound of the origin must avoid
+/// self-intersections even if the ray does not name its triangle.
+TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnyMagnitude) {
     test::Numbers numbers(17);
     SelfHits count;
     for (int i = 0; i < 1000; ++i) {
@@ -63,8 +66,8 @@ TEST(KernelSpawn, N17_CoordinatesOfAnyMagnitude) {
     EXPECT_EQ(count.unnamed, 0u);
 }
 
-/// Of any size, at the origin or away from it by up to a thousand times that size.
-TEST(KernelSpawn, N17_TrianglesOfAnySize) {
+/// Tests triangles of any size, at the origin or away from it by up to a thousand times their size.
+TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnySize) {
     test::Numbers numbers(18);
     SelfHits count;
     for (int i = 0; i < 500; ++i) {
@@ -79,9 +82,10 @@ TEST(KernelSpawn, N17_TrianglesOfAnySize) {
     EXPECT_EQ(count.unnamed, 0u);
 }
 
-/// An offset that suits one scene is lost in the roundings of another (without: the rule of
-/// shaders/lib/plain.glsl).
-TEST(KernelSpawn, N17_AFixedOffsetDoesNotLift) {
+/// Tests that a fixed offset of ray origins is not enough: far from the scene's origin, rounding
+/// removes the offset. `without` selects the rule in shaders/lib/plain.glsl that uses the fixed
+/// offset.
+TEST(KernelSpawn, N17_FixedOffsetLetsRaysHitTheirOwnTriangle) {
     test::Numbers numbers(18);
     SelfHits count;
     const vec3 centre(3e5f, -2e5f, 1e5f);
@@ -94,8 +98,9 @@ TEST(KernelSpawn, N17_AFixedOffsetDoesNotLift) {
     EXPECT_GT(count.unnamed, 0u);
 }
 
-/// Not even when it lies squarely before the ray; and of all rays only that one passes through.
-TEST(KernelSpawn, N17_ARayDoesNotSeeTheTriangleThatItNames) {
+/// Tests two parallel triangles in front of a ray. A ray passes through the triangle that it names
+/// as its start, although that triangle lies ahead, and through no other triangle.
+TEST(KernelSpawn, N17_RayPassesThroughTheTriangleItNames) {
     const std::vector<bvh::Triangle> triangles{{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}},
                                                {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}};
     Kernel kernel(triangles);
@@ -108,7 +113,8 @@ TEST(KernelSpawn, N17_ARayDoesNotSeeTheTriangleThatItNames) {
     EXPECT_EQ(hits[2].t, 1);
 }
 
-/// Difference in units of the last place of a float as large as `scale`.
+/// Returns the difference between two numbers in units in the last place (ulp) of a float as large
+/// as `scale`.
 double ulps(double found, double exact, double scale) {
     return std::abs(found - exact) / (std::ldexp(1.0, std::ilogb(scale)) * 0x1p-23);
 }
@@ -117,10 +123,11 @@ double ulps(const vec3& found, const dvec3& exact, double scale) {
                      ulps(double{found.z}, exact.z, scale)});
 }
 
-/// 256 rays against the double build on the same floats. Weights and normal against 1, the point
-/// against the triangle's largest coordinate, t against itself. No ray is flatter than 30 degrees:
-/// then a rounding of a corner moves the hit by no more than twice as much.
-TEST(KernelHit, N18_WithinSixteenUlpOfDouble) {
+/// Compares 256 rays on the device with the same computation in doubles. Errors are in ulp of 1 for
+/// weights and normal, of the largest coordinate for the point, and of t for t. No ray is flatter
+/// than 30 degrees to the triangle. At such angles a rounding of a corner moves the hit by at most
+/// twice as much.
+TEST(KernelHit, N18_HitsLieWithin16UlpOfDoublePrecision) {
     test::Numbers numbers(19);
     const bvh::Triangle t{{-0.83f, -0.61f, 0.13f}, {0.94f, -0.47f, -0.22f}, {0.07f, 0.89f, 0.31f}};
     const dvec3 a(t.a), b(t.b), c(t.c), n = glm::normalize(glm::cross(b - a, c - a));
@@ -150,7 +157,7 @@ TEST(KernelHit, N18_WithinSixteenUlpOfDouble) {
                                             f64::ray_shear(dvec3(rays[i].direction)), exact_t,
                                             weights);
         ASSERT_EQ(hits[i].found(), met) << test::text(rays[i]);
-        if (!met) continue; // aimed at a point of an edge, beyond it by a rounding
+        if (!met) continue; // a ray aimed at an edge passes beside it because of rounding
         const dvec3 exact = f64::barycentric(weights);
         worst.t = std::max(worst.t, ulps(double{hits[i].t}, exact_t, exact_t));
         worst.weights = std::max(worst.weights, ulps(hits[i].barycentric, exact, 1));

@@ -1,5 +1,5 @@
-// A ray from strictly inside a closed mesh that hits nothing has slipped between two triangles, or
-// past a box of the hierarchy.
+// Tests of watertightness. A ray that starts strictly inside a closed mesh and hits nothing has
+// passed between two triangles, or past a box of the BVH.
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 
@@ -24,9 +24,10 @@ std::size_t misses(const std::vector<KernelRay>& rays, const std::vector<KernelH
     return count;
 }
 
-/// Embree's test: about 2 to 100 units wide where floats are 1/64 apart, so that the smaller ones
-/// are crumpled and some of their triangles have no area. They stay closed.
-TEST(KernelWatertight, N14_MeshSphereFarOut) {
+/// A test from Embree: spheres far from the origin, where neighbouring floats are 1/64 apart. The
+/// smaller meshes are deformed by rounding, and some of their triangles have no area, but all
+/// meshes stay closed.
+TEST(KernelWatertight, N14_RaysCannotLeaveMeshSpheresFarFromTheOrigin) {
     constexpr std::size_t kRays = 1000000;
     const dvec3 centre(148376, 1234, -223423);
     std::size_t rays_in_all = 0, missed = 0, different = 0;
@@ -67,7 +68,7 @@ struct Setting {
     std::vector<bvh::Triangle> triangles;
 };
 
-/// Aimed at a corner, or at a point of an edge.
+/// Returns rays from inside the mesh. Each ray aims at a corner or at a point on an edge.
 std::vector<KernelRay> aimed(const Setting& setting, std::size_t count, test::Numbers& numbers) {
     std::vector<KernelRay> rays(count);
     for (KernelRay& ray : rays) {
@@ -82,7 +83,7 @@ std::vector<KernelRay> aimed(const Setting& setting, std::size_t count, test::Nu
     return rays;
 }
 
-TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
+TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
     constexpr std::size_t kRays = 10000000;
     const std::array meshes{test::ball(), test::torus(), test::box("room", 1),
                             test::box("corridor", 1e5)};
@@ -94,7 +95,9 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
             for (const double offset : {0.0, 1.0, 1e3, 1e6}) {
                 const auto triangles = test::placed(closed.mesh, scale, offset * away);
                 if (!triangles || !test::is_resolved(scale, offset * away)) {
-                    ++left_out; // a triangle collapsed, or there is no strictly inside
+                    // Leave out settings in which a triangle lost its area by rounding, or in which
+                    // no float lies strictly inside the mesh.
+                    ++left_out;
                     continue;
                 }
                 std::ostringstream name;
@@ -127,8 +130,9 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
     EXPECT_EQ(different, 0u);
 }
 
-/// The same rays do find the gaps of a triangle test and of boxes as they are commonly written.
-TEST(KernelWatertight, N15_TheSameRaysLeakWithoutTheRules) {
+/// Tests that the same rays do leak with a common triangle test and with common box tests. The test
+/// above would therefore notice such gaps.
+TEST(KernelWatertight, N15_TheSameRaysLeakWithCommonIntersectionTests) {
     const test::ClosedMesh ball = test::ball();
     const dvec3 away(0.62, -0.11, -0.78);
     const Setting setting{"ball", 1, away, &ball, *test::placed(ball.mesh, 1, away)};

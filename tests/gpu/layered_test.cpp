@@ -1,5 +1,5 @@
-// Six faces in one pass, or one pass a face; objects left out of faces that cannot see them, or all
-// drawn: the same bytes.
+// Tests that captures keep their bytes whether six faces are drawn in one pass or one by one.
+// Culling objects from faces that cannot see them must not change a byte either.
 #include "render/views.hpp"
 #include "support/captures.hpp"
 #include "support/rendering.hpp"
@@ -15,7 +15,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Layered,
                          testing::Values("reuse", "parallax", "naive", "layered"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-TEST_P(Layered, EqualsSixSinglePasses) {
+TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
     app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {96, 96});
     request.frames = 3;
     const app::Part at_once = std::move(app::run(test::engine(true), request).parts.front());
@@ -25,7 +25,8 @@ TEST_P(Layered, EqualsSixSinglePasses) {
     EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);
 }
 
-/// Captures as render::add_captures makes them, with every object drawn into every face.
+/// Draws captures as render::add_captures does, but draws every object into every face. Returns the
+/// colours.
 std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32_t face) {
     auto& [device, pipelines] = test::bench();
     render::GpuScene gpu_scene(device, scene);
@@ -45,10 +46,8 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
             .record([&gpu_scene, mirror](graph::Commands& commands) {
                 gpu_scene.bind(commands);
                 for (const bool mirrors_now : {false, true}) {
-                    commands.use(gpu::RasterState{"scene.vert",
-                                                  mirrors_now ? "mirror_black.frag"
-                                                              : "diffuse.frag#unshadowed",
-                                                  {}});
+                    commands.use(gpu::RasterState{
+                        "scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag", {}});
                     for (std::size_t i = 0; i < gpu_scene.ranges().size(); ++i) {
                         const render::DrawRange& range = gpu_scene.ranges()[i];
                         if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
@@ -66,7 +65,7 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
     return runner.read(colour);
 }
 
-TEST(Culling, ChangesNoBit) {
+TEST(Culling, CulledCapturesKeepTheirBytes) {
     for (const scene::Scene& scene :
          {scene::cornell_mirrors(), test::room(3, 2), test::furnace(2)}) {
         const test::Captured captured = test::capture(scene, 128, Format::r32f);
@@ -74,7 +73,7 @@ TEST(Culling, ChangesNoBit) {
     }
 }
 
-TEST(Culling, ABoxThatHoldsAVisiblePointIsNeverLeftOut) {
+TEST(Culling, BoxWithAVisiblePointIsNeverCulled) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> coordinate(-1, 1), size(0, .3f), share(0, 1);
     std::size_t left_out = 0;
@@ -98,10 +97,10 @@ TEST(Culling, ABoxThatHoldsAVisiblePointIsNeverLeftOut) {
             }
         }
     }
-    EXPECT_GT(left_out, 6000u); // most boxes are seen by one or two of six faces
+    EXPECT_GT(left_out, 6000u); // culled faces; most boxes are visible in one or two of six faces
 }
 
-TEST(Culling, ABallWithAVisiblePointIsNeverLeftOut) {
+TEST(Culling, BallWithAVisiblePointIsNeverCulled) {
     std::mt19937 random(8);
     std::uniform_real_distribution<float> coordinate(-1, 1), size(.05f, .5f);
     std::normal_distribution<float> normal;
@@ -128,12 +127,13 @@ TEST(Culling, ABallWithAVisiblePointIsNeverLeftOut) {
     EXPECT_GT(left_out, by_box + 300);
 }
 
-TEST(NearPlanes, AreTheLargestPowersOfTwoThatCutNothingOff) {
+TEST(NearPlanes, NearPlaneIsTheLargestPowerOfTwoThatCutsNothingOff) {
     for (const float gap : {1e-3f, .3f, .5f, .51f, 1.f, 3.9f, 4.f, 100.f}) {
         const float near = render::cube_views(vec3(1, 2, 3), gap)[4].near;
         int exponent = 0;
         EXPECT_EQ(std::frexp(near, &exponent), .5f) << gap;
-        // What is nearest may lie in a corner, 1 / sqrt(3) of its distance along the axis.
+        // The nearest point may lie in a corner of the view, where its depth along the view axis is
+        // 1 / sqrt(3) of its distance.
         EXPECT_LE(near, gap / 2) << gap;
         EXPECT_GT(near, gap / 4) << gap;
     }

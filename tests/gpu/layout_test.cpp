@@ -1,5 +1,6 @@
-// C++ and GLSL see every shared structure alike: each member lies where offsetof says, each
-// structure is as long as sizeof says (the second element of an array is what is read).
+// Tests that C++ and GLSL agree on the layout of every shared structure. Each member must lie at
+// its offsetof, and each structure must be as long as its sizeof. The shader reads the second
+// element of an array, so a wrong size shifts every member.
 #include "gpu/shader.hpp"
 #include "shared.h"
 #include "support/device.hpp"
@@ -11,7 +12,8 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::shared;
 
-/// Words that a member occupies in the second element of an array of its structure.
+/// A member of a shared structure: its name, offset and size, and the size of its structure, in
+/// bytes.
 struct Member {
     std::string name;
     std::size_t offset, bytes, size_of_struct;
@@ -19,7 +21,7 @@ struct Member {
 #define MEMBER(type, member)                                                                       \
     Member { #type "::" #member, offsetof(type, member), sizeof(type::member), sizeof(type) }
 
-/// In the order in which shaders/tests/layout.comp writes them.
+/// The members, in the order in which shaders/tests/layout.comp writes them.
 const std::vector<Member> kMembers{MEMBER(Vertex, position),
                                    MEMBER(Vertex, normal),
                                    MEMBER(Surface, albedo),
@@ -83,10 +85,10 @@ const std::vector<Member> kMembers{MEMBER(Vertex, position),
                                    MEMBER(Counters, mirror_pixels),
                                    MEMBER(Counters, listed)};
 
-/// Word i of every buffer, an ordinary number also as a float.
+/// Returns word `i` of every input buffer. Read as a float, the word is an ordinary number near 1.
 constexpr std::uint32_t word(std::size_t i) { return 0x3f800000u + static_cast<std::uint32_t>(i); }
 
-TEST(Layout, EveryMemberOfEveryStructureArrives) {
+TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
     auto& [device, pipelines] = test::bench();
     constexpr std::size_t kWords = 128;
     std::vector<std::uint32_t> words;
@@ -121,14 +123,14 @@ TEST(Layout, EveryMemberOfEveryStructureArrives) {
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], expected[i]) << names[i];
 }
 
-TEST(Layout, TheMembersAboveAreAllMembers) {
+TEST(Layout, TestedMembersFillTheirStructures) {
     std::map<std::string, std::size_t> sum, size;
     for (const Member& member : kMembers) {
         const std::string structure = member.name.substr(0, member.name.find(':'));
         sum[structure] += member.bytes;
         size[structure] = member.size_of_struct;
     }
-    EXPECT_EQ(sum, size); // scalar layout: no padding, so nothing is left over
+    EXPECT_EQ(sum, size); // scalar layout has no padding, so the members add up to the structure
     EXPECT_EQ(sum.size(), 11u);
 }
 

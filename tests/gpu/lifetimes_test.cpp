@@ -1,5 +1,5 @@
-// Images that stay until somebody writes them, images and buffers of somebody else's, mips,
-// attachments that are not stored: on the device, under the validation layer.
+// Tests of image lifetimes on the device, under the validation layer: persistent images, imported
+// images and buffers, mip levels, and attachments that are not stored.
 #include "gpu/steps.hpp"
 #include "graph/device_memory.hpp"
 
@@ -12,8 +12,9 @@ using test::kHeight, test::kWidth;
 
 const graph::ImageDesc kDesc{"cubes", Format::r32f, kWidth, kHeight};
 
-/// A frame that makes the kept image from `stamp` unless it is there, and shows a step from it.
-/// Returns how many passes ran.
+/// Renders a frame from a persistent image with content hash `stamp`. If the image does not hold
+/// that content, the frame writes it first. `shown` receives a step computed from the image.
+/// Returns the number of passes that ran.
 std::size_t show(graph::Runner& runner, float stamp, std::vector<float>& shown) {
     graph::Graph graph(runner.history());
     const graph::Image cubes = graph.persistent(kDesc);
@@ -30,7 +31,7 @@ std::size_t show(graph::Runner& runner, float stamp, std::vector<float>& shown) 
     return passes;
 }
 
-TEST(Kept, IsMadeOnceUntilItsStampChanges) {
+TEST(Kept, ImageIsWrittenOnceUntilItsContentHashChanges) {
     for (const std::uint32_t in_flight : {1u, 3u}) {
         graph::Runner runner(test::bench().device, test::bench().pipelines, in_flight);
         std::vector<float> shown;
@@ -39,14 +40,16 @@ TEST(Kept, IsMadeOnceUntilItsStampChanges) {
             EXPECT_EQ(show(runner, stamp, shown), passes);
             EXPECT_EQ(shown, stepped(started(stamp), 1));
         }
-        EXPECT_EQ(runner.plans_made(), 3u); // nothing there; there; there and written anew
+        // The frames have three shapes: without content, with kept content, and with overwritten
+        // content.
+        EXPECT_EQ(runner.plans_made(), 3u);
         runner.forget();
         EXPECT_EQ(show(runner, 2, shown), 2u);
         EXPECT_EQ(shown, stepped(started(2), 1));
     }
 }
 
-TEST(Kept, StaysThroughFramesThatDoNotNameIt) {
+TEST(Kept, ImageStaysThroughFramesThatDoNotUseIt) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> shown;
     EXPECT_EQ(show(runner, 2, shown), 2u);
@@ -61,7 +64,7 @@ TEST(Kept, StaysThroughFramesThatDoNotNameIt) {
     EXPECT_EQ(shown, stepped(started(2), 1));
 }
 
-TEST(Kept, LayersAreMadeOneByOne) {
+TEST(Kept, LayersAreWrittenOneByOne) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::ImageDesc desc = kDesc;
     desc.layers = 3;
@@ -93,7 +96,7 @@ TEST(Kept, LayersAreMadeOneByOne) {
     }
 }
 
-TEST(Kept, AnotherSizeStartsAnew) {
+TEST(Kept, ImageOfAnotherSizeHasNoContent) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> shown;
     show(runner, 2, shown);
@@ -103,7 +106,7 @@ TEST(Kept, AnotherSizeStartsAnew) {
     EXPECT_FALSE(graph.holds_content(graph.persistent(desc), 2));
 }
 
-TEST(Imported, ImageIsReadAndLeftAsItIsSaid) {
+TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
     auto& [device, pipelines] = test::bench();
     graph::ImageDesc desc = kDesc;
     desc.name = "outside";
@@ -113,7 +116,8 @@ TEST(Imported, ImageIsReadAndLeftAsItIsSaid) {
     for (int frame = 0; frame < 4; ++frame) {
         graph::Graph graph;
         const bool first = frame == 0;
-        // Written once, sampled from then on; left for the next frame in the other layout.
+        // The first frame writes the image, and later frames sample it. Each frame declares that
+        // the next frame samples the image, which sets its layout.
         const graph::Image image = graph.import(
             desc, &outside, first ? std::nullopt : std::optional(Use::sampled), Use::sampled);
         const graph::Image out = test::add_image(graph, "out");
@@ -156,13 +160,14 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
             .reads(image, Use::copy_from)
             .writes(out, Use::copy_to)
             .record([=](graph::Commands& commands) { commands.copy(image, out); });
-        tickets.push_back(runner.submit(graph, graph::Timing::pipelined)); // nothing is wanted
+        // The frame has no output. The imported buffer alone keeps the passes.
+        tickets.push_back(runner.submit(graph, graph::Timing::pipelined));
     }
     for (std::uint32_t frame = kFrames - kSlots; frame < kFrames; ++frame) expect_read(frame);
     EXPECT_EQ(runner.plans_made(), 1u);
 }
 
-TEST(Imported, FromNowhereIsRefused) {
+TEST(Imported, ImageWithoutASourceIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::Image image = graph.import(kDesc, nullptr, std::nullopt, Use::sampled);
@@ -171,7 +176,7 @@ TEST(Imported, FromNowhereIsRefused) {
                    {"image 'cubes' is imported from nowhere"});
 }
 
-TEST(Mips, EachIsWrittenFromTheOneBefore) {
+TEST(Mips, EachMipIsComputedFromTheOneBefore) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     for (int frame = 0; frame < 2; ++frame) {
         graph::Graph graph;
@@ -202,7 +207,7 @@ TEST(Mips, EachIsWrittenFromTheOneBefore) {
     }
 }
 
-TEST(Mips, AreSampledTogether) {
+TEST(Mips, MipsAreSampledAsOneImage) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     for (const float lod : {0.0f, 1.0f, 1.5f, 2.25f, 9.0f}) {
         graph::Graph graph;
@@ -228,7 +233,7 @@ TEST(Mips, AreSampledTogether) {
     }
 }
 
-TEST(Unread, AttachmentsDoNotChangeThePicture) {
+TEST(Unread, AttachmentsThatAreNotStoredDoNotChangeThePicture) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::Image colour = graph.image({"colour", Format::rgba32f, 8, 8});
@@ -245,8 +250,9 @@ TEST(Unread, AttachmentsDoNotChangeThePicture) {
               (std::vector<float>{1, 2, 3, 4}));
 }
 
-// Two frames on their way write what nobody reads: each must wait for the one before.
-TEST(Unread, IsWrittenAgainInTheNextFrame) {
+// Frames in flight write an image that no pass reads. Each frame must wait for the write of the
+// frame before, which the validation layer checks.
+TEST(Unread, UnreadImageIsWrittenAgainInTheNextFrame) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, 3);
     for (int frame = 0; frame < 6; ++frame) {
         graph::Graph graph;
@@ -268,8 +274,9 @@ TEST(Unread, IsWrittenAgainInTheNextFrame) {
     }
 }
 
-// Shapes of other sizes, kept ones among them, in turn: as much memory as the largest needs.
-TEST(Memory, IsFlatOverFramesOfManyShapes) {
+// Graphs of five shapes take turns, one of them with a persistent image. The memory must not exceed
+// that of the largest shape.
+TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
     std::uint64_t after_two_rounds = 0;
     for (int frame = 0; frame < 2000; ++frame) {
@@ -294,7 +301,8 @@ TEST(Memory, IsFlatOverFramesOfManyShapes) {
         graph.mark_output(out);
         runner.submit(graph, graph::Timing::pipelined);
         if (frame == 9) after_two_rounds = runner.memory_bytes();
-        // What has a `previous` has the size of the frame at hand.
+        // Memory is compared every fifth frame, because an image that the next frame reads has the
+        // size of the present shape.
         if (frame % 5 == 4 && frame > 9) {
             EXPECT_EQ(runner.memory_bytes(), after_two_rounds) << frame;
         }

@@ -1,5 +1,5 @@
-// One software driver silently ends all loops of an invocation after 65,535 iterations. The engine
-// must notice: a picture of walks that were cut short is an error, not a picture.
+// Tests of a software driver that silently ends all loops of an invocation after 65,535 iterations.
+// The engine must report an error, because a picture from rays that were cut short is wrong.
 #include "support/device.hpp"
 #include "support/rendering.hpp"
 
@@ -30,7 +30,7 @@ TEST(LoopLimit, ShortLoopsRunToTheirEnd) {
     for (const std::uint32_t turns : {0u, 1u, 1000u, 60000u}) EXPECT_EQ(turns_of(turns), turns);
 }
 
-TEST(LoopLimit, WhatThisDeviceDoesWithALongLoop) {
+TEST(LoopLimit, LongLoopsRunOrStopAtTheKnownLimit) {
     constexpr std::uint32_t kWanted = 70000, kLimit = 65535;
     const std::uint32_t turns = turns_of(kWanted);
     RecordProperty("turns", static_cast<int>(turns));
@@ -42,8 +42,8 @@ TEST(LoopLimit, WhatThisDeviceDoesWithALongLoop) {
         << "stops loops, but not where the ray tracer's bound of 60,000 steps assumes";
 }
 
-/// Two mirrors facing each other, with slivers between them whose boxes every ray must open and
-/// whose triangles none meets.
+/// Returns a scene of two mirrors that face each other, with thin triangles between them. Every ray
+/// enters the bounding boxes of the thin triangles and hits none.
 scene::Scene hall_of_mirrors(int slivers) {
     scene::Scene scene{.name = "hall"};
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
@@ -68,7 +68,7 @@ scene::Scene hall_of_mirrors(int slivers) {
     return scene;
 }
 
-TEST(LoopLimit, ATracerThatGivesUpFailsTheRun) {
+TEST(LoopLimit, RayThatReachesItsStepLimitFailsTheRun) {
     test::expect_refused(
         [] {
             test::render(hall_of_mirrors(3000), "raytrace:depth=64", {32, 32});
@@ -78,7 +78,7 @@ TEST(LoopLimit, ATracerThatGivesUpFailsTheRun) {
          "lower the depth"});
 }
 
-TEST(LoopLimit, WithLessDepthTheSameSceneRenders) {
+TEST(LoopLimit, SameSceneRendersWithLessDepth) {
     const app::Part part = test::render(hall_of_mirrors(3000), "raytrace:depth=4", {32, 32});
     ASSERT_TRUE(part.rays);
     std::cout << "[ MEASURED ] longest walk at depth 4: " << part.rays->longest_walk << " steps\n";

@@ -1,4 +1,5 @@
-// Which mirror a ray meets first: a walk over the tree against looking at all of them.
+// Tests of the search for the first mirror that a ray meets. Traversal of the mirror tree must find
+// the same mirror as a test of all mirrors.
 #include "render/mirror_tree.hpp"
 #include "render/texels.hpp"
 #include "support/device.hpp"
@@ -12,18 +13,18 @@ namespace {
 
 using namespace catoptric;
 
-/// As the shader reads it.
+/// A ray in the layout that the shader reads.
 struct MirrorRay {
     vec3 origin{0};
-    float end = 0; ///< whether a mirror is met before it is asked
+    float end = 0; ///< the shader tells whether the ray meets a mirror before this t
     vec3 direction{0};
-    std::uint32_t leaves = 0; ///< the mirror that is not met, from 0
+    std::uint32_t leaves = 0; ///< the mirror that the ray starts on and ignores, from 0
 };
 static_assert(sizeof(MirrorRay) == 32);
 
 struct Answer {
-    std::uint32_t sphere = 0; ///< the first exact sphere, from 1; 0: none
-    std::uint32_t t = 0;      ///< bits
+    std::uint32_t sphere = 0; ///< number of the first exact sphere, from 1; 0: no sphere is met
+    std::uint32_t t = 0;      ///< bits of the float t at the sphere
     std::uint32_t before = 0, unused = 0;
     bool operator==(const Answer&) const = default;
 };
@@ -67,8 +68,9 @@ shared::Probe sphere(vec3 centre, float radius) {
             .highest = centre + radius};
 }
 
-/// Spheres and boxes of many sizes, some twice, some inside others.
-std::vector<shared::Probe> crowd(test::Numbers& numbers, std::size_t count) {
+/// Returns exact spheres and boxes of many sizes. Some are in the list twice, and some lie inside
+/// others.
+std::vector<shared::Probe> next_mirror_crowd(test::Numbers& numbers, std::size_t count) {
     std::vector<shared::Probe> probes;
     while (probes.size() < count) {
         const vec3 centre = numbers.in_cube();
@@ -86,9 +88,10 @@ std::vector<shared::Probe> crowd(test::Numbers& numbers, std::size_t count) {
     return probes;
 }
 
-/// Anywhere; to a mirror's outline, where roundings decide; along an axis; from a mirror.
-std::vector<MirrorRay> rays_among(const std::vector<shared::Probe>& probes, test::Numbers& numbers,
-                                  std::size_t count) {
+/// Returns rays of several kinds: random rays, rays past a mirror's outline, where rounding
+/// decides, rays along an axis, and rays from a mirror.
+std::vector<MirrorRay> next_mirror_rays_among(const std::vector<shared::Probe>& probes,
+                                              test::Numbers& numbers, std::size_t count) {
     std::vector<MirrorRay> rays(count);
     for (std::size_t i = 0; i < count; ++i) {
         MirrorRay& ray = rays[i];
@@ -101,7 +104,7 @@ std::vector<MirrorRay> rays_among(const std::vector<shared::Probe>& probes, test
         ray.end = numbers.between(0, i % 2 == 0 ? 2 : 200);
         const vec3 aside = normalize(cross(ray.direction, numbers.direction()));
         const float nearly = 1 + numbers.between(-4, 4) * 0x1p-23f;
-        if (i % 4 >= 2) // past the outline, far or near
+        if (i % 4 >= 2) // a ray past the outline of a mirror, from far or near
             ray.origin = probe.sphere + size * nearly * aside -
                          numbers.between(0, i % 8 < 4 ? 2 : 200) * ray.direction;
         if (i % 16 == 15) ray.direction = vec3(i % 3 == 0, i % 3 == 1, i % 3 == 2);
@@ -112,11 +115,11 @@ std::vector<MirrorRay> rays_among(const std::vector<shared::Probe>& probes, test
     return rays;
 }
 
-TEST(NextMirror, ByTheTreeIsWhatLookingAtAllFinds) {
+TEST(NextMirror, TreeTraversalEqualsATestOfAllMirrors) {
     test::Numbers numbers(14);
     for (const std::size_t count : {1, 2, 9, 30, 200}) {
-        const std::vector<shared::Probe> probes = crowd(numbers, count);
-        const std::vector<MirrorRay> rays = rays_among(probes, numbers, 40000);
+        const std::vector<shared::Probe> probes = next_mirror_crowd(numbers, count);
+        const std::vector<MirrorRay> rays = next_mirror_rays_among(probes, numbers, 40000);
         const std::vector<Answer> all = answers(probes, rays, false),
                                   tree = answers(probes, rays, true);
         std::size_t different = 0, met = 0, before = 0;
@@ -138,17 +141,19 @@ TEST(NextMirror, ByTheTreeIsWhatLookingAtAllFinds) {
     }
 }
 
-// Twenty equal spheres around ten others: the nearest is met, and of equals the lowest number that
-// the ray does not leave.
-TEST(NextMirror, OfEqualsTheLowestNumberIsMet) {
+// Tests twenty equal spheres beside ten others. The nearest sphere is met. Among equal spheres the
+// lowest number wins that the ray does not leave.
+TEST(NextMirror, LowestNumberWinsAmongEqualSpheres) {
     std::vector<shared::Probe> probes;
     for (int i = 0; i < 10; ++i) probes.push_back(sphere({0, float(i - 5), 0}, .25f));
     for (int i = 0; i < 20; ++i) probes.push_back(sphere({2, 0, 0}, .5f));
-    const std::vector<MirrorRay> rays{{{6, 0, 0}, 3, {-1, 0, 0}, 0},  // to the equals
-                                      {{6, 0, 0}, 9, {-1, 0, 0}, 10}, // but for the first
-                                      {{-4, 0, 0}, 3, {1, 0, 0}, 29}, // to the sixth
-                                      {{-4, 0, 0}, 5, {1, 0, 0}, 5},  // past it
-                                      {{6, 3, 0}, 9, {1, 0, 0}, 0}};  // to nothing
+    // The rays in turn: to the equal spheres; the same from the first of them; to the sixth sphere;
+    // the same from the sixth sphere; and to nothing.
+    const std::vector<MirrorRay> rays{{{6, 0, 0}, 3, {-1, 0, 0}, 0},
+                                      {{6, 0, 0}, 9, {-1, 0, 0}, 10},
+                                      {{-4, 0, 0}, 3, {1, 0, 0}, 29},
+                                      {{-4, 0, 0}, 5, {1, 0, 0}, 5},
+                                      {{6, 3, 0}, 9, {1, 0, 0}, 0}};
     const auto met = [](std::uint32_t sphere, float t, std::uint32_t before) {
         return Answer{sphere, std::bit_cast<std::uint32_t>(t), before, 0};
     };

@@ -1,4 +1,5 @@
-// Last frame's images, and images that share memory, hold what they should.
+// Tests of the previous frame's images and of images that share memory: both must hold the right
+// content.
 #include "gpu/steps.hpp"
 
 namespace {
@@ -7,7 +8,7 @@ using namespace catoptric;
 using test::add_image, test::add_start, test::add_step, test::stepped;
 using test::kHeight, test::kWidth;
 
-TEST(Previous, IsBlackOnceAndThenTheLastFrame) {
+TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> expected(kWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 4; ++frame) {
@@ -22,7 +23,7 @@ TEST(Previous, IsBlackOnceAndThenTheLastFrame) {
     }
 }
 
-TEST(Previous, BelongsToItsRunner) {
+TEST(Previous, HistoryBelongsToItsRunner) {
     for (int run = 0; run < 2; ++run) {
         graph::Runner runner(test::bench().device, test::bench().pipelines);
         EXPECT_TRUE(runner.history().previous.empty());
@@ -36,12 +37,12 @@ TEST(Previous, BelongsToItsRunner) {
     }
 }
 
-TEST(Previous, SurvivesAFrameOfAnotherShape) {
+TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> expected(kWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
-        if (frame == 2) { // one image more, declared first: every number changes
+        if (frame == 2) { // one image more, declared first, so the number of every image changes
             const graph::Image other = add_image(graph, "other");
             add_start(graph, other, 1);
             graph.mark_output(other);
@@ -56,7 +57,8 @@ TEST(Previous, SurvivesAFrameOfAnotherShape) {
     }
 }
 
-/// A chain of `length` steps; all images wanted (`apart`) share no memory, else only the last is.
+/// Adds a chain of `length` steps. With `apart` all images are outputs, so none share memory.
+/// Otherwise only the last image is an output.
 graph::Image add_chain(graph::Graph& graph, int length, bool apart) {
     graph::Image last = add_image(graph, "image0");
     add_start(graph, last, 7);
@@ -71,12 +73,12 @@ graph::Image add_chain(graph::Graph& graph, int length, bool apart) {
     return last;
 }
 
-TEST(Aliasing, ImagesThatShareMemoryHoldTheSameAsImagesApart) {
+TEST(Aliasing, ImagesThatShareMemoryEqualImagesApart) {
     std::vector<float> found[2];
     std::uint64_t bytes[2];
     for (const bool apart : {false, true}) {
         graph::Runner runner(test::bench().device, test::bench().pipelines);
-        for (int frame = 0; frame < 3; ++frame) { // memory that was used before, too
+        for (int frame = 0; frame < 3; ++frame) { // later frames reuse memory
             graph::Graph graph;
             const graph::Image last = add_chain(graph, 9, apart);
             bytes[apart] = runner.compiled(graph).bytes;
@@ -88,7 +90,7 @@ TEST(Aliasing, ImagesThatShareMemoryHoldTheSameAsImagesApart) {
     for (int i = 1; i <= 9; ++i) expected = stepped(expected, static_cast<float>(i));
     EXPECT_EQ(found[false], expected);
     EXPECT_EQ(found[true], expected);
-    EXPECT_LT(2 * bytes[false], bytes[true]); // 3 images instead of 10
+    EXPECT_LT(2 * bytes[false], bytes[true]); // 3 images in memory instead of 10
 }
 
 } // namespace

@@ -1,4 +1,5 @@
-// What the engine reads out of SPIR-V, and what it refuses by name.
+// Tests of reflection: which bindings, constants and images the engine reads from SPIR-V, and which
+// errors name the shader.
 #include "gpu/shader.hpp"
 #include "gpu/specialise.hpp"
 #include "support/device.hpp"
@@ -20,6 +21,19 @@ gpu::Reflection reflection(const char* name) {
     return gpu::reflect(name, gpu::find_shader(name).words);
 }
 
+/// Returns what the shader uses if its constant `name` is `value` and all others have their
+/// defaults.
+gpu::Reflection specialised(const char* shader, const char* name, std::uint32_t value) {
+    const gpu::Reflection all = reflection(shader);
+    const auto constant = std::ranges::find(all.constants, name, &gpu::Constant::name);
+    if (constant == all.constants.end()) {
+        ADD_FAILURE() << shader << " has no constant " << name;
+        return {};
+    }
+    return gpu::reflect(
+        shader, gpu::specialise(shader, gpu::find_shader(shader).words, {{constant->id, value}}));
+}
+
 const gpu::Binding* find(const gpu::Reflection& reflection, std::string_view name) {
     const auto found = std::ranges::find(reflection.bindings, name, &gpu::Binding::name);
     return found == reflection.bindings.end() ? nullptr : &*found;
@@ -32,7 +46,7 @@ std::vector<std::string> constants(const gpu::Reflection& reflection) {
     return names;
 }
 
-TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
+TEST(Reflection, BindingsOfTheRayTracerAreFound) {
     const gpu::Reflection found = reflection("raytrace.comp");
     struct Expected {
         const char* name;
@@ -50,34 +64,42 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(
-        constants(found),
-        (std::vector<std::string>{"bvh_in_storage", "details", "environment_kind", "exact_spheres",
-                                  "fixed_offset", "groups_in_order", "light_kinds", "masks",
-                                  "max_depth", "object_spaces", "one_light", "orthographic",
-                                  "pixels_in_rows", "shadow", "texels_in_storage", "without"}));
+    EXPECT_EQ(constants(found),
+              (std::vector<std::string>{
+                  "bvh_in_storage", "details", "environment_kind", "exact_spheres", "fixed_offset",
+                  "groups_in_order", "has_shadow_map", "light_kinds", "masks", "max_depth",
+                  "object_spaces", "one_light", "orthographic", "pixels_in_rows", "shadow",
+                  "texels_in_storage", "without"}));
 }
 
-TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {
-    EXPECT_FALSE(find(reflection("raytrace.comp"), "shadow_map"));
-    EXPECT_TRUE(find(reflection("raytrace.comp#shadow_map"), "shadow_map"));
-    EXPECT_FALSE(find(reflection("diffuse.frag#unshadowed"), "shadow_map"));
-    EXPECT_TRUE(find(reflection("diffuse.frag"), "shadow_map"));
+TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
+    for (const char* shader : {"raytrace.comp", "diffuse.frag"}) {
+        EXPECT_FALSE(find(specialised(shader, "has_shadow_map", 0), "shadow_map")) << shader;
+        EXPECT_TRUE(find(specialised(shader, "has_shadow_map", 1), "shadow_map")) << shader;
+    }
+    EXPECT_FALSE(find(specialised("reflect/naive.frag", "has_capture_table", 0), "Captures"));
+    EXPECT_TRUE(find(specialised("reflect/naive.frag", "has_capture_table", 1), "Captures"));
+    EXPECT_FALSE(find(specialised("reflect/parallax.frag", "peels", 0), "first_layer"));
+    EXPECT_TRUE(find(specialised("reflect/parallax.frag", "peels", 1), "first_layer"));
     EXPECT_FALSE(find(reflection("reflect/naive.frag"), "distance_cubes"));
 }
 
-TEST(Reflection, TellsTheShapesOfImages) {
+TEST(Reflection, ShapesOfImagesAreFound) {
     const gpu::Reflection parallax = reflection("reflect/parallax.frag");
     ASSERT_TRUE(find(parallax, "colour_cubes") && find(parallax, "distance_cubes"));
     EXPECT_EQ(find(parallax, "colour_cubes")->shape, ImageShape::cube_array);
-    EXPECT_EQ(find(parallax, "colour_cubes")->kind, BindingKind::sampled_image);
+    EXPECT_EQ(find(parallax, "colour_cubes")->kind, BindingKind::texture);
+    EXPECT_EQ(find(parallax, "colour_cubes")->count, shared::kMostArrays);
+    ASSERT_TRUE(find(reflection("reflect/planar.frag"), "mirrored"));
+    EXPECT_EQ(find(reflection("reflect/planar.frag"), "mirrored")->kind,
+              BindingKind::sampled_image);
     const gpu::Reflection diffuse = reflection("diffuse.frag");
     ASSERT_TRUE(find(diffuse, "shadow_map"));
     EXPECT_EQ(find(diffuse, "shadow_map")->shape, ImageShape::flat_array);
     EXPECT_EQ(reflection("compose.frag").push_bytes, 4u);
 }
 
-TEST(Reflection, RefusesWhatIsNoShader) {
+TEST(Reflection, InvalidShadersAreRefused) {
     test::expect_refused([] { gpu::find_shader("no/such.frag"); }, Failure::internal,
                          {"there is no shader 'no/such.frag'"});
     const std::vector<std::uint32_t> text(10, 0x20202020);
@@ -88,9 +110,10 @@ TEST(Reflection, RefusesWhatIsNoShader) {
                          {"'half' is cut off"});
 }
 
-TEST(Specialise, KeepsWhatIsReachedWithTheValues) {
+TEST(Specialise, CodeUnreachableWithTheConstantsIsRemoved) {
     const auto words = gpu::find_shader("raytrace.comp").words;
-    std::map<std::uint32_t, std::uint32_t> plain, rich; // what no scene asks for, and what all do
+    // Values of the specialisation constants: all features off, and all on.
+    std::map<std::uint32_t, std::uint32_t> plain, rich;
     for (const gpu::Constant& constant : reflection("raytrace.comp").constants)
         plain[constant.id] = 0, rich[constant.id] = 1;
     const auto without = gpu::specialise("raytrace.comp", words, plain),
@@ -122,7 +145,7 @@ void dispatch(const gpu::ComputeState& state,
     test::run(runner, graph);
 }
 
-TEST(Binding, AnUnboundNameIsRefusedWithPassAndShader) {
+TEST(Binding, UnboundNameIsRefusedWithPassAndShader) {
     test::expect_refused(
         [] {
             dispatch({"tests/spin.comp", {}},
@@ -131,7 +154,7 @@ TEST(Binding, AnUnboundNameIsRefusedWithPassAndShader) {
         Failure::internal, {"pass 'lonely'", "nothing is bound to 'Counts'", "tests/spin.comp"});
 }
 
-TEST(Binding, AnImageWhereABufferBelongsIsRefused) {
+TEST(Binding, ImageBoundAsABufferIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::Image image = graph.image({"image", Format::r32f, 8, 8});
@@ -148,7 +171,7 @@ TEST(Binding, AnImageWhereABufferBelongsIsRefused) {
                          {"pass 'mixed'", "'Counts'", "is a buffer, bound is an image"});
 }
 
-TEST(Binding, AnUndeclaredResourceIsRefused) {
+TEST(Binding, UndeclaredResourceIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::Buffer declared = graph.buffer({"declared", 64}),
@@ -172,7 +195,7 @@ TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
         Failure::internal, {"pass 'lonely'", "wants 4 bytes of push constants, got 8"});
 }
 
-TEST(Binding, AnUnknownConstantIsRefused) {
+TEST(Binding, UnknownConstantIsRefused) {
     test::expect_refused(
         [] {
             dispatch({"tests/spin.comp", {{"speed", 1u}}}, [](graph::Commands&, graph::Buffer) {});

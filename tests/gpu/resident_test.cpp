@@ -1,5 +1,5 @@
-// A scene that stays on the device: what is written of it, which hierarchies are made, and that
-// pictures cannot tell it from one that was made for the frame.
+// Tests of a scene that stays on the device: which buffers are written, and which BVHs are built.
+// Its pictures must equal those of a scene made for the frame.
 #include "support/device.hpp"
 #include "support/numbers.hpp"
 #include "support/scenes.hpp"
@@ -11,30 +11,32 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{24, 24};
+constexpr uvec2 kResidentSize{24, 24};
 
 gpu::Device& device() { return test::bench().device; }
 
-/// What the resident scene shows: its linear picture, byte for byte.
-std::vector<std::byte> picture(const render::GpuScene& scene, const std::string& technique) {
+/// Returns the linear picture of the resident scene as bytes.
+std::vector<std::byte> resident_picture(const render::GpuScene& scene,
+                                        const std::string& technique) {
     auto& [device, pipelines] = test::bench();
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
-    const reflect::Outputs outputs = test::add_technique(graph, {scene, kSize, ""}, technique);
+    const reflect::Outputs outputs = test::add_technique(graph, {scene, kResidentSize, ""},
+                                                         technique);
     graph.mark_output(outputs.hdr);
     scene.prepare();
     test::run(runner, graph);
     return runner.read(outputs.hdr);
 }
 
-/// A room that is changed and shown.
+/// A test room on the device whose objects, materials and camera tests change.
 struct Live {
     explicit Live(std::size_t slots = 1)
         : now(test::room(3, 2)), camera(now.cameras.front()), resident(device(), now, slots) {}
-    /// Returns the number of writes.
+    /// Writes the changes to the device. Returns the number of buffer writes.
     std::size_t update(std::size_t slot = 0) {
         const std::size_t before = resident.uploads();
-        resident.update(now, camera, kSize, ambient, slot);
+        resident.update(now, camera, kResidentSize, ambient, slot);
         return resident.uploads() - before;
     }
     dvec4& place(std::size_t object) { return now.objects[object].world_from_object[3]; }
@@ -50,7 +52,7 @@ struct Live {
     render::GpuScene resident;
 };
 
-TEST(Resident, WritesWhatDiffersAndNothingElse) {
+TEST(Resident, OnlyChangedBuffersAreWritten) {
     Live live;
     EXPECT_EQ(live.update(), 12u) << "all lists but the empty ones of what moves and of the sky";
     EXPECT_EQ(live.update(), 0u);
@@ -63,49 +65,50 @@ TEST(Resident, WritesWhatDiffersAndNothingElse) {
     live.now.materials[3].emission.x = 5;
     EXPECT_EQ(live.update(), 2u) << "surfaces, lights";
     live.move_ball({.1, 0, 0});
-    live.update(); // it now lies among what moves
+    live.update(); // the ball now belongs to the moving objects
     live.move_ball({.1, 0, 0});
     EXPECT_LE(live.update(), 7u) << "its vertices (up to 4 parts), surfaces, probes, views";
     EXPECT_EQ(live.update(), 0u);
 }
 
-TEST(Resident, HierarchiesAreMadeForThoseWhoTrace) {
+TEST(Resident, HierarchiesAreBuiltOnlyForTracingTechniques) {
     Live live;
     live.update();
-    picture(live.resident, "parallax:face=16,shadow_map=16");
+    resident_picture(live.resident, "parallax:face=16,shadow_map=16");
     EXPECT_EQ(live.resident.hierarchies_built(), 0u);
     EXPECT_EQ(live.resident.hierarchy_ms(), 0);
     for (int frame = 0; frame < 3; ++frame) {
         live.update();
-        picture(live.resident, "raytrace");
+        resident_picture(live.resident, "raytrace");
         EXPECT_EQ(live.resident.hierarchies_built(), 1u);
     }
     EXPECT_EQ(live.resident.hierarchies_refitted(), 0u);
     live.move_ball({.1, .1, 0});
     live.update();
-    picture(live.resident, "raytrace");
+    resident_picture(live.resident, "raytrace");
     EXPECT_EQ(live.resident.hierarchies_built(), 1u);
     EXPECT_EQ(live.resident.hierarchies_refitted(), 1u);
-    for (std::size_t ball = 0; ball < 3; ++ball) // out of the room, to all sides
+    // Move three balls out of the room, along three axes.
+    for (std::size_t ball = 0; ball < 3; ++ball)
         live.place(live.now.objects.size() - 3 + ball)[static_cast<int>(ball)] += 30;
     live.update();
-    picture(live.resident, "raytrace");
+    resident_picture(live.resident, "raytrace");
     EXPECT_EQ(live.resident.hierarchies_built(), 2u) << "a refit twice as bad is none";
     EXPECT_GT(live.resident.update_ms(), 0);
     EXPECT_GT(live.resident.hierarchy_ms(), 0);
 }
 
-/// Draws one of the changes that a program may make.
+/// Makes one random change of the kinds that a program may make.
 void change(Live& live, test::Numbers& numbers) {
     const std::size_t object = numbers.below(live.now.objects.size());
     const dvec3 by = .2 * dvec3(numbers.in_cube());
     switch (numbers.below(8)) {
     case 0: live.camera.eye += by; break;
     case 1: live.move_ball(by); break;
-    case 2: live.place(object) += dvec4(by, 0); break; // lamps too
+    case 2: live.place(object) += dvec4(by, 0); break; // move any object, lamps too
     case 3: live.now.objects[object].material = numbers.below(live.now.materials.size()); break;
     case 4: live.now.materials[numbers.below(3)].albedo.y = numbers.unit(); break;
-    case 5: // one more light without a surface, or the last one moves
+    case 5: // add a light without a surface, or move the last one
         if (live.now.punctual.empty() || numbers.below(2) == 0)
             live.now.punctual.push_back(
                 {.kind = static_cast<scene::Punctual::Kind>(numbers.below(3)),
@@ -122,7 +125,7 @@ void change(Live& live, test::Numbers& numbers) {
     }
 }
 
-TEST(Resident, ShowsWhatASceneMadeForTheFrameShows) {
+TEST(Resident, ChangedSceneEqualsASceneMadeForTheFrame) {
     constexpr std::size_t kSlots = 3;
     Live live(kSlots);
     live.update();
@@ -132,16 +135,18 @@ TEST(Resident, ShowsWhatASceneMadeForTheFrameShows) {
         change(live, numbers);
         live.update(step % kSlots);
         render::GpuScene fresh(device(), rest);
-        fresh.update(live.now, live.camera, kSize, live.ambient);
+        fresh.update(live.now, live.camera, kResidentSize, live.ambient);
         for (const char* technique : {"raytrace", "parallax:face=16,shadow_map=16"})
-            ASSERT_EQ(picture(live.resident, technique), picture(fresh, technique))
+            ASSERT_EQ(resident_picture(live.resident, technique),
+                      resident_picture(fresh, technique))
                 << technique << ", step " << step;
     }
     EXPECT_GT(live.resident.hierarchies_refitted(), 2u);
 }
 
-/// Of several things in one update, more than is compared at a time.
-TEST(Resident, RaysSeeAllThatTurned) {
+/// Turns two meshes in one update. Together they have more triangles than the update compares at a
+/// time.
+TEST(Resident, RaysSeeAllTurnedMeshes) {
     scene::Scene now = test::room(0, 1);
     for (const double x : {-.4, .4}) {
         scene::add_ball(now, "fine", 0, dvec3(x, 0, 0), .3);
@@ -149,28 +154,28 @@ TEST(Resident, RaysSeeAllThatTurned) {
     }
     render::GpuScene live(device(), now, 1), fresh(device(), now, 1);
     const scene::Camera camera = now.cameras.front();
-    live.update(now, camera, kSize, .05);
-    const std::vector<std::byte> before = picture(live, "raytrace");
+    live.update(now, camera, kResidentSize, .05);
+    const std::vector<std::byte> before = resident_picture(live, "raytrace");
     for (std::size_t object = now.objects.size() - 2; object < now.objects.size(); ++object) {
         dmat4& place = now.objects[object].world_from_object;
         place = dmat4(place[1], -place[0], place[2], place[3]);
     }
-    live.update(now, camera, kSize, .05);
-    fresh.update(now, camera, kSize, .05);
-    EXPECT_NE(picture(live, "raytrace"), before);
-    EXPECT_EQ(picture(live, "raytrace"), picture(fresh, "raytrace"));
+    live.update(now, camera, kResidentSize, .05);
+    fresh.update(now, camera, kResidentSize, .05);
+    EXPECT_NE(resident_picture(live, "raytrace"), before);
+    EXPECT_EQ(resident_picture(live, "raytrace"), resident_picture(fresh, "raytrace"));
 }
 
-/// 50 million triangles: where copies cannot share their mesh's, refused by their count, before a
-/// vertex is made.
-TEST(Resident, AndASceneBeyondTheDeviceIsRefused) {
+/// Tests a scene of 50 million triangles. Its copies cannot share the trees of their mesh, so the
+/// scene is refused for its number of triangles before any vertex is made.
+TEST(Resident, SceneTooLargeForTheDeviceIsRefused) {
     scene::Scene scene = test::room(0, 1);
     scene::add_ball(scene, "ball", 0, dvec3(0), .5);
-    scene.meshes.back() = scene::ball("ball", 7); // 65,536 triangles
+    scene.meshes.back() = scene::ball("ball", 7); // a mesh of 65,536 triangles
     scene.objects.resize(800, scene.objects.back());
     EXPECT_NO_THROW(render::GpuScene(device(), scene)) << "one mesh";
     for (scene::Object& object : scene.objects)
-        object.world_from_object[1].x = 1e3; // more than a float turns a ray by
+        object.world_from_object[1].x = 1e3; // a shear too large to transform rays in floats
     try {
         render::GpuScene refused(device(), scene);
         ADD_FAILURE() << "not refused";
@@ -189,8 +194,8 @@ std::vector<std::uint32_t> words(const gpu::Buffer& buffer, std::size_t count) {
     return result;
 }
 
-/// What a slot binds stays as it was written until the slot itself writes again.
-TEST(Resident, FramesInFlightKeepWhatTheyWereRecordedWith) {
+/// The buffer that a slot binds must keep its content until that slot writes again.
+TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kSlots = 3, kWords = 9000;
     render::Resident list("list", gpu::BufferUse::plain, kSlots);
     std::vector<std::uint32_t> now(kWords, 1);
@@ -211,7 +216,7 @@ TEST(Resident, FramesInFlightKeepWhatTheyWereRecordedWith) {
     EXPECT_LE(list.copy_count(), kSlots);
 }
 
-TEST(Resident, WritesTheParts) {
+TEST(Resident, OnlyChangedPartsOfABufferAreWritten) {
     render::Resident list("list", gpu::BufferUse::plain, 1);
     std::vector<std::uint32_t> now(100000, 1);
     list.set(now);

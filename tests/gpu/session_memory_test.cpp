@@ -1,5 +1,5 @@
-// Bytes in use over many frames of a session. In a process of its own: what the driver's threads
-// have not given back yet of other tests' sessions comes and goes by a megabyte.
+// Tests that a session's host memory does not grow over many frames. The test runs in a process of
+// its own, because driver threads of other sessions free about a megabyte at any time.
 #include "support/rendering.hpp"
 
 #include <malloc.h>
@@ -11,12 +11,13 @@ namespace {
 
 using namespace catoptric;
 
-TEST(Session, MemoryIsFlatOverManyFrames) {
+TEST(Session, HostMemoryIsFlatOverManyFrames) {
     const scene::Scene scene = test::room(2, 1);
     app::FrameSpec spec = test::request(scene, {"reuse:face=8,shadow_map=8"}, {16, 16});
     app::Session session(test::engine(), scene);
     constexpr int kFrames = 2000;
-    // The least of many readings: what the driver's threads have not given back yet is no leak.
+    // The test compares the smallest of many readings, because memory that driver threads have not
+    // freed yet is no leak.
     std::size_t early = std::numeric_limits<std::size_t>::max(), late = early;
     for (int k = 1; k <= kFrames; ++k) {
         spec.camera.eye.x += k % 2 ? .01 : -.01;

@@ -1,5 +1,5 @@
-// A scene that stays on the device: whatever is changed in it, the next frame shows it as a session
-// that never knew it otherwise, and nothing piles up.
+// Tests of scenes that stay on the device. After any change the next frame must equal that of a new
+// session with the changed scene. No memory or work may accumulate.
 #include "scene/load.hpp"
 #include "support/rendering.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{48, 40};
+constexpr uvec2 kSessionSize{48, 40};
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
@@ -21,10 +21,10 @@ double milliseconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 app::FrameSpec spec_of(const scene::Scene& scene, const std::string& technique) {
-    return test::request(scene, {technique}, kSize);
+    return test::request(scene, {technique}, kSessionSize);
 }
 
-/// Draws changes of everything that can be changed.
+/// Makes random changes of everything that a session allows to change.
 class Changer {
 public:
     explicit Changer(std::uint64_t seed) : random_(seed) {}
@@ -69,9 +69,10 @@ private:
     std::mt19937_64 random_;
 };
 
-TEST(Session, ChangedShowsWhatAFreshOneShows) {
+TEST(Session, ChangedSceneEqualsAFreshSession) {
     Changer draw(11);
-    // A scene in which something moves is posed for each instant, in a copy of its own.
+    // Test a scene with motion too, because a session copies such a scene and moves its objects for
+    // each instant.
     for (const auto& [technique, moves] : {std::pair{std::string("pyramid:face=16"), false},
                                            {"raytrace", false},
                                            {"raytrace", true}}) {
@@ -98,7 +99,7 @@ TEST(Session, ChangedShowsWhatAFreshOneShows) {
     }
 }
 
-TEST(Session, RaysMeetOneThingAfterAnotherWhereItMovedTo) {
+TEST(Session, RaysHitEachObjectWhereItWasMoved) {
     const scene::Scene at_rest = test::room(3, 2);
     const app::FrameSpec spec = spec_of(at_rest, "raytrace");
     app::Session session(test::engine(), at_rest);
@@ -116,20 +117,21 @@ TEST(Session, RaysMeetOneThingAfterAnotherWhereItMovedTo) {
     }
 }
 
-TEST(Session, KeepsHistoryOverAChangeAndForgetsItAtACut) {
+TEST(Session, HistorySurvivesAChangeAndEndsAtACut) {
     const scene::Scene scene = test::room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
     const measure::Picture first = session.frame(spec).hdr(), second = session.frame(spec).hdr();
     EXPECT_FALSE(test::same_bytes(first, second)) << "mirrors in mirrors are black at first";
-    session.change(scene::set_material(0, session.scene().materials[0])); // to what it is
+    // This edit changes nothing.
+    session.change(scene::set_material(0, session.scene().materials[0]));
     EXPECT_FALSE(test::same_bytes(session.frame(spec).hdr(), first)) << "history was lost";
     session.forget();
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first));
 }
 
-/// Sequences that take turns in a session show what each shows alone.
-TEST(Session, ASequenceThatWasSetAsideGoesOn) {
+/// Several sequences take turns in one session. Each must show what it shows alone.
+TEST(Session, ResumedSequenceContinues) {
     const scene::Scene scene = test::room(3, 1);
     app::Session session(test::engine(), scene), alone(test::engine(), scene);
     const std::string techniques[] = {"reuse:face=16", "reuse:face=auto", "raytrace"};
@@ -154,22 +156,22 @@ TEST(Session, ASequenceThatWasSetAsideGoesOn) {
         << "without one that goes on, a frame begins anew";
 }
 
-/// What was captured in other units is no history.
-TEST(Session, ASequenceOfOtherUnitsBeginsAnew) {
+/// A capture in other scene units cannot serve as history.
+TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const scene::Scene scene = test::room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
     session.frame(spec), session.frame(spec);
     app::Sequence sequence = session.suspend();
     dmat4 far = scene.objects.back().world_from_object;
-    far[3] += dvec4(20, 0, 0, 0); // so far that the scene's units are others
+    far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
     session.resume(std::move(sequence));
     app::Session fresh(test::engine(), session.scene());
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
 }
 
-TEST(Session, OtherTechniquesBeginWithoutHistoryAndAFrameAsideLeavesItAlone) {
+TEST(Session, FrameOfAnotherTechniqueDropsHistoryUnlessMarkedToKeepIt) {
     const scene::Scene scene = test::room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::FrameSpec aside = spec_of(scene, "raytrace");
@@ -184,7 +186,7 @@ TEST(Session, OtherTechniquesBeginWithoutHistoryAndAFrameAsideLeavesItAlone) {
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first)) << "another began in between";
 }
 
-TEST(Session, WritesNothingForAFrameThatStands) {
+TEST(Session, StillFramesWriteNothing) {
     const scene::Scene scene = test::room(2, 1);
     app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
@@ -196,7 +198,7 @@ TEST(Session, WritesNothingForAFrameThatStands) {
     EXPECT_EQ(session.counts().updates, 2u);
 }
 
-TEST(Session, ReadsAFrameUntilTheNext) {
+TEST(Session, FrameCanBeReadUntilTheNextFrame) {
     const scene::Scene scene = test::room(1, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
@@ -207,7 +209,7 @@ TEST(Session, ReadsAFrameUntilTheNext) {
     test::expect_refused([&] { old.hdr(); }, Failure::internal, {"frame 1", "frame 2"});
 }
 
-TEST(Session, RefusesWhatMeansNothing) {
+TEST(Session, InvalidEditsAndFramesAreRefused) {
     const scene::Scene scene = test::room(1, 1);
     app::Session session(test::engine(), scene);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
@@ -227,7 +229,7 @@ TEST(Session, RefusesWhatMeansNothing) {
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), untouched.frame(spec).hdr()));
 }
 
-TEST(Session, ShowsTheSameHoweverManyFramesAreOnTheirWay) {
+TEST(Session, PicturesDoNotDependOnFramesInFlight) {
     const scene::Scene scene = test::room(3, 1);
     std::vector<std::vector<measure::Picture>> seen;
     for (const std::uint32_t in_flight : {1u, 2u, 3u}) {
@@ -240,7 +242,7 @@ TEST(Session, ShowsTheSameHoweverManyFramesAreOnTheirWay) {
             spec.camera.eye.x += .02 * (k / 2);
             frames.push_back(session.frame(spec));
             if (frames.size() < in_flight) continue;
-            pictures.push_back(frames.front().hdr()); // the oldest that is still there
+            pictures.push_back(frames.front().hdr()); // the oldest frame that can still be read
             frames.erase(frames.begin());
         }
         for (const app::Frame& frame : frames) pictures.push_back(frame.hdr());
@@ -269,8 +271,8 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
     }
 }
 
-TEST(Session, OnlyWhoTracesPaysForMovingTrees) {
-    const scene::Scene scene = scene::cornell_mirrors(); // in which a ball moves
+TEST(Session, OnlyTracingTechniquesRefitTrees) {
+    const scene::Scene scene = scene::cornell_mirrors(); // a scene with a moving ball
     for (const std::string technique : {"parallax:face=16", "raytrace"}) {
         app::Session session(test::engine(), scene);
         for (int k = 0; k < 5; ++k) {
@@ -285,9 +287,9 @@ TEST(Session, OnlyWhoTracesPaysForMovingTrees) {
     }
 }
 
-/// Work of the host, and the time from submit to the end, are apart: both fit into what a frame
-/// takes.
-TEST(Session, WhatIsWaitedIsNoWork) {
+/// Tests that the host's work time excludes the time from submit to the end of the frame. The sum
+/// of both may not exceed the whole frame's duration.
+TEST(Session, WaitingTimeIsNotHostWork) {
     const scene::Scene scene = scene::cornell_mirrors();
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
@@ -306,15 +308,16 @@ TEST(Session, WhatIsWaitedIsNoWork) {
     }
 }
 
-/// Whoever comes after the end waits for nothing, and whoever finds all places taken for another
-/// frame.
-TEST(Session, WaitsOnlyForWhatHasNotEnded) {
+/// A caller that asks after the frame has ended waits for nothing. A new frame for which no slot is
+/// free waits for an older frame.
+TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
     const scene::Scene scene = scene::cornell_mirrors();
     app::FrameSpec spec = spec_of(scene, "raytrace");
     spec.size = {256, 256};
     app::Session two(test::engine(), scene, 2), one(test::engine(), scene);
     int ended = 0, taken = 0;
-    for (int k = 0; k < 5; ++k) { // some, since others may take the processor at any time
+    // Try several times, because other processes may use the processor at any time.
+    for (int k = 0; k < 5; ++k) {
         const app::Frame first = two.frame(spec), second = two.frame(spec);
         second.times();
         ended += first.times().wait_ms < first.times().gpu_ms;
@@ -327,7 +330,7 @@ TEST(Session, WaitsOnlyForWhatHasNotEnded) {
     EXPECT_GT(taken, 0);
 }
 
-TEST(Session, TellsWhatWasNeededOnce) {
+TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     const scene::Scene scene = test::room(2, 1);
     const auto begin = std::chrono::steady_clock::now();
     app::Session session(test::engine(), scene);
@@ -352,7 +355,7 @@ TEST(Session, TellsWhatWasNeededOnce) {
     EXPECT_EQ(session.setup().hierarchy_ms, traced.hierarchy_ms);
 }
 
-TEST(Session, PipelinesAreCompiledOnceAnEngine) {
+TEST(Session, EngineCompilesEachPipelineOnce) {
     const scene::Scene scene = test::room(1, 1);
     const auto begin = std::chrono::steady_clock::now();
     app::Engine engine({.device = test::wanted_device()});
@@ -372,12 +375,12 @@ TEST(Session, PipelinesAreCompiledOnceAnEngine) {
     EXPECT_GT(engine.compiled().ms, once.ms);
 }
 
-TEST(Session, OtherUnitsWaitForFramesUnderWay) {
+TEST(Session, ChangeOfSceneUnitsWaitsForFramesInFlight) {
     scene::Scene scene = test::room(2, 1);
     app::Session session(test::engine(), scene, 3);
     app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
     spec.size = {128, 128};
-    for (int k = 0; k < 4; ++k) { // away, and so far that the scene's units are others
+    for (int k = 0; k < 4; ++k) { // move the ball so far away that the scene units change
         dmat4 place = session.scene().objects.back().world_from_object;
         place[3] += dvec4(20 + 100 * k, 0, 0, 0);
         const app::Frame before = session.frame(spec);
@@ -388,7 +391,7 @@ TEST(Session, OtherUnitsWaitForFramesUnderWay) {
     }
 }
 
-TEST(Session, PlansAShapeOnce) {
+TEST(Session, GraphOfAShapeIsPlannedOnce) {
     const scene::Scene scene = test::room(2, 1);
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = spec_of(scene, "reuse:face=16");

@@ -1,4 +1,5 @@
-// Buffers on a device whose memory cannot be mapped hold what was written, as others do.
+// Tests of buffers in memory that the host cannot map. Written through staging buffers, they must
+// hold the same data as mapped buffers.
 #include "gpu/buffer.hpp"
 #include "render/passes.hpp"
 #include "support/device.hpp"
@@ -18,7 +19,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true),
                          [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
 
-TEST_P(Staging, WhatIsWrittenIsRead) {
+TEST_P(Staging, BufferReturnsTheWrittenData) {
     ASSERT_EQ(device().staged(), GetParam());
     std::vector<std::uint32_t> words(1000);
     std::iota(words.begin(), words.end(), 17u);
@@ -32,7 +33,7 @@ TEST_P(Staging, WhatIsWrittenIsRead) {
     EXPECT_EQ(std::memcmp(read.data(), words.data(), read.size()), 0);
 }
 
-TEST_P(Staging, AWriteBeyondTheEndIsRefused) {
+TEST_P(Staging, WriteBeyondTheEndIsRefused) {
     gpu::Buffer buffer(device(), "short", 32, gpu::BufferUse::plain);
     const std::vector<std::uint32_t> words(5);
     test::expect_refused([&] { buffer.write(16, std::as_bytes(std::span(words))); },
@@ -40,7 +41,8 @@ TEST_P(Staging, AWriteBeyondTheEndIsRefused) {
     buffer.write(12, std::as_bytes(std::span(words)));
 }
 
-/// Before memory is asked for. A list of words may have as many texels as one of four floats.
+/// Tests the limit on texels, which is checked before memory is allocated. The limit counts texels,
+/// whether a texel is one word or four floats.
 TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
     for (const auto& [use, bytes] : {std::pair{gpu::BufferUse::words, 4u},
                                      {gpu::BufferUse::quads, 16u},
@@ -53,7 +55,7 @@ TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
     }
 }
 
-TEST_P(Staging, AnEmptyBufferCanBeMadeAndWritten) {
+TEST_P(Staging, EmptyBufferCanBeMadeAndWritten) {
     gpu::Buffer buffer;
     gpu::upload(device(), buffer, "empty", std::vector<float>{}, gpu::BufferUse::plain);
     EXPECT_TRUE(buffer.handle());
@@ -70,7 +72,7 @@ TEST_P(Staging, UploadGrowsTheBuffer) {
     EXPECT_EQ(std::memcmp(buffer.read().data(), longer.data(), 400), 0);
 }
 
-/// 40 MB are more than the whole staging ring holds.
+/// The write of 40 MB is larger than the staging ring.
 TEST_P(Staging, LargeWritesArriveWhole) {
     std::vector<std::uint32_t> words(10'000'003);
     std::iota(words.begin(), words.end(), 3u);
@@ -79,7 +81,7 @@ TEST_P(Staging, LargeWritesArriveWhole) {
     EXPECT_EQ(std::memcmp(buffer.read().data(), words.data(), 4 * words.size()), 0);
 }
 
-TEST_P(Staging, OverlappingWritesHappenInTheirOrder) {
+TEST_P(Staging, OverlappingWritesHappenInOrder) {
     std::vector<std::uint32_t> expected(1000, 0u);
     gpu::Buffer buffer(device(), "list", 4 * expected.size(), gpu::BufferUse::plain);
     buffer.write(std::span<const std::uint32_t>(expected));
@@ -94,8 +96,9 @@ TEST_P(Staging, OverlappingWritesHappenInTheirOrder) {
     EXPECT_EQ(std::memcmp(read.data(), expected.data(), read.size()), 0);
 }
 
-/// A buffer that is emptied or replaced ends its copies on the device that it had.
-TEST_P(Staging, BuffersMayGoRightAfterAWrite) {
+/// Tests that a buffer can be destroyed or replaced right after a write. Its pending copies on the
+/// device are finished first.
+TEST_P(Staging, BufferCanBeDestroyedRightAfterAWrite) {
     const std::vector<std::uint32_t> words(50'000, 7u);
     gpu::Buffer kept(device(), "kept", 4 * words.size(), gpu::BufferUse::plain);
     for (int k = 0; k < 5; ++k) {
@@ -112,8 +115,9 @@ TEST_P(Staging, BuffersMayGoRightAfterAWrite) {
     device().check_validation();
 }
 
-/// Vertices, texel buffers and read-back: a whole picture by way of staging buffers.
-TEST(StagedScene, PictureEqualsTheMappedOne) {
+/// Renders a whole picture with staged and mapped buffers, which covers vertices, texel buffers and
+/// read-back.
+TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
     const auto picture = [](bool staged) {
         auto& [device, pipelines] = test::bench(staged);
         const scene::Scene room = test::room(0, 1);

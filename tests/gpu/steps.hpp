@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-/// Frames of known numbers: shaders/tests/start.comp and step.comp on small images of one float.
+/// Frames with known numbers: passes of shaders/tests/start.comp and step.comp on small images of
+/// one float, and the same computations in C++.
 namespace test {
 
 using graph::Use;
@@ -15,7 +16,7 @@ inline graph::Image add_image(graph::Graph& graph, const std::string& name) {
     return graph.image({name, Format::r32f, kWidth, kHeight});
 }
 
-/// after = number * (1 + where)
+/// Adds a pass that sets each texel of `after` to number * (1 + the texel's index).
 inline void add_start(graph::Graph& graph, graph::Image after, float number) {
     graph.pass("start/" + graph.images()[after.id].name)
         .writes(after, Use::storage_write)
@@ -41,7 +42,7 @@ inline void add_step(graph::Graph& graph, const std::string& name, graph::Image 
         });
 }
 
-/// What start.comp makes.
+/// Returns the values that start.comp writes.
 inline std::vector<float> started(float number) {
     std::vector<float> values;
     for (std::size_t i = 0; i < kWidth * kHeight; ++i)
@@ -49,7 +50,7 @@ inline std::vector<float> started(float number) {
     return values;
 }
 
-/// What step.comp makes of the values.
+/// Returns the values that step.comp computes from `values`.
 inline std::vector<float> stepped(std::vector<float> values, float number) {
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = std::fmod(3 * values[i] + static_cast<float>(i) + number, 1048576.0f);

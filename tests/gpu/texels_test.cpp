@@ -1,4 +1,4 @@
-// What C++ puts into lists of texels is what GLSL reads out of them, member by member.
+// Tests that GLSL reads from texel lists the same structures that C++ wrote, member by member.
 #include "render/texels.hpp"
 #include "support/device.hpp"
 
@@ -8,7 +8,8 @@ namespace {
 
 using namespace catoptric;
 
-/// A structure whose words all differ. As floats they are ordinary numbers.
+/// Returns a structure whose words are all different. Read as floats, the words are ordinary
+/// numbers near 1.
 template <typename T>
 T filled(std::uint32_t& next) {
     std::array<std::uint32_t, sizeof(T) / 4> words{};
@@ -25,7 +26,7 @@ void append(const T& value, std::vector<std::uint32_t>& words) {
     std::memcpy(&words[before], &value, sizeof value);
 }
 
-TEST(Texels, HoldEveryMemberOfTheOneThatIsAskedFor) {
+TEST(Texels, EveryMemberOfAStructureIsRead) {
     constexpr std::uint32_t kAsked = 2;
     std::uint32_t next = 0;
     std::vector<shared::Surface> surfaces;
@@ -39,9 +40,10 @@ TEST(Texels, HoldEveryMemberOfTheOneThatIsAskedFor) {
         probes.push_back(filled<shared::Probe>(next));
         probes.back().kind = i % 3;
         details.push_back(filled<shared::MaterialParameters>(next));
-        details.back().flags = 1 + i; // as a float too small for some devices
+        // Read as a float, this word is a denormal number, which some devices flush to zero.
+        details.back().flags = 1 + i;
         attributes.push_back(filled<shared::Attribute>(next));
-        texels.push_back(0x7fc00001u + i); // as a float no number
+        texels.push_back(0x7fc00001u + i); // read as a float, this is NaN
     }
     std::vector<std::uint32_t> expected;
     append(surfaces[kAsked], expected), append(probes[kAsked], expected);

@@ -1,4 +1,5 @@
-// Engines know nothing of each other: two threads with one each show what one thread shows.
+// Tests that engines are independent: two threads with an engine each must render the same pictures
+// as one thread.
 #include "app/session.hpp"
 #include "scene/load.hpp"
 
@@ -9,7 +10,7 @@ namespace {
 
 using namespace catoptric;
 
-measure::Picture picture(app::Engine& engine, const scene::Scene& scene) {
+measure::Picture threads_picture(app::Engine& engine, const scene::Scene& scene) {
     app::Session session(engine, scene);
     measure::Picture last;
     for (const char* technique : {"parallax:face=64", "secant:face=64", "parallax:face=64"})
@@ -21,14 +22,14 @@ measure::Picture picture(app::Engine& engine, const scene::Scene& scene) {
     return last;
 }
 
-TEST(Threads, EachHasAnEngine) {
+TEST(Threads, TwoEnginesInTwoThreadsRenderTheSame) {
     const scene::Scene scene = scene::cornell_mirrors();
     app::Engine one({}), other({});
-    const measure::Picture truth = picture(one, scene);
+    const measure::Picture truth = threads_picture(one, scene);
     for (int round = 0; round < 3; ++round) {
         measure::Picture here, there;
-        std::thread thread([&] { there = picture(other, scene); });
-        here = picture(one, scene);
+        std::thread thread([&] { there = threads_picture(other, scene); });
+        here = threads_picture(one, scene);
         thread.join();
         EXPECT_TRUE(here.pixels == truth.pixels);
         EXPECT_TRUE(there.pixels == truth.pixels);

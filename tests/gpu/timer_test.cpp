@@ -1,5 +1,6 @@
-// Time stamps are true: passes add up to the frame, in order, and four times the work takes about
-// four times as long. Only ratios are asserted, never a time.
+// Tests of GPU timestamps: passes lie in order and add up to the frame, and four times the work
+// takes about four times as long. The tests compare ratios only, because times depend on the
+// machine.
 #include "app/compare_row.hpp"
 #include "measure/statistics.hpp"
 #include "support/rendering.hpp"
@@ -50,7 +51,7 @@ TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
     EXPECT_LE(share, 1.01);
 }
 
-TEST(Timing, PipelinedSpansAreInOrderToo) {
+TEST(Timing, PipelinedPassesLieWithinTheFrame) {
     app::Request request = test::request(test::room(2, 1), {"reuse"}, {64, 64});
     request.timing = app::Timing::pipelined;
     request.frames = 3;
@@ -85,7 +86,7 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
     EXPECT_GT(row.passes.front().gpu_ms.median, 0);
 }
 
-TEST(Timing, FourTimesTheWorkReadsAboutFourTimes) {
+TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     constexpr std::uint32_t kGroups = 256;
     std::vector<double> one, four;

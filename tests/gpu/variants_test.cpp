@@ -1,4 +1,5 @@
-// Variants of shaders that a device's profile chooses: each is in force, and none changes a byte.
+// Tests of shader variants that a device profile chooses. Each variant must take effect, and none
+// may change a byte of a picture.
 #include "gpu/variants.hpp"
 #include "render/gpu_scene.hpp"
 #include "support/rendering.hpp"
@@ -11,7 +12,8 @@ using namespace catoptric;
 using testing::Contains;
 using testing::Not;
 
-/// Names of what the tracer's shader is bound to when it is built with these constants.
+/// Returns the names of the bindings of the ray tracing shader when it is built with these
+/// constants.
 std::vector<std::string> bindings_with(const gpu::Constants& constants) {
     std::vector<std::string> names;
     for (const gpu::Binding& binding :
@@ -20,7 +22,7 @@ std::vector<std::string> bindings_with(const gpu::Constants& constants) {
     return names;
 }
 
-TEST(Variants, EachIsAConstantOfTheTracer) {
+TEST(Variants, EachVariantIsAConstantOfTheRayTracer) {
     std::vector<std::string> known;
     for (const char* build : {"raytrace.comp", "raytrace.comp#listed"})
         for (const gpu::Constant& constant :
@@ -30,7 +32,7 @@ TEST(Variants, EachIsAConstantOfTheTracer) {
         EXPECT_THAT(known, Contains(std::string(variant.constant)));
 }
 
-TEST(Variants, WhatIsNotFetchedFromIsNotBound) {
+TEST(Variants, UnusedNodeBuffersAreNotBound) {
     const std::vector<std::string> texels = bindings_with({}),
                                    stored = bindings_with({{"bvh_in_storage", 1u}});
     if (!test::bench().device.texels_in_storage()) {
@@ -42,13 +44,14 @@ TEST(Variants, WhatIsNotFetchedFromIsNotBound) {
     EXPECT_THAT(stored, Not(Contains("bvh_nodes")));
 }
 
-/// The linear picture of a technique.
-std::vector<vec3> picture(const char* technique, const app::Variants& variants) {
+/// Returns the linear picture of a technique under some variants.
+std::vector<vec3> variants_picture(const char* technique, const app::Variants& variants) {
     app::Engine engine({.device = test::wanted_device(), .validate = true, .variants = variants});
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
     app::Session session(engine, test::with_coarse_balls(scene::cornell_mirrors()));
     app::Request request = test::request(scene::cornell_mirrors(), {technique}, {61, 53});
-    // Another picture before, wherever this one may lie: a pixel that is left out shows it.
+    // Render a brighter picture first. If a variant leaves out a pixel, the old value stays in
+    // memory and the comparison fails.
     request.ambient += .5, request.frames = 3;
     app::run(session, request);
     request.ambient -= .5, request.frames = 1;
@@ -61,21 +64,23 @@ void expect_same_bytes(const std::vector<vec3>& a, const std::vector<vec3>& b) {
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(vec3)), 0);
 }
 
-TEST(Variants, ShowTheSamePictureToTheByte) {
-    const std::vector<vec3> wanted = picture("raytrace:depth=3", {});
+TEST(Variants, EachVariantRendersTheSameBytes) {
+    const std::vector<vec3> wanted = variants_picture("raytrace:depth=3", {});
     for (const gpu::Variant& variant : gpu::variants()) {
         SCOPED_TRACE(variant.name);
-        expect_same_bytes(wanted, picture("raytrace:depth=3", {{std::string(variant.name),
-                                                                std::string(variant.choices[1])}}));
+        expect_same_bytes(
+            wanted, variants_picture("raytrace:depth=3", {{std::string(variant.name),
+                                                           std::string(variant.choices[1])}}));
     }
 }
 
-/// Of pixels on a list, all of them together.
-TEST(Variants, ShowTheSameOfListedPixels) {
+/// Tests all variants together in `hybrid`, which traces only a list of pixels.
+TEST(Variants, AllVariantsTraceListedPixelsTheSame) {
     app::Variants all;
     for (const gpu::Variant& variant : gpu::variants())
         all.emplace_back(variant.name, variant.choices[1]);
-    expect_same_bytes(picture("hybrid:face=16", {}), picture("hybrid:face=16", all));
+    expect_same_bytes(variants_picture("hybrid:face=16", {}),
+                      variants_picture("hybrid:face=16", all));
 }
 
 } // namespace

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# exports.sh LIBRARY INCLUDE_FOLDER: what the library shows is what its installed headers mark with CATOPTRIC_API, and
-# nothing else; what they declare without defining it is marked.
+# exports.sh LIBRARY INCLUDE_FOLDER: checks that the library exports exactly the functions that its installed headers
+# mark with CATOPTRIC_API. Each function that these headers declare without a definition must have the mark.
 set -euo pipefail
 headers=$(find "$2/catoptric" -name '*.hpp' ! -name export.hpp)
 
-# Names of functions, without namespace, class and arguments; types of exceptions are templates and inline.
+# Compare names of functions without namespace, class and arguments. Types of exceptions are left out, because they are
+# templates and inline.
 shown=$(nm -D --defined-only -C "$1" | cut -d' ' -f3- | sed 's/\[abi:cxx11\]//')
 strangers=$(grep -Ev '^(typeinfo( name)? for |vtable for )?catoptric::' <<<"$shown" || true)
 [[ -z $strangers ]] || { printf 'exported, though not of catoptric:\n%s\n' "$strangers"; exit 1; }

@@ -1,5 +1,5 @@
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -P run.cmake: installs into an empty prefix, builds the outside project
-# against it, each of the installed headers alone, and the samples; runs what came out.
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -P run.cmake: installs the library into an empty prefix. Builds the outside
+# project, each installed header alone and the samples against that prefix. Runs the samples and the installed programs.
 cmake_policy(VERSION 3.25)
 function(step)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
@@ -10,7 +10,7 @@ function(step)
     set(output "${out}" PARENT_SCOPE)
 endfunction()
 
-if(NOT LAUNCHER) # no compiler cache
+if(NOT LAUNCHER) # the build uses no compiler cache
     set(LAUNCHER "")
 endif()
 set(samples hello_mirror own_geometry own_technique live_loop embedded)
@@ -21,7 +21,7 @@ foreach(sample IN LISTS samples)
     file(COPY ${files} DESTINATION ${WORK}/outside)
 endforeach()
 
-# What docs/library.md shows of code is this code.
+# Every block of code in docs/library.md must occur in a sample.
 file(GLOB files ${WORK}/outside/*)
 set(code "")
 foreach(file IN LISTS files)
@@ -51,21 +51,22 @@ endif()
 
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 file(GLOB library ${WORK}/prefix/lib*/libcatoptric.so ${WORK}/prefix/lib/*/libcatoptric.so)
-if(NOT FLAGS) # sanitizers export much
+if(NOT FLAGS) # builds with sanitizers export more names
     step(${SOURCE}/tests/install/exports.sh ${library} ${WORK}/prefix/include)
 endif()
 step(${CMAKE_COMMAND} -S ${WORK}/outside -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
     "-DCMAKE_CXX_FLAGS=${FLAGS}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
 step(${CMAKE_COMMAND} --build ${WORK}/build)
-# An outside program has not this tree's leak suppressions (cmake/sanitizer_support.cpp), and the driver
-# leaks: with sanitizers everything but leaks is watched here.
+# Outside programs lack this tree's leak suppressions (cmake/sanitizer_support.cpp), and the driver leaks. With
+# sanitizers, the samples are therefore run without the check for leaks.
 set(environment)
 if(FLAGS)
     set(environment ASAN_OPTIONS=detect_leaks=0)
 endif()
-# Where docs/library.md builds them, so that what they write meets the programs' own names.
+# Samples run in the folder of their programs, as in docs/library.md. A sample must not write a file with the name of a
+# program.
 foreach(sample IN LISTS samples)
-    if(sample STREQUAL embedded) # which has an instance of its own: the layer that watches it writes to stdout
+    if(sample STREQUAL embedded) # makes its own Vulkan instance, whose validation layer writes to stdout
         list(APPEND environment VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation
             VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT)
     endif()
@@ -79,7 +80,7 @@ foreach(file hello.png waves.png waves.glb live.png embedded.png blend-report/re
         message(FATAL_ERROR "the samples wrote no ${file}")
     endif()
 endforeach()
-# With amount=1, and without what parallax has not, the sample's technique is parallax.
+# With amount=1 and lookup=bilinear, the sample's technique `blend` must draw the picture of `parallax`.
 set(images ${WORK}/build/blend-report/images)
 step(${CMAKE_COMMAND} -E compare_files ${images}/blend-amount1-face64-lookupbilinear.exr
     ${images}/parallax-face64.exr)
@@ -91,7 +92,7 @@ foreach(other parallax-face64 blend-amount0-face64)
     endif()
 endforeach()
 step(${WORK}/prefix/bin/catoptric --version)
-step(${WORK}/prefix/bin/catoptric diff ${WORK}/build/hello.png ${WORK}/build/hello.png) # finds its module, too
-if(EXISTS ${BUILD}/catoptric-view) # it is left out where its libraries are missing
+step(${WORK}/prefix/bin/catoptric diff ${WORK}/build/hello.png ${WORK}/build/hello.png) # also loads the image module
+if(EXISTS ${BUILD}/catoptric-view) # not built if its libraries are missing
     step(${WORK}/prefix/bin/catoptric-view --version)
 endif()

@@ -1,6 +1,6 @@
-// A device with the small limits that layer/limits_layer.cpp shows: it draws the same pictures, and
-// refuses what it cannot do. All tests of gpu/ and reflect/ on such a device: ./dev test --label
-// limits-all.
+// Tests on a device with the small limits of layer/limits_layer.cpp. The device must draw the same
+// pictures and refuse settings that it cannot support. `./dev test --label limits-all` runs all
+// tests of gpu/ and reflect/ on such a device.
 #include "cli/program.hpp"
 
 namespace {
@@ -13,7 +13,7 @@ protected:
         process.environment["VK_INSTANCE_LAYERS"] = "VK_LAYER_CATOPTRIC_limits";
         return test::run_process(process);
     }
-    /// Both devices draw the same bytes.
+    /// Renders on the small device and on the usual device. Expects equal bytes.
     void expect_same_picture(Words words) const {
         words.insert(words.end(), {"--validate", "-o", "small.exr"});
         const test::Ended small = on_small_device(quick(words));
@@ -28,19 +28,20 @@ protected:
     }
 };
 
-/// Every list of texels: surfaces, mirrors and their tree, attributes, textures, the environment,
-/// what rays walk.
+/// The three scenes fill every texel buffer: surfaces, mirrors and their tree, attributes,
+/// textures, the environment and the BVH.
 TEST_F(SmallLimits, RayTracerDrawsTheSamePicture) {
     for (const std::string scene : {"cornell-mirrors", "room", "courtyard"})
         expect_same_picture({"render", scene, "--technique", "raytrace"});
 }
 
-TEST_F(SmallLimits, CapturesOfHalfDistancesGiveTheSamePicture) {
+TEST_F(SmallLimits, HalfFloatDistancesGiveTheSamePicture) {
     expect_same_picture({"render", "gallery", "--technique", "naive:face=32"});
     expect_same_picture({"render", "cornell-mirrors", "--technique", "layered:face=32"});
 }
 
-/// Distances of 32-bit floats are filtered by the shader, which rounds otherwise than the driver.
+/// The small device cannot filter 32-bit floats, so the shader filters distances. Its rounding
+/// differs from the driver's.
 TEST_F(SmallLimits, FilteredDistancesGiveNearlyTheSamePicture) {
     for (const std::string technique : {"parallax", "secant", "pyramid", "hybrid"}) {
         Words words = quick({"render", "--technique", technique + ":face=64", "--validate"});
@@ -53,7 +54,7 @@ TEST_F(SmallLimits, FilteredDistancesGiveNearlyTheSamePicture) {
     }
 }
 
-/// 30,000 triangles have 90,000 corners: more than a texel buffer holds there.
+/// 30,000 triangles have 90,000 corners, more than a texel buffer of the small device can hold.
 TEST_F(SmallLimits, SceneOfManyTrianglesIsDrawn) {
     std::string text = "mtllib m.mtl\nusemtl white\n";
     for (int i = 0; i < 30000; ++i) {

@@ -1,5 +1,5 @@
-// Ray tracing of the built-in scene against figures of two independent renderers: ambient 0,
-// 512x512, balls as meshes.
+// Compares ray tracing of the built-in scene with figures from two independent renderers. The
+// ambient light is 0, the picture has 512x512 pixels, and balls are meshes.
 #include "support/outside_figures.hpp"
 
 namespace {
@@ -8,11 +8,11 @@ using namespace catoptric;
 
 using test::expect_share, test::trace;
 
-/// Minutes: 400 samples at six depths.
-TEST(OutsideFigures, MeansAndErrorsOfDepths) {
+/// Takes minutes, because six depths are rendered with 400 samples each.
+TEST(OutsideFigures, MeansAndErrorsOfEachDepthEqualTheFigures) {
     struct Figures {
         int depth;
-        double mean, clamped, rmse; ///< 0: not known
+        double mean, clamped, rmse; ///< 0: no figure is known
         double rmse_share;
     };
     const std::vector<Figures> figures{{0, .108822, .044025, .1031, .05},

@@ -1,9 +1,9 @@
-// What each search is worth, from wherever it is seen.
+// Tests how much each search improves the built-in scene, from all test cameras.
 #include "support/worth.hpp"
 
 namespace {
 
-TEST(Worth, FromEveryPlace) {
+TEST(Worth, SearchesMeetTheirErrorBoundsFromEveryCamera) {
     for (const test::Look& look : test::looks()) {
         SCOPED_TRACE(look.camera.name);
         for (const auto& [search, worth] : test::kWorths) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# bench/machine: what is packed runs elsewhere, a program that fails or hangs stops no other, and one archive says how
-# each ended. Scripts stand in for the programs. Called by CTest: run.sh WORK.
+# Tests bench/machine: a packed folder runs elsewhere, a program that fails or hangs stops no other program, and one
+# archive says how each program ended. Scripts stand in for the programs. Called by CTest: run.sh WORK.
 set -euo pipefail
 source=$(cd "$(dirname "$0")/../.." && pwd)
 work=$1
@@ -10,7 +10,7 @@ cd "$work"
 
 fail() { echo "machine: $*" >&2; exit 1; }
 expect() { grep -qE -- "$1" "$2" || fail "wanted '$1' in $2, found: $(cat "$2")"; }
-stub() { # stub NAME LINE: a program that does this
+stub() { # stub NAME LINE: writes a program that runs this line of shell
     printf '#!/usr/bin/env bash\n%s\n' "$2" >"build/$1"
     chmod +x "build/$1"
 }
@@ -51,9 +51,9 @@ expect 'cornell-mirrors.glb' "$(echo results/reflect-*.log)"
 [[ -e $kit/work/tmp/kept ]] || fail "what programs keep for a while lies outside the folder"
 expect "archive: $kit/results-" said.txt
 
-# The machine's library where it is newer than what was packed, and no other.
+# run.sh must use a library of the machine instead of the packed one only if the machine's is newer.
 rm -rf "$kit"/lib/libz.so* "$kit"/results-*
-expect_library() { # expect_library VERSION LINES: a library packed in this version; how often run.sh says newer
+expect_library() { # expect_library VERSION LINES: packs a library of VERSION; LINES that call the machine's newer
     local unpacked=elsewhere/unpacked
     ln -sf "libz.so.$1" "$kit/lib/libz.so.1"
     env -i "$kit/run.sh" none >said.txt 2>&1 || fail "wanted exit code 0: $(cat said.txt)"
@@ -69,12 +69,12 @@ expect_library() { # expect_library VERSION LINES: a library packed in this vers
 expect_library 1.0.1 1
 expect_library 1.99.0 0
 
-# Only what is asked for, and nothing failed.
+# run.sh must run only the steps that are asked for, and exit with 0 if none of them fails.
 env -i "$kit/run.sh" reflect/a >said.txt 2>&1 || fail "nothing failed: wanted exit code 0: $(cat said.txt)"
 ! grep -q '^gpu/' said.txt || fail "ran what was not asked for: $(cat said.txt)"
 (($(grep -c '^reflect/' said.txt) == $(ls "$source"/tests/reflect/a*_test.cpp | wc -l))) || fail "not all: $(cat said.txt)"
 
-# Without the library of pictures nothing wants it.
+# Without the image module, steps that need it are left out and none fails.
 "$source/bench/machine/pack.sh" build --small small.tar.gz
 tar -tf small.tar.gz >small.txt
 if grep -q catoptric-images small.txt; then fail "--small packed the library of pictures"; fi
@@ -82,7 +82,7 @@ rm "$kit/bin/catoptric-images.so" "$kit"/results-*
 env -i "$kit/run.sh" compare >said.txt 2>&1 || fail "wanted exit code 0: $(cat said.txt)"
 expect '^compare +left-out ' said.txt
 
-# Stopped in the middle: what was done is there.
+# If run.sh is stopped, its archive must hold the steps that were done.
 rm "$kit"/results-*
 env -i "$kit/run.sh" ratios >said.txt 2>&1 &
 for ((i = 0; i < 100; ++i)); do grep -q '^info' said.txt && break; sleep .05; done

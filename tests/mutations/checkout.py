@@ -1,4 +1,4 @@
-"""A checkout in which code is made wrong for a while: builds, runs tests, puts the code back."""
+"""Makes code of a checkout wrong for a while, builds it, runs tests, and restores the code."""
 import contextlib
 import subprocess
 import sys
@@ -14,14 +14,14 @@ def fail(text):
 
 
 def require_clean():
-    """Ends the program if code differs from the last commit, because it is written to and put back."""
+    """Ends the program if code has uncommitted changes, because mutations overwrite and restore files."""
     if subprocess.run(["git", "diff", "--quiet", "HEAD", "--", *CODE]).returncode != 0:
         fail(f"{', '.join(CODE)}: wanted no changes that are not committed; commit or stash them first")
 
 
 @contextlib.contextmanager
 def replaced(texts):
-    """Holds the files of `texts` (path -> text) at these texts within the block and puts them back after it."""
+    """Writes `texts` (path -> text) to files for the time of the block and restores the old texts after it."""
     before = {path: open(path, encoding="utf-8").read() for path in texts}
     try:
         for path, text in texts.items():

@@ -1,11 +1,11 @@
-"""Mutants that universalmutator draws of C++ and GLSL: builds each, runs the tests, and reports the share killed.
+"""Draws mutants of C++ and GLSL code with universalmutator, builds each, runs the tests, and reports the share killed.
 
 mutate.py drawn [--count N] [--seed S] [--folder F...] [--out FILE]
 
-Each folder of code gets a share of the N mutants by its lines, but at least kLeast. A draw is a file (weighted by lines of
-code), a line of it, and one mutant of that line. Mutants that do not compile, or that leave all object code and SPIR-V as
-they are, are written down and drawn again. Results are kept in FILE (out/mutants/seed-S.json) after each mutant, so that
-a run that was interrupted goes on from there.
+Each folder of code gets a share of the N mutants by its lines, but at least kLeast. A draw chooses a file (weighted by
+lines of code), a line of the file, and one mutant of the line. Mutants that do not compile, or that change no
+object code and no SPIR-V, are recorded and replaced by another draw. Results are written to FILE
+(out/mutants/seed-S.json) after each mutant, so that an interrupted run can continue.
 """
 import argparse
 import contextlib
@@ -22,18 +22,18 @@ import time
 
 import checkout
 
-kLeast = 6            # mutants of a folder, at least
-kMostTries = 12       # draws for each counted mutant of a folder
-kTestSeconds = 900    # of a stage
+kLeast = 6            # smallest number of mutants of a folder
+kMostTries = 12       # largest number of draws per counted mutant of a folder
+kTestSeconds = 900    # time limit of a stage
 NOT_RUN = "^(long|clone|fuzz|limits-all)$"
-# Tests in the order in which they are asked, cheap and general first: target to build, tests to run, tests to leave out.
+# Stages of tests, cheap and general ones first: the target to build, the tests to run, and the tests to leave out.
 STAGES = [("unit_test", "^unit$", "^$"), ("gpu_test", "^gpu/", "^$"), ("reflect_test", "^reflect/", "^$"),
           ("all", "^cli/", "^$"), ("all", ".", "^(unit$|gpu/|reflect/|cli/)")]
 RULES = {".cpp": ["universal.rules", "c_like.rules", "cpp.rules"], ".hpp": ["universal.rules", "c_like.rules", "cpp.rules"]}
 
 
 def sources():
-    """Returns the code files of each folder: {folder: [path]}. Shaders for tests are no product."""
+    """Returns the code files of each folder: {folder: [path]}. Leaves out shaders for tests."""
     listed = subprocess.run(["git", "ls-files", *checkout.CODE], capture_output=True, text=True, check=True).stdout.split()
     folders = {}
     for path in listed:
@@ -87,7 +87,7 @@ def draw(files, seed):
 
 
 class Objects:
-    """Hashes of the object files of a build, SPIR-V among them, which is compiled in."""
+    """Hashes of the object files of a build. SPIR-V is compiled into these files."""
 
     def __init__(self):
         self.known = {}
@@ -101,18 +101,18 @@ class Objects:
         return {path: value for path, (_, value) in self.known.items()}
 
     def differ(self):
-        """Whether some object of the product differs from the right code's. Tests may inline headers: they count."""
+        """Returns whether some object file differs from that of the correct code. Object files of tests count too."""
         now = self.hashes()
         return any(now[path] != value for path, value in self.baseline.items())
 
 
 def judge(record, objects):
-    """Builds the mutant that lies in the checkout and runs the tests, until one fails. Adds "outcome" and "by"."""
+    """Builds the mutant in the checkout and runs the tests until one fails. Adds "outcome" and "by" to the record."""
     first = True
     for target, tests, left_out in STAGES:
         targets = [target, "catoptric_cli", "catoptric-view"] if record["file"].startswith("samples/") else [target]
         if not checkout.build(*targets):
-            # A target later than the first can only fail by what it alone compiles.
+            # A later target can only fail in code that no earlier target compiles.
             return record.update(outcome="does not compile")
         if first and not objects.differ():
             return record.update(outcome="same code")
@@ -126,7 +126,7 @@ def judge(record, objects):
 
 
 def report(records, out=sys.stdout):
-    """Prints the share killed by folder, and the survivors."""
+    """Prints the share of killed mutants by folder, and the mutants that survived."""
     print("| folder | killed | survived | share | no compile | same code |\n|---|--:|--:|--:|--:|--:|", file=out)
     folders = sorted({record["folder"] for record in records})
     for folder in [*folders, "all"]:
@@ -161,7 +161,7 @@ def main(arguments):
         checkout.fail("the code that is right does not build")
     objects = Objects()
     os.makedirs(os.path.dirname(store) or ".", exist_ok=True)
-    # Folder by folder in turns, so that what an interrupted run has judged is spread over all of them.
+    # Folders take turns, so that an interrupted run has judged mutants of all folders.
     counted, draws = dict.fromkeys(folders, 0), dict.fromkeys(folders, 0)
     while True:
         open_folders = [folder for folder in folders if counted[folder] < wanted[folder]

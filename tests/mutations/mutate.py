@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Shows that the tests notice wrong code. Called by `./dev mutate`, from the top of a checkout that is built in build/ci.
 
-mutate.py check            whether each rule of rules.toml still fits the code; changes nothing
+mutate.py check            checks that each rule of rules.toml still fits the code; changes nothing
 mutate.py run [NAME...]    applies the rules, or those named (by name or stress row), one after the other; the test or
                            stress row of each must fail
-mutate.py drawn ...        mutants that a tool draws; see drawn.py
+mutate.py drawn ...        tests mutants that a tool draws at random; see drawn.py
 
 Exit codes: 0 all were noticed, 1 some were not, 2 nothing could be judged.
 """
@@ -21,7 +21,7 @@ RULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "rules.toml")
 
 
 def texts_with(rule):
-    """Returns the text of each file that the rule changes, by path. Raises RuleError where it does not fit."""
+    """Returns the text of each file that the rule changes, by path. Raises RuleError if it does not fit the code."""
     texts = {}
     for edit in rule.edits:
         before = texts.get(edit.file)
@@ -47,7 +47,7 @@ def check(listed):
 
 
 def fails_test(rule):
-    """Returns what failed, or nothing if the rule's tests pass."""
+    """Runs the rule's tests. Returns the name of a failed test, or an empty text if all pass."""
     program, tests = rule.test.split(maxsplit=1)
     if not checkout.build(program):
         checkout.fail(f"{rule.name} does not compile")
@@ -59,7 +59,7 @@ def fails_test(rule):
 
 
 def fails_row(rule):
-    """Returns what the stress row measured, or nothing if it passes. Small pictures show wrong code as well."""
+    """Runs the rule's stress row on small pictures. Returns the measured value and limit, or "" if the row passes."""
     if not checkout.build("catoptric_cli"):
         checkout.fail(f"{rule.name} does not compile")
     command = [f"{checkout.BUILD}/catoptric", "stress", "--quiet", "--size", "128x128", "--only", rule.row]
@@ -71,7 +71,7 @@ def fails_row(rule):
 
 
 def apply_all(listed):
-    """Applies one rule after the other. Returns the names of those that nothing noticed."""
+    """Applies one rule after the other. Returns the names of the rules that no test noticed."""
     checkout.require_clean()
     unnoticed = []
     for rule in listed:

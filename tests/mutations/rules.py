@@ -1,4 +1,4 @@
-"""Rules for wrong code: which tokens of a function are replaced by which text.
+"""Rules that make code wrong: each rule replaces tokens of a function by other text.
 
 A rule does not depend on how a file is laid out. It names a file, optionally a function, and a pattern of C++ or GLSL
 tokens that must occur exactly once there. White space and comments do not count.
@@ -30,7 +30,7 @@ class Edit:
 
 @dataclasses.dataclass
 class Rule:
-    """Wrong code: what is wrong, where, and either the tests (`program filter`) or the stress row that must notice."""
+    """A rule: what is wrong, the edits, and either the tests (`program filter`) or the stress row that must fail."""
     name: str
     wrong: str
     edits: list[Edit]

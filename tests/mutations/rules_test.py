@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of rules.py and drawn.py: what a rule matches, what it refuses, and that a seed draws the same mutants again."""
+"""Tests of rules.py and drawn.py: what a rule matches and refuses, how folders share mutants, and the report."""
 import os
 import sys
 import tempfile

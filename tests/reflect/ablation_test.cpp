@@ -1,5 +1,5 @@
-// Each cause of error that can be taken away, alone and with others, where it is known what must be
-// left: nothing, wherever the rest is right.
+// Tests of ablations: rows drawn with some causes of error removed, alone and in combination. In
+// these scenes the causes are known, so with all of them removed no error may be left.
 #include "app/causes.hpp"
 #include "shared.h"
 #include "support/boxes.hpp"
@@ -11,7 +11,7 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::shared;
 
-constexpr uvec2 kSize{48, 48};
+constexpr uvec2 kAblationSize{48, 48};
 
 std::vector<measure::Picture> pictures_of(const app::Request& request,
                                           const std::vector<std::uint32_t>& masks) {
@@ -23,12 +23,14 @@ std::vector<measure::Picture> pictures_of(const app::Request& request,
     return pictures;
 }
 
-/// How far a row is from ray tracing with each of some sums of causes mended, first with none.
+/// Renders a row with each mask of removed causes and compares the pictures with ray tracing. The
+/// first entry of the result has no cause removed.
 std::vector<test::Compared> ablated(const scene::Scene& scene, const std::string& technique,
                                     std::vector<std::uint32_t> masks,
                                     const std::string& shadow = "none", int frames = 1) {
-    const app::Part truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow, kSize);
-    app::Request request = test::request(scene, {technique}, kSize);
+    const app::Part truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow,
+                                         kAblationSize);
+    app::Request request = test::request(scene, {technique}, kAblationSize);
     request.warmup = frames - 1;
     masks.insert(masks.begin(), 0);
     std::vector<test::Compared> result;
@@ -43,9 +45,11 @@ std::vector<test::Compared> ablated(const scene::Scene& scene, const std::string
 }
 
 constexpr std::uint32_t kFirstOrder = kAblateDirection | kAblateHidden | kAblateTexels;
-constexpr std::size_t kRim = 3; // pixels whose centre lies next to an outline or an edge
+// Number of wrong pixels to allow, whose centre lies next to an outline or an edge.
+constexpr std::size_t kRim = 3;
 
-// One crossing on every ray: with exact distances a search ends at it.
+// In an empty box each reflected ray meets one wall. With exact distances the search must find that
+// point.
 TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
     const auto found = ablated(test::box({}),
                                "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
@@ -55,21 +59,21 @@ TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
     EXPECT_LE(found[3].off, kRim);
 }
 
-// Neither distances nor colours are taken from the captures.
-TEST(Mended, WithoutTextureNothingDependsOnItsSize) {
-    const app::Part truth = test::render(test::box({}), "raytrace:shadow=none", kSize);
+// With these causes removed, neither distances nor colours come from the captures.
+TEST(Mended, PicturesDoNotDependOnTheCaptureEdge) {
+    const app::Part truth = test::render(test::box({}), "raytrace:shadow=none", kAblationSize);
     std::vector<measure::Picture> pictures;
     for (const std::string face : {"2", "64"}) {
         app::Request request = test::request(test::box({}), {"parallax:shadow=none,face=" + face},
-                                             kSize);
+                                             kAblationSize);
         pictures.push_back(pictures_of(request, {kAblateDistance | kAblateTexels}).front());
-        // Parallax's one step is no exact one.
+        // Parallax takes one step to the surface, which is not exact.
         EXPECT_LE(test::compared(pictures.back(), truth).share(), .02);
     }
     EXPECT_TRUE(test::same_bytes(pictures[0], pictures[1]));
 }
 
-TEST(Mended, DirectionAndTexelsAreAllThereIsInAnEmptyBox) {
+TEST(Mended, DirectionAndTexelsAreTheOnlyCausesInAnEmptyBox) {
     const auto found = ablated(test::box({}), "reuse:face=8,shadow=none",
                                {kAblateDirection, kAblateTexels, kAblateDirection | kAblateTexels,
                                 kAblateHidden, kAblateMirrors | kAblateOwn});
@@ -82,8 +86,9 @@ TEST(Mended, DirectionAndTexelsAreAllThereIsInAnEmptyBox) {
     EXPECT_LE(open[1].off, kRim) << "nothing is seen where it is open";
 }
 
-// Three boards before the walls: what they hide from the ball's centre has no direction.
-TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
+// Three boards stand in front of the walls. No direction from the ball's centre shows the points
+// that the boards hide.
+TEST(Mended, ExactDirectionDoesNotShowHiddenPoints) {
     for (const std::string technique : {"reuse:", "secant:steps=8,"}) {
         const auto found = ablated(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
                                    technique + "face=32,shadow=none",
@@ -92,7 +97,8 @@ TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
         EXPECT_LE(found[2].off + 10, found[0].off);
         EXPECT_LE(found[3].off, kRim);
     }
-    // A fifth of the way before floor and ceiling.
+    // These boards lie in front of the floor and the ceiling, a fifth of the way to the middle of
+    // the box.
     scene::Scene scene = test::box({});
     for (const double y : {-2.4, 2.4})
         for (const double x : {-1.1, .7, 2.5})
@@ -101,19 +107,20 @@ TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
                                {kAblateDirection | kAblateTexels, kFirstOrder});
     EXPECT_GT(close[1].off, 8u);
     EXPECT_LE(close[2].off, kRim);
-    // Texels of the layer that was looked up, which may be the second.
+    // Exact texels replace those of the layer that was looked up, which may be the second layer.
     const auto layered = ablated(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
                                  "layered:face=128,shadow=none", {kAblateTexels});
     EXPECT_LE(layered[1].off, layered[0].off);
 }
 
-TEST(Mended, MirrorsInMirrorsAreAsThisEyeSeesThem) {
+TEST(Mended, MirrorsInMirrorsShowWhatTheEyeSees) {
     const auto once = ablated(test::three_balls(), "secant:steps=8,continue=0,face=32,shadow=none",
                               {kFirstOrder, kFirstOrder | kAblateMirrors, kAblateMirrors});
     EXPECT_GT(once[1].off, 100u) << "without history mirrors are black in captures";
     EXPECT_LE(once[2].off, kRim);
     EXPECT_LT(5 * once[3].off, once[0].off);
-    // What the second mirror's centre does not see is seen with both mirrors' shares.
+    // Points that the second mirror's centre does not see must still be darkened by both mirrors'
+    // reflectances.
     scene::Scene scene = test::three_balls();
     scene.name = "three balls and boards";
     for (const dvec3& centre : {dvec3(1.2, -1.5, .3), dvec3(1.2, .1, 1.9), dvec3(-1.25, -1.9, .6),
@@ -137,14 +144,14 @@ scene::Scene corner() {
     return scene;
 }
 
-TEST(Mended, AMirrorsOwnReflectionIsInNoCapture) {
+TEST(Mended, OwnReflectionOfAMirrorIsRestored) {
     const auto found = ablated(corner(), "secant:steps=8,continue=0,face=32,shadow=none",
                                {kFirstOrder | kAblateMirrors, kAblateOwn});
     EXPECT_GT(found[1].off, 200u);
     EXPECT_LE(found[2].off, kRim);
 }
 
-TEST(Mended, ShadowsByRaysReplaceThoseOfTheMap) {
+TEST(Mended, ShadowRaysReplaceTheShadowMap) {
     scene::Scene scene = test::room(1, 1);
     scene.cameras.front() = {
         .eye = {-.3, -.7, -1.8}, .target = {-.9, -1.2, .3}, .vertical_fov_degrees = 42};

@@ -1,4 +1,4 @@
-// Where no mirror is seen, raster and ray tracing are the same picture.
+// Tests that rasterisation and ray tracing give the same picture where no mirror is seen.
 #include "measure/lines.hpp"
 #include "support/numbers.hpp"
 #include "support/rendering.hpp"
@@ -11,7 +11,7 @@ using namespace catoptric;
 
 struct Sides {
     const char *name, *raster, *traced;
-    double most; ///< rmse
+    double most; ///< largest rmse allowed
     friend void PrintTo(const Sides& sides, std::ostream* out) { *out << sides.name; }
 };
 class Agreement : public testing::TestWithParam<Sides> {};
@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Sides{"map_on_both", "naive:bounces=0", "raytrace:depth=16,shadow=map", 5e-4}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(Agreement, OfRasterAndRayTracing) {
+TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
     const auto& [name, raster, traced, most] = GetParam();
     for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(2, 2)}) {
         const app::Part truth = test::render(scene, traced, {512, 512});
@@ -35,7 +35,8 @@ TEST_P(Agreement, OfRasterAndRayTracing) {
     }
 }
 
-/// Pixels that show a lamp, in mirrors and beside them: nothing else is that bright.
+/// Counts the pixels that show a lamp, in mirrors (first) and outside mirrors (second). Nothing
+/// else in the scene is as bright.
 std::pair<std::size_t, std::size_t> lamp_pixels(const scene::Scene& scene,
                                                 const std::string& technique) {
     const app::Part truth = test::render(scene, "raytrace:depth=16", {128, 128});
@@ -47,8 +48,8 @@ std::pair<std::size_t, std::size_t> lamp_pixels(const scene::Scene& scene,
     return found;
 }
 
-/// A lamp has one side: from behind, eyes, mirrored rays and captures look through it.
-TEST(Lamp, IsSeenFromItsFrontAloneInBothWorlds) {
+/// Tests a lamp with one side. Cameras, reflected rays and captures behind the lamp see through it.
+TEST(Lamp, OneSidedLampIsSeenFromItsFrontOnly) {
     for (const bool faces_eye : {true, false}) {
         scene::Scene scene = test::room(1, 0);
         scene.objects.back().world_from_object[3] = dvec4(0, -.4, .8, 1);
@@ -71,8 +72,8 @@ TEST(Lamp, IsSeenFromItsFrontAloneInBothWorlds) {
     }
 }
 
-/// An eye a few units above the floor, anywhere in the room, behind everything, wide, beside a
-/// ball.
+/// Returns a random camera of the given kind: 0 is just above the floor, 1 behind everything, 2
+/// wide, 3 next to a ball. Other kinds are anywhere in the scene.
 scene::Camera drawn_camera(test::Numbers& random, int kind) {
     const auto within = [&](vec3 lo, vec3 hi) {
         const float x = random.between(lo.x, hi.x), y = random.between(lo.y, hi.y);
@@ -88,8 +89,8 @@ scene::Camera drawn_camera(test::Numbers& random, int kind) {
     return camera;
 }
 
-/// Share of the pixels beside mirrors where two pictures differ by more than .02.
-double share_off(const app::Part& raster, const app::Part& traced) {
+/// Returns the share of pixels outside mirrors in which the pictures differ by more than .02.
+double agreement_share_off(const app::Part& raster, const app::Part& traced) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
@@ -100,10 +101,10 @@ double share_off(const app::Part& raster, const app::Part& traced) {
     return static_cast<double>(off) / static_cast<double>(traced.hits.size());
 }
 
-/// Both look into the same shadow map, so only where they take the receiver to be can differ. A
-/// rasteriser that errs by more than the map's slack draws slabs of shadow on a floor seen from
-/// low.
-TEST(ShadowMap, ReceiversOfRasterAndRaysAreTheSameFromAnyCamera) {
+/// Both pictures use the same shadow map, so they can differ only in the position of the shaded
+/// point. A rasteriser with a larger error than the map's bias would draw bands of false shadow on
+/// a floor seen from near the floor.
+TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
     constexpr int kCameras = 30;
     test::Numbers random(20);
     double worst = 0, sum = 0;
@@ -120,7 +121,7 @@ TEST(ShadowMap, ReceiversOfRasterAndRaysAreTheSameFromAnyCamera) {
                                   : drawn_camera(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
         const app::Result result = app::run(test::engine(), request);
-        const double off = share_off(result.parts[0], result.parts[1]);
+        const double off = agreement_share_off(result.parts[0], result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
                              << request.camera.eye.z;
         worst = std::max(worst, off), sum += off;
@@ -129,19 +130,21 @@ TEST(ShadowMap, ReceiversOfRasterAndRaysAreTheSameFromAnyCamera) {
               << sum / kCameras << "\n";
 }
 
-// What is lifted off its surface so that it does not shade itself is lifted no further: coarse maps
-// show it, because they lift by texels.
-TEST(ShadowMap, LiftsNoFurtherThanItMust) {
+// Surfaces are offset from the shadow map so that they do not shadow themselves. The offset must
+// not be larger than needed. A coarse map shows an excess, because the offset grows with the size
+// of a texel.
+TEST(ShadowMap, OffsetIsNoLargerThanNeeded) {
     const app::Part truth = test::render(scene::cornell_mirrors(), "raytrace:depth=16", {256, 256});
     const double error = test::rmse(
         test::render(scene::cornell_mirrors(), "naive:bounces=0,shadow_map=64", {256, 256}).hdr,
         truth.hdr, measure::non_mirror(truth.hits));
     std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";
-    EXPECT_LE(error, .0052); // measured: .0049; lifted twice as far: .0055
+    EXPECT_LE(error, .0052); // measured .0049; with twice the offset .0055
 }
 
-// A node that is scaled flat is what it looks like: a quad lies as it did, a ball becomes a disc.
-TEST(Flattened, NodesKeepTheirNormals) {
+// Tests nodes whose scale is 0 along one axis. A flat quad must look unchanged, and a ball must
+// become a disc.
+TEST(Flattened, NodesScaledToZeroKeepTheirNormals) {
     scene::Scene flat{.name = "flat"};
     test::add_quad(flat, "lamp", test::add_material(flat, {.name = "lamp", .emission = vec3(9)}),
                    {-1, 3, -4}, {1, 3, -4}, {1, 3, -2}, {-1, 3, -2});
@@ -152,10 +155,11 @@ TEST(Flattened, NodesKeepTheirNormals) {
     flat.objects.back().sphere.reset();
     flat.objects.back().world_from_object = dmat4(1);
     flat.objects.back().world_from_object[3] = dvec4(0, 0, -.5, 1);
-    flat.objects.back().world_from_object[2] = dvec4(0); // a mirror disc
+    flat.objects.back().world_from_object[2] = dvec4(0); // the ball becomes a mirror disc
     flat.cameras.push_back({.eye = {0, 1, -6}, .target = {0, 0, 0}, .vertical_fov_degrees = 50});
     scene::Scene scaled = flat;
-    scaled.objects[1].world_from_object[2] = dvec4(0); // its mesh has no extent along z
+    // The mesh of the wall has no extent along z, so this scale does not change its shape.
+    scaled.objects[1].world_from_object[2] = dvec4(0);
     for (const std::string technique : {"raytrace", "parallax:face=64"}) {
         const measure::Picture wanted = test::render(flat, technique, {128, 128}, 3).hdr,
                                found = test::render(scaled, technique, {128, 128}, 3).hdr;

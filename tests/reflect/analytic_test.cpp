@@ -1,4 +1,4 @@
-// The ray tracer with exact spheres against a page of double precision.
+// Tests the ray tracer with exact spheres against a small ray tracer in double precision.
 #include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
 
@@ -8,18 +8,20 @@ namespace {
 
 using namespace catoptric;
 
-struct Case {
+struct AnalyticCase {
     const char* name;
     int mirrors, lights;
-    friend void PrintTo(const Case& test_case, std::ostream* out) { *out << test_case.name; }
+    friend void PrintTo(const AnalyticCase& test_case, std::ostream* out) {
+        *out << test_case.name;
+    }
 };
-class Analytic : public testing::TestWithParam<Case> {};
+class Analytic : public testing::TestWithParam<AnalyticCase> {};
 INSTANTIATE_TEST_SUITE_P(Rooms, Analytic,
-                         testing::Values(Case{"one_ball", 1, 1},
-                                         Case{"three_balls_two_lamps", 3, 2}),
+                         testing::Values(AnalyticCase{"one_ball", 1, 1},
+                                         AnalyticCase{"three_balls_two_lamps", 3, 2}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(Analytic, EqualsTheDoublePrecisionTracer) {
+TEST_P(Analytic, PictureEqualsTheDoublePrecisionTracer) {
     constexpr uvec2 kSize{128, 128};
     constexpr int kDepth = 8;
     const scene::Scene room = test::room(GetParam().mirrors, GetParam().lights);
@@ -35,8 +37,9 @@ TEST_P(Analytic, EqualsTheDoublePrecisionTracer) {
                                   (1 + std::max({wanted.x, wanted.y, wanted.z})));
         }
     std::ranges::sort(differences);
-    // Each reflection of a ray at a ball spreads its error by about 2 distances / radius, here up
-    // to 10, from 2^-23; what is behind, the light's 1/t^2 stretches again.
+    // A reflection at a ball magnifies the error of a ray by about 2 distance / radius, here up to
+    // 10. The error starts from a rounding of 2^-23, and the light's 1/t^2 falloff magnifies it
+    // again.
     constexpr double kBound = 1e-4;
     const auto apart = static_cast<std::size_t>(differences.end() -
                                                 std::ranges::upper_bound(differences, kBound));
@@ -45,7 +48,7 @@ TEST_P(Analytic, EqualsTheDoublePrecisionTracer) {
               << differences[differences.size() * 999 / 1000] << ", above " << kBound << ": "
               << apart << " pixels\n";
     EXPECT_LE(differences[differences.size() / 2], 1e-6);
-    EXPECT_LE(apart, 4u); // a pixel whose middle lies on an edge
+    EXPECT_LE(apart, 4u); // pixels whose centre lies on an edge
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// The plan that a scene suggests, drawn.
+// Tests of pictures drawn with `auto`, which chooses a plan for the scene.
 #include "scene/edit.hpp"
 #include "support/rendering.hpp"
 
@@ -6,12 +6,12 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{64, 64};
+constexpr uvec2 kAutoSize{64, 64};
 
-TEST(Auto, DrawsEachMirrorWithWhatSuitsItAndSaysWhy) {
+TEST(Auto, EachMirrorIsDrawnByASuitableTechniqueWithAReason) {
     const scene::Scene hall = test::hall();
-    const app::Part part = test::render(hall, "auto", kSize, 3),
-                    plan = test::render(hall, "2,3=planar *=march", kSize, 3);
+    const app::Part part = test::render(hall, "auto", kAutoSize, 3),
+                    plan = test::render(hall, "2,3=planar *=march", kAutoSize, 3);
     EXPECT_TRUE(test::same_bytes(part.hdr, plan.hdr));
     ASSERT_EQ(part.plan.size(), 3u);
     const std::pair<const char*, const char*> wanted[] = {{"march", "march: a sphere, "},
@@ -24,27 +24,28 @@ TEST(Auto, DrawsEachMirrorWithWhatSuitsItAndSaysWhy) {
     EXPECT_EQ(part.label, "auto");
 }
 
-/// One technique for all is drawn as if it had been asked for.
-TEST(Auto, IsThatTechniqueWhereOneSuitsAll) {
+/// If one technique suits all mirrors, the picture must equal that of a request for this technique.
+TEST(Auto, OneTechniqueForAllMirrorsEqualsThatTechnique) {
     const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part part = test::render(scene, "auto", kSize, 2);
-    EXPECT_TRUE(test::same_bytes(part.hdr, test::render(scene, "hybrid", kSize, 2).hdr));
+    const app::Part part = test::render(scene, "auto", kAutoSize, 2);
+    EXPECT_TRUE(test::same_bytes(part.hdr, test::render(scene, "hybrid", kAutoSize, 2).hdr));
     EXPECT_EQ(part.scene_passes, 6);
 }
 
-/// What is suggested is so for a scene: another one is asked anew.
-TEST(Auto, IsSuggestedAnewAfterAnEditAndACut) {
+/// A plan belongs to a scene and a sequence. After an edit or a cut, `auto` must choose again.
+TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
     scene::Scene hall = test::hall();
     app::Session session(test::engine(), hall);
-    app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kSize};
+    app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
     EXPECT_EQ(session.frame(spec).read().plan.size(), 3u);
     const std::size_t block = scene::mirrors(hall).at(1);
-    session.change(scene::paint(block, 0)); // no mirror any more: the panel has another number
+    // The block is no mirror any more, so the panel gets another number.
+    session.change(scene::paint(block, 0));
     const std::vector<PlanEntry> plan = session.frame(spec).read().plan;
     ASSERT_EQ(plan.size(), 2u);
     EXPECT_EQ(plan[0].technique, "march");
     EXPECT_EQ(plan[1].technique, "planar");
-    app::FrameSpec away = spec; // a corner of the panel, in which the ball is not
+    app::FrameSpec away = spec; // this view shows a corner of the panel and no ball
     away.camera.eye = {.9, .9, 1.2}, away.camera.target = {.9, 1, 1.9};
     away.camera.vertical_fov_degrees = 10;
     EXPECT_EQ(session.frame(away).read().plan[0].technique, "march")
@@ -53,12 +54,12 @@ TEST(Auto, IsSuggestedAnewAfterAnEditAndACut) {
     EXPECT_EQ(session.frame(away).read().plan[0].technique, "reuse");
 }
 
-/// A comparison sets rows aside and goes on with them: `auto` is what it was at the first frame,
-/// and is not looked for again in each round.
-TEST(Auto, StaysWhatItWasWhereItsSequenceIsSetAside) {
+/// A comparison suspends the sequence of a row and resumes it later. The plan of the first frame
+/// must stay, so that `auto` does not choose again in each round.
+TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
     const scene::Scene hall = test::hall();
     app::Session session(test::engine(), hall);
-    app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kSize};
+    app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
     EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
     app::Sequence sequence = session.suspend();
     app::FrameSpec other = spec;
@@ -66,7 +67,8 @@ TEST(Auto, StaysWhatItWasWhereItsSequenceIsSetAside) {
     session.frame(other);
     session.suspend();
     session.resume(std::move(sequence));
-    spec.camera.eye = {.9, .9, 1.2}, spec.camera.target = {.9, 1, 1.9}; // the ball is not in it
+    // This view does not show the ball.
+    spec.camera.eye = {.9, .9, 1.2}, spec.camera.target = {.9, 1, 1.9};
     spec.camera.vertical_fov_degrees = 10;
     EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
 }

@@ -1,5 +1,5 @@
-// Captures that stay, by models made by hand: which faces are drawn when, and what is there of the
-// others.
+// Tests of the capture cache with hand-made models of what a picture requires: which faces a frame
+// draws, and what the other faces hold.
 #include "require/pieces.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
@@ -10,7 +10,8 @@ namespace {
 using namespace catoptric;
 using Names = std::vector<std::string>;
 
-/// Frames of `parallax` in a room of three balls, with a model of one's own.
+/// Renders frames of `parallax` in a test room with three mirror balls. Tests edit `model_`, which
+/// says what the next frame requires.
 class KeptFrames : public testing::Test {
 protected:
     KeptFrames() {
@@ -18,7 +19,7 @@ protected:
         model_ = require::required({room_, room_.cameras.front(), kSize});
     }
 
-    /// Passes but for view and compose.
+    /// Renders a frame and returns the names of its passes, except `view` and `compose`.
     Names frame(const std::string& technique = "parallax:face=8") {
         graph::Graph graph(runner_.history());
         const reflect::Assignment assignment = reflect::assign(reflect::parse_plan(technique),
@@ -40,7 +41,8 @@ protected:
             if (frame(technique).empty()) return;
         ADD_FAILURE() << "captures are still drawn";
     }
-    /// Colours of a mirror's capture, from 0.
+    /// Returns the colours of `count` faces of a mirror's capture, as bytes. Mirrors and faces are
+    /// numbered from 0.
     std::vector<std::byte> colours(std::uint32_t mirror, std::uint32_t face = 0,
                                    std::uint32_t count = 6) {
         const auto& [array, cube] = outputs_.captures->places[mirror];
@@ -56,13 +58,14 @@ protected:
     graph::Runner runner_{bench_.device, bench_.pipelines};
     require::Model model_;
     std::shared_ptr<render::CaptureCache> kept_;
-    std::uint32_t most_ = 0; ///< mirrors a frame; 0: all
+    std::uint32_t most_ = 0; ///< mirrors whose captures a frame draws again at most; 0: all
     bool learns_ = true;
     reflect::Outputs outputs_;
 };
 
-TEST_F(KeptFrames, DrawTheFacesWhoseStampChanged) {
-    for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear(); // or all follow
+TEST_F(KeptFrames, FacesWithAChangedContentHashAreDrawn) {
+    // Without this loop, mirrors that see mirror 1 would be drawn as well.
+    for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
     settle();
     EXPECT_EQ(frame(), Names());
     const std::vector<std::byte> before = colours(0, 0, 2);
@@ -76,8 +79,10 @@ TEST_F(KeptFrames, DrawTheFacesWhoseStampChanged) {
     EXPECT_EQ(frame(), Names());
 }
 
-// Nobody tells of the other light, so that texels say by it whether they were drawn.
-TEST_F(KeptFrames, DrawThePartOfAFaceInWhichSomethingMoved) {
+// Tests that a frame draws only the part of a face in which something moved. The ambient light
+// changes too, but the model does not say so. Each texel therefore tells by its brightness whether
+// the frame has drawn the texel.
+TEST_F(KeptFrames, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
     const std::string technique = "parallax:face=32";
     for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
     const auto tell = [&](std::uint64_t content_hash, const require::FacePart& part) {
@@ -90,7 +95,7 @@ TEST_F(KeptFrames, DrawThePartOfAFaceInWhichSomethingMoved) {
         const std::vector<std::byte> before = colours(0, 5, 1);
         EXPECT_EQ(frame(technique), names);
         const std::vector<std::byte> after = colours(0, 5, 1);
-        constexpr std::size_t kTexel = 8; // four halves
+        constexpr std::size_t kTexel = 8; // size of a texel in bytes: four half floats
         for (std::uint32_t i = 0; i < 32 * 32; ++i) {
             const uvec2 at(i % 32, i / 32);
             const bool is_inside = all(lessThanEqual(first, at)) && all(lessThan(at, end));
@@ -101,18 +106,19 @@ TEST_F(KeptFrames, DrawThePartOfAFaceInWhichSomethingMoved) {
     tell(1, {dvec2(-.5, -.25), dvec2(0)});
     settle(technique);
     scene_.update(room_, room_.cameras.front(), kSize, .5);
-    // From where it was to where it is, and a texel around.
+    // The frame draws the area from the mover's old place to its new place, and one texel around.
     tell(2, {dvec2(.5, 0), dvec2(.75, .25)});
     drawn({"capture.keep", "capture/1.6-6"}, {7, 11}, {29, 21});
     scene_.update(room_, room_.cameras.front(), kSize, 1);
     tell(3, {dvec2(.5, 0), dvec2(.9, .25)});
     drawn({"capture.keep", "capture/1.6-6"}, {23, 15}, {32, 21});
-    // Whoever was put off does not know where what he missed had been.
+    // A capture that was put off has missed a movement. The cache does not know the area of that
+    // movement, so the next frame draws the whole face.
     most_ = 1;
     scene_.update(room_, room_.cameras.front(), kSize, 2);
     model_.mirrors[1].content_hashes.fill(9), model_.mirrors[1].pieces = nullptr;
     tell(4, {dvec2(.6, 0), dvec2(.7, .25)});
-    frame(technique); // the first mirror, and a hand's width of it
+    frame(technique); // this frame draws the first mirror, and only a small area of its face
     EXPECT_EQ(kept_->waited, (std::vector<std::uint32_t>{0, 1, 0}));
     tell(5, {dvec2(.6, 0), dvec2(.8, .25)});
     frame(technique);
@@ -121,8 +127,9 @@ TEST_F(KeptFrames, DrawThePartOfAFaceInWhichSomethingMoved) {
     drawn({"capture.keep", "capture/1.6-6"}, {0, 0}, {32, 32});
 }
 
-// Of all six faces together, and of each mirror by itself.
-TEST_F(KeptFrames, MakeThePyramidOverACubeOfWhichAFaceIsDrawn) {
+// Tests the pyramid, a tree of bounds of the captured distances. It must be made again for all six
+// faces of a mirror when a frame draws one of them.
+TEST_F(KeptFrames, PyramidIsMadeAgainWhenAFaceIsDrawn) {
     for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
     const std::string pyramid = "pyramid:face=8";
     EXPECT_EQ(frame(pyramid).back(), "pyramid");
@@ -138,14 +145,14 @@ TEST_F(KeptFrames, MakeThePyramidOverACubeOfWhichAFaceIsDrawn) {
     }
 }
 
-TEST_F(KeptFrames, ShowNothingInFacesThatNobodyLooksAt) {
+TEST_F(KeptFrames, FacesThatNobodyReadsAreCleared) {
     model_.mirrors[1].faces = 0b000110;
     const Names first = frame();
     EXPECT_EQ(first, (Names{"shadow/1", "shadow/2", "capture/1", "capture/2.2-3",
                             "capture/2.1-1.clear", "capture/2.4-6.clear", "capture/3"}));
     const std::vector<std::byte> empty = colours(1, 0, 1);
     EXPECT_TRUE(std::ranges::all_of(empty, [](std::byte byte) {
-        return byte == std::byte{0} || byte == std::byte{0x3c}; // black, alpha 1
+        return byte == std::byte{0} || byte == std::byte{0x3c}; // half floats of black with alpha 1
     }));
     settle();
     model_.mirrors[1].faces = require::kAllFaces;
@@ -158,7 +165,7 @@ TEST_F(KeptFrames, ShowNothingInFacesThatNobodyLooksAt) {
     EXPECT_EQ(late, colours(1));
 }
 
-TEST_F(KeptFrames, AddMirrorsThatAreCapturedLater) {
+TEST_F(KeptFrames, MirrorsThatAreCapturedLaterAreAdded) {
     model_.mirrors[1].is_captured = false;
     const Names first = frame();
     EXPECT_EQ(first, (Names{"shadow/1", "shadow/2", "capture.a.table", "capture/1", "capture/3"}));
@@ -172,7 +179,8 @@ TEST_F(KeptFrames, AddMirrorsThatAreCapturedLater) {
     settle();
     std::vector<std::vector<std::byte>> late;
     for (std::uint32_t mirror = 0; mirror < 3; ++mirror) late.push_back(colours(mirror));
-    // Out of sight again it costs nothing, and arrays stay as they are.
+    // A mirror that is out of sight again needs no passes, and the arrays of captures keep their
+    // size.
     model_.mirrors[1].is_captured = false;
     settle();
     model_.mirrors[1].is_captured = true;
@@ -183,7 +191,7 @@ TEST_F(KeptFrames, AddMirrorsThatAreCapturedLater) {
         EXPECT_EQ(late[mirror], colours(mirror)) << mirror;
 }
 
-TEST_F(KeptFrames, TakeTurnsWhereNotAllAreDrawn) {
+TEST_F(KeptFrames, MirrorsTakeTurnsUnderACaptureBudget) {
     for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
     const auto change = [&](std::initializer_list<std::size_t> mirrors) {
         for (const std::size_t mirror : mirrors) model_.mirrors[mirror].content_hashes[5] += 1;
@@ -200,7 +208,7 @@ TEST_F(KeptFrames, TakeTurnsWhereNotAllAreDrawn) {
     EXPECT_EQ(frame(), Names());
     most_ = 2;
     Names drawn;
-    for (int k = 0; k < 4; ++k) { // all change in each frame
+    for (int k = 0; k < 4; ++k) { // all mirrors change in each frame
         change({0, 1, 2});
         for (const std::string& name : frame())
             if (name != "capture.keep") drawn.push_back(name.substr(0, 9));
@@ -209,16 +217,17 @@ TEST_F(KeptFrames, TakeTurnsWhereNotAllAreDrawn) {
                             "capture/2", "capture/1", "capture/3"}));
 }
 
-// A mirror that changes while who sees it is put off is not forgotten, though it stays from then
-// on; and what is looked at for the first time, or again, waits for nobody.
-TEST_F(KeptFrames, KnowWhyTheyWait) {
+// Mirror 1 changes while the redraw of mirror 2, which shows mirror 1, is put off. Mirror 2 must
+// still be drawn, although mirror 1 no longer changes. A mirror that comes into view is drawn at
+// once, beyond the budget.
+TEST_F(KeptFrames, MirrorsThatWaitAreDrawnThoughTheirCauseHasEnded) {
     for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
     model_.mirrors[1].sees = {0}, model_.mirrors[2].sees = {0};
     settle();
     most_ = 1;
     model_.mirrors[0].content_hashes.fill(77);
     EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1"}));
-    // Once the first has changed, and does no more.
+    // These frames come after the first mirror has changed, and without a further change.
     const auto compared = [](const Names& names) {
         return !names.empty() && names.back() == "capture.compare";
     };
@@ -234,16 +243,16 @@ TEST_F(KeptFrames, KnowWhyTheyWait) {
     EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1", "capture/2"}));
 }
 
-TEST_F(KeptFrames, RefuseToChooseBeforeTheyKnow) {
+TEST_F(KeptFrames, BudgetIsRefusedBeforeChangesAreKnown) {
     frame();
     learns_ = false;
-    frame(); // compares, which nobody reads
+    frame(); // this frame compares captures, and no one reads the result
     most_ = 1;
     test::expect_refused([&] { frame(); }, Failure::internal,
                          {"captures 'capture' are put off before it is known what changed"});
 }
 
-TEST_F(KeptFrames, DrawTheMapsOfLightsThatNeedOne) {
+TEST_F(KeptFrames, OnlyShadowMapsThatAreNeededAreDrawn) {
     model_.lights[1].has_map = false;
     settle();
     model_.lights[0].content_hash += 1;

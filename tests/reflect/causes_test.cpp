@@ -1,4 +1,5 @@
-// The split of an error by cause: complete, and blaming what is to blame.
+// Tests of the split of an error by cause. The shares must add up to the whole error, and the cause
+// that a scene is built for must get its share.
 #include "app/causes.hpp"
 #include "app/compare.hpp"
 #include "support/boxes.hpp"
@@ -10,8 +11,9 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{96, 96};
-constexpr uvec2 kSmall{48, 48}; // for what holds whatever the size: nothing may be left
+constexpr uvec2 kCausesSize{96, 96};
+// A small picture is enough for properties that hold at any size, such as a remaining error of 0.
+constexpr uvec2 kCausesSmall{48, 48};
 
 struct Split {
     report::Causes causes;
@@ -37,25 +39,27 @@ Split split(const app::Request& request, const std::string& technique) {
     return {app::CauseFinder(session, request, truth.hdr, truth.hits).find(technique), truth.hits};
 }
 
-/// Settled: one sequence of frames for all pictures.
+/// Returns a request for a settled picture. Its 16 warm-up frames let one sequence of frames serve
+/// all pictures.
 app::Request settled(const scene::Scene& scene, const std::string& technique, uvec2 size) {
     app::Request request = test::request(scene, {technique}, size);
     request.warmup = 16;
     return request;
 }
 
-Split split(const scene::Scene& scene, const std::string& technique, uvec2 size = kSize) {
+Split split(const scene::Scene& scene, const std::string& technique, uvec2 size = kCausesSize) {
     return split(settled(scene, technique, size), technique);
 }
 
-/// Over all mirrors, as `split` has it, without the splitting.
+/// Returns the mean squared error over all mirrors, as `split` reports it, without splitting it.
 double squared_error(const scene::Scene& scene, const std::string& technique) {
-    const app::Part truth = test::render(scene, app::kReference, kSize);
-    const app::Result row = app::run(test::engine(), settled(scene, technique, kSize));
+    const app::Part truth = test::render(scene, app::kReference, kCausesSize);
+    const app::Result row = app::run(test::engine(), settled(scene, technique, kCausesSize));
     return std::pow(test::rmse(row.parts.front().hdr, truth.hdr, measure::mirrors(truth.hits)), 2);
 }
 
-/// All is shared out, over the pixels as over their classes and mirrors.
+/// Expects that the shares of all causes add up to the whole error. The shares of a cause by pixel
+/// class, and by mirror, must add up to its whole share.
 void expect_adds_up(const Split& found) {
     double all = 0;
     for (const report::Cause& cause : found.causes.list) {
@@ -69,6 +73,7 @@ void expect_adds_up(const Split& found) {
     EXPECT_NEAR(all, 1, 1e-9);
 }
 
+/// Returns the techniques that draw captures, which are those with a knob `face`.
 std::vector<app::TechniqueInfo> that_capture() {
     std::vector<app::TechniqueInfo> list = app::techniques();
     std::erase_if(list, [](const app::TechniqueInfo& technique) {
@@ -82,10 +87,10 @@ class EveryCause : public testing::TestWithParam<app::TechniqueInfo> {};
 INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST_P(EveryCause, IsThere) {
+TEST_P(EveryCause, CausesAddUpToTheWholeErrorOfEachTechnique) {
     const Split found = split(test::with_coarse_balls(scene::cornell_mirrors()),
                               test::with(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
-                              kSmall);
+                              kCausesSmall);
     std::cout << "[ MEASURED ] " << GetParam().name << ": rmse "
               << std::sqrt(found.causes.squared_error) << ", left " << found.causes.rest_rmse
               << "\n";
@@ -97,7 +102,7 @@ TEST_P(EveryCause, IsThere) {
     expect_adds_up(found);
 }
 
-TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
+TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
     const auto expect_whole = [](const Split& found, const std::string& what) {
         EXPECT_LE(found.causes.rest_rmse, 1e-3) << what;
         expect_adds_up(found);
@@ -107,19 +112,21 @@ TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
           "parallax:face=32,distance=unorm8,shadow=none",
           "hybrid:face=32,shadow_map=64,captures=own,continue=0",
           "march:face=32,shadow_map=64,mirrors=left_out,lookup=object"})
-        expect_whole(
-            split(test::with_coarse_balls(scene::cornell_mirrors_closed()), technique, kSmall),
-            technique);
-    expect_whole(split(test::room(2, 3), "parallax:face=32,shadow_map=64", kSmall), "three lights");
-    expect_whole(split(test::hall(), "pyramid:face=32,shadow_map=64", kSmall),
+        expect_whole(split(test::with_coarse_balls(scene::cornell_mirrors_closed()), technique,
+                           kCausesSmall),
+                     technique);
+    expect_whole(split(test::room(2, 3), "parallax:face=32,shadow_map=64", kCausesSmall),
+                 "three lights");
+    expect_whole(split(test::hall(), "pyramid:face=32,shadow_map=64", kCausesSmall),
                  "mirrors of any shape");
 }
 
-// What is shared out is the error that the report gives the row.
-TEST(Causes, AreOfTheRowsOwnError) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"parallax:face=32"}, kSize);
-    const app::Part truth = test::render(request.scene, app::kReference, kSize);
-    const app::Part row = test::render(request.scene, "parallax:face=32", kSize);
+// The error that is split must be the error that the report gives for the row.
+TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
+    app::Request request = test::request(scene::cornell_mirrors(), {"parallax:face=32"},
+                                         kCausesSize);
+    const app::Part truth = test::render(request.scene, app::kReference, kCausesSize);
+    const app::Part row = test::render(request.scene, "parallax:face=32", kCausesSize);
     const Split found = split(request, "parallax:face=32");
     const auto squared = [&](const measure::Mask& mask) {
         return std::pow(test::rmse(row.hdr, truth.hdr, mask), 2);
@@ -130,18 +137,19 @@ TEST(Causes, AreOfTheRowsOwnError) {
                     squared(measure::of_mirror(truth.hits, MirrorId(i + 1))), 1e-12);
 }
 
-// What eight bits lose is blamed on them, whichever way one looks.
-TEST(Causes, EightBitsOfDistanceAreStorageFormat) {
+// Distances stored in eight bits must count as storage format, both by their share and alone.
+TEST(Causes, EightBitDistancesCountAsStorageFormat) {
     const Split coarse = split(scene::cornell_mirrors(), "parallax:face=128,distance=unorm8");
     EXPECT_GT(coarse.share("storage format"), .7);
     EXPECT_GT(coarse.alone("storage format"), .7);
     expect_adds_up(coarse);
-    EXPECT_EQ(split(scene::cornell_mirrors(), "parallax:face=64", kSmall).share("storage format"),
-              0.0);
+    EXPECT_EQ(
+        split(scene::cornell_mirrors(), "parallax:face=64", kCausesSmall).share("storage format"),
+        0.0);
 }
 
-// Of two rows that differ in one thing the difference of their errors, which no mended picture
-// enters, is that thing's part in the worse one.
+// Compares two rows that differ in one cause. The difference of their errors must equal the part of
+// that cause in the worse row. This check uses no picture with a removed cause.
 void expect_part_is_difference(const std::string& cause, const scene::Scene& scene,
                                const std::string& with, const std::string& without) {
     const Split worse = split(scene, with);
@@ -153,8 +161,8 @@ void expect_part_is_difference(const std::string& cause, const scene::Scene& sce
     EXPECT_NEAR(worse.part(cause), gone, .15 * worse.causes.squared_error) << cause;
 }
 
-/// A ball over a mirror as large as the floor, all of which its centre sees, where all else is
-/// bright.
+/// Returns a scene of a ball above a mirror as large as the floor. The ball's centre sees all of
+/// that mirror, and everything else is bright.
 scene::Scene over_a_mirror() {
     scene::Scene scene{.name = "over a mirror"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
@@ -166,54 +174,55 @@ scene::Scene over_a_mirror() {
     return scene;
 }
 
-TEST(CausesBesideRows, Direction) {
+TEST(CausesBesideRows, DirectionIsTheDifferenceBetweenReuseAndPyramid) {
     expect_part_is_difference("direction", test::box({}), "reuse:face=128,shadow=none",
                               "pyramid:face=128,shadow=none");
 }
 
-TEST(CausesBesideRows, HiddenTarget) {
+TEST(CausesBesideRows, HiddenTargetIsTheDifferenceBetweenPyramidAndHybrid) {
     expect_part_is_difference("hidden target",
                               test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
                               "pyramid:face=512,shadow=none", "hybrid:face=512,shadow=none");
 }
 
-TEST(CausesBesideRows, Texels) {
+TEST(CausesBesideRows, TexelsAreTheDifferenceBetweenCoarseAndFineCaptures) {
     expect_part_is_difference("texels", test::room(1, 1), "pyramid:face=16", "pyramid:face=256");
 }
 
-// A mirror is black in the captures of the first bounce.
-TEST(CausesBesideRows, MirrorInMirror) {
+// With one bounce, mirrors are black in captures.
+TEST(CausesBesideRows, MirrorInMirrorIsTheDifferenceBetweenOneAndThreeBounces) {
     expect_part_is_difference("mirror in mirror", over_a_mirror(),
                               "naive:bounces=1,face=64,shadow=none",
                               "naive:bounces=3,face=64,shadow=none");
 }
 
-TEST(CausesBesideRows, ShadowMap) {
+TEST(CausesBesideRows, ShadowMapIsTheDifferenceBetweenNoShadowsAndAMap) {
     expect_part_is_difference("shadow map", test::room(1, 1), "pyramid:face=128,shadow=none",
                               "pyramid:face=128");
 }
 
-// ... and where a thing cannot be wrong it has no part, in any company.
-TEST(Causes, WhatCannotBeWrongHasNoPart) {
+// A cause that cannot occur in a scene must have no share there, whatever other causes occur.
+TEST(Causes, CauseThatCannotOccurHasNoShare) {
     constexpr double kRounding = 1e-8;
-    const Split one_ball = split(test::room(1, 1), "parallax:face=32", kSmall);
+    const Split one_ball = split(test::room(1, 1), "parallax:face=32", kCausesSmall);
     EXPECT_NEAR(one_ball.share("mirror in mirror"), 0, kRounding);
     EXPECT_EQ(one_ball.alone("mirror in mirror"), 0);
     EXPECT_GT(one_ball.share("texels"), .01);
-    const Split in_a_box = split(test::box({}), "parallax:face=32,shadow=none", kSmall);
+    const Split in_a_box = split(test::box({}), "parallax:face=32,shadow=none", kCausesSmall);
     EXPECT_NEAR(in_a_box.share("hidden target"), 0, kRounding) << "nothing is before a wall";
     EXPECT_NEAR(in_a_box.share("shadow map"), 0, kRounding) << "what glows has no shadow";
     EXPECT_NEAR(in_a_box.share("mirror in mirror"), 0, 1e-3) << "but for facets at the outline";
     EXPECT_GT(in_a_box.share("direction"), .01);
     EXPECT_GT(in_a_box.share("texels"), .01);
-    // All that is seen but mirrors glows alike.
-    const Split bright = split(test::three_balls(), "naive:bounces=1,face=64,shadow=none", kSmall);
+    // In this scene every visible surface except the mirrors emits the same radiance.
+    const Split bright = split(test::three_balls(), "naive:bounces=1,face=64,shadow=none",
+                               kCausesSmall);
     EXPECT_NEAR(bright.share("shadow map"), 0, kRounding);
     EXPECT_GT(bright.share("mirror in mirror"), .5);
     EXPECT_NEAR(bright.find("mirror in mirror").share_first_order, 0, kRounding);
 }
 
-TEST(Causes, PaintPixelsThatCanHaveThem) {
+TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
     const Split found = split(scene::cornell_mirrors(), "parallax:face=64");
     const auto number_of = [&](const std::string& name) {
         return &found.find(name) - found.causes.list.data() + 1;
@@ -235,19 +244,20 @@ TEST(Causes, PaintPixelsThatCanHaveThem) {
     EXPECT_NEAR(found.find("mirror in mirror").share_first_order, 0, 1e-8);
 }
 
-TEST(Causes, LookingUpThePlainDirectionIsDirection) {
+TEST(Causes, UncorrectedLookupCountsAsDirection) {
     EXPECT_GT(split(scene::cornell_mirrors(), "reuse:face=64").share("direction"), .6);
 }
 
-TEST(Causes, MissingShadowsAreShadowMap) {
+TEST(Causes, MissingShadowsCountAsShadowMap) {
     const Split dark = split(test::room(1, 1), "pyramid:face=64,shadow=none"),
                 lit = split(test::room(1, 1), "pyramid:face=64");
     EXPECT_GT(dark.part("shadow map"), 10 * std::abs(lit.part("shadow map")));
     EXPECT_GT(dark.find("shadow map").alone, 10 * std::abs(lit.find("shadow map").alone));
 }
 
-// Two boards at a right angle are one mirror that sees itself, which its own capture leaves out.
-TEST(Causes, AHollowMirrorReflectsItself) {
+// Two boards at a right angle are one mirror that sees itself. Its own capture leaves out this
+// reflection.
+TEST(Causes, HollowMirrorsOwnReflectionCountsAsMirrorInMirror) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     test::add_mesh(scene, test::hollow_corner(), mirror);
@@ -257,8 +267,8 @@ TEST(Causes, AHollowMirrorReflectsItself) {
     expect_adds_up(found);
 }
 
-TEST(Causes, OnlyWhatMovesLags) {
-    app::Request request = test::request(scene::cornell_mirrors(), {}, kSize);
+TEST(Causes, OnlyMovingScenesHaveLag) {
+    app::Request request = test::request(scene::cornell_mirrors(), {}, kCausesSize);
     request.warmup = 7;
     const Split still = split(request, "reuse:face=64");
     EXPECT_EQ(still.share("last frame"), 0.0);

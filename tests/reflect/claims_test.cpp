@@ -1,5 +1,5 @@
-// What stands before a mirror that a ray would be followed to, and what captures of other mirrors
-// may say.
+// Tests of rays between mirrors: objects that hide the mirror to which a search would continue a
+// ray, and answers from captures of other mirrors.
 #include "support/paths.hpp"
 
 #include <iostream>
@@ -8,11 +8,12 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{64, 64};
-constexpr vec3 kBoard{0, 0, .25f};
+constexpr uvec2 kClaimsSize{64, 64};
+constexpr vec3 kClaimsBoard{0, 0, .25f};
 
-/// Two balls of radius .7, in a bright box, one of them before the eye, and a board of half width
-/// `half` across the line between them. Between them it is further from either than their radius.
+/// Returns a scene of two mirror balls of radius .7 in a bright box and a board. The camera looks
+/// at the ball with index `seen`. A board of half width `half` between the balls is further from
+/// either ball than its radius.
 scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool exact) {
     scene::Scene scene{.name = "two balls"};
     test::add_bright_box(scene, {-6, -3, -4}, {6, 3, 4});
@@ -22,7 +23,7 @@ scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool e
                        places[static_cast<std::size_t>(i)], .7, 5);
     for (scene::Object& object : scene.objects)
         if (!exact) object.sphere.reset();
-    test::add_glowing_board(scene, kBoard, board, {0, 0, half}, {0, half, 0});
+    test::add_glowing_board(scene, kClaimsBoard, board, {0, 0, half}, {0, half, 0});
     const double side = seen == 0 ? 1 : -1;
     scene.cameras.push_back({.eye = places[seen] + dvec3(1.1 * side, .9, -1.3),
                              .target = places[seen] + dvec3(.3 * side, .1, -.2),
@@ -30,15 +31,15 @@ scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool e
     return scene;
 }
 
-/// Off among the pixels whose traced ray is reflected once and then meets the board, and among
-/// those whose meets the other ball.
+/// Wrong pixels of a search, by what the traced ray meets after one reflection: the board (`board`)
+/// or the other ball (`ball`).
 struct Behind {
     test::Compared board, ball;
 };
 
 Behind behind(const scene::Scene& scene, const app::Part& truth, const std::string& search) {
     const measure::Picture picture =
-        test::render(scene, search + ":face=128,shadow=none,continue=8", kSize).hdr;
+        test::render(scene, search + ":face=128,shadow=none,continue=8", kClaimsSize).hdr;
     const Behind found{test::compared(picture, truth,
                                       [](std::uint32_t hit, const vec3& colour) {
                                           return !measure::second_mirror(hit) && colour.x < .01f;
@@ -51,17 +52,17 @@ Behind behind(const scene::Scene& scene, const app::Part& truth, const std::stri
     return found;
 }
 
-app::Part traced(const scene::Scene& scene, bool exact) {
+app::Part claims_traced(const scene::Scene& scene, bool exact) {
     return test::render(
         scene, std::string("raytrace:depth=9,shadow=none,sphere=") + (exact ? "exact" : "mesh"),
-        kSize);
+        kClaimsSize);
 }
 
-TEST(Claims, ABoardBetweenTwoMirrorsIsSeenInBoth) {
+TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
     for (const bool exact : {true, false})
         for (const std::size_t seen : {0u, 1u}) {
             const scene::Scene scene = two_balls(seen, {.02, .1, .05}, .6, exact);
-            const app::Part truth = traced(scene, exact);
+            const app::Part truth = claims_traced(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const Behind found = behind(scene, truth, search);
                 EXPECT_GT(found.board.pixels, 100u);
@@ -70,12 +71,13 @@ TEST(Claims, ABoardBetweenTwoMirrorsIsSeenInBoth) {
         }
 }
 
-TEST(Claims, ABoardBesideOrBehindAMirrorHidesNothingOfIt) {
+TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
     for (const bool exact : {true, false})
         for (const dvec3& board : {dvec3(0, 1.1, 0), dvec3(-4, 0, 0), dvec3(4, 0, 0)}) {
-            const std::size_t seen = board.x > 0 ? 0 : 1; // the board is behind the other ball
+            // Choose the ball that has the board behind the other ball.
+            const std::size_t seen = board.x > 0 ? 0 : 1;
             const scene::Scene scene = two_balls(seen, board, .35, exact);
-            const app::Part truth = traced(scene, exact);
+            const app::Part truth = claims_traced(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const Behind found = behind(scene, truth, search);
                 EXPECT_GT(found.ball.pixels, 80u);
@@ -84,8 +86,8 @@ TEST(Claims, ABoardBesideOrBehindAMirrorHidesNothingOfIt) {
         }
 }
 
-/// Three balls in a row, seen in the first; of the two others either may be the first in the
-/// scene's list.
+/// Returns three balls in a row, of which the camera sees the first. `near_first`: the nearer of
+/// the other two balls has the lower number.
 scene::Scene row_of_balls(bool near_first) {
     scene::Scene scene{.name = "row"};
     test::add_bright_box(scene, {-6, -3, -4}, {6, 3, 4});
@@ -99,10 +101,10 @@ scene::Scene row_of_balls(bool near_first) {
     return scene;
 }
 
-TEST(Claims, AMirrorBeforeAnotherIsTheOneThatIsMet) {
+TEST(Claims, NearerOfTwoMirrorsOnARayIsMet) {
     for (const bool near_first : {true, false}) {
         const scene::Scene scene = row_of_balls(near_first);
-        const app::Part truth = traced(scene, true);
+        const app::Part truth = claims_traced(scene, true);
         for (const std::string search : {"secant", "pyramid"}) {
             const test::Compared found = behind(scene, truth, search).ball;
             EXPECT_GT(found.pixels, 100u);
@@ -111,8 +113,8 @@ TEST(Claims, AMirrorBeforeAnotherIsTheOneThatIsMet) {
     }
 }
 
-/// A ball beside mirrors that are flat: what their edges hide from its centre is in the second
-/// layer.
+/// Returns a scene of a ball beside two flat mirrors. The second layer of the ball's capture holds
+/// the surfaces that the edges of the flat mirrors hide from the ball's centre.
 scene::Scene flat_mirrors_beside_a_ball() {
     scene::Scene scene{.name = "beside"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 4});
@@ -127,11 +129,11 @@ scene::Scene flat_mirrors_beside_a_ball() {
     return scene;
 }
 
-TEST(Claims, WhatTheSecondLayerShowsBehindAMirrorIsNoMirror) {
+TEST(Claims, SurfaceInTheSecondLayerBehindAMirrorIsNoMirror) {
     const scene::Scene scene = flat_mirrors_beside_a_ball();
-    const app::Part truth = traced(scene, true);
+    const app::Part truth = claims_traced(scene, true);
     const measure::Picture picture =
-        test::render(scene, "layered:face=128,shadow=none,continue=8", kSize).hdr;
+        test::render(scene, "layered:face=128,shadow=none,continue=8", kClaimsSize).hdr;
     const test::Compared once = test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
         return measure::first_mirror(hit) == MirrorId(1) && !measure::second_mirror(hit);
     });
@@ -140,8 +142,9 @@ TEST(Claims, WhatTheSecondLayerShowsBehindAMirrorIsNoMirror) {
     EXPECT_LE(once.share(), .02);
 }
 
-/// A flat mirror, before its middle a board that hides from it a second mirror, and a ball aside
-/// that sees both. `from_aside`: the eye sees the second mirror past the board.
+/// Returns a scene of a flat mirror, a second mirror behind a board, and a ball aside. The first
+/// mirror's centre does not see the second mirror, but the ball sees both. `from_aside`: the camera
+/// sees the second mirror past the board.
 scene::Scene screened(bool exact, bool from_aside) {
     scene::Scene scene{.name = "screened"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 4});
@@ -150,7 +153,7 @@ scene::Scene screened(bool exact, bool from_aside) {
         mirror[static_cast<std::size_t>(i)] = test::add_halving_mirror(scene, i);
     test::add_quad(scene, "panel", mirror[0], {-2, -1.5, 2}, {2, -1.5, 2}, {2, 1.5, 2},
                    {-2, 1.5, 2});
-    test::add_glowing_board(scene, kBoard, {0, 0, 1}, {.5, 0, 0}, {0, .8, 0});
+    test::add_glowing_board(scene, kClaimsBoard, {0, 0, 1}, {.5, 0, 0}, {0, .8, 0});
     test::add_ball(scene, "hidden", mirror[1], {0, 0, -.3}, .6, 5);
     if (!exact) scene.objects.back().sphere.reset();
     test::add_ball(scene, "aside", mirror[2], {2.5, .8, -.6}, .6, 5);
@@ -160,9 +163,10 @@ scene::Scene screened(bool exact, bool from_aside) {
     return scene;
 }
 
-/// Of pixels that the mirror's own capture does not know, those that another's answers: all, whose
-/// ray meets another mirror, and how many of both are off; black: in which a mirror shows that was
-/// not in sight before.
+/// Counts of the pixels that the mirror's own capture cannot answer and the capture of another
+/// mirror does. `off` are wrong ones, `mirrors` those whose ray meets a second mirror, and
+/// `mirrors_off` wrong ones of these. `black` are pixels that became black because the answer shows
+/// a mirror without history.
 struct Answers {
     std::size_t all = 0, off = 0, mirrors = 0, mirrors_off = 0, black = 0;
 };
@@ -170,9 +174,10 @@ struct Answers {
 Answers answers(const scene::Scene& scene, const std::string& search, const std::string& hops) {
     const app::Part truth = test::render(
         scene, "raytrace:shadow=none,sphere=exact,depth=" + std::string(hops == "0" ? "1" : "9"),
-        kSize);
+        kClaimsSize);
     const std::string technique = search + ":face=128,shadow=none,continue=" + hops + ",captures=";
-    app::Request request = test::request(scene, {technique + "own", technique + "all"}, kSize);
+    app::Request request = test::request(scene, {technique + "own", technique + "all"},
+                                         kClaimsSize);
     request.with_lookup = true;
     const app::Result result = app::run(test::engine(), request);
     const auto is_unknown = [&](std::size_t part, std::size_t i) {
@@ -195,7 +200,7 @@ Answers answers(const scene::Scene& scene, const std::string& search, const std:
     return found;
 }
 
-TEST(Claims, OtherCapturesAnswerRightAndNeverByAMirror) {
+TEST(Claims, OtherCapturesAnswerRightAndNeverWithAMirror) {
     for (const auto& [exact, from_aside] :
          {std::pair(true, false), std::pair(false, false), std::pair(false, true)})
         for (const std::string hops : {"0", "8"})

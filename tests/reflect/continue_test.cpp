@@ -1,4 +1,5 @@
-// Mirror in mirror for mirrors of any shape, and what several captures know together.
+// Tests of mirrors seen in mirrors of any shape, and of searches that read the captures of several
+// mirrors.
 #include "app/compare.hpp"
 #include "support/numbers.hpp"
 #include "support/searches.hpp"
@@ -7,21 +8,24 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{192, 144};
-constexpr int kFrames = 4;
+constexpr uvec2 kContinueSize{192, 144};
+constexpr int kContinueFrames = 4;
 
-/// Linear rmse against ray tracing, by what the reflected ray meets.
+/// Linear rmse against ray tracing: over all mirror pixels, first-order pixels, and pixels whose
+/// reflected ray meets a second mirror.
 struct ColourError {
     double all = 0, first_order = 0, mirror_in_mirror = 0;
 };
 
-ColourError error_of(const scene::Scene& scene, const std::string& technique) {
-    static std::map<std::string, app::Part> truths; // by scene
+ColourError continue_error_of(const scene::Scene& scene, const std::string& technique) {
+    static std::map<std::string, app::Part> truths; // cached by the scene's name
     if (!truths.contains(scene.name))
-        truths.emplace(scene.name, test::render(scene, app::kReference, kSize));
+        truths.emplace(scene.name, test::render(scene, app::kReference, kContinueSize));
     const app::Part& truth = truths.at(scene.name);
-    const measure::Picture picture =
-        test::last_of(test::request(scene, {technique}, kSize), kFrames).front().hdr;
+    const measure::Picture picture = test::last_of(test::request(scene, {technique}, kContinueSize),
+                                                   kContinueFrames)
+                                         .front()
+                                         .hdr;
     const auto of = [&](const measure::Mask& mask) { return test::rmse(picture, truth.hdr, mask); };
     const ColourError error{of(measure::mirrors(truth.hits)), of(measure::first_order(truth.hits)),
                             of(measure::mirror_in_mirror(truth.hits))};
@@ -31,26 +35,30 @@ ColourError error_of(const scene::Scene& scene, const std::string& technique) {
     return error;
 }
 
-// A ball, a block and a flat mirror: two of three are followed through what captures know of
-// surfaces.
-TEST(Continue, FollowsMirrorsOfAnyShape) {
+// The scene has a ball, a block and a flat mirror. Rays to the block and the flat mirror, which are
+// not exact spheres, are continued with the surfaces in their captures.
+TEST(Continue, MirrorsInMirrorsOfAnyShapeAreFollowed) {
     for (const std::string search : {"secant", "march", "pyramid", "layered", "hybrid"}) {
-        const ColourError without = error_of(test::hall(), search + ":continue=0"),
-                          with = error_of(test::hall(), search);
+        const ColourError without = continue_error_of(test::hall(), search + ":continue=0"),
+                          with = continue_error_of(test::hall(), search);
         EXPECT_LE(with.mirror_in_mirror, .25 * without.mirror_in_mirror) << search;
-        // Here a pixel at the lamp's edge is nearly all of the error, with and without.
-        EXPECT_LE(error_of(test::hall(), search + ":lookup=bilinear").first_order,
-                  1.05 * error_of(test::hall(), search + ":continue=0,lookup=bilinear").first_order)
+        // One pixel at the lamp's edge holds nearly all of the first-order error, so this
+        // comparison uses a lookup that mixes texels.
+        EXPECT_LE(
+            continue_error_of(test::hall(), search + ":lookup=bilinear").first_order,
+            1.05 *
+                continue_error_of(test::hall(), search + ":continue=0,lookup=bilinear").first_order)
             << search;
-        // A march that steps over the edge of a mirror goes on in the wrong one: some twenty
-        // pixels.
+        // `march` may step over the edge of a mirror and continue in the wrong mirror, in about
+        // twenty pixels.
         EXPECT_LE(with.first_order, (search == "march" ? 1.5 : 1.05) * without.first_order)
             << search;
     }
 }
 
-// A reflectance of half a mirror shows once for each mirror on the way.
-TEST(Continue, DimsByEachMirrorOnTheWay) {
+// Each mirror reflects half of the light. The colour of a pixel therefore tells how many mirrors
+// its ray met.
+TEST(Continue, EachMirrorOnTheWayHalvesTheLight) {
     scene::Scene furnace = test::furnace(0);
     const std::size_t half = test::add_material(
         furnace, {.name = "half", .mirror = true, .reflectance = {.5f, .5f, .5f}});
@@ -58,8 +66,8 @@ TEST(Continue, DimsByEachMirrorOnTheWay) {
     test::add_quad(furnace, "right", half, {3, -2, 0}, {3, 2, 0}, {3, 2, 4}, {3, -2, 4});
     for (const std::string search : {"march", "pyramid", "layered"}) {
         const measure::Picture picture = test::render(furnace, search + ":face=64,continue=8",
-                                                      kSize)
-                                             .hdr; // one frame: no history helps
+                                                      kContinueSize)
+                                             .hdr; // one frame, so no history contributes
         std::array<std::size_t, 4> met{};
         for (const vec3& pixel : picture.pixels)
             for (std::size_t k = 0; k < met.size(); ++k)
@@ -69,7 +77,7 @@ TEST(Continue, DimsByEachMirrorOnTheWay) {
     }
 }
 
-TEST(Captures, OfOtherMirrorsKnowWhatTheOwnDoesNot) {
+TEST(Captures, OtherMirrorsCapturesAnswerUnknownPixels) {
     for (const std::string search : {"pyramid:face=128", "march:face=128", "secant:face=128"}) {
         const auto judged = test::judge(scene::cornell_mirrors(), test::looks().front(),
                                         {search, search + ",captures=all"});
@@ -80,11 +88,11 @@ TEST(Captures, OfOtherMirrorsKnowWhatTheOwnDoesNot) {
     }
 }
 
-// A pixel that no capture answers shows what it showed without asking. Before the middle of a flat
-// mirror stand two screens, all that two layers hold, behind which rays from its edges end; a ball
-// far away is shut up in two boxes, the inner as far from it as the second screen is from the
-// mirror.
-TEST(Captures, ThatDoNotAnswerChangeNothing) {
+// Tests that a pixel which no capture can answer keeps its colour with `captures=all`. Two screens,
+// as many as two layers hold, are in front of the middle of a flat mirror. Rays from the mirror's
+// edges end behind the screens. A ball far away has a capture too, but two boxes enclose the ball.
+// The inner box is as far from the ball as the second screen is from the mirror.
+TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true}),
                       grey = test::add_material(scene, {.name = "grey"}),
@@ -102,7 +110,8 @@ TEST(Captures, ThatDoNotAnswerChangeNothing) {
             test::add_mesh(scene, test::wall(face, shut - half, shut + half), grey);
     for (const std::string search : {"pyramid", "layered", "march", "secant"}) {
         app::Request request = test::request(
-            scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"}, kSize);
+            scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"},
+            kContinueSize);
         request.with_lookup = true;
         const app::Result result = app::run(test::engine(), request);
         const app::Part &own = result.parts[0], &all = result.parts[1];
@@ -122,27 +131,30 @@ TEST(Captures, ThatDoNotAnswerChangeNothing) {
     }
 }
 
-// Where rays are followed through all other mirrors, captures need not hold them.
-TEST(Mirrors, MayBeLeftOutOfCapturesWhereRaysAreFollowed) {
+// If rays are followed through all other mirrors, captures may leave out mirrors.
+TEST(Mirrors, CapturesMayLeaveOutMirrorsWhereRaysAreFollowed) {
     for (const std::string search : {"secant", "pyramid", "layered"}) {
-        const ColourError with = error_of(scene::cornell_mirrors(), search + ":continue=4"),
-                          without = error_of(scene::cornell_mirrors(),
-                                             search + ":continue=4,mirrors=left_out");
+        const ColourError with = continue_error_of(scene::cornell_mirrors(),
+                                                   search + ":continue=4"),
+                          without = continue_error_of(scene::cornell_mirrors(),
+                                                      search + ":continue=4,mirrors=left_out");
         EXPECT_LE(without.all, 1.05 * with.all) << search;
     }
-    // Nothing in them depends on the frame before: the first picture is the last.
+    // Captures without mirrors do not depend on the frame before, so the first picture equals the
+    // last.
     const std::string settled = "pyramid:face=64,continue=8,mirrors=left_out";
-    EXPECT_TRUE(test::same_bytes(test::render(scene::cornell_mirrors(), settled, kSize, 1).hdr,
-                                 test::render(scene::cornell_mirrors(), settled, kSize, 5).hdr));
+    EXPECT_TRUE(
+        test::same_bytes(test::render(scene::cornell_mirrors(), settled, kContinueSize, 1).hdr,
+                         test::render(scene::cornell_mirrors(), settled, kContinueSize, 5).hdr));
 }
 
-TEST(Show, PaintsWhatTheSearchSaysOfItself) {
-    app::Request request = test::request(scene::cornell_mirrors(),
-                                         {"pyramid:face=64,captures=own,show=state"}, kSize);
+TEST(Show, SearchStateAndResidualArePainted) {
+    app::Request request = test::request(
+        scene::cornell_mirrors(), {"pyramid:face=64,captures=own,show=state"}, kContinueSize);
     request.with_lookup = true;
     const app::Part part = std::move(app::run(test::engine(), request).parts.front());
     const std::array<vec3, 3> paint{
-        {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // hit, unknown, miss
+        {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // colours of hit, unknown and miss
     std::array<std::size_t, 3> count{};
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {
         if (!(part.lookup[i].w > 0)) continue;

@@ -1,5 +1,6 @@
-// face=auto asks of a curved mirror what its curvature makes of a pixel, from whichever side it is
-// seen and however its normals are turned.
+// Tests of `face=auto` on curved mirrors. The resolution of a capture must follow from the
+// curvature that the camera sees. This holds for both sides of a surface and for any direction of
+// its normals.
 #include "support/rendering.hpp"
 
 #include <cmath>
@@ -11,11 +12,12 @@ namespace {
 using namespace catoptric;
 
 constexpr std::uint32_t kHeight = 8;
-constexpr double kFov = 5; // so small that pixels off the axis are as large as those on it
-constexpr double kRadius = 2;
+// Vertical field of view in degrees; small, so that all pixels have about the same angle.
+constexpr double kFov = 5;
+constexpr double kCurvatureRadius = 2;
 
-/// A patch about the origin, so small that all of it is at one distance: heights along z over x and
-/// y.
+/// Returns a small patch of a surface around the origin, with `height` along z over x and y. All of
+/// the patch has about the same distance from the camera. `turned`: normals and triangles face -z.
 scene::Mesh patch(const std::function<double(double, double)>& height, bool turned) {
     constexpr int kSteps = 4;
     constexpr double kHalf = .02, kSmall = 1e-4;
@@ -37,7 +39,7 @@ scene::Mesh patch(const std::function<double(double, double)>& height, bool turn
     return mesh;
 }
 
-/// What the mirror needs for an eye this far away on +z, or on -z where it is below 0.
+/// Returns the edge in texels that `face=auto` gives the mirror for a camera at z = `eye`.
 double need(const scene::Mesh& mesh, double eye, const dmat4& world_from_object = dmat4(1)) {
     scene::Scene scene{.name = "patch"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
@@ -52,50 +54,57 @@ double need(const scene::Mesh& mesh, double eye, const dmat4& world_from_object 
     return app::run(test::engine(), request).parts.front().auto_face->needs.front();
 }
 
-/// By the mirror equation: neighbouring pixels look on 1 + 2 distance curvature of their angle
-/// apart (curvature above 0: a bulge); never finer than a plane's.
+/// Returns the edge in texels by the mirror equation. Two neighbouring pixels look in directions
+/// that differ by their own angle times 1 + 2 distance * curvature, where a bulge has positive
+/// curvature. The edge is never finer than that of a plane.
 double wanted(double distance, double curvature) {
     const double pixel = 2 * std::tan(glm::radians(kFov) / 2) / kHeight;
     return std::numbers::pi / 2 / pixel / std::max(1., std::abs(1 + 2 * distance * curvature));
 }
 
-double bowl(double x, double y) { return kRadius - std::sqrt(kRadius * kRadius - x * x - y * y); }
+double bowl(double x, double y) {
+    return kCurvatureRadius - std::sqrt(kCurvatureRadius * kCurvatureRadius - x * x - y * y);
+}
 
-TEST(Curvature, OfABallsInsideAndOutsideHaveTheirOwnSigns) {
+TEST(Curvature, InsideAndOutsideOfABallHaveOppositeCurvature) {
     for (const bool turned : {false, true})
-        for (const double distance : {.3 * kRadius, 1.5 * kRadius, 3 * kRadius, 8 * kRadius}) {
-            // Hollow from above, a bulge from below, whichever way its normals look.
+        for (const double distance : {.3 * kCurvatureRadius, 1.5 * kCurvatureRadius,
+                                      3 * kCurvatureRadius, 8 * kCurvatureRadius}) {
+            // The patch is hollow seen from +z and a bulge seen from -z, wherever its normals
+            // point.
             const scene::Mesh mesh = patch(bowl, turned);
-            const double hollow = wanted(distance, -1 / kRadius),
-                         bulge = wanted(distance, 1 / kRadius);
+            const double hollow = wanted(distance, -1 / kCurvatureRadius),
+                         bulge = wanted(distance, 1 / kCurvatureRadius);
             EXPECT_NEAR(need(mesh, distance), hollow, .02 * hollow) << distance << turned;
             EXPECT_NEAR(need(mesh, -distance), bulge, .02 * bulge) << distance << turned;
         }
 }
 
-TEST(Curvature, AHollowNeedsMoreThanABulgeAndAPlaneAsMuchAsAny) {
+TEST(Curvature, HollowNeedsMoreThanABulgeAndNoMoreThanAPlane) {
     const scene::Mesh hollow = patch(bowl, false),
                       flat = patch([](double, double) { return 0.; }, false);
-    for (const double distance : {.3 * kRadius, 1.5 * kRadius, 3 * kRadius}) {
+    for (const double distance :
+         {.3 * kCurvatureRadius, 1.5 * kCurvatureRadius, 3 * kCurvatureRadius}) {
         EXPECT_GT(need(hollow, distance), 1.05 * need(hollow, -distance));
         EXPECT_LE(need(hollow, distance), 1.001 * need(flat, distance));
         EXPECT_NEAR(need(flat, distance), wanted(distance, 0), .01 * wanted(distance, 0));
     }
 }
 
-// In the one direction hollow, in the other a bulge: the finer of both.
-TEST(Curvature, ASaddleNeedsWhatItsHollowNeeds) {
-    const auto saddle = [](double x, double y) { return (x * x - y * y) / (2 * kRadius); };
-    const double hollow = wanted(3 * kRadius, -1 / kRadius);
+// A saddle is hollow in one direction and a bulge in the other. The direction that needs more
+// texels must decide.
+TEST(Curvature, SaddleNeedsAsMuchAsItsHollowDirection) {
+    const auto saddle = [](double x, double y) { return (x * x - y * y) / (2 * kCurvatureRadius); };
+    const double hollow = wanted(3 * kCurvatureRadius, -1 / kCurvatureRadius);
     for (const bool turned : {false, true})
-        for (const double eye : {-3 * kRadius, 3 * kRadius})
+        for (const double eye : {-3 * kCurvatureRadius, 3 * kCurvatureRadius})
             EXPECT_NEAR(need(patch(saddle, turned), eye), hollow, .02 * hollow);
 }
 
-TEST(Curvature, OfAnObjectThatIsScaledIsThatOfItsPlaceInTheWorld) {
+TEST(Curvature, ScaledObjectsUseTheirCurvatureInWorldSpace) {
     for (const dvec3 scale : {dvec3(-1, 1, 1), dvec3(1, 1, -1), dvec3(2, 2, 2)}) {
         const bool upside_down = scale.z < 0;
-        const double distance = 6, curvature = 1 / (kRadius * std::abs(scale.x));
+        const double distance = 6, curvature = 1 / (kCurvatureRadius * std::abs(scale.x));
         const dmat4 place(
             glm::dmat3(dvec3(scale.x, 0, 0), dvec3(0, scale.y, 0), dvec3(0, 0, scale.z)));
         for (const bool from_above : {false, true}) {

@@ -1,9 +1,10 @@
-// The environment: what is seen of it where, what it lights, and that captures and searches have
-// it.
+// Tests of the environment: what each direction shows, how it lights surfaces, and how captures and
+// searches show it.
 #include "core/shader_math.hpp"
 #include "scene/surroundings.hpp"
 #include "shared.h"
 #include "support/lit.hpp"
+#include "support/special_values.hpp"
 
 #include <iostream>
 #include <numbers>
@@ -12,17 +13,15 @@ namespace {
 
 using namespace catoptric;
 
-constexpr double kPi = std::numbers::pi;
-
-/// A map whose texels are the values of a function of the direction of their centres.
+/// Returns an environment map whose texels hold `radiance` of the direction of their centres.
 template <typename Radiance>
 std::shared_ptr<scene::Environment> map_of(uvec2 size, Radiance&& radiance) {
     auto map = std::make_shared<scene::Environment>();
     map->size = size;
     for (std::uint32_t row = 0; row < size.y; ++row)
         for (std::uint32_t column = 0; column < size.x; ++column) {
-            const double polar = kPi * (row + .5) / size.y,
-                         azimuth = 2 * kPi * ((column + .5) / size.x - .5);
+            const double polar = test::kPi * (row + .5) / size.y,
+                         azimuth = 2 * test::kPi * ((column + .5) / size.x - .5);
             map->texels.push_back(
                 vec3(radiance(dvec3(std::sin(polar) * std::sin(azimuth), std::cos(polar),
                                     -std::sin(polar) * std::cos(azimuth)))));
@@ -30,7 +29,7 @@ std::shared_ptr<scene::Environment> map_of(uvec2 size, Radiance&& radiance) {
     return map;
 }
 
-/// A small map of which no two texels are alike.
+/// Returns a small environment map whose texels are all different.
 std::shared_ptr<scene::Environment> patches() {
     auto map = std::make_shared<scene::Environment>();
     map->size = {8, 4};
@@ -40,7 +39,8 @@ std::shared_ptr<scene::Environment> patches() {
     return map;
 }
 
-/// A speck below, that no camera of these tests sees, and an eye at the origin.
+/// Returns a scene that is empty except for a tiny quad below, which no camera of these tests sees.
+/// The camera is at the origin and looks along `direction`.
 scene::Scene void_scene(std::shared_ptr<const scene::Environment> environment,
                         const dvec3& direction) {
     scene::Scene scene{.name = "void"};
@@ -55,6 +55,7 @@ scene::Scene void_scene(std::shared_ptr<const scene::Environment> environment,
     return scene;
 }
 
+/// Returns the unit direction through the centre of pixel (x, y) of a square picture.
 dvec3 pixel_direction(const scene::Camera& camera, int x, int y, int edge) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye),
                 right = glm::normalize(glm::cross(forward, camera.up)),
@@ -64,7 +65,7 @@ dvec3 pixel_direction(const scene::Camera& camera, int x, int y, int edge) {
                           tangent * (2 * (y + .5) / edge - 1) * down);
 }
 
-TEST(Environment, IsSeenWhereItsMapSays) {
+TEST(Environment, RadianceFollowsTheMapAndItsRotation) {
     scene::Environment map = *patches();
     const auto texel = [&](int column, int row) {
         return dvec3(map.texels[static_cast<std::size_t>(8 * row + column)]);
@@ -73,13 +74,13 @@ TEST(Environment, IsSeenWhereItsMapSays) {
         EXPECT_LE(glm::length(scene::radiance(map, direction) - wanted), 1e-6)
             << direction.x << ' ' << direction.y << ' ' << direction.z;
     };
-    const auto level = [&](int left, int right) { // on the horizon, between two columns
+    const auto level = [&](int left, int right) { // mean of two columns at the horizon
         return (texel(left, 1) + texel(right, 1) + texel(left, 2) + texel(right, 2)) / 4.0;
     };
     expect({0, 0, -1}, level(3, 4));
     expect({1, 0, 0}, level(5, 6));
     expect({-1, 0, 0}, level(1, 2));
-    expect({0, 0, 1}, level(7, 0)); // across the seam
+    expect({0, 0, 1}, level(7, 0)); // across the seam between the last and first column
     expect({0, 1, 0}, (texel(3, 0) + texel(4, 0)) / 2.0);
     expect({0, -1, 0}, (texel(3, 3) + texel(4, 3)) / 2.0);
     // The centre of texel (6, 1): azimuth 112.5 degrees, elevation 22.5.
@@ -87,11 +88,11 @@ TEST(Environment, IsSeenWhereItsMapSays) {
     expect({std::cos(up) * std::sin(turn), std::sin(up), -std::cos(up) * std::cos(turn)},
            texel(6, 1));
     map.rotation_degrees = 90, map.scale = 2;
-    expect({1, 0, 0}, 2.0 * level(3, 4)); // what was ahead is to the right
+    expect({1, 0, 0}, 2.0 * level(3, 4)); // the rotation by 90 degrees moves -z to +x
     expect({0, 0, -1}, 2.0 * level(1, 2));
 }
 
-TEST(Environment, IsThePicturesBackgroundInBothWorlds) {
+TEST(Environment, BackgroundEqualsTheEnvironmentInRasterAndRays) {
     constexpr int kEdge = 24;
     for (const bool studio : {false, true})
         for (const double rotation : {0.0, 70.0}) {
@@ -120,7 +121,7 @@ TEST(Environment, IsThePicturesBackgroundInBothWorlds) {
         }
 }
 
-TEST(Studio, IsAsDescribed) {
+TEST(Studio, RadianceEqualsItsDescription) {
     const scene::Environment studio{.studio = true};
     const auto grey = [&](const dvec3& direction) {
         const dvec3 light = scene::radiance(studio, glm::normalize(direction));
@@ -132,7 +133,8 @@ TEST(Studio, IsAsDescribed) {
     EXPECT_NEAR(grey({1, 0, 0}), .6, 1e-9);
     EXPECT_NEAR(grey({0, -1, 0}), .25, 1e-9);
     EXPECT_NEAR(grey({0, -.6, .8}), .6 - .35 * .6, 1e-9);
-    // Azimuth -150 degrees: to the left behind who looks along -z.
+    // The softbox is at azimuth -150 degrees: behind and to the left of a viewer who looks along
+    // -z.
     const double turn = glm::radians(-150.0), up = glm::radians(50.0);
     const dvec3 box(std::cos(up) * std::sin(turn), std::sin(up), -std::cos(up) * std::cos(turn));
     EXPECT_LT(box.x, 0);
@@ -159,12 +161,13 @@ TEST(Studio, IsAsDescribed) {
     EXPECT_NEAR(grey(-box), .6 - .35 * box.y, 1e-9) << "not on the other side";
 }
 
+/// Returns the irradiance of a surface with normal `n`.
 dvec3 falls_on(const scene::Environment& environment, const dvec3& n) {
     std::array<dvec3, 9> of = scene::irradiance_coefficients(environment);
     return f64::irradiance(of.data(), n);
 }
 
-TEST(Irradiance, OfKnownEnvironments) {
+TEST(Irradiance, CoefficientsGiveTheIrradianceOfKnownEnvironments) {
     const dvec3 b = glm::normalize(dvec3(.3, .5, -.8));
     const uvec2 size{256, 128};
     const auto uniform = map_of(size, [](const dvec3&) { return dvec3(.5, 1, 2); });
@@ -174,22 +177,24 @@ TEST(Irradiance, OfKnownEnvironments) {
     for (const dvec3& n :
          {dvec3(0, 1, 0), dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(0, -.6, -.8), b, -b}) {
         const double c = dot(n, b), p2 = (3 * c * c - 1) / 2;
-        EXPECT_NEAR(falls_on(*uniform, n).x, kPi * .5, 5e-4);
-        EXPECT_NEAR(falls_on(*uniform, n).z, kPi * 2, 1e-3);
-        EXPECT_NEAR(falls_on(*linear, n).x, kPi + 2 * kPi / 3 * c, 1e-3);
-        EXPECT_NEAR(falls_on(*square, n).x, kPi / 3 + kPi / 6 * p2, 1e-3);
-        // Of a cosine lobe what nine coefficients keep: 1/4, 1/2 and 5/16 of its bands.
-        EXPECT_NEAR(falls_on(*lobe, n).x, std::max(0., kPi / 4 + kPi / 3 * c + 5 * kPi / 64 * p2),
+        EXPECT_NEAR(falls_on(*uniform, n).x, test::kPi * .5, 5e-4);
+        EXPECT_NEAR(falls_on(*uniform, n).z, test::kPi * 2, 1e-3);
+        EXPECT_NEAR(falls_on(*linear, n).x, test::kPi + 2 * test::kPi / 3 * c, 1e-3);
+        EXPECT_NEAR(falls_on(*square, n).x, test::kPi / 3 + test::kPi / 6 * p2, 1e-3);
+        // Nine coefficients keep the first three bands of a cosine lobe, with the factors 1/4, 1/2
+        // and 5/16.
+        EXPECT_NEAR(falls_on(*lobe, n).x,
+                    std::max(0., test::kPi / 4 + test::kPi / 3 * c + 5 * test::kPi / 64 * p2),
                     1e-3);
     }
     scene::Environment turned = *linear;
     turned.rotation_degrees = 90, turned.scale = 3;
-    const dvec3 moved(-b.z, b.y, b.x); // -z to +x
+    const dvec3 moved(-b.z, b.y, b.x); // the lobe's direction, rotated so that -z becomes +x
     const dvec3 n = glm::normalize(dvec3(.2, .4, .6));
-    EXPECT_NEAR(falls_on(turned, n).x, 3 * (kPi + 2 * kPi / 3 * dot(n, moved)), 3e-3);
+    EXPECT_NEAR(falls_on(turned, n).x, 3 * (test::kPi + 2 * test::kPi / 3 * dot(n, moved)), 3e-3);
 }
 
-TEST(Irradiance, LightsDiffuseSurfacesInBothWorlds) {
+TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
     const auto environment = map_of({64, 32}, [](const dvec3& d) {
         return dvec3(1 + .8 * d.x, .7 + .5 * d.y * d.z, std::max(0., d.z));
     });
@@ -204,7 +209,7 @@ TEST(Irradiance, LightsDiffuseSurfacesInBothWorlds) {
         scene.environment = environment;
         scene.cameras.push_back(
             {.eye = 2.0 * n, .target = {0, 0, 0}, .up = up, .vertical_fov_degrees = 40});
-        const dvec3 wanted = dvec3(.6, .5, .4) / kPi * falls_on(*environment, n);
+        const dvec3 wanted = dvec3(.6, .5, .4) / test::kPi * falls_on(*environment, n);
         for (const std::string technique : {"raytrace", "naive"}) {
             const measure::Picture picture = test::render_dark(scene, technique, {8, 8}).hdr;
             for (const vec3& pixel : picture.pixels)
@@ -214,7 +219,8 @@ TEST(Irradiance, LightsDiffuseSurfacesInBothWorlds) {
     }
 }
 
-/// Share of the mirrors' pixels that are off the traced picture.
+/// Returns the share of the mirrors' pixels in which a technique differs from the ray-traced
+/// picture by more than .02.
 double off_in_mirrors(const scene::Scene& scene, const std::string& technique) {
     constexpr uvec2 kSize{96, 96};
     const app::Part truth = test::render(scene, "raytrace", kSize),
@@ -235,8 +241,9 @@ std::shared_ptr<scene::Environment> dusk() {
     });
 }
 
-/// Where nothing but the environment is, every technique shows it as rays see it.
-TEST(Environment, IsSeenInMirrorsByEveryTechnique) {
+/// If a mirror is alone in its environment, every technique must show the environment as ray
+/// tracing does.
+TEST(Environment, MirrorsShowTheEnvironmentInEveryTechnique) {
     scene::Scene scene{.name = "alone"};
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    {0, 0, 0}, 1);
@@ -246,7 +253,8 @@ TEST(Environment, IsSeenInMirrorsByEveryTechnique) {
         EXPECT_LE(off_in_mirrors(scene, technique.name), .002) << technique.name;
 }
 
-/// A yard at dusk, with a lamp and the sun.
+/// Returns the test scene `yard` with an evening environment, a point light and a directional
+/// light.
 scene::Scene yard_at_dusk() {
     scene::Scene scene = test::yard();
     scene.environment = dusk();
@@ -258,14 +266,15 @@ scene::Scene yard_at_dusk() {
     return scene;
 }
 
-TEST(Environment, IsOnePictureInRasterAndRays) {
+TEST(Environment, RasterisationEqualsRayTracing) {
     const double off = test::share_off_of_raster(yard_at_dusk(), {128, 128});
     std::cout << "[ MEASURED ] share off " << off << "\n";
     EXPECT_LE(off, .005);
 }
 
-/// Searches that leave what was captured look it up themselves; what has no search mixes texels.
-TEST(Environment, SurroundsWhatIsMirrored) {
+/// A search whose ray leaves the captured surfaces looks up the environment. Techniques without a
+/// search read the environment from the capture's texels and are less exact.
+TEST(Environment, MirrorsShowObjectsBeforeTheEnvironment) {
     scene::Scene scene = yard_at_dusk();
     scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
     for (const auto& [technique, most] : {std::pair{"hybrid", .01},
@@ -282,8 +291,9 @@ TEST(Environment, SurroundsWhatIsMirrored) {
     }
 }
 
-/// With every cause of error taken away a mirror shows what rays show, the environment too.
-TEST(Environment, IsThereWithoutCausesOfError) {
+/// With every cause of error removed, a mirror must show what ray tracing shows, including the
+/// environment.
+TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
     scene::Scene scene = yard_at_dusk();
     scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
     app::Request asked = test::request(scene, {"parallax"}, {64, 64});

@@ -1,4 +1,5 @@
-// The promises of every row of the table. A new technique is tested by being there.
+// Tests of the properties that every technique must have. A new technique is tested as soon as it
+// is registered.
 #include "core/knob.hpp"
 #include "places.hpp"
 #include "reflect/plan.hpp"
@@ -13,11 +14,12 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{48, 48};
+constexpr uvec2 kEveryTechniqueSize{48, 48};
 
 class EveryTechnique : public testing::TestWithParam<app::TechniqueInfo> {
 protected:
-    /// With small captures and shadow maps where it has any.
+    /// Returns the technique with small captures and small shadow maps, if it has these knobs, and
+    /// with `settings`.
     std::string small(std::vector<std::pair<std::string, std::string>> settings = {}) const {
         for (const auto& cheap :
              std::vector<std::pair<std::string, std::string>>{{"face", "32"}, {"shadow_map", "64"}})
@@ -30,20 +32,23 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::techniques()),
                          [](const auto& instance) { return instance.param.name; });
 
-/// What a picture of a furnace may be off by: colours are exact in binary16, weights of a filter
-/// add up to 1 within one rounding of it.
+/// Relative error allowed in pictures of a furnace, a box that emits the same light everywhere. Its
+/// colours are exact in binary16, and the weights of a texture filter add up to 1 within one
+/// rounding.
 constexpr float kSlack = 0x1p-10f;
 
-TEST_P(EveryTechnique, OneMirrorInAFurnaceShowsTheFurnace) {
-    const measure::Picture picture = test::render(test::furnace(1), small(), kSize, 3).hdr;
+TEST_P(EveryTechnique, MirrorInAFurnaceShowsTheFurnace) {
+    const measure::Picture picture =
+        test::render(test::furnace(1), small(), kEveryTechniqueSize, 3).hdr;
     for (const vec3& pixel : picture.pixels)
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(pixel[c], test::kFurnace[c], kSlack * test::kFurnace[c]);
 }
 
-/// Share of pixels that are darker than the furnace; none may be brighter than 1.002 times that.
+/// Returns the share of pixels that are darker than the furnace. Fails if a pixel is brighter than
+/// 1.002 times the furnace.
 double dark_share(const scene::Scene& furnace, const std::string& technique, int frames) {
-    app::Request request = test::request(furnace, {technique}, kSize);
+    app::Request request = test::request(furnace, {technique}, kEveryTechniqueSize);
     request.warmup = frames - 1;
     request.ambient = 0;
     const measure::Picture picture = app::run(test::engine(), request).parts.front().hdr;
@@ -56,7 +61,7 @@ double dark_share(const scene::Scene& furnace, const std::string& technique, int
     return static_cast<double>(dark) / static_cast<double>(picture.pixels.size());
 }
 
-TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
+TEST_P(EveryTechnique, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
     const scene::Scene furnace = test::furnace(2);
     const auto expect_falling = [&](const std::string& what,
                                     const std::function<double(int)>& share_at) {
@@ -77,10 +82,11 @@ TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
             });
 }
 
-TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
+TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {1, 0}, {1, 1}, {2, 3}, {3, 1}})
         for (const app::KnobInfo& knob : GetParam().knobs) {
-            // Each choice, and a number between the ends: whatever a row's count may depend on.
+            // Test each choice of a knob, and a number between its limits, because the number of
+            // scene passes may depend on any of them.
             std::vector<std::string> values = knob.choices;
             if (values.empty() &&
                 (knob.name == "bounces" || knob.name == "depth" || knob.name == "continue"))
@@ -92,7 +98,8 @@ TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
                 if (value == "float" && !test::has_float_colour()) continue;
                 const std::string text = small(
                     {{knob.name, knob.name == "shadow_map" ? "64" : value}});
-                // As balls are drawn, which some techniques leave to another.
+                // Determine the technique that draws balls, because some techniques leave them to
+                // another technique.
                 const std::size_t balls = static_cast<std::size_t>(mirrors);
                 const reflect::Choice choice =
                     reflect::fitted(reflect::assign(reflect::parse_plan(text),
@@ -110,12 +117,14 @@ TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
         }
 }
 
-/// The ends of a knob, where they would not take too much memory or time.
+/// Returns the lowest and highest value of a knob, or smaller ones if these would take too much
+/// memory or time.
 std::vector<std::string> extremes(const app::KnobInfo& knob) {
     if (!knob.choices.empty()) return knob.choices;
     double high = knob.high;
-    if (knob.name == "face" || knob.name == "shadow_map") high = 64; // 16384 wants gigabytes
-    if (knob.name == "samples") high = 16;                           // 65536 takes minutes
+    // A face or shadow map of 16384 texels an edge would take gigabytes of memory.
+    if (knob.name == "face" || knob.name == "shadow_map") high = 64;
+    if (knob.name == "samples") high = 16; // 65536 samples would take minutes
     const auto text = [](double value) {
         const bool whole = value == std::floor(value);
         return whole ? std::to_string(static_cast<long long>(value)) : std::to_string(value);
@@ -125,14 +134,15 @@ std::vector<std::string> extremes(const app::KnobInfo& knob) {
     return values;
 }
 
-TEST_P(EveryTechnique, MakesOnlyNumbersAtTheEndsOfEachKnob) {
+TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
     const scene::Scene room = test::room(2, 1);
     for (const app::KnobInfo& knob : GetParam().knobs)
         for (const std::string& value : extremes(knob)) {
             if (value == "float" && !test::has_float_colour()) continue;
             std::vector<std::pair<std::string, std::string>> settings{{knob.name, value}};
             if (knob.name == "range")
-                settings.push_back({"distance", "unorm8"}); // without which it does nothing
+                // `range` has an effect only on unorm8 distances.
+                settings.push_back({"distance", "unorm8"});
             const std::string text = small(settings);
             const app::Part part = test::render(room, text, {32, 24}, 3);
             EXPECT_EQ(test::nonfinite(part.hdr), 0u) << text;
@@ -144,8 +154,8 @@ TEST_P(EveryTechnique, MakesOnlyNumbersAtTheEndsOfEachKnob) {
         }
 }
 
-TEST_P(EveryTechnique, MakesTheSameBytesTwice) {
-    app::Request request = test::request(scene::cornell_mirrors(), {small()}, kSize);
+TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
+    app::Request request = test::request(scene::cornell_mirrors(), {small()}, kEveryTechniqueSize);
     for (const bool animate : {false, true}) {
         request.animate = animate;
         request.frames = 3;
@@ -157,18 +167,18 @@ TEST_P(EveryTechnique, MakesTheSameBytesTwice) {
     }
 }
 
-/// Where it does not, its first frame is as good as any; where it does, mirrors in mirrors start
-/// black.
-TEST_P(EveryTechnique, ShowsMoreInASecondFrameIfAndOnlyIfItRemembers) {
+/// A technique without history must render its best picture in the first frame. With history,
+/// mirrors seen in mirrors start black.
+TEST_P(EveryTechnique, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
     const std::string text = small({{"continue", "0"}});
-    const app::Part first = test::render(test::room(3, 1), text, kSize),
-                    second = test::render(test::room(3, 1), text, kSize, 2);
+    const app::Part first = test::render(test::room(3, 1), text, kEveryTechniqueSize),
+                    second = test::render(test::room(3, 1), text, kEveryTechniqueSize, 2);
     EXPECT_EQ(first.remembers, second.remembers);
     EXPECT_EQ(test::same_bytes(first.hdr, second.hdr), !first.remembers);
 }
 
-TEST_P(EveryTechnique, HasOneTimeForEachPassAndNoneBesides) {
-    app::Request request = test::request(test::room(2, 2), {small()}, kSize);
+TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
+    app::Request request = test::request(test::room(2, 2), {small()}, kEveryTechniqueSize);
     request.frames = 3;
     const auto plan = nlohmann::json::parse(
         app::Session(test::engine(), request.scene).plan(request, app::PlanFormat::json));
@@ -186,7 +196,7 @@ TEST_P(EveryTechnique, HasOneTimeForEachPassAndNoneBesides) {
     }
 }
 
-TEST_P(EveryTechnique, RendersASceneWithoutMirrorsAndOneWithoutLight) {
+TEST_P(EveryTechnique, ScenesWithoutMirrorsOrLightsAreRendered) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
         const app::Part part = test::render(test::room(mirrors, lights), small(), {24, 24}, 2);
         EXPECT_EQ(test::nonfinite(part.hdr), 0u);
@@ -195,7 +205,7 @@ TEST_P(EveryTechnique, RendersASceneWithoutMirrorsAndOneWithoutLight) {
     }
 }
 
-TEST(Table, IsAsLongAsTheFolder) {
+TEST(Table, EveryTechniqueInTheSourceFolderIsRegistered) {
     std::size_t rows = 0;
     for (const auto& entry :
          std::filesystem::directory_iterator(test::source_folder() / "engine/reflect")) {

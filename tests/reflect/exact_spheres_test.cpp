@@ -1,4 +1,5 @@
-// Exact spheres in rays' world: balls in a hierarchy of their own, which follows what moves.
+// Tests of exact spheres in ray tracing. They have a BVH of their own, which must follow moved
+// objects.
 #include "measure/causes.hpp"
 #include "scene/load.hpp"
 #include "support/lit.hpp"
@@ -10,21 +11,21 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{64, 48};
+constexpr uvec2 kExactSpheresSize{64, 48};
 const std::string kExact = "raytrace:sphere=exact,depth=3", kMesh = "raytrace:depth=3";
 
 measure::Picture picture(const scene::Scene& scene, const std::string& technique) {
-    return test::render(scene, technique, kSize).hdr;
+    return test::render(scene, technique, kExactSpheresSize).hdr;
 }
 
-/// A session that shows meshes and spheres by turns; what moves in it stands where it does in a
-/// session that has never seen anything else.
-TEST(ExactSpheres, StandWhereTheyWereMoved) {
+/// A session that shows meshes and spheres in turns must show moved objects at the same places as a
+/// new session.
+TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
     scene::Scene scene = test::room(3, 1);
     app::Session session(test::engine(), scene);
     const auto ball = [&](int number) { return scene.objects.size() - std::size_t(number); };
     for (int step = 0; step < 4; ++step) {
-        if (step > 0) { // a ball, then a wall, then both
+        if (step > 0) { // move a ball, then a wall, then two balls
             const std::size_t object = step == 2 ? 0 : ball(1);
             dmat4 place = scene.objects[object].world_from_object;
             place[3] += dvec4(.1, .15 * step, -.2, 0);
@@ -34,21 +35,21 @@ TEST(ExactSpheres, StandWhereTheyWereMoved) {
         }
         const std::string first = step % 2 ? kExact : kMesh, second = step % 2 ? kMesh : kExact;
         for (const std::string& technique : {first, second, kExact})
-            EXPECT_TRUE(
-                test::same_bytes(session.frame(test::request(scene, {technique}, kSize)).hdr(0),
-                                 picture(scene, technique)))
+            EXPECT_TRUE(test::same_bytes(
+                session.frame(test::request(scene, {technique}, kExactSpheresSize)).hdr(0),
+                picture(scene, technique)))
                 << technique << ", step " << step;
     }
 }
 
-/// As their meshes do.
-TEST(ExactSpheres, AreHiddenFromTheCameraAndStillCastShadows) {
+/// Exact spheres, as their meshes, cast shadows even if the camera does not see them.
+TEST(ExactSpheres, SpheresHiddenFromTheCameraStillCastShadows) {
     scene::Scene scene = test::room(2, 1), without = scene;
     without.objects.erase(without.objects.end() - 1);
     scene.objects.back().seen_by_camera = false;
     const measure::Picture hidden = picture(scene, "raytrace:sphere=exact,depth=0"),
                            gone = picture(without, "raytrace:sphere=exact,depth=0");
-    const auto hits = test::render(scene, "raytrace:sphere=exact,depth=0", kSize).hits;
+    const auto hits = test::render(scene, "raytrace:sphere=exact,depth=0", kExactSpheresSize).hits;
     EXPECT_THAT(hits, testing::Each(testing::Ne(2u)));
     int darker = 0, brighter = 0;
     for (std::size_t i = 0; i < hidden.pixels.size(); ++i) {
@@ -59,8 +60,9 @@ TEST(ExactSpheres, AreHiddenFromTheCameraAndStillCastShadows) {
     EXPECT_EQ(brighter, 0);
 }
 
-/// Of a ball of that many triangles the two pictures are apart at its outline alone.
-TEST(ExactSpheres, AreWhereTheirMeshesAre) {
+/// The meshes have many triangles, so the pictures of sphere and mesh may differ only at the
+/// outlines.
+TEST(ExactSpheres, SpheresEqualTheirMeshesExceptAtOutlines) {
     const scene::Scene scene = test::room(3, 2);
     const measure::Picture exact = picture(scene, "raytrace:sphere=exact,depth=1"),
                            mesh = picture(scene, "raytrace:depth=1");

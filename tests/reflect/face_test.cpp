@@ -1,5 +1,5 @@
-// face=auto is the edge that the picture can show: less loses where mirrors look, more gains
-// little.
+// Tests that `face=auto` chooses the useful resolution of captures: a smaller edge looks up clearly
+// worse directions, and a larger edge improves little.
 #include "support/searches.hpp"
 
 #include <cmath>
@@ -9,13 +9,13 @@ namespace {
 
 using namespace catoptric;
 
-TEST(AutoFace, IsTheEdgeItNamesAndNamesEachMirrorsNeed) {
+TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
     const scene::Scene scene = scene::cornell_mirrors();
     const app::Part chosen = test::render(scene, "secant:face=auto", test::kContractSize, 2);
     ASSERT_TRUE(chosen.auto_face.has_value());
     ASSERT_EQ(chosen.auto_face->needs.size(), 4u);
-    // (pi/2) / (p cos^2 (1 + 2 z / r)) with a pixel of p on the axis, next to the eye; the pixels a
-    // little further from the axis are smaller still.
+    // Expected edge: (pi/2) / (p cos^2 (1 + 2 z / r)), for a pixel of size p at the ball's nearest
+    // point. Pixels further from the axis are smaller, so they need slightly more texels.
     const scene::Camera& camera = scene.cameras.front();
     const double pixel = 2 * std::tan(glm::radians(camera.vertical_fov_degrees) / 2) / 512;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -36,7 +36,7 @@ TEST(AutoFace, IsTheEdgeItNamesAndNamesEachMirrorsNeed) {
     EXPECT_TRUE(test::same_bytes(chosen.hdr, named.hdr));
 }
 
-TEST(AutoFace, NeedsNothingForWhatIsNotInThePicture) {
+TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
     scene::Scene away = test::room(2, 1);
     away.cameras = {{.name = "away", .eye = {0, 0, -2}, .target = {0, 0, -4}}};
     const app::Part part = test::render(away, "parallax:face=auto", {32, 32});
@@ -45,7 +45,7 @@ TEST(AutoFace, NeedsNothingForWhatIsNotInThePicture) {
     EXPECT_EQ(part.auto_face->edge, 16u);
 }
 
-TEST(AutoFace, AMeshThatStandsForASphereNeedsNoMoreThanTheSphere) {
+TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
     scene::Scene scene = scene::cornell_mirrors();
     const auto needs = [&] {
         return test::render(scene, "reuse:face=auto", {512, 512}).auto_face->needs;
@@ -56,7 +56,7 @@ TEST(AutoFace, AMeshThatStandsForASphereNeedsNoMoreThanTheSphere) {
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(meshes[i], spheres[i], .01 * spheres[i]);
 }
 
-TEST(AutoFace, StaysTheSameWhileTheSceneMoves) {
+TEST(AutoFace, EdgeStaysTheSameWhileTheSceneMoves) {
     app::Request asked = test::request(scene::cornell_mirrors(), {"secant:face=auto"}, {64, 64});
     asked.animate = true;
     asked.frames = 3;
@@ -80,9 +80,9 @@ std::vector<std::string> with_faces(const std::vector<std::uint32_t>& faces) {
     return techniques;
 }
 
-/// Half the edge costs half a pixel and more of where mirrors look, in the mean; twice the edge
-/// gains less than a third of one.
-TEST(AutoFace, IsTheKneeOfWhereMirrorsLook) {
+/// With half the edge the mean direction error grows by at least half a pixel. With twice the edge
+/// it falls by less than a third of a pixel.
+TEST(AutoFace, DoublingTheEdgeHardlyImprovesDirections) {
     for (const test::Look& look : test::looks()) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = auto_edge(look);
@@ -96,9 +96,10 @@ TEST(AutoFace, IsTheKneeOfWhereMirrorsLook) {
     }
 }
 
-/// Finer captures are truer to one ray through a pixel's centre and no truer to the pixel: they
-/// flicker more. So does a lookup that does not mix objects, at any edge: it has no knee.
-TEST(AutoFace, IsTheKneeOfThePixelsColours) {
+/// Finer captures equal a ray through the pixel's centre better, but not the mean over the pixel,
+/// because they flicker more. The test uses a bilinear lookup. A lookup that does not mix objects
+/// flickers at any edge.
+TEST(AutoFace, LargerEdgeDoesNotImprovePixelColours) {
     for (const test::Look& look : test::looks()) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = auto_edge(look);

@@ -1,4 +1,4 @@
-// The shipped files are the built-in scene.
+// Tests that the scene files in samples/scenes render as the built-in scene.
 #include "measure/flip.hpp"
 #include "places.hpp"
 #include "support/folder.hpp"
@@ -22,7 +22,7 @@ class Shipped : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Files, Shipped, testing::Values("glb", "obj"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-TEST_P(Shipped, RendersAsTheBuiltInScene) {
+TEST_P(Shipped, FileRendersAsTheBuiltInScene) {
     const scene::Scene built_in = scene::cornell_mirrors();
     const scene::Scene loaded = scene::load(shipped(GetParam()));
     for (const char* technique : {"raytrace", "parallax"})
@@ -39,8 +39,8 @@ TEST_P(Shipped, RendersAsTheBuiltInScene) {
         }
 }
 
-/// The .glb with its roots, camera and all, below `depth` nodes that each turn, move and grow what
-/// is in them.
+/// Returns the .glb file with all its root nodes, the camera included, below a chain of `depth` new
+/// nodes. Each new node rotates, moves and scales its children.
 std::string below_nodes(const std::string& glb, int depth) {
     const auto number = [](const std::string& bytes, std::size_t at) {
         std::uint32_t value = 0;
@@ -51,9 +51,9 @@ std::string below_nodes(const std::string& glb, int depth) {
     nlohmann::json json = nlohmann::json::parse(glb.substr(head, length));
     const std::size_t first = json["nodes"].size();
     for (int k = 0; k < depth; ++k) {
-        const double half =
-            k % 2 ? .3
-                  : -.3; // radians; turned back in the end, as captures look along the world's axes
+        // Half the angle in radians. The signs alternate so that the rotations cancel out, because
+        // captures are aligned with the world's axes.
+        const double half = k % 2 ? .3 : -.3;
         nlohmann::json node = {{"rotation", {0, std::sin(half), 0, std::cos(half)}},
                                {"translation", {40. * (k % 2), -3, k % 5}},
                                {"scale", {1.002, 1.002, 1.002}}};
@@ -76,8 +76,9 @@ std::string below_nodes(const std::string& glb, int depth) {
 
 using Nested = test::InFolder;
 
-/// N4: a thousand nodes one in another, some 7 times as large and far away: the same picture.
-TEST_F(Nested, RendersBelowAThousandNodes) {
+/// Stress case N4: below a thousand nested nodes the scene is about 7 times as large and far away.
+/// The picture must stay the same.
+TEST_F(Nested, SceneBelowAThousandNodesRendersTheSame) {
     std::ifstream file(shipped("glb"), std::ios::binary);
     const std::string glb((std::istreambuf_iterator<char>(file)), {});
     const std::filesystem::path path = folder / "nested.glb";

@@ -1,5 +1,6 @@
-// Mirrors in mirrors, told by what each takes away: in surroundings of radiance 1 a pixel's colour
-// says which mirrors its ray has met, how often each, and where the ray was given up.
+// Tests of mirrors in mirrors, in surroundings of radiance 1. Each mirror reduces its own colour
+// channels. The colour of a pixel therefore tells which mirrors its ray met, how often, and whether
+// the ray was ended early.
 #include "support/paths.hpp"
 
 #include <iostream>
@@ -8,20 +9,20 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{64, 64};
+constexpr uvec2 kHopsSize{64, 64};
 
-app::Part traced(const scene::Scene& scene, int depth) {
+app::Part hops_traced(const scene::Scene& scene, int depth) {
     return test::render(scene, "raytrace:shadow=none,sphere=exact,depth=" + std::to_string(depth),
-                        kSize);
+                        kHopsSize);
 }
 
 measure::Picture searched(const scene::Scene& scene, const std::string& search,
                           const std::string& settings, int frames = 1) {
-    return test::render(scene, search + ":face=128,shadow=none," + settings, kSize, frames).hdr;
+    return test::render(scene, search + ":face=128,shadow=none," + settings, kHopsSize, frames).hdr;
 }
 
-/// Off by how many mirrors the traced ray has met: all pixels; two mirrors or more; three or more;
-/// so many that it was given up, which is black.
+/// Wrong pixels, by the number of mirrors that the traced ray met: any number, at least two, or at
+/// least three. `black`: rays that were ended early and are black.
 struct ByMirrors {
     test::Compared all, two, three, black;
 };
@@ -41,8 +42,9 @@ ByMirrors by_mirrors(const std::string& what, const measure::Picture& picture,
     return found;
 }
 
-/// The hall (support/scenes.hpp) in light from everywhere: a ball, a block and a flat mirror.
-scene::Scene bright_hall() {
+/// Returns the test scene `hall` with a ball, a block and a flat mirror, in which all other
+/// surfaces emit radiance 1.
+scene::Scene hops_bright_hall() {
     scene::Scene hall = test::hall();
     hall.name = "bright hall";
     for (scene::Material& material : hall.materials) {
@@ -57,11 +59,11 @@ scene::Scene bright_hall() {
     return hall;
 }
 
-// Without history other mirrors are black in captures: a ray that meets one mirror more than it may
-// be followed through is black, as where ray tracing ends at that depth.
-TEST(Hops, EachSphereOnTheWayTakesItsOwnShare) {
+// Without history, captures show other mirrors black. A ray that meets more mirrors than it may be
+// followed through is black. Ray tracing with the same depth gives the same result.
+TEST(Hops, EachSphereOnTheWayReflectsItsOwnShare) {
     for (const int hops : {0, 1, 2}) {
-        const app::Part truth = traced(test::three_balls(), hops + 1);
+        const app::Part truth = hops_traced(test::three_balls(), hops + 1);
         for (const std::string search : {"secant", "march", "pyramid", "layered", "proxy"}) {
             SCOPED_TRACE(search + ", continue=" + std::to_string(hops));
             const std::string settings = "continue=" + std::to_string(hops);
@@ -80,14 +82,15 @@ TEST(Hops, EachSphereOnTheWayTakesItsOwnShare) {
     }
 }
 
-TEST(Hops, EachMirrorOfAnyShapeOnTheWayTakesItsOwnShare) {
+TEST(Hops, EachMirrorOfAnyShapeOnTheWayReflectsItsOwnShare) {
     for (const int hops : {1, 2}) {
-        const app::Part truth = traced(bright_hall(), hops + 1);
+        const app::Part truth = hops_traced(hops_bright_hall(), hops + 1);
         for (const std::string search : {"march", "pyramid", "layered"}) {
             SCOPED_TRACE(search + ", continue=" + std::to_string(hops));
             const std::string settings = "continue=" + std::to_string(hops);
             const ByMirrors found = by_mirrors("hall, " + search + ", " + settings,
-                                               searched(bright_hall(), search, settings), truth);
+                                               searched(hops_bright_hall(), search, settings),
+                                               truth);
             EXPECT_LE(found.all.share(), .06);
             EXPECT_GT(found.two.pixels, 100u);
             EXPECT_LE(found.two.share(), .15);
@@ -96,22 +99,22 @@ TEST(Hops, EachMirrorOfAnyShapeOnTheWayTakesItsOwnShare) {
     }
 }
 
-/// Pixels that show two mirrors at least.
+/// Returns the number of pixels whose ray met at least two mirrors.
 std::size_t shows_two(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(
         picture.pixels, [](const vec3& colour) { return test::mirrors_met(colour) >= 2; }));
 }
 
-// Where rays are not followed the capture has what the other mirror takes away, in about as many
-// pixels.
-TEST(Hops, CapturesShowMirrorsWithTheirOwnShare) {
-    const app::Part truth = traced(test::three_balls(), 8);
+// If rays are not followed, the captured colours of a mirror must include that mirror's
+// reflectance. The captures show such colours in about as many pixels as ray tracing.
+TEST(Hops, CapturedMirrorsHaveTheirOwnReflectance) {
+    const app::Part truth = hops_traced(test::three_balls(), 8);
     const double wanted = static_cast<double>(shows_two(truth.hdr));
     ASSERT_GT(wanted, 100);
     for (const std::string technique : {"naive:bounces=4,face=128", "reuse:face=128",
                                         "parallax:face=128", "pyramid:continue=0,face=128"}) {
         const measure::Picture picture =
-            test::render(test::three_balls(), technique + ",shadow=none", kSize, 6).hdr;
+            test::render(test::three_balls(), technique + ",shadow=none", kHopsSize, 6).hdr;
         const test::Compared once = test::compared(
             picture, truth,
             [&](std::uint32_t, const vec3& colour) { return test::mirrors_met(colour) == 1; });

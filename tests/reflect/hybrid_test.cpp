@@ -1,16 +1,17 @@
-// Only what the search does not know is traced, as the ray tracer would; how much that is, and what
-// it is worth.
+// Tests of `hybrid`, which traces only the pixels that its search cannot answer. The traced pixels
+// must equal ray tracing, and their number must be reported.
 #include "support/searches.hpp"
 
 namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{512, 512};
-/// The number in the fourth channel of a lookup is 1 + state + 4 layer + 8 mirror; 0: no mirror.
+constexpr uvec2 kHybridSize{512, 512};
+/// State of a lookup whose search answers unknown. The fourth channel of a lookup holds 1 + state +
+/// 4 layer + 8 mirror, and 0 outside mirrors.
 constexpr std::uint32_t kUnknown = 1;
 
-/// Rendered with its lookups.
+/// Renders one frame and records where mirrors looked.
 app::Part hybrid(const scene::Scene& scene, const std::string& technique, uvec2 size) {
     app::Request request = test::request(scene, {technique}, size);
     request.with_lookup = true;
@@ -30,7 +31,8 @@ Counted count(const std::vector<vec4>& lookup) {
     return counted;
 }
 
-/// What was listed and traced is what the lookups call UNKNOWN, or every mirror pixel.
+/// Expects that the number of traced pixels equals the number of pixels that the search calls
+/// unknown, or of all mirror pixels with `every_mirror`.
 void expect_counted(const app::Part& part, bool every_mirror) {
     ASSERT_TRUE(part.rays.has_value());
     const Counted counted = count(part.lookup);
@@ -43,7 +45,8 @@ void expect_counted(const app::Part& part, bool every_mirror) {
     EXPECT_DOUBLE_EQ(part.traced_fraction.value_or(0), share) << part.label;
 }
 
-/// With every answer unknown, the ray tracer's bytes wherever both see a mirror.
+/// Expects that `hybrid`, forced to call every pixel unknown, renders the same bytes as ray tracing
+/// wherever both see a mirror.
 void expect_traced(const scene::Scene& scene, const std::string& settings,
                    const std::string& reference, uvec2 size) {
     const app::Part traced = test::render(scene, reference, size);
@@ -64,31 +67,33 @@ void expect_traced(const scene::Scene& scene, const std::string& settings,
     EXPECT_LE(static_cast<double>(one), .001 * static_cast<double>(both));
 }
 
-TEST(Hybrid, WithEveryAnswerUnknownItIsTheRayTracer) {
-    expect_traced(scene::cornell_mirrors(), ",face=64", "raytrace:depth=16", kSize);
+TEST(Hybrid, AllUnknownEqualsRayTracing) {
+    expect_traced(scene::cornell_mirrors(), ",face=64", "raytrace:depth=16", kHybridSize);
     expect_traced(scene::cornell_mirrors(), ",face=64,shadow=none", "raytrace:depth=16,shadow=none",
-                  kSize);
-    expect_traced(test::room(3, 2), ",face=32", "raytrace:depth=16", kSize);
+                  kHybridSize);
+    expect_traced(test::room(3, 2), ",face=32", "raytrace:depth=16", kHybridSize);
 }
 
-TEST(Hybrid, MoreWorkGroupsThanOneRowHolds) {
+TEST(Hybrid, MoreWorkGroupsThanOneDimensionAllows) {
     scene::Scene close = test::room(1, 1);
     close.cameras = {{.name = "close",
                       .eye = {-.9, -1.2, -.9},
                       .target = {-.9, -1.2, .3},
                       .vertical_fov_degrees = 50}};
     expect_traced(close, ",face=32", "raytrace:depth=16",
-                  {2056, 2056}); // 66049 of 65535, and all of them mirror
+                  // All pixels are mirror. They need 66049 work groups, and one dimension allows
+                  // 65535.
+                  {2056, 2056});
 }
 
-TEST(Hybrid, TracesThePixelsThatTheSearchCallsUnknown) {
+TEST(Hybrid, ExactlyTheUnknownPixelsAreTraced) {
     for (const uvec2 size : {uvec2{1, 1}, uvec2{33, 17}, uvec2{200, 177}})
         for (const std::string force : {"search", "unknown"})
             expect_counted(hybrid(scene::cornell_mirrors(), "hybrid:face=32,force=" + force, size),
                            force == "unknown");
 }
 
-TEST(Hybrid, ChangesOnlyWhatItTraces) {
+TEST(Hybrid, OnlyTracedPixelsDifferFromTheSearch) {
     constexpr uvec2 kOdd{201, 177};
     const scene::Scene scene = scene::cornell_mirrors();
     const measure::Picture searched = test::render(scene, "pyramid:face=64,captures=all", kOdd).hdr;
@@ -102,9 +107,9 @@ TEST(Hybrid, ChangesOnlyWhatItTraces) {
     }
 }
 
-TEST(Hybrid, AnEmptyListTracesNothing) {
+TEST(Hybrid, EmptyListOfPixelsTracesNothing) {
     const app::Part one = hybrid(test::furnace(1), "hybrid:face=32",
-                                 {48, 48}); // nothing hides anything
+                                 {48, 48}); // no object hides another, so no pixel is unknown
     EXPECT_EQ(one.rays->primary, 0u);
     EXPECT_EQ(one.traced_fraction, 0.0);
     scene::Scene away = test::furnace(1);

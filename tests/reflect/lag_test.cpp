@@ -1,4 +1,4 @@
-// How far pictures that live on last frame's captures are behind a moving scene.
+// Tests of lag: the error of pictures whose captures show the previous frame of a moving scene.
 #include "app/lag.hpp"
 #include "measure/flip.hpp"
 #include "support/rendering.hpp"
@@ -15,12 +15,12 @@ using testing::ElementsAre;
 
 using measure::Difference;
 
-constexpr uvec2 kSize{64, 64};
+constexpr uvec2 kLagSize{64, 64};
 constexpr auto kFlip = &Difference::flip, kRmse = &Difference::rmse;
 
 app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
                             const std::vector<double>& speeds, int most_instants = 30) {
-    return {.base = test::request(scene, techniques, kSize),
+    return {.base = test::request(scene, techniques, kLagSize),
             .speeds = speeds,
             .most_instants = most_instants};
 }
@@ -55,7 +55,7 @@ void expect_no_lag(const report::Lag& lag, std::size_t rows, std::size_t speeds)
     }
 }
 
-TEST(Lag, OfASceneThatStandsIsZeroAtEverySpeed) {
+TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
     const report::Lag lag = measure(
         lag_request(test::room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
     EXPECT_THAT(lag.seconds, ElementsAre(0.0))
@@ -69,8 +69,9 @@ TEST(Lag, OfASceneThatStandsIsZeroAtEverySpeed) {
     EXPECT_GT(lag.rows[0].after_black.max_settled, 1) << "three mirrors see each other";
 }
 
-/// A mirror has its surroundings from this frame; only other mirrors in them are older.
-TEST(Lag, OfASingleMirrorIsZeroThoughItMoves) {
+/// A capture shows the surroundings of the present frame. Only other mirrors in the capture come
+/// from the frame before, and this scene has no other mirror.
+TEST(Lag, SingleMovingMirrorHasNoLag) {
     scene::Scene scene = test::room(1, 1);
     scene.objects.back().motion = scene::Harmonic{.amplitude = {.2, .4, 0}, .period = 1.6};
     const report::Lag lag = measure(
@@ -88,9 +89,9 @@ TEST(Lag, OfASingleMirrorIsZeroThoughItMoves) {
     }
 }
 
-/// A large mirror that moves and is seen in another, and no lamp far brighter than white, whose
-/// image in a single pixel would outweigh the rest.
-TEST(Lag, GrowsWithSpeed) {
+/// The scene has a large moving mirror that is seen in another mirror. Its lamps are no brighter
+/// than white, because the image of a brighter lamp in one pixel would dominate the error.
+TEST(Lag, LagGrowsWithSpeed) {
     scene::Scene scene = test::room(2, 1);
     scene.objects.back().motion = scene::Harmonic{.amplitude = {0, .3, 0}, .period = 4};
     for (scene::Material& material : scene.materials) material.emission /= 9.0f;
@@ -113,22 +114,22 @@ TEST(Lag, GrowsWithSpeed) {
     }
 }
 
-/// Told by other means: an animation that ends at the instant, beside the same bounces rendered at
-/// once.
-TEST(Lag, IsWhatAnAnimationShows) {
+/// Checks the lag by another computation: the last frame of an animation against a still picture
+/// with the same number of bounces.
+TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
     scene::Scene scene = scene::cornell_mirrors();
     scene.objects.back().motion = scene::Harmonic{.amplitude = {0, 50, 0}, .period = .5};
     app::LagRequest request = lag_request(scene, {"reuse:face=32"}, {1}, 4);
     request.base.time = .25;
     const report::Lag lag = measure(request);
     ASSERT_EQ(lag.seconds.size(), 4u);
-    const double instant = .25 + 8 / 60.0; // 30 frames in four steps
+    const double instant = .25 + 8 / 60.0; // 30 frames give four instants, 8 frames apart
     ASSERT_DOUBLE_EQ(lag.seconds[1], instant);
 
-    app::Request moving = test::request(scene, {"reuse:face=32"}, kSize);
+    app::Request moving = test::request(scene, {"reuse:face=32"}, kLagSize);
     moving.animate = true, moving.warmup = 20, moving.time = instant - 20 / 60.0;
-    app::Request still = test::request(scene, {"naive:face=32,bounces=8"}, kSize),
-                 traced = test::request(scene, {"raytrace"}, kSize);
+    app::Request still = test::request(scene, {"naive:face=32,bounces=8"}, kLagSize),
+                 traced = test::request(scene, {"raytrace"}, kLagSize);
     still.time = traced.time = instant;
     const measure::Mask mirrors = measure::mirrors(
         app::run(test::engine(), traced).parts.front().hits);
@@ -146,9 +147,9 @@ TEST(Lag, IsWhatAnAnimationShows) {
     EXPECT_EQ(found.longest_line, wanted.longest_line);
 }
 
-/// reuse's frame k is naive with k bounces, byte for byte (reuse_test.cpp): so many bounces, so
-/// many frames.
-TEST(Lag, FramesAfterBlackAreTheBouncesThatNaiveNeeds) {
+/// Frame k of `reuse` equals `naive` with k bounces byte for byte, as reuse_test.cpp proves. After
+/// a black start the picture therefore settles after as many frames as bounces are needed.
+TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
     const scene::Scene scene = scene::cornell_mirrors();
     app::LagRequest request = lag_request(scene, {"reuse:face=64"}, {8}, 1);
     request.base.size = {128, 128};
@@ -165,7 +166,7 @@ TEST(Lag, FramesAfterBlackAreTheBouncesThatNaiveNeeds) {
         test::render(scene, "raytrace", request.base.size).hits);
     const measure::Picture converged = naive(8);
     int rmse_settled = 0,
-        max_settled = 0; // the first number of bounces after the last that is not within
+        max_settled = 0; // first number of bounces from which the error stays within 1/255
     for (int k = 1; k <= 8; ++k) {
         const measure::Difference error = measure::difference(naive(k), converged, mirrors,
                                                               std::vector<float>(mirrors.size()));
@@ -181,7 +182,7 @@ TEST(Lag, FramesAfterBlackAreTheBouncesThatNaiveNeeds) {
     EXPECT_GT(max_settled, rmse_settled);
 }
 
-TEST(Lag, IsNotAskedOfRowsWithoutHistory) {
+TEST(Lag, RowsWithoutHistoryAreNotMeasured) {
     const report::Lag lag = measure(
         lag_request(test::room(2, 1), {"naive:face=32", "raytrace", "reuse:face=32"}, {1}));
     EXPECT_THAT(lag.without_history, ElementsAre("naive:face=32", "raytrace"));
@@ -190,7 +191,7 @@ TEST(Lag, IsNotAskedOfRowsWithoutHistory) {
     EXPECT_TRUE(lag.complete);
 }
 
-TEST(Lag, RefusesWhatCannotBeMeasured) {
+TEST(Lag, InvalidRequestsAreRefused) {
     const auto refused = [](const app::LagRequest& request, const std::vector<std::string>& words) {
         test::expect_refused([&] { measure(request); }, Failure::usage, words);
     };
@@ -206,7 +207,7 @@ TEST(Lag, RefusesWhatCannotBeMeasured) {
             {"'parallx'", "did you mean 'parallax'"});
 }
 
-TEST(Lag, KeepsWhatThereIsWhenStopped) {
+TEST(Lag, FinishedRowsAreKeptWhenStopped) {
     app::LagRequest request = lag_request(test::room(2, 1), {"reuse:face=32", "parallax:face=32"},
                                           {1, 2});
     std::atomic<int> signal{0};

@@ -1,6 +1,7 @@
-// Lamps beside closed forms, and light at facets whose corners' normals are not theirs, in both
-// worlds.
+// Tests of lamps against closed forms, and of light on facets whose vertex normals differ from
+// their plane. Both are tested in rasterisation and in ray tracing.
 #include "support/lit.hpp"
+#include "support/special_values.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -9,10 +10,10 @@ namespace {
 
 using namespace catoptric;
 
-constexpr double kPi = std::numbers::pi;
-const std::string kWorlds[] = {"raytrace", "naive:bounces=0"};
+const std::string kLampWorlds[] = {"raytrace", "naive:bounces=0"};
 
-/// A floor at y = 0, seen from beside what hangs above it, in one pixel.
+/// Returns a scene of a floor at y = 0. The camera shows its middle in one pixel, from beside the
+/// lamp that tests add above.
 scene::Scene floor_below(double albedo) {
     scene::Scene scene{.name = "floor"};
     const std::size_t grey = test::add_material(scene,
@@ -29,7 +30,7 @@ double floor_pixel(const scene::Scene& scene, const std::string& technique) {
     return test::render_dark(scene, technique, {1, 1}).hdr.at(0, 0).x;
 }
 
-TEST(Lamp, ASphereGivesItsClosedForm) {
+TEST(Lamp, SphereLampEqualsItsClosedForm) {
     scene::Scene scene = floor_below(.5);
     const std::size_t lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(30)});
     scene::Mesh ball = scene::ball("lamp", 5);
@@ -37,13 +38,13 @@ TEST(Lamp, ASphereGivesItsClosedForm) {
     test::add_mesh(scene, ball, lamp);
     for (const bool two_sided : {false, true}) {
         scene.materials[lamp].two_sided = two_sided;
-        for (const std::string& technique : kWorlds)
+        for (const std::string& technique : kLampWorlds)
             EXPECT_NEAR(floor_pixel(scene, technique), .0375, .0002) << technique << two_sided;
     }
 }
 
-TEST(Lamp, ABoardOfTwoSidesShinesByItsCosineBothWays) {
-    for (const double turn : {0.0, .5, 1.2, 2.6, kPi}) {
+TEST(Lamp, TwoSidedBoardShinesByTheCosineOnBothSides) {
+    for (const double turn : {0.0, .5, 1.2, 2.6, test::kPi}) {
         scene::Scene scene = floor_below(.5);
         const std::size_t lamp = test::add_material(
             scene, {.name = "lamp", .emission = vec3(30), .two_sided = true});
@@ -51,24 +52,25 @@ TEST(Lamp, ABoardOfTwoSidesShinesByItsCosineBothWays) {
         const dvec3 at(0, 2, 0);
         test::add_quad(scene, "lamp", lamp, at - along - across, at + along - across,
                        at + along + across, at - along + across);
-        const double wanted = .5 / kPi * 30 * .04 * std::abs(std::cos(turn)) / 4;
-        for (const std::string& technique : kWorlds)
+        const double wanted = .5 / test::kPi * 30 * .04 * std::abs(std::cos(turn)) / 4;
+        for (const std::string& technique : kLampWorlds)
             EXPECT_NEAR(floor_pixel(scene, technique), wanted, 1e-5) << technique << " " << turn;
     }
 }
 
-/// A board that faces upwards, at whose corners normals lean towards +x, and a light that is `sine`
-/// above its plane in that direction.
+/// Returns the relative brightness of a board that faces up. Its vertex normals lean by `lean`
+/// radians towards +x. A point light is in that direction, `sine` above the board's plane.
 double leaning_pixel(double lean, double sine, const std::string& technique) {
     scene::Scene scene = floor_below(.5);
     for (vec3& normal : scene.meshes[0].normals) normal = vec3(std::sin(lean), std::cos(lean), 0);
     scene::Punctual light{.intensity = vec3(9)};
     light.world_from_light[3] = dvec4(3 * std::sqrt(1 - sine * sine), 3 * sine, 0, 1);
     scene.punctual.push_back(light);
-    return floor_pixel(scene, technique) / (.5 / kPi * 9 / 9); // of a light straight above
+    // Divide by the brightness under a light straight above.
+    return floor_pixel(scene, technique) / (.5 / test::kPi * 9 / 9);
 }
 
-TEST(Facets, ALightBelowTheirPlaneGivesNothing) {
+TEST(Facets, LightBelowTheFacetGivesNothing) {
     for (const std::string technique :
          {"raytrace", "raytrace:shadow=none", "naive:bounces=0", "naive:bounces=0,shadow=none"})
         for (const double lean : {.2, .5, 1.2})
@@ -76,7 +78,7 @@ TEST(Facets, ALightBelowTheirPlaneGivesNothing) {
                 EXPECT_EQ(leaning_pixel(lean, -below, technique), 0) << technique << " " << lean;
 }
 
-TEST(Facets, LightFadesTowardsTheirPlane) {
+TEST(Facets, LightFadesTowardsThePlaneOfTheFacet) {
     const double fade = std::sin(glm::radians(6.0));
     for (const std::string technique : {"raytrace", "naive:bounces=0"})
         for (const double part : {.1, .5, .9, 1.1, 4.0}) {
@@ -88,7 +90,7 @@ TEST(Facets, LightFadesTowardsTheirPlane) {
         }
 }
 
-TEST(Facets, NormalsWithinSixDegreesAloneCount) {
+TEST(Facets, FacetsDoNotMatterForNormalsWithinSixDegrees) {
     const double lean = glm::radians(5.0);
     for (const std::string technique : {"raytrace:shadow=none", "naive:bounces=0,shadow=none"})
         for (const double sine : {-.05, -.01, .01, .3})
@@ -97,12 +99,12 @@ TEST(Facets, NormalsWithinSixDegreesAloneCount) {
                 << technique << " " << sine;
 }
 
-/// A white ball of 4^(levels + 1) triangles, lit from the side.
+/// Returns a scene of a white ball of 4^(levels + 1) triangles, lit from the side.
 scene::Scene lit_ball(int levels) {
     scene::Scene scene{.name = "ball"};
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "white", .albedo = vec3(1)}),
                    {0, 0, 0}, 1, levels);
-    scene::Punctual light{.intensity = vec3(static_cast<float>(36 * kPi))};
+    scene::Punctual light{.intensity = vec3(static_cast<float>(36 * test::kPi))};
     light.world_from_light[3] = dvec4(-6, 0, 0, 1);
     scene.punctual.push_back(light);
     scene.cameras.push_back(
@@ -112,8 +114,9 @@ scene::Scene lit_ball(int levels) {
 
 constexpr uvec2 kBallSize{300, 300};
 
-/// Away from the outline, where a mesh is not the sphere.
-double farthest(const measure::Picture& a, const measure::Picture& b) {
+/// Returns the largest difference of two pictures, except at the ball's outline, where a mesh
+/// differs from the sphere.
+double lamp_farthest(const measure::Picture& a, const measure::Picture& b) {
     double most = 0;
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
@@ -124,22 +127,24 @@ double farthest(const measure::Picture& a, const measure::Picture& b) {
     return most;
 }
 
-TEST(Facets, DoNotShowOnABallOf4096Triangles) {
+TEST(Facets, FacetsAreInvisibleOnABallOf4096Triangles) {
     const scene::Scene scene = lit_ball(5);
     const measure::Picture exact = test::render_dark(scene, "raytrace:sphere=exact", kBallSize).hdr;
-    for (const std::string& technique : kWorlds) {
-        const double most = farthest(test::render_dark(scene, technique, kBallSize).hdr, exact);
+    for (const std::string& technique : kLampWorlds) {
+        const double most = lamp_farthest(test::render_dark(scene, technique, kBallSize).hdr,
+                                          exact);
         std::cout << "[ MEASURED ] " << technique << ": off by at most " << most << " of 1.44\n";
         EXPECT_LE(most, .02) << technique;
     }
 }
 
-/// Of few triangles, so that light fades at their facets, an exact sphere is lit as one of many.
-TEST(Facets, DoNotCountOnAnExactSphere) {
+/// Two exact spheres must be lit alike, whether their meshes have few triangles or many. Light
+/// fades at the facets of a coarse mesh, but not on its exact sphere.
+TEST(Facets, FacetsDoNotAffectAnExactSphere) {
     const auto picture = [](int levels) {
         return test::render_dark(lit_ball(levels), "raytrace:sphere=exact", kBallSize).hdr;
     };
-    EXPECT_LE(farthest(picture(3), picture(5)), 1e-5);
+    EXPECT_LE(lamp_farthest(picture(3), picture(5)), 1e-5);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Two layers: what a small ball hides from a capture's centre is in the second, and the search
-// finds it.
+// Tests of captures with two layers. The second layer must hold the surfaces that a small ball
+// hides from the capture's centre, and the search must find them there.
 #include "core/shader_math.hpp"
 #include "support/captures.hpp"
 #include "support/searches.hpp"
@@ -11,41 +11,44 @@ namespace {
 
 using namespace catoptric;
 
-constexpr dvec3 kLow{-4, -3, -5}, kHigh{4, 3, 5};
+constexpr dvec3 kLayeredLow{-4, -3, -5}, kLayeredHigh{4, 3, 5};
 constexpr dvec3 kCentre{.5, -.25, 1}, kOccluder{1.7, -.25, .1};
-constexpr double kRadius = .5; // of the occluder
+constexpr double kLayeredRadius = .5; // radius of the occluding ball
 constexpr vec3 kWalls[6]{{.5f, 0, 0},   {0, .5f, 0},   {0, 0, .5f},
                          {.5f, .5f, 0}, {0, .5f, .5f}, {.25f, 0, .5f}};
-constexpr vec3 kBall{1, .5f, .25f}; // all exact in binary16
+constexpr vec3 kBall{1, .5f, .25f}; // exact in binary16, as are the wall colours
 
-/// A box whose walls each emit a colour of their own, a mirror ball, and a glowing ball beside it.
+/// Returns a box whose walls each emit a different colour, with a mirror ball and a glowing ball
+/// beside it.
 scene::Scene hidden_wall() {
     scene::Scene scene{.name = "hidden wall"};
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, kLow, kHigh),
+        test::add_mesh(scene, test::wall(face, kLayeredLow, kLayeredHigh),
                        test::add_material(scene, {.name = "wall", .emission = kWalls[face]}));
     test::add_ball(scene, "mirror", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    kCentre, .75, 4);
     test::add_ball(scene, "occluder",
                    test::add_material(scene, {.name = "ball", .emission = kBall}), kOccluder,
-                   kRadius, 4);
+                   kLayeredRadius, 4);
     scene.cameras.push_back(
         {.name = "inside", .eye = {-2.5, 1, -3}, .target = kCentre, .vertical_fov_degrees = 20});
     return scene;
 }
 
-/// Distance of the box from `centre` along a unit direction, and the wall there.
+/// Returns the distance from `centre` to the box along a unit direction. `wall` receives the number
+/// of the wall.
 double wall_distance(const dvec3& centre, const dvec3& direction, int& wall) {
     double nearest = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         const bool low = direction[axis] < 0;
-        const double t = ((low ? kLow : kHigh)[axis] - centre[axis]) / direction[axis];
+        const double t = ((low ? kLayeredLow : kLayeredHigh)[axis] - centre[axis]) /
+                         direction[axis];
         if (t < nearest) nearest = t, wall = 2 * axis + low;
     }
     return nearest;
 }
 
-TEST(Layered, SecondLayerIsTheWallBehindTheBall) {
+TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
     constexpr std::uint32_t kFace = 128;
     const scene::Scene scene = hidden_wall();
     const auto [first, second] = test::capture_layers(scene, kFace, Format::r32f);
@@ -61,8 +64,8 @@ TEST(Layered, SecondLayerIsTheWallBehindTheBall) {
                 const float one = first.distance(0, face, x, y, Format::r32f),
                             two = second.distance(0, face, x, y, Format::r32f);
                 if (first.colour(0, face, x, y) != kBall) {
-                    // Nothing lies behind a wall, and the back of the ball, which looks away, is in
-                    // no layer.
+                    // Nothing lies behind a wall. The far side of the ball faces away from the
+                    // centre, so no layer holds it.
                     EXPECT_TRUE(std::isinf(two));
                     EXPECT_EQ(second.colour(0, face, x, y), vec3(0));
                     continue;
@@ -73,21 +76,21 @@ TEST(Layered, SecondLayerIsTheWallBehindTheBall) {
                 const float expected = first.space.length(
                     wall_distance(centre, normalize(at), wall));
                 EXPECT_GT(two, one * (1 + 0x1p-10f));
-                // Interpolated positions are right to a few roundings of the scene's extent,
+                // Interpolated positions are exact to a few roundings of the scene's size, which is
                 // about 1.
                 wrong += !(std::abs(two - expected) <= 0x1p-18f) ||
                          second.colour(0, face, x, y) != kWalls[wall];
             }
-    // At its outline the ball's facets look away where their smooth normals do not yet.
+    // At the outline of the ball some facets already face away while their smooth normals do not.
     EXPECT_LE(wrong, hidden / 100);
-    const double sine = kRadius / length(kOccluder - centre),
+    const double sine = kLayeredRadius / length(kOccluder - centre),
                  expected = 2 * f64::kPi * (1 - std::sqrt(1 - sine * sine));
     EXPECT_NEAR(solid_angle, expected, .02 * expected) << hidden << " texels of ball";
 }
 
-/// Two mirrors face to face in a box that emits 1: the next of their images is what the last one's
-/// capture holds behind nothing, and never brighter than the box.
-TEST(Layered, IsAsBrightAsRaysBetweenParallelMirrors) {
+/// Two mirrors face each other in a box that emits radiance 1. No reflection between the mirrors
+/// may be brighter than the box, even where the second layer of a capture is empty.
+TEST(Layered, ParallelMirrorsAreAsBrightAsInRayTracing) {
     scene::Scene scene{.name = "corridor"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)}),
                       mirror = test::add_material(
@@ -114,7 +117,7 @@ TEST(Layered, IsAsBrightAsRaysBetweenParallelMirrors) {
     EXPECT_LE(judged("layered"), judged("pyramid"));
 }
 
-TEST(Layered, PeelsWithEveryFormat) {
+TEST(Layered, SecondLayerLiesBehindTheFirstInEveryFormat) {
     constexpr std::uint32_t kFace = 32;
     for (const Format format : {Format::r32f, Format::r16f, Format::r8_unorm}) {
         const auto [first, second] = test::capture_layers(test::room(3, 1), kFace, format);
@@ -132,7 +135,7 @@ TEST(Layered, PeelsWithEveryFormat) {
     }
 }
 
-TEST(Layered, FindsTheWallWhereOneLayerShowsTheBall) {
+TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
     constexpr uvec2 kSize{256, 256};
     const scene::Scene scene = hidden_wall();
     const auto render = [&](const std::string& technique) {
@@ -144,7 +147,8 @@ TEST(Layered, FindsTheWallWhereOneLayerShowsTheBall) {
     const app::Part truth = render("raytrace:depth=4");
     const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr,
                            layered = render("layered").hdr;
-    // Every pixel shows a wall, 0 to 5, or the ball, 6, whatever was mixed at an edge.
+    // Classify each pixel as a wall, 0 to 5, or the ball, 6, by the nearest colour, because lookups
+    // mix colours at edges.
     const auto seen = [](const vec3& colour) {
         std::size_t nearest = 6;
         for (std::size_t i = 0; i < 6; ++i)
@@ -172,9 +176,9 @@ TEST(Layered, FindsTheWallWhereOneLayerShowsTheBall) {
     EXPECT_LE(wrong_layered, wrong_secant / 4);
 }
 
-// What rounding of eight bits may hide behind the first layer does not depend on what their range
-// is called.
-TEST(Layered, PeelsEightBitsWhateverTheirRange) {
+// The distance by which the second layer must lie behind the first covers the rounding of eight
+// bits. It must not depend on the number that is given as range.
+TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
     const app::Part truth = test::render(scene::cornell_mirrors(), "raytrace:depth=16", {256, 256});
     const auto error = [&](const std::string& range) {
         return test::rmse(test::render(scene::cornell_mirrors(),
@@ -183,12 +187,14 @@ TEST(Layered, PeelsEightBitsWhateverTheirRange) {
                               .hdr,
                           truth.hdr, measure::mirrors(truth.hits));
     };
-    const double beside = error("1023"), at = error("1024"); // the scene's own size
+    // 1024 is the built-in scene's own size.
+    const double beside = error("1023"), at = error("1024");
     std::cout << "[ MEASURED ] rmse at a range of 1023: " << beside << ", 1024: " << at << "\n";
-    EXPECT_NEAR(at, beside, .005 * beside); // a peel without its rounding: 1 %
+    // Ignoring the rounding of eight bits changes the error by 1 %.
+    EXPECT_NEAR(at, beside, .005 * beside);
 }
 
-TEST(Layered, RendersTheSceneTwiceAMirror) {
+TEST(Layered, SceneIsRenderedTwicePerMirror) {
     const app::Part part = test::render(scene::cornell_mirrors(), "layered:face=16,shadow_map=16",
                                         {16, 16});
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);

@@ -1,4 +1,4 @@
-// Time: frame k of an animation shows the scene (k - 1) / 60 s after its start.
+// Tests of animations: frame k shows the scene (k - 1) / 60 s after the start.
 #include "scene/edit.hpp"
 #include "support/rendering.hpp"
 
@@ -6,8 +6,9 @@ namespace {
 
 using namespace catoptric;
 
-TEST(Motion, FrameKStandsWhereItShould) {
-    // No memory of earlier frames: an animation's last frame is a still of its instant.
+TEST(Motion, LastFrameOfAnAnimationEqualsAStillOfItsInstant) {
+    // These techniques have no history, so the last frame of an animation must equal a still
+    // picture of the same instant.
     for (const char* technique : {"naive:bounces=1,face=64", "raytrace"}) {
         app::Request moving = test::request(scene::cornell_mirrors(), {technique}, {64, 64});
         moving.animate = true, moving.time = .5, moving.warmup = 3, moving.frames = 4;
@@ -22,7 +23,7 @@ TEST(Motion, FrameKStandsWhereItShould) {
     }
 }
 
-TEST(Motion, WithoutAnimationEveryFrameIsTheSame) {
+TEST(Motion, FramesWithoutAnimationAreEqual) {
     app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
                                          {64, 64});
     const measure::Picture one = app::run(test::engine(), request).parts.front().hdr;
@@ -30,7 +31,7 @@ TEST(Motion, WithoutAnimationEveryFrameIsTheSame) {
     EXPECT_TRUE(test::same_bytes(one, app::run(test::engine(), request).parts.front().hdr));
 }
 
-TEST(Motion, ASessionGoesToAnyInstant) {
+TEST(Motion, SessionShowsInstantsInAnyOrder) {
     const app::Request still = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
                                              {64, 64});
     app::Session session(test::engine(), still.scene);
@@ -47,7 +48,7 @@ TEST(Motion, ASessionGoesToAnyInstant) {
     EXPECT_TRUE(test::same_bytes(seen[0], seen[2]));
 }
 
-TEST(Motion, FramesCountFromOneToTheLast) {
+TEST(Motion, FramesAreNumberedFromOne) {
     app::Request request = test::request(test::room(2, 1), {"reuse:face=32"}, {32, 32});
     request.warmup = 1, request.frames = 3;
     app::Session session(test::engine(), request.scene);
@@ -63,8 +64,9 @@ TEST(Motion, FramesCountFromOneToTheLast) {
                                  test::render(test::room(2, 1), "reuse:face=32", {32, 32}, 4).hdr));
 }
 
-// Of many copies in one place the tree keeps one, so a copy that leaves must come into it.
-TEST(Motion, ACopyThatLeavesItsPlaceIsSeen) {
+// The BVH keeps only one of many copies in one place. A copy that moves away must be added to the
+// BVH.
+TEST(Motion, CopyThatLeavesItsPlaceIsSeen) {
     scene::Scene scene{.name = "copies"};
     const std::size_t lamp = test::add_material(scene, {.name = "glow", .emission = vec3(.5F)});
     test::add_quad(scene, "copy", lamp, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0}, {-.5, .5, 0});
@@ -84,7 +86,7 @@ TEST(Motion, ACopyThatLeavesItsPlaceIsSeen) {
     }
 }
 
-TEST(Samples, OnlyAnIrregularNumberDependsOnTheSeed) {
+TEST(Samples, OnlyIrregularSampleCountsDependOnTheSeed) {
     for (const auto& [samples, depends] : {std::pair{"4", false}, {"5", true}}) {
         app::Request request = test::request(
             test::room(1, 1), {std::string("raytrace:samples=") + samples}, {48, 48});

@@ -1,5 +1,5 @@
-// What is nearest to an eye, a mirror's centre or a lamp is in the picture, the capture and the
-// shadow map wherever it stands, in the corners too.
+// Tests of near planes. The surfaces nearest to a camera, a capture's centre or a lamp must be
+// drawn, even in the corners of a view or face.
 #include "stress/texels.hpp"
 #include "support/captures.hpp"
 #include "support/paths.hpp"
@@ -8,10 +8,10 @@ namespace {
 
 using namespace catoptric;
 
-constexpr vec3 kGlow{.25f, .5f, .125f}; // exact in binary16
-constexpr uvec2 kSize{64, 16};
+constexpr vec3 kGlow{.25f, .5f, .125f}; // emitted colour, exact in binary16
+constexpr uvec2 kNearPlaneSize{64, 16};
 
-/// A board of this half width, across the direction in which it lies from a point, `distance` away.
+/// A square board at `distance` from a point, perpendicular to the direction from that point.
 struct Board {
     dvec3 centre, along, up;
     double half;
@@ -24,7 +24,8 @@ struct Board {
         const dvec3 a = half * (along + up), b = half * (along - up);
         test::add_quad(scene, "board", material, centre - a, centre + b, centre + a, centre - b);
     }
-    /// How far inside (above 0) or outside its outline a ray passes, shares of the half width.
+    /// Returns how far inside the board's outline a ray passes, as a share of the half width.
+    /// Negative: outside.
     double inside(const dvec3& eye, const dvec3& direction) const {
         const dvec3 normal = glm::cross(along, up), way = centre - eye;
         const double t = dot(way, normal) / dot(direction, normal);
@@ -34,7 +35,7 @@ struct Board {
     }
 };
 
-/// Towards the eight corners of a cube whose faces look along the axes.
+/// Returns the unit directions to the eight corners of an axis-aligned cube.
 std::vector<dvec3> corners() {
     std::vector<dvec3> directions;
     for (int i = 0; i < 8; ++i)
@@ -46,7 +47,8 @@ std::size_t add_glow(scene::Scene& scene) {
     return test::add_material(scene, {.name = "glow", .emission = kGlow});
 }
 
-/// A bright box around a mirror of two parallel plates, whose centre is free.
+/// Returns a bright box around a mirror of two parallel plates. The centre between the plates,
+/// where the capture is drawn from, is free.
 scene::Scene plates() {
     scene::Scene scene{.name = "plates"};
     test::add_bright_box(scene, {-4, -4, -4}, {4, 4, 4});
@@ -62,8 +64,8 @@ scene::Scene plates() {
     return scene;
 }
 
-/// Texels of the capture of mirror 1, about the origin, that do not show what they should: the
-/// boards in this colour, before surroundings of radiance 1.
+/// Counts the wrong texels in the capture of mirror 1, whose centre is the origin. Boards must show
+/// `colour`, and everything else the radiance 1 of the box.
 std::size_t wrong_texels(const scene::Scene& scene, const std::vector<Board>& boards,
                          const vec3& colour) {
     constexpr std::uint32_t kFace = 32;
@@ -74,7 +76,8 @@ std::size_t wrong_texels(const scene::Scene& scene, const std::vector<Board>& bo
             double inside = -1;
             for (const Board& board : boards)
                 inside = std::max(inside, board.inside(dvec3(0), direction));
-            if (std::abs(inside) < .02) return; // rasterisers snap corners
+            // Ignore outlines, because rasterisers snap vertices.
+            if (std::abs(inside) < .02) return;
             shown += inside > 0;
             wrong += captured.colour(0, face, x, y) != (inside > 0 ? colour : vec3(1));
         });
@@ -82,7 +85,7 @@ std::size_t wrong_texels(const scene::Scene& scene, const std::vector<Board>& bo
     return wrong;
 }
 
-TEST(NearPlane, OfCapturesCutsNoCorner) {
+TEST(NearPlane, CapturesShowBoardsInTheCornersOfFaces) {
     for (const double distance : {.02, .3}) {
         scene::Scene scene = plates();
         std::vector<Board> boards;
@@ -93,8 +96,9 @@ TEST(NearPlane, OfCapturesCutsNoCorner) {
     }
 }
 
-// Its corners are far from the mirror's centre, its middle is near.
-TEST(NearPlane, IsThatOfTrianglesNotOfTheirCorners) {
+// The board's corners are far from the capture's centre, but its middle is near. The near plane
+// must follow from the distance to the triangle.
+TEST(NearPlane, NearPlaneFollowsTheNearestPointOfATriangle) {
     for (const dvec3& direction : {dvec3(1, 0, 0), corners()[3]}) {
         scene::Scene scene = plates();
         const Board board(dvec3(0), direction, .05, 1.2);
@@ -103,16 +107,16 @@ TEST(NearPlane, IsThatOfTrianglesNotOfTheirCorners) {
     }
 }
 
-TEST(NearPlane, OfCapturesKnowsMirrorsToo) {
+TEST(NearPlane, CapturesShowNearMirrorsInTheCornersOfFaces) {
     scene::Scene scene = plates();
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     std::vector<Board> boards;
     for (const dvec3& direction : corners())
         boards.emplace_back(dvec3(0), direction, .05, .01).add(scene, mirror);
-    EXPECT_EQ(wrong_texels(scene, boards, vec3(0)), 0u); // mirrors are black in captures
+    EXPECT_EQ(wrong_texels(scene, boards, vec3(0)), 0u); // captures show mirrors black
 }
 
-TEST(NearPlane, OfTheViewCutsNoCorner) {
+TEST(NearPlane, ViewShowsBoardsInItsCorners) {
     for (const double fov : {40.0, 110.0}) {
         scene::Scene scene{.name = "corners"};
         test::add_bright_box(scene, {-4, -4, -4}, {4, 4, 4});
@@ -125,20 +129,22 @@ TEST(NearPlane, OfTheViewCutsNoCorner) {
                 Board(camera.eye, glm::normalize(dvec3(3.8 * x * tangent, .95 * y * tangent, 1)),
                       .03, .004)
                     .add(scene, add_glow(scene));
-        const app::Part truth = test::render(scene, "raytrace:shadow=none", kSize),
-                        drawn = test::render(scene, "naive:shadow=none,face=1,bounces=1", kSize);
+        const app::Part truth = test::render(scene, "raytrace:shadow=none", kNearPlaneSize),
+                        drawn = test::render(scene, "naive:shadow=none,face=1,bounces=1",
+                                             kNearPlaneSize);
         std::size_t shown = 0, off = 0;
         for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
             shown += truth.hdr.pixels[i] == kGlow;
             off += test::is_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
         }
         EXPECT_GT(shown, 20u) << fov;
-        EXPECT_LE(off, shown / 20) << fov; // a pixel's centre on an outline
+        EXPECT_LE(off, shown / 20) << fov; // pixels whose centre lies on an outline
     }
 }
 
-// Four small boards close to a lamp, towards the corners of its shadow faces, darken the floor's.
-TEST(NearPlane, OfShadowsCutsNoCorner) {
+// Four small boards are close to a lamp, in the directions of the corners of its shadow map's
+// faces. Their shadows must appear on the floor.
+TEST(NearPlane, ShadowMapsHoldBoardsInTheCornersOfFaces) {
     scene::Scene scene{.name = "lamp"};
     const std::size_t white = test::add_material(scene, {.name = "white", .albedo = vec3(.7f)}),
                       lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(9)}),
@@ -162,7 +168,7 @@ TEST(NearPlane, OfShadowsCutsNoCorner) {
     }
     std::cout << "[ MEASURED ] in shadow " << dark << " pixels, off " << off << "\n";
     EXPECT_GT(dark, 50u);
-    EXPECT_LE(off, dark / 4); // the outlines
+    EXPECT_LE(off, dark / 4); // pixels at the outlines of shadows
 }
 
 } // namespace

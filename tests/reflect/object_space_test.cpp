@@ -1,5 +1,6 @@
-// Balls of a millionth of their room, far apart, so that no origin suits both: each keeps a space
-// of its own. What is seen of one is what is seen where it is alone, and so the origin.
+// Tests of object spaces with balls a million times smaller than the room and far apart. No single
+// origin is precise enough for both, so each ball is stored in its own object space. Each ball must
+// look as in a scene without the other ball.
 #include "measure/flip.hpp"
 #include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
@@ -10,10 +11,11 @@ namespace {
 
 using namespace catoptric;
 
-constexpr double kRadius = 1e-3;
-constexpr uvec2 kSize{96, 96};
+constexpr double kObjectSpaceRadius = 1e-3;
+constexpr uvec2 kObjectSpaceSize{96, 96};
 
-/// A room of 1000 with a lamp and one or two balls off its middle; the camera is next to ball 1.
+/// Returns a room of edge 1000 with a lamp and one or two small balls. The camera is next to ball
+/// 1.
 scene::Scene far_balls(int count, bool mirrors) {
     scene::Scene scene{.name = "far balls"};
     const std::size_t white = test::add_material(scene, {.albedo = {.7f, .7f, .7f}}),
@@ -29,8 +31,9 @@ scene::Scene far_balls(int count, bool mirrors) {
     test::add_quad(scene, "lamp", lamp, {-80, 499, -90}, {80, 499, -90}, {80, 499, 60},
                    {-80, 499, 60});
     const dvec3 place(203.7, -101.3, -151.9);
-    test::add_ball(scene, "ball1", mirrors ? mirror : red, place, kRadius, 5);
-    if (count > 1) test::add_ball(scene, "ball2", mirror, {-222.2, 181.4, 204.4}, kRadius, 5);
+    test::add_ball(scene, "ball1", mirrors ? mirror : red, place, kObjectSpaceRadius, 5);
+    if (count > 1)
+        test::add_ball(scene, "ball2", mirror, {-222.2, 181.4, 204.4}, kObjectSpaceRadius, 5);
     scene.cameras.push_back({.name = "near",
                              .eye = place + dvec3(.0017, .0011, -.0053),
                              .target = place + dvec3(.0002, 0, 0),
@@ -42,45 +45,48 @@ double flip(const app::Part& a, const app::Part& b) {
     return measure::flip_mean(measure::flip(a.display, b.display));
 }
 
-TEST(ObjectSpace, ABallShowsWhatItShowsAtTheOrigin) {
+TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
     const scene::Scene alone = far_balls(1, true), both = far_balls(2, true);
     for (const std::string technique :
          {"raytrace", "raytrace:sphere=exact", "raytrace:hit=f64", "raytrace:shadow=map",
           "parallax", "pyramid", "hybrid", "layered"}) {
-        const app::Part wanted = test::render(alone, technique, kSize),
-                        found = test::render(both, technique, kSize);
+        const app::Part wanted = test::render(alone, technique, kObjectSpaceSize),
+                        found = test::render(both, technique, kObjectSpaceSize);
         EXPECT_EQ(test::nonfinite(found.hdr), 0u) << technique;
         EXPECT_LE(flip(found, wanted), .001) << technique;
     }
 }
 
-/// One that is lit, not a mirror: shadow rays start on it, and in the raster world the map is
-/// asked. Alone it has a space of its own too, since only mirrors are worth an origin.
-TEST(ObjectSpace, RaysAgreeWithDoubles) {
+/// Tests a mirror ball and a diffuse ball. Shadow rays start on the diffuse ball, whose object
+/// space is used even without a second ball, because only mirrors determine the scene's origin.
+TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
     for (const bool mirrors : {true, false}) {
         const scene::Scene scene = far_balls(2, mirrors);
-        const app::Request request = test::request(scene, {"raytrace:sphere=exact"}, kSize);
-        const app::Part part = test::render(scene, "raytrace:sphere=exact", kSize);
+        const app::Request request = test::request(scene, {"raytrace:sphere=exact"},
+                                                   kObjectSpaceSize);
+        const app::Part part = test::render(scene, "raytrace:sphere=exact", kObjectSpaceSize);
         const stress::DoubleTracer tracer(scene, request.ambient);
-        measure::Picture truth(static_cast<int>(kSize.x), static_cast<int>(kSize.y));
+        measure::Picture truth(static_cast<int>(kObjectSpaceSize.x),
+                               static_cast<int>(kObjectSpaceSize.y));
         std::size_t off = 0;
-        for (std::uint32_t y = 0; y < kSize.y; ++y)
-            for (std::uint32_t x = 0; x < kSize.x; ++x) {
-                const dvec3 wanted = tracer.pixel(scene.cameras.front(), kSize, x, y, 8),
-                            found(part.hdr.pixels[x + kSize.x * y]);
+        for (std::uint32_t y = 0; y < kObjectSpaceSize.y; ++y)
+            for (std::uint32_t x = 0; x < kObjectSpaceSize.x; ++x) {
+                const dvec3 wanted = tracer.pixel(scene.cameras.front(), kObjectSpaceSize, x, y, 8),
+                            found(part.hdr.pixels[x + kObjectSpaceSize.x * y]);
                 const dvec3 apart = glm::abs(wanted - found);
                 off += !(std::max({apart.x, apart.y, apart.z}) <= .01);
-                truth.pixels[x + kSize.x * y] = vec3(wanted);
+                truth.pixels[x + kObjectSpaceSize.x * y] = vec3(wanted);
             }
-        EXPECT_LE(off, 20u) << "pixels of " << kSize.x * kSize.y << ", mirrors " << mirrors;
+        EXPECT_LE(off, 20u) << "pixels of " << kObjectSpaceSize.x * kObjectSpaceSize.y
+                            << ", mirrors " << mirrors;
         const double seen = measure::flip_mean(
             measure::flip(measure::to_display(part.hdr), measure::to_display(truth)));
         EXPECT_LE(seen, .001) << "mirrors " << mirrors;
     }
 }
 
-/// Eighty turned and squeezed balls, each its own mesh or all one that more copies have than are
-/// put into scene units.
+/// Returns eighty rotated and stretched balls. `shared`: all balls are copies of one mesh, too many
+/// to be stored in scene units. Otherwise each has its own mesh.
 scene::Scene many(bool shared) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
@@ -96,11 +102,11 @@ scene::Scene many(bool shared) {
     return scene;
 }
 
-TEST(ObjectSpace, CopiesOfOneMeshShowWhatSingleMeshesShow) {
+TEST(ObjectSpace, CopiesOfOneMeshEqualSingleMeshes) {
     for (const std::string technique :
          {"raytrace", "raytrace:hit=f64", "raytrace:shadow=map", "pyramid", "hybrid"})
-        EXPECT_LE(flip(test::render(many(true), technique, kSize),
-                       test::render(many(false), technique, kSize)),
+        EXPECT_LE(flip(test::render(many(true), technique, kObjectSpaceSize),
+                       test::render(many(false), technique, kObjectSpaceSize)),
                   .001)
             << technique;
 }

@@ -1,4 +1,5 @@
-// Orthographic cameras: what lies where in the picture, in both worlds.
+// Tests of orthographic cameras in rasterisation and ray tracing: positions in the picture, and
+// mirrors.
 #include "support/lit.hpp"
 
 #include <iostream>
@@ -11,7 +12,7 @@ scene::Camera along(const dvec3& eye, const dvec3& target, double height) {
     return {.eye = eye, .target = target, .orthographic_height = height};
 }
 
-TEST(Orthographic, PlacesCornersWhateverTheirDepth) {
+TEST(Orthographic, PositionDoesNotDependOnDepth) {
     scene::Scene scene{.name = "boards"};
     const auto board = [&](vec3 colour, dvec3 lo, dvec3 hi) {
         test::add_quad(
@@ -20,10 +21,10 @@ TEST(Orthographic, PlacesCornersWhateverTheirDepth) {
             {hi.x, lo.y, lo.z}, hi, {lo.x, hi.y, hi.z});
     };
     board({1, 0, 0}, {-1, -.5, 0}, {1, .5, 0});
-    board({0, 1, 0}, {-1.5, .5, -40}, {-1, .75, -40}); // far behind, as large as it is
-    board({0, 0, 1}, {.5, -.25, 3}, {.75, 0, 3});      // in front of the first
-    board({1, 1, 1}, {-2, -1, 6}, {2, 1, 6});          // behind the camera
-    // Four wide and two high: 16 pixels a unit.
+    board({0, 1, 0}, {-1.5, .5, -40}, {-1, .75, -40}); // far behind, drawn at the same scale
+    board({0, 0, 1}, {.5, -.25, 3}, {.75, 0, 3});      // a board in front of the first
+    board({1, 1, 1}, {-2, -1, 6}, {2, 1, 6});          // a board behind the camera
+    // The camera shows 4 x 2 units in 64 x 32 pixels, which is 16 pixels a unit.
     for (const double z : {4.0, 5.0})
         for (const std::string technique : {"raytrace", "naive"}) {
             scene.cameras = {along({0, 0, z}, {0, 0, 0}, 2)};
@@ -42,8 +43,9 @@ TEST(Orthographic, PlacesCornersWhateverTheirDepth) {
         }
 }
 
-/// However far away the eye is: what is in front of it is there.
-TEST(Orthographic, RasterShowsWhatRaysSee) {
+/// Tests that the picture does not depend on the distance of the camera, as long as the scene is in
+/// front of it.
+TEST(Orthographic, RasterisationEqualsRayTracing) {
     scene::Scene scene = test::yard();
     scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
                               .intensity = vec3(2),
@@ -56,8 +58,9 @@ TEST(Orthographic, RasterShowsWhatRaysSee) {
     }
 }
 
-/// Mirrors turn parallel rays into what the ray tracer sees, and a footprint is found.
-TEST(Orthographic, MirrorsAreLookedAtAlongTheView) {
+/// Mirrors must reflect parallel rays as the ray tracer does, and `face=auto` must find a
+/// resolution for them.
+TEST(Orthographic, MirrorsReflectParallelViewRays) {
     scene::Scene scene = test::room(2, 1);
     scene.cameras = {along({.1, .2, -2.9}, {0, -.2, 0}, 3)};
     constexpr uvec2 kSize{96, 96};

@@ -1,5 +1,5 @@
-// Ray tracing of the built-in scene against figures of two independent renderers: ambient 0,
-// 512x512, balls as meshes.
+// Compares ray tracing of the built-in scene with figures from two independent renderers. The
+// ambient light is 0, the picture has 512x512 pixels, and balls are meshes.
 #include "support/outside_figures.hpp"
 
 namespace {
@@ -8,12 +8,12 @@ using namespace catoptric;
 
 using test::expect_share, test::trace;
 
-/// All rays: from the camera, reflected, and to the light.
+/// Returns the number of all rays: camera rays, reflected rays and shadow rays.
 double rays(const app::Part& part) {
     return static_cast<double>(part.rays->primary + part.rays->mirror + part.rays->shadow);
 }
 
-TEST(OutsideFigures, RaysAtAndBeyondDepthZero) {
+TEST(OutsideFigures, RayCountsAtEachDepthEqualTheFigures) {
     const app::Part direct = trace(0, 1);
     ASSERT_TRUE(direct.rays);
     EXPECT_EQ(direct.rays->primary, 512u * 512u);
@@ -28,9 +28,9 @@ TEST(OutsideFigures, RaysAtAndBeyondDepthZero) {
     }
 }
 
-/// Rays through 8 x 8 places of each pixel; errors of each depth with 20 x 20, as they were made
-/// outside: tests/long.
-TEST(OutsideFigures, MeanOfAllDepths) {
+/// Tests the mean colour at depth 8 with 8 x 8 samples per pixel. tests/long checks each depth with
+/// 20 x 20 samples, as many as the other renderers used.
+TEST(OutsideFigures, MeanColourEqualsTheFigures) {
     const app::Part deep = trace(8, 64);
     expect_share("mean at depth 8", measure::mean_of(deep.hdr, measure::Range::unclamped).all,
                  .120650, .003);

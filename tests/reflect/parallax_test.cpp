@@ -1,5 +1,5 @@
-// Part three of the report: the corrected direction is worth its distances, unless they are stored
-// in eight bits of a range of 200.
+// Tests of `parallax`, part three of the seed report. The corrected direction must reduce the
+// error, unless distances are stored in eight bits with a range of 200.
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -8,14 +8,15 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{512, 512};
-constexpr int kFrames = 4; // deeper bounces have arrived
+constexpr uvec2 kParallaxSize{512, 512};
+constexpr int kParallaxFrames = 4; // enough frames for deeper bounces to arrive in the captures
 
-TEST(Parallax, HalvesTheErrorOfTheUncorrectedDirection) {
+TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
     const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part truth = test::render(scene, "raytrace:depth=16", kSize);
-    const measure::Picture reuse = test::render(scene, "reuse", kSize, kFrames).hdr;
-    const measure::Picture parallax = test::render(scene, "parallax", kSize, kFrames).hdr;
+    const app::Part truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
+    const measure::Picture reuse = test::render(scene, "reuse", kParallaxSize, kParallaxFrames).hdr;
+    const measure::Picture parallax =
+        test::render(scene, "parallax", kParallaxSize, kParallaxFrames).hdr;
     const auto expect_share = [&](const std::string& where, const measure::Mask& mask,
                                   double most) {
         const double with = test::rmse(parallax, truth.hdr, mask),
@@ -30,9 +31,10 @@ TEST(Parallax, HalvesTheErrorOfTheUncorrectedDirection) {
                      .65);
 }
 
-// Beside the void one infinite texel of four does not make the other three void: the nearest
-// decides. A taken ring of texels would show at once where they are large.
-TEST(Parallax, TheVoidIsNoLargerInCoarseCaptures) {
+// At the edge of an empty area some of the four texels of a lookup are infinite. Then the nearest
+// texel decides whether the lookup misses. Otherwise the empty area would grow by a ring of texels,
+// which would show in coarse captures.
+TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
     scene::Scene scene{.name = "floor"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
     test::add_quad(scene, "floor", hot, {-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3});
@@ -58,13 +60,13 @@ TEST(Parallax, TheVoidIsNoLargerInCoarseCaptures) {
     EXPECT_NEAR(coarse, fine, .02);
 }
 
-TEST(Parallax, DistancesClampedAt200AreWorseThanNone) {
+TEST(Parallax, DistancesClampedAt200AreWorseThanNoCorrection) {
     const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part truth = test::render(scene, "raytrace:depth=16", kSize);
+    const app::Part truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
     const measure::Mask mask = measure::mirrors(truth.hits);
     const auto error = [&](const std::string& technique) {
-        const double value = test::rmse(test::render(scene, technique, kSize, kFrames).hdr,
-                                        truth.hdr, mask);
+        const double value = test::rmse(
+            test::render(scene, technique, kParallaxSize, kParallaxFrames).hdr, truth.hdr, mask);
         std::cout << "[ MEASURED ] " << technique << ": rmse " << value << " on mirror pixels\n";
         return value;
     };

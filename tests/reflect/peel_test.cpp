@@ -1,5 +1,5 @@
-// The second layer of captures: what lies behind the first, however close, and never the first
-// again.
+// Tests of the second layer of captures. It must hold the surfaces behind the first layer, however
+// close, and never the first layer's surfaces.
 #include "stress/texels.hpp"
 #include "support/captures.hpp"
 
@@ -9,9 +9,11 @@ namespace {
 
 using namespace catoptric;
 
-constexpr std::uint32_t kFace = 48;
-constexpr vec3 kWall{.5f, .25f, .75f}, kBoard{.25f, 1, .125f}; // exact in binary16
-constexpr dvec3 kLow{-2, -3, -4}, kHigh{3, 4, 2}; // of the walls, from the mirror's centre
+constexpr std::uint32_t kPeelFace = 48;
+// Emitted colours of walls and boards, exact in binary16.
+constexpr vec3 kWall{.5f, .25f, .75f}, kPeelBoard{.25f, 1, .125f};
+// Corners of the box of walls, relative to the capture's centre.
+constexpr dvec3 kPeelLow{-2, -3, -4}, kPeelHigh{3, 4, 2};
 
 class Peel : public testing::TestWithParam<Format> {
 protected:
@@ -24,16 +26,16 @@ INSTANTIATE_TEST_SUITE_P(Formats, Peel,
                          testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
                          [](const auto& instance) { return std::string(name_of(instance.param)); });
 
-/// A mirror ball about the origin in a box; before each wall, `gap` (of the way from the ball)
-/// nearer, one that covers its middle.
+/// Returns a mirror ball at the origin in a box. With `gap` above 0, a board hides the middle of
+/// each wall from the ball. The boards are nearer to the ball by this share of the distance.
 scene::Scene double_walls(double gap) {
     scene::Scene scene{.name = "double walls"};
     const std::size_t wall = test::add_material(scene, {.name = "wall", .emission = kWall}),
-                      board = test::add_material(scene, {.name = "board", .emission = kBoard});
+                      board = test::add_material(scene, {.name = "board", .emission = kPeelBoard});
     for (int face = 0; face < 6; ++face) {
-        test::add_mesh(scene, test::wall(face, kLow, kHigh), wall);
+        test::add_mesh(scene, test::wall(face, kPeelLow, kPeelHigh), wall);
         if (gap <= 0) continue;
-        scene::Mesh mesh = test::wall(face, kLow, kHigh);
+        scene::Mesh mesh = test::wall(face, kPeelLow, kPeelHigh);
         const dvec3 middle = (mesh.positions[0] + mesh.positions[2]) / 2.;
         for (dvec3& position : mesh.positions)
             position = (1 - gap) * (middle + .6 * (position - middle));
@@ -45,10 +47,10 @@ scene::Scene double_walls(double gap) {
     return scene;
 }
 
-TEST_P(Peel, NothingLiesBehindAWall) {
-    const auto [first, second] = test::capture_layers(double_walls(0), kFace, GetParam());
+TEST_P(Peel, SecondLayerBehindAWallIsEmpty) {
+    const auto [first, second] = test::capture_layers(double_walls(0), kPeelFace, GetParam());
     std::size_t again = 0;
-    stress::for_texels(kFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+    stress::for_texels(kPeelFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
         EXPECT_EQ(first.colour(0, face, x, y), kWall);
         again += !is_nothing(second.distance(0, face, x, y, GetParam())) ||
                  second.colour(0, face, x, y) != vec3(0);
@@ -56,17 +58,17 @@ TEST_P(Peel, NothingLiesBehindAWall) {
     EXPECT_EQ(again, 0u);
 }
 
-// From all that a stored distance can tell apart on.
-TEST_P(Peel, BehindABoardIsTheWallHoweverClose) {
+// The smaller gap is the smallest that the stored distances can resolve.
+TEST_P(Peel, SecondLayerShowsTheWallBehindACloseBoard) {
     for (const double gap : {GetParam() == Format::r8_unorm ? .05 : .004, .1}) {
         const scene::Scene scene = double_walls(gap);
-        const auto [first, second] = test::capture_layers(scene, kFace, GetParam());
-        // Of the mesh's bounds, which is not quite the ball's.
+        const auto [first, second] = test::capture_layers(scene, kPeelFace, GetParam());
+        // A capture's centre is that of the mesh's bounds, which is not exactly the ball's centre.
         const dvec3 centre = scene::bounds(scene, scene.objects.back()).centre();
         std::size_t boards = 0, wrong = 0;
         double worst = 0;
-        stress::for_texels(kFace, [&](const dvec3& direction, int face, std::uint32_t x,
-                                      std::uint32_t y) {
+        stress::for_texels(kPeelFace, [&](const dvec3& direction, int face, std::uint32_t x,
+                                          std::uint32_t y) {
             const float one = first.distance(0, face, x, y, GetParam()),
                         two = second.distance(0, face, x, y, GetParam());
             if (first.colour(0, face, x, y) == kWall) {
@@ -78,9 +80,9 @@ TEST_P(Peel, BehindABoardIsTheWallHoweverClose) {
             double wall = INFINITY;
             for (int axis = 0; axis < 3; ++axis)
                 if (direction[axis] != 0)
-                    wall = std::min(wall,
-                                    ((direction[axis] < 0 ? kLow : kHigh)[axis] - centre[axis]) /
-                                        direction[axis]);
+                    wall = std::min(
+                        wall, ((direction[axis] < 0 ? kPeelLow : kPeelHigh)[axis] - centre[axis]) /
+                                  direction[axis]);
             wall *= glm::length(direction);
             const double unit = is_unorm() ? 10 : 1 / second.space.scale;
             worst = std::max(worst, std::abs(two * unit / wall - 1));
@@ -91,21 +93,23 @@ TEST_P(Peel, BehindABoardIsTheWallHoweverClose) {
     }
 }
 
-// What looks away from the centre is no second layer: a ball's far side.
-TEST_P(Peel, TheFarSideOfABallIsInNoLayer) {
+// Surfaces that face away from the capture's centre, such as the far side of a ball, belong to no
+// layer.
+TEST_P(Peel, FarSideOfABallIsInNoLayer) {
     scene::Scene scene = double_walls(0);
-    const std::size_t glow = test::add_material(scene, {.name = "glow", .emission = kBoard});
+    const std::size_t glow = test::add_material(scene, {.name = "glow", .emission = kPeelBoard});
     for (const dvec3& centre : {dvec3(1.2, .3, -.4), dvec3(-1.1, .2, .3), dvec3(.2, -1.5, -2)})
         test::add_ball(scene, "occluder", glow, centre, .45, 4);
-    const auto [first, second] = test::capture_layers(scene, kFace, GetParam());
+    const auto [first, second] = test::capture_layers(scene, kPeelFace, GetParam());
     std::size_t balls = 0, wrong = 0;
-    stress::for_texels(kFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
-        if (first.colour(0, face, x, y) != kBoard) return;
+    stress::for_texels(kPeelFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+        if (first.colour(0, face, x, y) != kPeelBoard) return;
         ++balls;
         wrong += second.colour(0, face, x, y) != kWall;
     });
     EXPECT_GT(balls, 200u);
-    EXPECT_LE(wrong, balls / 50); // at outlines facets look away where smooth normals do not yet
+    // At outlines some facets face away from the centre, while their smooth normals do not.
+    EXPECT_LE(wrong, balls / 50);
 }
 
 } // namespace

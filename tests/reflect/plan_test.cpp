@@ -1,5 +1,5 @@
-// Several techniques in one frame, each mirror by its own: their pixels against those of runs in
-// which all mirrors share one.
+// Tests of plans, in which each mirror is drawn by its own technique. Each mirror's pixels must
+// equal those of a frame in which one technique draws all mirrors.
 #include "measure/lookup.hpp"
 #include "support/rendering.hpp"
 
@@ -9,9 +9,10 @@ namespace {
 
 using namespace catoptric;
 
-/// Pixels of one mirror that say nothing of another: compared, and those that are not the same.
+/// Counts of the pixels of one mirror that show no other mirror: compared pixels, pixels with other
+/// bytes, and pixels that are off.
 struct Alike {
-    std::size_t compared = 0, other = 0, off = 0; ///< off: by more than 1/255 in some channel
+    std::size_t compared = 0, other = 0, off = 0; ///< off: a channel differs by more than 1/255
 };
 
 bool is_off(const vec3& a, const vec3& b) {
@@ -21,8 +22,8 @@ bool is_off(const vec3& a, const vec3& b) {
     return false;
 }
 
-/// Whether a ball other than `mirror`, from 0, may lie within 1.5 texels of a direction from its
-/// capture's centre, whatever hides it.
+/// Returns whether the direction from the capture's centre may show a ball other than `mirror`,
+/// with a margin of 1.5 texels. Ignores objects that hide the ball. Mirrors are numbered from 0.
 bool may_show_mirror(const scene::Scene& scene, std::size_t mirror, const dvec3& direction,
                      int face) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
@@ -37,6 +38,8 @@ bool may_show_mirror(const scene::Scene& scene, std::size_t mirror, const dvec3&
     return false;
 }
 
+/// Compares the pixels of one mirror in a plan (`mixed`) with those of one technique (`uniform`).
+/// Leaves out the pixels that may show another mirror.
 Alike alike(const scene::Scene& scene, const app::Part& mixed, const app::Part& uniform,
             const app::Part& truth, MirrorId mirror, int face) {
     Alike result;
@@ -57,16 +60,18 @@ Alike alike(const scene::Scene& scene, const app::Part& mixed, const app::Part& 
     return result;
 }
 
-TEST(Plan, EveryMirrorIsDrawnAsInAFrameOfItsOwnTechnique) {
+TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
     constexpr uvec2 kSize{192, 192};
-    constexpr int kFrames = 2; // deeper bounces are in pixels that are left out
+    // Two frames are enough, because pixels with deeper bounces are left out.
+    constexpr int kFrames = 2;
     const scene::Scene scene = scene::cornell_mirrors();
     const app::Part truth = test::render(scene, "raytrace", kSize);
     app::Request asked = test::request(
         scene, {"1=reuse:face=64 2=hybrid 3=secant *=raytrace:shadow=map"}, kSize);
     asked.warmup = kFrames - 1;
     const app::Part mixed = std::move(app::run(test::engine(), asked).parts.front());
-    EXPECT_EQ(mixed.scene_passes, 4 + 2); // mirror 4 is captured for the others to show it
+    // Mirror 4 is traced, but has a capture, because the captures of other mirrors show it.
+    EXPECT_EQ(mixed.scene_passes, 4 + 2);
     const std::vector<std::string> uniform{"reuse:face=64", "hybrid", "secant",
                                            "raytrace:shadow=map"};
     for (std::size_t i = 0; i < uniform.size(); ++i) {
@@ -85,8 +90,8 @@ TEST(Plan, EveryMirrorIsDrawnAsInAFrameOfItsOwnTechnique) {
     }
 }
 
-/// Three balls in a row, with boards between them that hide each from the others, and by so much
-/// that no search takes one to be in sight (a ball's radius, see shaders/lib/mirror.glsl).
+/// Returns three balls in a row with boards between them. Each board hides the balls from each
+/// other by more than a ball's radius, the tolerance of the searches (shaders/lib/mirror.glsl).
 scene::Scene walled_off() {
     scene::Scene scene = test::room(0, 2);
     scene.name = "walled off";
@@ -102,7 +107,7 @@ scene::Scene walled_off() {
     return scene;
 }
 
-TEST(Plan, MirrorsThatNeverSeeEachOtherAreTheSameToTheByte) {
+TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
     constexpr uvec2 kSize{256, 96};
     const scene::Scene scene = walled_off();
     const app::Part truth = test::render(scene, "raytrace", kSize);
@@ -126,7 +131,7 @@ TEST(Plan, MirrorsThatNeverSeeEachOtherAreTheSameToTheByte) {
             const app::Part uniform = rendered(rows[i]);
             std::size_t pixels = 0, other = 0;
             for (std::size_t p = 0; p < truth.hits.size(); ++p) {
-                // Where the ray met a mirror and the rasteriser did too.
+                // Compare only pixels in which both ray tracing and rasterisation show the mirror.
                 if (measure::first_mirror(truth.hits[p]) != MirrorId::at(i)) continue;
                 if (uniform.lookup[p].w == 0) continue;
                 ++pixels;
@@ -138,15 +143,16 @@ TEST(Plan, MirrorsThatNeverSeeEachOtherAreTheSameToTheByte) {
     }
 }
 
-/// Of a scene with a sky and textures: four uniform buffers, one more than any other.
-TEST(Plan, CapturesOfTwoEdgesUnderASky) {
+/// The scene has a sky and textures, so its shaders use four uniform buffers, the largest number.
+TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
     const scene::Scene scene = scene::load("courtyard");
     const uvec2 size{48, 48};
     const app::Part mixed = test::render(
         scene, "1=parallax:face=32,shadow_map=256 *=parallax:face=16,shadow_map=256", size, 2);
     const app::Part alike = test::render(scene, "parallax:face=32,shadow_map=256", size, 2);
     const app::Part traced = test::render(scene, "raytrace:depth=1", size);
-    std::array<std::size_t, 3> same{}, other{}; // of nothing, mirror 1 and the rest
+    // Numbers of pixels of no mirror, of mirror 1 and of other mirrors.
+    std::array<std::size_t, 3> same{}, other{};
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         const std::size_t mirror = std::min(traced.hits[i] & 0xffff, 2u);
         ++(mixed.hdr.pixels[i] == alike.hdr.pixels[i] ? same : other)[mirror];
@@ -157,7 +163,7 @@ TEST(Plan, CapturesOfTwoEdgesUnderASky) {
     EXPECT_GT(other[2], same[2]) << "their captures are coarser";
 }
 
-TEST(Plan, OfOneTechniqueIsThatTechnique) {
+TEST(Plan, PlanOfOneTechniqueEqualsThatTechnique) {
     const scene::Scene scene = test::room(3, 1);
     for (const std::string technique : {"hybrid", "naive:bounces=2", "raytrace:shadow=map"}) {
         const app::Part alone = test::render(scene, technique, {64, 48}, 2),
@@ -169,7 +175,7 @@ TEST(Plan, OfOneTechniqueIsThatTechnique) {
     }
 }
 
-TEST(Plan, AMirrorWithoutACaptureIsBlackInTheOthers) {
+TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
     const scene::Scene scene = test::hall();
     const uvec2 size{96, 72};
     const app::Part shown = test::render(scene, "1=secant:face=64 *=raytrace", size, 3),
@@ -191,7 +197,7 @@ TEST(Plan, AMirrorWithoutACaptureIsBlackInTheOthers) {
     EXPECT_GT(lit, 20u);
 }
 
-TEST(Plan, OfTracingsDrawsNoCaptures) {
+TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
     const scene::Scene scene = test::room(3, 1);
     const uvec2 size{96, 72};
     const app::Part mixed = test::render(
@@ -199,7 +205,7 @@ TEST(Plan, OfTracingsDrawsNoCaptures) {
         "1=raytrace:depth=1,shadow=map 2=raytrace:depth=3,shadow=map "
         "*=raytrace:depth=8,shadow=map,samples=4",
         size);
-    EXPECT_EQ(mixed.scene_passes, 2); // shadow map and view
+    EXPECT_EQ(mixed.scene_passes, 2); // scene passes: the shadow map and the view
     const app::Part truth = test::render(scene, "raytrace", size);
     for (const auto& [mirror, technique] : {std::pair{1u, "raytrace:depth=1,shadow=map"},
                                             {2u, "raytrace:depth=3,shadow=map"},
@@ -218,7 +224,8 @@ TEST(Plan, OfTracingsDrawsNoCaptures) {
     EXPECT_EQ(*mixed.traced_fraction, 1);
 }
 
-/// So many exact balls in a room that one array does not hold their captures.
+/// Returns a room with `count` small exact balls. With 350 balls, one image array cannot hold all
+/// captures.
 scene::Scene many_balls(int count) {
     scene::Scene scene = test::room(0, 1);
     scene.name = "many balls";
@@ -230,15 +237,16 @@ scene::Scene many_balls(int count) {
     return scene;
 }
 
-TEST(Plan, MoreMirrorsThanAnArrayHoldsAreCapturedInSeveral) {
+TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const scene::Scene scene = many_balls(350);
     const uvec2 size{64, 64};
     const std::vector<std::string> techniques{"parallax:face=4"};
     const app::Part part = test::render(scene, techniques.front(), size, 1);
     EXPECT_EQ(part.scene_passes, 350 + 2);
     const app::Part truth = test::render(scene, "raytrace:depth=1", size);
-    // Against a scene without the first ten, of whose captures one array holds all: the other
-    // mirrors are black in captures of a first frame, so what changes is where these were.
+    // Compare with a scene without the first ten mirrors, whose captures fit into one array. In a
+    // first frame, captures show mirrors black. The pictures may therefore differ only where the
+    // removed mirrors were seen.
     scene::Scene fewer = scene;
     const std::size_t first = scene::mirrors(scene).front();
     const auto begin = fewer.objects.begin() + static_cast<std::ptrdiff_t>(first);
@@ -247,7 +255,7 @@ TEST(Plan, MoreMirrorsThanAnArrayHoldsAreCapturedInSeveral) {
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         const MirrorId mirror = measure::first_mirror(truth.hits[i]);
-        if (mirror.number() <= 100) continue; // far from those left out
+        if (mirror.number() <= 100) continue; // compare only mirrors far from the removed ones
         ++pixels;
         other += is_off(part.hdr.pixels[i], alone.hdr.pixels[i]);
     }
@@ -255,7 +263,7 @@ TEST(Plan, MoreMirrorsThanAnArrayHoldsAreCapturedInSeveral) {
     EXPECT_LT(static_cast<double>(other), .02 * static_cast<double>(pixels)) << other;
 }
 
-TEST(Plan, EdgesThatAreTooManyAreEnlargedAndThatIsSaid) {
+TEST(Plan, TooManyCaptureEdgesAreEnlargedWithANote) {
     const scene::Scene scene = many_balls(10);
     std::string plan;
     for (int i = 1; i <= 10; ++i)
@@ -282,7 +290,7 @@ TEST(Plan, EdgesThatAreTooManyAreEnlargedAndThatIsSaid) {
         Failure::exhausted, {"10 arrays", "a frame has 8"});
 }
 
-TEST(Plan, ThatDoesNotFitTheSceneIsRefused) {
+TEST(Plan, PlanThatDoesNotFitTheSceneIsRefused) {
     const scene::Scene scene = test::room(3, 1);
     const auto refused = [&](const std::string& plan, const std::vector<std::string>& words) {
         test::expect_refused([&] { test::render(scene, plan, {16, 16}); }, Failure::usage, words);

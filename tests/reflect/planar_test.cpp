@@ -1,4 +1,4 @@
-// Flat mirrors with views of their own, against what rays see.
+// Tests of `planar`, which draws flat mirrors with mirrored views, against ray tracing.
 #include "app/compare.hpp"
 #include "support/lit.hpp"
 #include "support/paths.hpp"
@@ -11,12 +11,13 @@ namespace {
 
 using namespace catoptric;
 
+/// Adds a material of a mirror with this reflectance in all channels.
 std::size_t add_mirror(scene::Scene& scene, float reflectance = 1) {
     return test::add_material(scene,
                               {.name = "mirror", .mirror = true, .reflectance = vec3(reflectance)});
 }
 
-/// The built-in room of one flat mirror, at z = 2.98, with more.
+/// Returns the built-in scene with one flat mirror at z = 2.98, plus the objects that `more` names.
 scene::Scene flat(const std::string& more = "") {
     scene::Scene scene = scene::load("flat");
     scene.name += more;
@@ -38,8 +39,9 @@ scene::Scene flat(const std::string& more = "") {
     return scene;
 }
 
-/// Pixels beside an outline: of a mirror, of a lamp, or of anything but the room's walls, seen in
-/// the mirrors. The scene is painted so that each thing glows in a colour of its own, and traced.
+/// Returns a mask of the pixels beside an outline of a mirror, of a lamp, or of an object seen in a
+/// mirror. Finds outlines by ray tracing the scene with each object painted in its own colour, all
+/// walls in the same.
 measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_t>& hits,
                               uvec2 size) {
     float next = 1;
@@ -67,8 +69,9 @@ measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_
     return beside;
 }
 
-/// Share of the pixels of a mask that are off.
-double share_off(const measure::Picture& a, const measure::Picture& b, const measure::Mask& mask) {
+/// Returns the share of the mask's pixels that are off.
+double planar_share_off(const measure::Picture& a, const measure::Picture& b,
+                        const measure::Mask& mask) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < mask.size(); ++i)
         off += mask[i] && !(test::apart(a.pixels[i], b.pixels[i]) <= float(measure::kOff));
@@ -79,7 +82,7 @@ struct Found {
     double share_off, mae, rmse, left_out;
 };
 
-/// Over pixels of first order but those that are left out.
+/// Compares the first-order pixels with ray tracing, except those in the mask `left_out`.
 Found off_of(const app::Part& planar, const app::Part& truth, const measure::Mask& left_out) {
     measure::Mask mask = measure::first_order(truth.hits);
     const double whole = double(measure::pixel_count(mask));
@@ -88,7 +91,7 @@ Found off_of(const app::Part& planar, const app::Part& truth, const measure::Mas
         if (left_out[i]) mask[i] = 0;
     const std::vector<float> no_flip(truth.hdr.pixels.size(), 0.0f);
     const measure::Difference found = measure::difference(planar.hdr, truth.hdr, mask, no_flip);
-    return {share_off(planar.hdr, truth.hdr, mask), found.mae, found.rmse,
+    return {planar_share_off(planar.hdr, truth.hdr, mask), found.mae, found.rmse,
             1 - double(measure::pixel_count(mask)) / whole};
 }
 
@@ -97,8 +100,8 @@ void print(const std::string& what, const Found& found) {
               << found.mae << ", rmse " << found.rmse << ", left out " << found.left_out << "\n";
 }
 
-/// What a shadow map does not know as rays do is no flat mirror's fault.
-TEST(Planar, ShowsWhatRaysSee) {
+/// Differences at shadow edges come from the shadow map, so they do not count against `planar`.
+TEST(Planar, FlatMirrorsEqualRayTracing) {
     constexpr uvec2 size(512);
     scene::Scene low = flat(" from below");
     low.cameras.front() = low.cameras.at(1);
@@ -130,11 +133,11 @@ TEST(Planar, ShowsWhatRaysSee) {
     }
 }
 
-constexpr uvec2 kSmall{96, 96};
+constexpr uvec2 kPlanarSmall{96, 96};
 
-/// A wall mirror modelled as a thin closed box shows what the quad of its front does, and its rim
-/// is drawn, too, where it is seen.
-TEST(Planar, DrawsTheFacesOfABoardAsTheQuadOfItsFront) {
+/// A wall mirror modelled as a thin closed box must look like a quad at the place of its front. The
+/// edges of the box are drawn as well where they are visible.
+TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
     constexpr uvec2 size(192);
     scene::Scene quad = flat();
     const std::size_t index = scene::mirrors(quad).front();
@@ -160,17 +163,17 @@ TEST(Planar, DrawsTheFacesOfABoardAsTheQuadOfItsFront) {
     }
 }
 
-/// What is not flat of a body is said, and so is a mirror that another technique draws.
-TEST(Planar, SaysWhatItDoesNotDraw) {
+/// A note must name each mirror that `planar` cannot draw and the technique that draws it instead.
+TEST(Planar, NoteNamesMirrorsDrawnByAnotherTechnique) {
     const scene::Scene hall = test::hall();
-    const app::Part part = test::render(hall, "planar", kSmall, 2);
+    const app::Part part = test::render(hall, "planar", kPlanarSmall, 2);
     ASSERT_EQ(part.notes.size(), 1u);
     EXPECT_THAT(part.notes[0], testing::MatchesRegex("mirror 1 '.*': not flat, drawn by reuse"));
 }
 
-/// Two mirrors face each other across a bright room: what k mirrors show is .8^k, up to the last
-/// that is asked for.
-TEST(Planar, MirrorsInMirrorsAreAsDeepAsAskedFor) {
+/// Two mirrors of reflectance .8 face each other in a box that emits radiance 1. A ray that meets k
+/// mirrors brings .8^k, up to the requested number of bounces.
+TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
     scene::Scene scene{.name = "corridor"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
     for (int face = 0; face < 6; ++face)
@@ -182,9 +185,10 @@ TEST(Planar, MirrorsInMirrorsAreAsDeepAsAskedFor) {
     for (const int bounces : {0, 1, 2, 5}) {
         const std::string number = std::to_string(bounces);
         const app::Part planar = test::render(scene, "planar:shadow=none,bounces=" + number,
-                                              kSmall),
-                        truth = test::render(scene, "raytrace:shadow=none,depth=" + number, kSmall);
-        EXPECT_LE(share_off(planar.hdr, truth.hdr, measure::all_pixels(truth.hits)), .01)
+                                              kPlanarSmall),
+                        truth = test::render(scene, "raytrace:shadow=none,depth=" + number,
+                                             kPlanarSmall);
+        EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, measure::all_pixels(truth.hits)), .01)
             << bounces;
         int deepest = -1;
         for (const vec3& pixel : planar.hdr.pixels) {
@@ -198,20 +202,21 @@ TEST(Planar, MirrorsInMirrorsAreAsDeepAsAskedFor) {
     }
 }
 
-/// R = 2 + views: none for a mirror out of sight, nor for one that a mirror cannot show.
-TEST(Planar, MakesViewsOfWhatIsSeen) {
-    EXPECT_EQ(test::render(flat(), "planar", kSmall).scene_passes, 3);
-    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=1", kSmall).scene_passes, 3);
-    EXPECT_EQ(test::render(flat(" parallel"), "planar", kSmall).scene_passes, 4);
-    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=4", kSmall).scene_passes, 6);
+/// Counts the scene passes R: two, plus one for each mirrored view. A mirror out of sight needs no
+/// view, and neither does a mirror that cannot be seen in another mirror.
+TEST(Planar, OnlyVisibleMirrorsGetViews) {
+    EXPECT_EQ(test::render(flat(), "planar", kPlanarSmall).scene_passes, 3);
+    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=1", kPlanarSmall).scene_passes, 3);
+    EXPECT_EQ(test::render(flat(" parallel"), "planar", kPlanarSmall).scene_passes, 4);
+    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=4", kPlanarSmall).scene_passes, 6);
     scene::Scene away = flat();
     std::swap(away.cameras.front().eye, away.cameras.front().target);
-    EXPECT_EQ(test::render(away, "planar", kSmall).scene_passes, 2);
+    EXPECT_EQ(test::render(away, "planar", kPlanarSmall).scene_passes, 2);
 }
 
-/// From behind, too, and in parallel projection; what lies behind the mirror's plane is not in the
-/// picture.
-TEST(Planar, HasTwoSidesAndHidesWhatIsBehind) {
+/// Tests a mirror seen from the front, from behind and by an orthographic camera. Objects behind
+/// the mirror's plane must not appear in the mirror.
+TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
     scene::Scene scene = test::yard();
     scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
                               .intensity = vec3(2),
@@ -235,15 +240,17 @@ TEST(Planar, HasTwoSidesAndHidesWhatIsBehind) {
         for (std::size_t i = 0; i < mask.size(); ++i)
             if (shadows[i] || outlines[i]) mask[i] = 0;
         EXPECT_GT(measure::pixel_count(mask), 1500u);
-        EXPECT_LE(share_off(planar.hdr, truth.hdr, mask), .003) << "eye at z " << camera.eye.z;
+        EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, mask), .003)
+            << "eye at z " << camera.eye.z;
     }
 }
 
-/// Other mirrors are drawn by `rest`, which the row says, as that technique draws them.
-TEST(Planar, LeavesTheRestToAnother) {
+/// Mirrors that are not flat must be drawn by the technique that the knob `rest` names, with the
+/// same result as in a plan.
+TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     const scene::Scene hall = test::hall();
-    const app::Part planar = test::render(hall, "planar:rest=secant", kSmall, 3),
-                    plan = test::render(hall, "1=secant *=planar", kSmall, 3);
+    const app::Part planar = test::render(hall, "planar:rest=secant", kPlanarSmall, 3),
+                    plan = test::render(hall, "1=secant *=planar", kPlanarSmall, 3);
     EXPECT_TRUE(test::same_bytes(planar.hdr, plan.hdr));
     ASSERT_EQ(planar.plan.size(), 3u);
     EXPECT_EQ(planar.plan[0].technique, "secant");
@@ -253,15 +260,15 @@ TEST(Planar, LeavesTheRestToAnother) {
     EXPECT_EQ(planar.plan[1].technique, "planar") << "a block, whose faces are flat";
     EXPECT_EQ(planar.plan[2].technique, "planar");
     EXPECT_EQ(planar.plan[2].why, "one technique was asked for");
-    const app::Part dark = test::render(hall, "planar:shadow=none", kSmall, 3),
+    const app::Part dark = test::render(hall, "planar:shadow=none", kPlanarSmall, 3),
                     all_dark = test::render(hall, "1=reuse:shadow=none *=planar:shadow=none",
-                                            kSmall, 3);
+                                            kPlanarSmall, 3);
     EXPECT_TRUE(test::same_bytes(dark.hdr, all_dark.hdr)) << "shadows are the row's";
 }
 
-/// Curved mirrors in a flat one are drawn by their own technique, from where the view looks.
-/// The block beside the ball has flat faces, in which the panel is seen again.
-TEST(Planar, ShowsOtherMirrorsAsTheyAre) {
+/// Curved mirrors seen in a flat mirror are drawn by their own technique, from the mirrored view.
+/// The test judges the pixels of the flat panel that show another mirror: the ball, or the block.
+TEST(Planar, CurvedMirrorInAFlatMirrorIsDrawnByItsTechnique) {
     constexpr uvec2 size{160, 160};
     const scene::Scene hall = test::hall();
     const app::Part truth = test::render(hall, app::kReference, size);
@@ -282,8 +289,8 @@ TEST(Planar, ShowsOtherMirrorsAsTheyAre) {
     }
 }
 
-/// A tiny block just above a large mirror, in a space of its own.
-TEST(Planar, IsPreciseWhereThingsAreSmall) {
+/// The scene is a tiny block just above a large mirror, which gets an object space of its own.
+TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
     scene::Scene scene{.name = "grain"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(.25f)}),
                       red = test::add_material(scene, {.name = "red", .emission = {.9f, .1f, .1f}});
@@ -295,20 +302,20 @@ TEST(Planar, IsPreciseWhereThingsAreSmall) {
     scene.objects.back().world_from_object[3] = dvec4(1.5, .3, 3e-4, 1);
     scene.cameras = {
         {.eye = {1.5, .9, .8}, .target = {1.5, .3, 1e-4}, .vertical_fov_degrees = .08}};
-    const app::Part truth = test::render(scene, "raytrace:shadow=none", kSmall),
-                    planar = test::render(scene, "planar:shadow=none", kSmall);
+    const app::Part truth = test::render(scene, "raytrace:shadow=none", kPlanarSmall),
+                    planar = test::render(scene, "planar:shadow=none", kPlanarSmall);
     const measure::Mask mask = measure::mirrors(truth.hits);
     const auto is_red = [](const vec3& pixel) { return pixel.x > .5f; };
     EXPECT_GT(std::ranges::count_if(truth.hdr.pixels, is_red), 400) << "the grain and its image";
     EXPECT_GT(measure::pixel_count(mask), 2000u);
-    EXPECT_LE(share_off(planar.hdr, truth.hdr, mask), .002);
+    EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, mask), .002);
 }
 
-/// Compared where nobody says what, if some mirror is flat.
-TEST(Planar, IsComparedWhereItFits) {
+/// Without a list of techniques, a comparison includes `planar` if some mirror is flat.
+TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
     const auto rows_of = [](const char* name) {
         const scene::Scene scene = scene::load(name);
-        return app::default_techniques(test::request(scene, {}, kSmall));
+        return app::default_techniques(test::request(scene, {}, kPlanarSmall));
     };
     for (const char* name : {"flat", "room", "gallery"})
         EXPECT_THAT(rows_of(name), testing::Contains("planar")) << name;
@@ -316,17 +323,17 @@ TEST(Planar, IsComparedWhereItFits) {
         EXPECT_THAT(rows_of(name), testing::Not(testing::Contains("planar"))) << name;
 }
 
-/// A view that changes while the scene stands still, with frames in flight.
-TEST(Planar, ViewsAreOfTheFrameThatAskedForThem) {
+/// Mirrored views change between frames in flight while the scene stays the same.
+TEST(Planar, FrameUsesTheViewsItWasSubmittedWith) {
     const scene::Scene scene = flat(" orthogonal");
     app::Session session(test::engine(), scene, 3);
     app::FrameSpec spec{.techniques = {"planar:bounces=4"},
                         .camera = scene.cameras.front(),
-                        .size = kSmall,
+                        .size = kPlanarSmall,
                         .timing = app::Timing::pipelined};
     const measure::Picture wanted = session.frame(spec).hdr();
     for (int i = 0; i < 3; ++i) {
-        app::FrameSpec other = spec; // whose views are others
+        app::FrameSpec other = spec; // a frame with other mirrored views
         other.techniques = {"mirror=reuse:face=16 *=planar:bounces=1"};
         session.frame(other);
         EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), wanted)) << i;

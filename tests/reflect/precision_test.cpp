@@ -1,4 +1,4 @@
-// What precision and the ray tracer's rules of robustness are worth: each choice beside its
+// Tests of precision and of the ray tracer's rules for robustness. Each rule is compared with its
 // alternative.
 #include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
@@ -9,8 +9,9 @@ namespace {
 
 using namespace catoptric;
 
-/// Mean over the pixels that meet `mirrors` mirrors, of the first two, of the largest difference of
-/// a channel from the tracer in doubles; pixels whose middle lies on an edge left out.
+/// Returns the mean error of a technique against the double-precision tracer: the largest channel
+/// difference, averaged over the pixels that meet at least `mirrors` mirrors. Leaves out pixels
+/// whose centre lies on an edge.
 double off_double(const scene::Scene& scene, const std::string& technique, uvec2 size,
                   int mirrors = 1) {
     const app::Part part = test::render(scene, technique, size);
@@ -33,7 +34,7 @@ double off_double(const scene::Scene& scene, const std::string& technique, uvec2
     return sum / static_cast<double>(count);
 }
 
-TEST(Precision, HitPointsInDoublesAreNearerToTheTruth) {
+TEST(Precision, DoubleHitPointsReduceTheError) {
     const scene::Scene room = test::room(3, 1);
     for (const int mirrors : {1, 2}) {
         const double f32 = off_double(room, "raytrace:sphere=exact,depth=8", {96, 96}, mirrors);
@@ -44,7 +45,7 @@ TEST(Precision, HitPointsInDoublesAreNearerToTheTruth) {
     }
 }
 
-TEST(Precision, HitPointsInDoublesChangeNoMorePixelsThanRoundingsDo) {
+TEST(Precision, DoubleHitPointsChangeOnlyRoundings) {
     const scene::Scene scene = scene::cornell_mirrors();
     for (const std::string knobs : {"", "shadow=map,"}) {
         const app::Part f32 = test::render(scene, "raytrace:" + knobs + "hit=f32", {128, 128}),
@@ -58,8 +59,9 @@ TEST(Precision, HitPointsInDoublesChangeNoMorePixelsThanRoundingsDo) {
     }
 }
 
-/// The lamp is brighter than a half can say; in a mirror it saturates, unless captures hold floats.
-TEST(Precision, HalfCapturesEndWhereHalvesEnd) {
+/// The lamp is brighter than the largest half float. Its image in a mirror must be cut off there,
+/// unless captures hold floats.
+TEST(Precision, HalfFloatCapturesSaturateAt65504) {
     constexpr float kEmission = 1e5f;
     scene::Scene room = test::room(1, 1);
     for (scene::Material& material : room.materials)
@@ -81,7 +83,7 @@ TEST(Precision, HalfCapturesEndWhereHalvesEnd) {
     }
 }
 
-TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
+TEST(Precision, SaturatedTexelsAreCounted) {
     scene::Scene room = test::room(1, 1);
     const auto counted = [&](const std::string& technique) {
         app::Request asked = test::request(room, {technique}, {32, 32});
@@ -102,7 +104,8 @@ TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
     if (test::has_float_colour()) {
         EXPECT_FALSE(counted("reuse:face=64,colour=float").has_value());
     }
-    for (int channel = 0; channel < 3; ++channel) { // a texel counts once, whichever are cut off
+    // A texel counts once, however many of its channels are cut off.
+    for (int channel = 0; channel < 3; ++channel) {
         vec3 one_colour(1);
         one_colour[channel] = 1e5f;
         shine(one_colour);
@@ -110,10 +113,10 @@ TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
     }
 }
 
-/// A ball of radius 0.3 seen from two thousand units away.
-TEST(Precision, TheSchoolBooksSphereIsLostFarAway) {
+/// Tests a ball of radius 0.3, seen from about two thousand units away.
+TEST(Precision, TextbookSphereTestFailsFarAway) {
     scene::Scene room = test::room(1, 1);
-    room.objects.erase(room.objects.begin() + 5); // the wall that the camera stands before
+    room.objects.erase(room.objects.begin() + 5); // remove the wall behind which the camera moves
     scene::Camera& camera = room.cameras.front();
     const dvec3 back = camera.eye - camera.target;
     camera.eye = camera.target + back * 1000.0;
@@ -128,9 +131,9 @@ TEST(Precision, TheSchoolBooksSphereIsLostFarAway) {
     EXPECT_GT(changed, 100 * stable);
 }
 
-/// A lamp in the very plane of the ceiling: a shadow ray that runs to its end meets the ceiling
-/// there.
-TEST(Precision, ShadowRaysThatRunToTheLightMeetWhatItHangsOn) {
+/// The lamp lies exactly in the plane of the ceiling. A shadow ray that runs to the lamp's full
+/// distance hits the ceiling.
+TEST(Precision, ShadowRaysWithoutAnEndGapHitTheCeilingAtTheLamp) {
     scene::Scene room = test::room(1, 1);
     const double ceiling = scene::bounds(room).hi.y;
     for (const scene::Object& object : room.objects)

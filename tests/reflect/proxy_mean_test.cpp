@@ -1,5 +1,6 @@
-// The radius of the sphere that stands for a mirror's surroundings, read back from where its pixels
-// look: the mean distance over all directions in which there is something.
+// Tests of the sphere by which `proxy` approximates a mirror's surroundings. Its radius must be the
+// mean distance over all directions that show something. The tests compute the radius from the
+// directions in which the mirror's pixels look.
 #include "app/rays.hpp"
 #include "render/views.hpp"
 #include "stress/texels.hpp"
@@ -11,19 +12,20 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{48, 48};
-constexpr dvec3 kLow{-7, -1, -1.5}, kHigh{5, 2, 2.5}; // long: means of other kinds differ
-constexpr double kHalf = .4;                          // of the flat mirrors, across z
+constexpr uvec2 kProxyMeanSize{48, 48};
+// The room is long, so that other kinds of mean differ clearly.
+constexpr dvec3 kProxyMeanLow{-7, -1, -1.5}, kProxyMeanHigh{5, 2, 2.5};
+constexpr double kHalf = .4; // half width and height of the flat mirrors, which face along z
 
 struct Room {
-    std::array<dvec3, 2> centres{{{.6, .3, .4}, {-2.5, .8, .9}}}; // of the mirrors
-    bool open = false;                                            // without its wall at +x
+    std::array<dvec3, 2> centres{{{.6, .3, .4}, {-2.5, .8, .9}}}; // centres of the two mirrors
+    bool open = false; // whether the room lacks its wall at +x
 
     scene::Scene scene(std::size_t looked_at) const {
         scene::Scene scene{.name = "long room"};
         const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
         for (int face = open ? 1 : 0; face < 6; ++face)
-            test::add_mesh(scene, test::wall(face, kLow, kHigh), hot);
+            test::add_mesh(scene, test::wall(face, kProxyMeanLow, kProxyMeanHigh), hot);
         const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
         for (const dvec3& c : centres)
             test::add_quad(scene, "mirror", mirror, c + dvec3(-kHalf, -kHalf, 0),
@@ -35,7 +37,8 @@ struct Room {
         return scene;
     }
 
-    /// To the walls or the other mirror; infinite where there is nothing.
+    /// Returns the distance from a mirror's centre to the walls or the other mirror. Infinite if
+    /// the direction shows nothing.
     double distance(std::size_t mirror, const dvec3& direction) const {
         const dvec3 from = centres[mirror];
         double nearest = std::numeric_limits<double>::infinity();
@@ -43,9 +46,10 @@ struct Room {
             if (direction[axis] == 0) continue;
             const bool low = direction[axis] < 0;
             if (open && axis == 0 && !low) continue;
-            const double t = ((low ? kLow : kHigh)[axis] - from[axis]) / direction[axis];
-            // Beside the open end a ray leaves; farther walls are not met beyond it.
-            if (axis != 0 && open && from.x + t * direction.x > kHigh.x) continue;
+            const double t = ((low ? kProxyMeanLow : kProxyMeanHigh)[axis] - from[axis]) /
+                             direction[axis];
+            // A ray that passes the open end has left the room, so it meets no wall beyond.
+            if (axis != 0 && open && from.x + t * direction.x > kProxyMeanHigh.x) continue;
             nearest = std::min(nearest, t);
         }
         const dvec3 other = centres[1 - mirror] - from;
@@ -56,7 +60,8 @@ struct Room {
         return nearest;
     }
 
-    /// Mean of `value(distance)` over the solid angle in which something is nearer than `range`.
+    /// Returns the mean distance over the solid angle of the directions whose distance is below
+    /// `range`.
     double mean(std::size_t mirror, double range = std::numeric_limits<double>::infinity()) const {
         double sum = 0, all = 0;
         stress::for_texels(256, [&](const dvec3& direction, int, std::uint32_t, std::uint32_t) {
@@ -69,22 +74,22 @@ struct Room {
     }
 };
 
-/// Median over the mirror's pixels of the radius, in world units, of the sphere that they look at.
+/// Returns the sphere's radius in world units, as the median over the mirror's pixels.
 double radius_of(const Room& room, std::size_t mirror, const std::string& settings) {
     const scene::Scene scene = room.scene(mirror);
     app::Request request = test::request(scene, {"proxy:shape=sphere,shadow=none," + settings},
-                                         kSize);
+                                         kProxyMeanSize);
     request.with_lookup = true;
     const app::Part part = std::move(app::run(test::engine(), request).parts.front());
-    const shared::View view = render::camera_view(request.camera, {}, kSize, 0);
+    const shared::View view = render::camera_view(request.camera, {}, kProxyMeanSize, 0);
     std::vector<double> radii;
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {
         if (!(part.lookup[i].w > 0)) continue;
         const dvec3 eye = request.camera.eye, centre = room.centres[mirror],
-                    ray(app::camera_ray(view, kSize, i).direction),
+                    ray(app::camera_ray(view, kProxyMeanSize, i).direction),
                     offset = eye + ray * ((centre.z - eye.z) / ray.z) - centre,
                     onward(ray.x, ray.y, -ray.z), looked(vec3(part.lookup[i]));
-        // Where the ray meets the line that it looked along.
+        // The point in which the reflected ray meets the looked-up line lies on the sphere.
         const dvec3 across = glm::cross(onward, looked);
         if (glm::length(across) < .05) continue;
         const double t = -dot(glm::cross(offset, looked), across) / dot(across, across);
@@ -95,7 +100,7 @@ double radius_of(const Room& room, std::size_t mirror, const std::string& settin
     return radii[radii.size() / 2];
 }
 
-TEST(ProxyMean, IsThatOfTheDistanceOverAllDirections) {
+TEST(ProxyMean, RadiusIsTheMeanDistanceOverAllDirections) {
     for (const std::string face : {"16", "37", "64", "200"})
         for (const std::size_t mirror : {0u, 1u}) {
             const double wanted = Room{}.mean(mirror),
@@ -106,7 +111,7 @@ TEST(ProxyMean, IsThatOfTheDistanceOverAllDirections) {
         }
 }
 
-TEST(ProxyMean, CountsOnlyDirectionsThatShowSomething) {
+TEST(ProxyMean, EmptyDirectionsDoNotCount) {
     const Room open{.open = true};
     const double wanted = open.mean(0), found = radius_of(open, 0, "face=64");
     EXPECT_NEAR(found, wanted, .004 * wanted);

@@ -1,6 +1,7 @@
-// Lights without a surface, as KHR_lights_punctual has them: known answers, and one picture by
-// raster and rays.
+// Tests of lights without a surface (KHR_lights_punctual) against known answers, and of
+// rasterisation against ray tracing.
 #include "support/lit.hpp"
+#include "support/special_values.hpp"
 
 #include <iostream>
 #include <numbers>
@@ -10,21 +11,23 @@ namespace {
 using namespace catoptric;
 using Kind = scene::Punctual::Kind;
 
-constexpr double kPi = std::numbers::pi;
-constexpr uvec2 kSize{32, 32};
+constexpr uvec2 kPunctualSize{32, 32};
 
+/// Returns the cosine of an angle in degrees.
 double degrees(double angle) { return std::cos(glm::radians(angle)); }
 
-/// One light over the floor, looked at from straight above; the world `scale` times as large.
-struct Case {
+/// A light over a floor that the camera sees from straight above.
+struct PunctualCase {
     const char* name;
     scene::Punctual light;
     dvec3 from, axis;
-    friend void PrintTo(const Case& test_case, std::ostream* out) { *out << test_case.name; }
+    friend void PrintTo(const PunctualCase& test_case, std::ostream* out) {
+        *out << test_case.name;
+    }
 };
 
-/// What falls on the floor at a place, as the specification of the extension has it.
-double illuminance(const Case& lit, const dvec3& place) {
+/// Returns the light that falls on the floor at a place, as KHR_lights_punctual specifies.
+double illuminance(const PunctualCase& lit, const dvec3& place) {
     if (lit.light.kind == Kind::directional) return -glm::normalize(lit.axis).y;
     const dvec3 to_light = lit.from - place;
     const double distance = glm::length(to_light), part = distance / lit.light.range;
@@ -36,8 +39,9 @@ double illuminance(const Case& lit, const dvec3& place) {
     return std::clamp(1 - std::pow(part, 4), 0.0, 1.0) * cone * to_light.y / std::pow(distance, 3);
 }
 
-/// The scene, moved and `scale` times as large; intensities of candela grow with its square.
-scene::Scene under(const Case& lit, double scale) {
+/// Returns the floor and the light, moved away from the origin and `scale` times as large.
+/// Intensities in candela grow with the square of the scale.
+scene::Scene under(const PunctualCase& lit, double scale) {
     const dvec3 origin(300, -20, 70);
     scene::Scene scene = test::floor_alone();
     scene.objects.front().world_from_object = dmat4(scale);
@@ -54,49 +58,49 @@ scene::Scene under(const Case& lit, double scale) {
     return scene;
 }
 
-class Punctual : public testing::TestWithParam<Case> {};
+class Punctual : public testing::TestWithParam<PunctualCase> {};
 const vec3 kIntensity{9, 7, 5};
 INSTANTIATE_TEST_SUITE_P(
     Lights, Punctual,
-    testing::Values(Case{"point", {.intensity = kIntensity}, {.5, 2, .3}, {0, 0, -1}},
-                    Case{"point_with_range",
-                         {.intensity = kIntensity, .range = 2.4},
-                         {-.5, 1.2, .3},
-                         {0, 0, -1}},
-                    Case{"spot",
-                         {.kind = Kind::spot,
-                          .intensity = kIntensity,
-                          .range = 9,
-                          .cos_inner = degrees(12),
-                          .cos_outer = degrees(30)},
-                         {.4, 2.5, -.3},
-                         {-.3, -1, .2}},
-                    Case{"spot_without_penumbra",
-                         {.kind = Kind::spot,
-                          .intensity = kIntensity,
-                          .cos_inner = degrees(25),
-                          .cos_outer = degrees(25)},
-                         {.4, 2.5, -.3},
-                         {0, -1, 0}},
-                    Case{"directional",
-                         {.kind = Kind::directional, .intensity = {.9f, .7f, .5f}},
-                         {0, 1, 0},
-                         {.5, -1, .2}}),
+    testing::Values(PunctualCase{"point", {.intensity = kIntensity}, {.5, 2, .3}, {0, 0, -1}},
+                    PunctualCase{"point_with_range",
+                                 {.intensity = kIntensity, .range = 2.4},
+                                 {-.5, 1.2, .3},
+                                 {0, 0, -1}},
+                    PunctualCase{"spot",
+                                 {.kind = Kind::spot,
+                                  .intensity = kIntensity,
+                                  .range = 9,
+                                  .cos_inner = degrees(12),
+                                  .cos_outer = degrees(30)},
+                                 {.4, 2.5, -.3},
+                                 {-.3, -1, .2}},
+                    PunctualCase{"spot_without_penumbra",
+                                 {.kind = Kind::spot,
+                                  .intensity = kIntensity,
+                                  .cos_inner = degrees(25),
+                                  .cos_outer = degrees(25)},
+                                 {.4, 2.5, -.3},
+                                 {0, -1, 0}},
+                    PunctualCase{"directional",
+                                 {.kind = Kind::directional, .intensity = {.9f, .7f, .5f}},
+                                 {0, 1, 0},
+                                 {.5, -1, .2}}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(Punctual, LightsTheFloorAsSpecified) {
-    const Case& lit = GetParam();
+TEST_P(Punctual, FloorIsLitAsSpecified) {
+    const PunctualCase& lit = GetParam();
     for (const double scale : {1.0, 37.0}) {
         const scene::Scene scene = under(lit, scale);
         for (const std::string technique : {"raytrace", "naive:bounces=0", "raytrace:shadow=map"}) {
-            const measure::Picture picture = test::render_dark(scene, technique, kSize).hdr;
+            const measure::Picture picture = test::render_dark(scene, technique, kPunctualSize).hdr;
             double worst = 0, brightest = 0, darkest = 1e9;
             for (int y = 0; y < picture.height; ++y)
                 for (int x = 0; x < picture.width; ++x) {
                     const dvec3 place(1.96 * ((x + .5) / 16 - 1), 0, 1.96 * ((y + .5) / 16 - 1));
                     const double arrives = illuminance(lit, place);
-                    const dvec3 wanted = dvec3(.6, .5, .4) / kPi * dvec3(lit.light.intensity) *
-                                         arrives;
+                    const dvec3 wanted = dvec3(.6, .5, .4) / test::kPi *
+                                         dvec3(lit.light.intensity) * arrives;
                     worst = std::max(worst, glm::length(dvec3(picture.at(x, y)) - wanted));
                     brightest = std::max(brightest, wanted.x),
                     darkest = std::min(darkest, wanted.x);
@@ -108,38 +112,38 @@ TEST_P(Punctual, LightsTheFloorAsSpecified) {
     }
 }
 
-TEST_P(Punctual, CastsTheSameShadowsInRasterAndRays) {
+TEST_P(Punctual, ShadowsAreTheSameInRasterAndRays) {
     scene::Scene scene = test::yard();
-    const Case& lit = GetParam();
+    const PunctualCase& lit = GetParam();
     scene::Punctual light = lit.light;
     light.world_from_light = test::shining(lit.from + dvec3(0, .5, 0), lit.axis);
     scene.punctual.push_back(light);
     const double off = test::share_off_of_raster(scene, {128, 128});
     std::cout << "[ MEASURED ] share off " << off << "\n";
     EXPECT_LE(off, .005);
-    // There are shadows.
+    // The scene must contain shadows.
     const measure::Picture shadowed = test::render_dark(scene, "raytrace", {64, 64}).hdr,
                            lit_up = test::render_dark(scene, "raytrace:shadow=none", {64, 64}).hdr;
     EXPECT_GT(test::share_off(shadowed, lit_up, measure::Mask(64 * 64, 0)), .01);
 }
 
-/// The floor under all of them.
-measure::Picture under_these(const std::vector<Case>& all, const std::string& technique) {
+/// Renders the floor lit by all of these lights.
+measure::Picture under_these(const std::vector<PunctualCase>& all, const std::string& technique) {
     scene::Scene scene = under(all.front(), 1);
     for (std::size_t i = 1; i < all.size(); ++i)
         scene.punctual.push_back(under(all[i], 1).punctual.front());
-    return test::render_dark(scene, technique, kSize).hdr;
+    return test::render_dark(scene, technique, kPunctualSize).hdr;
 }
 
-// One light and several are different shaders.
-TEST(Lights, AddUp) {
-    const std::vector<Case> all{
+// One light and several lights are drawn by different shader variants.
+TEST(Lights, SeveralLightsAddUp) {
+    const std::vector<PunctualCase> all{
         {"near", {.intensity = kIntensity}, {.5, 2, .3}, {0, 0, -1}},
         {"sun", {.kind = Kind::directional, .intensity = {.4f, .5f, .6f}}, {0, 1, 0}, {.5, -1, 0}},
         {"far", {.intensity = 2.f * kIntensity}, {-1, 3, -.5}, {0, 0, -1}}};
     for (const std::string technique : {"raytrace", "naive:bounces=0"}) {
         std::vector<measure::Picture> alone;
-        for (const Case& light : all) alone.push_back(under_these({light}, technique));
+        for (const PunctualCase& light : all) alone.push_back(under_these({light}, technique));
         const measure::Picture together = under_these(all, technique);
         for (int y = 0; y < together.height; ++y)
             for (int x = 0; x < together.width; ++x) {
@@ -151,8 +155,8 @@ TEST(Lights, AddUp) {
     }
 }
 
-// What is far outside of the scene's core casts and receives shadows, too.
-TEST(Directional, ReachesAllThereIs) {
+// Objects far outside the main part of the scene must also cast and receive shadows.
+TEST(Directional, LightReachesObjectsFarFromTheSceneCore) {
     scene::Scene scene = test::yard();
     const std::size_t grey = scene.objects.front().material;
     for (const double x : {-60.0, 50.0}) {

@@ -1,5 +1,5 @@
-// The pyramid's cells bound whatever a bilinear lookup finds in them; the search through them is
-// exact.
+// Tests of the pyramid, a tree of bounds of the captured distances. The bounds of each cell must
+// contain every bilinear lookup in the cell, and the search with them must be exact.
 #include "core/half.hpp"
 #include "core/shader_math.hpp"
 #include "stress/glyph_room.hpp"
@@ -20,18 +20,20 @@ graph::Image image_called(const graph::Graph& graph, const std::string& name) {
     return {static_cast<std::uint32_t>(found - images.begin()), 0, found->layers};
 }
 
-/// The pyramid of a row's captures of a scene, and what lookups in some directions find.
+/// The pyramid over a technique's captures, and the results of lookups in a list of directions.
 struct Read {
     std::uint32_t face = 0;
     std::vector<std::uint32_t> cells;
-    std::vector<vec4> linear, nearest; ///< distance in w
+    std::vector<vec4> linear, nearest; ///< colour, and distance in w
 
-    /// Levels from 1; sizes and places written anew from what shaders/reflect/pyramid.glsl says.
+    /// Returns the number of levels. This test computes sizes and places itself, from the
+    /// description in shaders/reflect/pyramid.glsl.
     std::uint32_t levels() const {
         std::uint32_t level = 1;
         while ((1u << level) < face) ++level;
         return level;
     }
+    /// Returns the smallest and largest distance of a cell.
     vec2 bounds(std::uint32_t level, std::uint32_t layer, std::uint32_t x, std::uint32_t y) const {
         const std::uint32_t width = 1u << levels(), height = (face + 1) / 2;
         std::uint32_t column = 0;
@@ -86,7 +88,8 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
             test::read_as<vec4>(runner, found[1])};
 }
 
-/// Everywhere, and along the edges and about the corners of the faces; for each mirror (w).
+/// Returns random directions, many of them along edges and at corners of cube faces. The component
+/// w holds the number of the mirror.
 std::vector<vec4> directions(std::uint32_t mirrors) {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
@@ -118,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Pyramid, Bounds,
                              return name;
                          });
 
-TEST_P(Bounds, HoldWhateverALookupFinds) {
+TEST_P(Bounds, BoundsContainEveryLookup) {
     const std::vector<vec4> asked = directions(4);
     const Read read = read_pyramid(scene::cornell_mirrors(), "pyramid:" + GetParam(), asked);
     std::size_t outside = 0, judged = 0, nothing = 0;
@@ -126,7 +129,7 @@ TEST_P(Bounds, HoldWhateverALookupFinds) {
         const vec3 direction(asked[i]);
         const int face = f32::cube_face(direction);
         const vec3 place = f32::cube_coordinates(face, direction);
-        // A lookup that meets nothing among its four texels takes the nearest.
+        // If all four texels of a lookup are infinite, the lookup takes the nearest texel.
         const float found = std::isfinite(read.linear[i].w) ? read.linear[i].w : read.nearest[i].w;
         const vec2 at = glm::clamp((vec2(place) / place.z * .5f + .5f) *
                                        static_cast<float>(read.face),
@@ -149,7 +152,7 @@ TEST_P(Bounds, HoldWhateverALookupFinds) {
     EXPECT_EQ(outside, 0u);
 }
 
-TEST_P(Bounds, OfACellAreThoseOfItsChildren) {
+TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
     const Read read = read_pyramid(scene::cornell_mirrors(), "pyramid:" + GetParam(),
                                    directions(4));
     std::size_t wrong = 0;
@@ -169,8 +172,9 @@ TEST_P(Bounds, OfACellAreThoseOfItsChildren) {
     EXPECT_EQ(wrong, 0u);
 }
 
-/// Inside a face: exactly the 4x4 texels of the cell and its ring, rounded outwards to halves.
-TEST(Pyramid, BoundsAreNoWiderThanTheyMust) {
+/// Inside a face, the bounds of a cell must be those of its 2x2 texels and the ring around them.
+/// The bounds are rounded outwards to half floats.
+TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
     constexpr std::uint32_t kFace = 64;
     const scene::Scene scene = scene::cornell_mirrors();
     const test::Captured captured = test::capture(scene, kFace, Format::r32f);
@@ -196,7 +200,7 @@ TEST(Pyramid, BoundsAreNoWiderThanTheyMust) {
     EXPECT_EQ(wrong, 0u);
 }
 
-TEST(Pyramid, FindsTheWallsOfAnEmptyRoom) {
+TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
     for (const int face : {16, 37, 64, 256}) {
         const auto pixels = test::looked_up(stress::GlyphRoom().scene(),
                                             "pyramid:face=" + std::to_string(face), {128, 128});
@@ -208,15 +212,15 @@ TEST(Pyramid, FindsTheWallsOfAnEmptyRoom) {
         for (const measure::LookedUp& pixel : pixels) worst = std::max(worst, pixel.angle_degrees);
         std::cout << "[ MEASURED ] face " << face << ": mean angle " << error.mean_degrees
                   << ", worst " << worst << " degrees\n";
-        // Bilinear distance cuts the room's corners by less than a texel, and flat walls by a
-        // second-order part of it.
+        // Bilinear distances are wrong by less than a texel in the corners of the room. On flat
+        // walls the error is of second order in the size of a texel.
         const double texel = 90.0 / face;
         EXPECT_LT(worst, texel);
         EXPECT_LT(error.mean_degrees, texel * texel / 90);
     }
 }
 
-TEST(Pyramid, HitsAreExactAndMissesTrue) {
+TEST(Pyramid, HitsAreExactAndMissesAreTrue) {
     const auto pixels = test::looked_up(scene::cornell_mirrors(), "pyramid:face=256,continue=0",
                                         test::kContractSize);
     std::array<std::size_t, 3> count{}, wrong{};
@@ -232,7 +236,7 @@ TEST(Pyramid, HitsAreExactAndMissesTrue) {
               << " degrees, wrong object " << wrong[0] << "; unknown " << count[1] << "; misses "
               << count[2] << ", worst angle " << miss_angle << ", wrong object " << wrong[2]
               << "\n";
-    EXPECT_LT(hit_angle, 90.0 / 256 / 100); // a hundredth of a texel
+    EXPECT_LT(hit_angle, 90.0 / 256 / 100); // degrees; a hundredth of a texel
     EXPECT_LT(wrong[0], count[0] / 200);
     EXPECT_LT(miss_angle, .01);
     EXPECT_LT(wrong[2], count[2] / 200);

@@ -1,5 +1,5 @@
-// What a report says of pictures and times is what these say: every figure is computed again from
-// pictures rendered apart, by loops that share nothing with the engine's.
+// Tests of the figures in a report. Each figure is computed again, from pictures rendered
+// separately and by code that shares nothing with the engine.
 #include "app/compare.hpp"
 #include "measure/flip.hpp"
 #include "report/report.hpp"
@@ -16,22 +16,22 @@ namespace {
 using namespace catoptric;
 using nlohmann::json;
 
-constexpr uvec2 kSize{40, 30};
-constexpr int kFrames = 8, kWarmup = 3;
-const std::vector<std::size_t> kRounds{2, 2, 1, 1, 1, 1}; ///< of the frames
+constexpr uvec2 kReportFiguresSize{40, 30};
+constexpr int kReportFiguresFrames = 8, kWarmup = 3;
+const std::vector<std::size_t> kRounds{2, 2, 1, 1, 1, 1}; ///< measured frames in each round
 constexpr double kStops = -1;
 
-/// The lamp is in view.
-scene::Scene bright_hall() {
+/// Returns the test scene `hall` with a camera that sees the lamp.
+scene::Scene report_figures_bright_hall() {
     scene::Scene scene = test::hall();
     scene.cameras.front().target = {0, .5, 0};
     return scene;
 }
 
-app::CompareRequest asked(const std::vector<std::string>& rows) {
+app::CompareRequest report_figures_asked(const std::vector<std::string>& rows) {
     app::CompareRequest request;
-    request.base = test::request(bright_hall(), rows, kSize);
-    request.base.frames = kFrames, request.base.warmup = kWarmup;
+    request.base = test::request(report_figures_bright_hall(), rows, kReportFiguresSize);
+    request.base.frames = kReportFiguresFrames, request.base.warmup = kWarmup;
     request.base.exposure = kStops;
     return request;
 }
@@ -41,22 +41,25 @@ json compared(const app::CompareRequest& request) {
 }
 
 app::Part rendered(const std::string& technique) {
-    app::Request request = test::request(bright_hall(), {technique}, kSize);
-    request.frames = kFrames, request.warmup = kWarmup;
+    app::Request request = test::request(report_figures_bright_hall(), {technique},
+                                         kReportFiguresSize);
+    request.frames = kReportFiguresFrames, request.warmup = kWarmup;
     request.exposure = kStops;
     return std::move(app::run(test::engine(), request).parts.front());
 }
 
-/// Which pixels a figure is about, by the first two mirrors that a ray meets; 0: none.
+/// Returns whether a figure includes a pixel, given the first and second mirror that its ray meets;
+/// 0: none.
 using Chosen = std::function<bool(unsigned, unsigned)>;
 
-/// FLIP of floats as they are displayed.
+/// Returns the FLIP map of two pictures as they are displayed, without rounding to eight bits.
 std::vector<float> flip_of(const app::Part& a, const app::Part& b, double stops) {
     return measure::flip(measure::to_unrounded_display(a.hdr, stops),
                          measure::to_unrounded_display(b.hdr, stops));
 }
 
-/// Computed from the definitions: linear, exposed, clamped, over pixels and channels.
+/// Checks the error figures against their definitions: linear colours times the exposure, clamped
+/// to [0,1], over the chosen pixels and all channels.
 void expect_errors(const json& found, const app::Part& part, const app::Part& truth,
                    const std::vector<std::uint32_t>& hits, const Chosen& chosen) {
     const std::vector<float> map = flip_of(part, truth, kStops);
@@ -97,7 +100,8 @@ void expect_errors(const json& found, const app::Part& part, const app::Part& tr
     EXPECT_NEAR(found["max"].get<double>(), largest.back().first, 1e-9);
     const auto first = std::ranges::find(largest, largest.back().first,
                                          &std::pair<double, std::size_t>::first);
-    EXPECT_EQ(found["max_at"], json({first->second % kSize.x, first->second / kSize.x}));
+    EXPECT_EQ(found["max_at"],
+              json({first->second % kReportFiguresSize.x, first->second / kReportFiguresSize.x}));
 }
 
 void expect_mean(const json& found, const measure::Picture& picture, double most) {
@@ -108,15 +112,17 @@ void expect_mean(const json& found, const measure::Picture& picture, double most
     }
 }
 
-TEST(ReportFigures, AreThoseOfThePictures) {
+TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
     const std::vector<std::string> rows{"parallax:face=32", "raytrace:depth=1",
                                         "raytrace:depth=1,samples=4"};
-    const json document = compared(asked(rows));
+    const json document = compared(report_figures_asked(rows));
     const app::Part truth = rendered(app::kReference);
     const app::Part finer = rendered("raytrace:depth=16,samples=4");
-    // The first of four rays meets nearly everywhere what the one through the middle does.
+    // The first of four rays in a pixel hits nearly always the same mirror as the ray through its
+    // centre.
     std::size_t others = 0;
-    std::array<std::size_t, 4> second{}; // by number: all three are seen in others, none in itself
+    // Counts of pixels by their second mirror. Each mirror is seen in another, and none in itself.
+    std::array<std::size_t, 4> second{};
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         others += finer.hits[i] != truth.hits[i] ? 1 : 0;
         const std::uint32_t first = truth.hits[i] & 0xffff, next = truth.hits[i] >> 16;
@@ -137,7 +143,8 @@ TEST(ReportFigures, AreThoseOfThePictures) {
         SCOPED_TRACE(rows[i]);
         const json& row = document["rows"][i];
         const app::Part part = rendered(rows[i]);
-        const app::Part& wanted = i == 2 ? finer : truth; // at the row's own sample count
+        // The reference uses the row's own number of samples.
+        const app::Part& wanted = i == 2 ? finer : truth;
         for (const auto& [name, chosen] : masks) {
             SCOPED_TRACE(name);
             expect_errors(row[name], part, wanted, truth.hits, chosen);
@@ -159,11 +166,11 @@ TEST(ReportFigures, AreThoseOfThePictures) {
     }
 }
 
-/// Whatever stands before it in the list.
-TEST(ReportFigures, ARowIsJudgedAtItsOwnSampleCount) {
+/// A row's reference must have the row's own sample count, whatever rows come before it.
+TEST(ReportFigures, RowIsComparedAtItsOwnSampleCount) {
     const std::vector<std::string> rows{"raytrace:depth=16,samples=4", "raytrace:depth=16",
                                         "raytrace:depth=16,samples=9", "reuse:face=32"};
-    const json document = compared(asked(rows));
+    const json document = compared(report_figures_asked(rows));
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(document["rows"][i]["error_all"]["max"], 0) << rows[i];
         EXPECT_EQ(document["rows"][i]["is_reference"], true) << rows[i];
@@ -173,7 +180,8 @@ TEST(ReportFigures, ARowIsJudgedAtItsOwnSampleCount) {
                   [](unsigned first, unsigned) { return first != 0; });
 }
 
-/// Linear between the two nearest of the sorted samples.
+/// Returns the percentile of samples, interpolated linearly between the two nearest of the sorted
+/// samples.
 double percentile(std::vector<double> samples, double fraction) {
     std::ranges::sort(samples);
     const double position = fraction * static_cast<double>(samples.size() - 1);
@@ -182,10 +190,11 @@ double percentile(std::vector<double> samples, double fraction) {
     return std::lerp(samples[below], samples[below + 1], position - static_cast<double>(below));
 }
 
-/// `frames` of each round; without rounds it was measured in one go.
+/// Checks a summary of times. `frames`: number of frames in each round; empty: the row was measured
+/// without rounds.
 void expect_summary(const json& found, const std::vector<std::size_t>& frames) {
     const auto samples = found["samples"].get<std::vector<double>>();
-    ASSERT_EQ(samples.size(), std::size_t{kFrames});
+    ASSERT_EQ(samples.size(), std::size_t{kReportFiguresFrames});
     EXPECT_EQ(found["n"], samples.size());
     const double median = percentile(samples, .5);
     std::vector<double> rounds;
@@ -210,15 +219,15 @@ void expect_summary(const json& found, const std::vector<std::size_t>& frames) {
     EXPECT_NEAR(found["mad"].get<double>(), percentile(off, .5), 1e-12);
 }
 
-/// The time of the row's passes in measured frame `k`.
+/// Returns the GPU time of all passes of a row in measured frame `k`, in ms.
 double of_passes(const json& row, int k) {
     double sum = 0;
     for (const json& pass : row["passes"]) sum += pass["gpu_ms"]["samples"][k].get<double>();
     return sum;
 }
 
-TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
-    const json document = compared(asked({"parallax:face=32", "raytrace"}));
+TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
+    const json document = compared(report_figures_asked({"parallax:face=32", "raytrace"}));
     for (const json& row : document["rows"]) {
         SCOPED_TRACE(row["label"]);
         for (const char* name :
@@ -229,7 +238,7 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
             EXPECT_GE(row["cpu_ms"]["median"].get<double>(), row["host_parts"]["record"]);
         }
         for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"], kRounds);
-        for (int k = 0; k < kFrames; ++k) {
+        for (int k = 0; k < kReportFiguresFrames; ++k) {
             const double passes = of_passes(row, k);
             const double gpu = row["gpu_ms"]["samples"][k], wall = row["wall_ms"]["samples"][k];
             EXPECT_NEAR(row["closure"]["samples"][k].get<double>(), passes / wall, 1e-9);
@@ -252,11 +261,12 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
     expect_summary(document["reference"]["gpu_ms"], {});
 }
 
-/// What a moving scene costs the host is in the parts that it belongs to, and ranks rows.
-TEST(ReportFigures, AMovingSceneHasWorkForTheHost) {
-    app::CompareRequest request = asked({"parallax:face=32", "raytrace"});
+/// The host's work for a moving scene must be reported in the parts of the frame to which the work
+/// belongs.
+TEST(ReportFigures, MovingSceneNeedsHostWork) {
+    app::CompareRequest request = report_figures_asked({"parallax:face=32", "raytrace"});
     const json still = compared(request);
-    request.base.scene = scene::cornell_mirrors(); // in which a ball moves
+    request.base.scene = scene::cornell_mirrors(); // a scene with a moving ball
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
     const json moving = compared(request);
@@ -275,9 +285,9 @@ TEST(ReportFigures, AMovingSceneHasWorkForTheHost) {
         << "raster rows make no tree";
 }
 
-/// Fewer frames than rounds: one each, and no interval from five.
-TEST(ReportFigures, FewFramesAreARoundEach) {
-    app::CompareRequest request = asked({"reuse:face=32"});
+/// With fewer frames than rounds, each frame is a round. Five rounds give no confidence interval.
+TEST(ReportFigures, FewFramesAreOneRoundEach) {
+    app::CompareRequest request = report_figures_asked({"reuse:face=32"});
     request.base.frames = 5;
     const json document = compared(request);
     EXPECT_EQ(document["rounds"], 5);
@@ -289,16 +299,16 @@ TEST(ReportFigures, FewFramesAreARoundEach) {
               "rounds: wanted at least 6, fewer bound no median, found 5");
 }
 
-/// However many rows take turns, each shows what it shows when it is alone: its own history, frame
-/// number and clock, and its last picture is that of its last frame.
-TEST(ReportFigures, ARowGoesOnFromRoundToRound) {
+/// Rows take turns in rounds, but each row must show what it shows when measured alone: it keeps
+/// its own history, frame number and clock. Its picture is that of its last frame.
+TEST(ReportFigures, RowContinuesFromRoundToRound) {
     const std::vector<std::string> rows{"reuse:face=32", "pyramid:face=auto", "raytrace",
                                         "naive:face=16", "reuse:face=16"};
     app::CompareRequest request;
-    request.base = test::request(scene::cornell_mirrors(), rows, kSize);
+    request.base = test::request(scene::cornell_mirrors(), rows, kReportFiguresSize);
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
-    request.base.frames = kFrames, request.base.warmup = kWarmup;
+    request.base.frames = kReportFiguresFrames, request.base.warmup = kWarmup;
     std::vector<int> pictured;
     request.on_finished_row = [&](const report::Comparison& so_far) {
         pictured.push_back(so_far.rows.back().pictured);
@@ -320,25 +330,27 @@ TEST(ReportFigures, ARowGoesOnFromRoundToRound) {
     }
 }
 
-TEST(ReportFigures, TogetherARowCostsItsOwnPasses) {
-    app::CompareRequest request = asked({"parallax:face=32", "raytrace"});
+TEST(ReportFigures, RowCostsItsOwnPassesWhenRowsShareAFrame) {
+    app::CompareRequest request = report_figures_asked({"parallax:face=32", "raytrace"});
     request.together = true;
     const json document = compared(request);
-    for (int k = 0; k < kFrames; ++k) {
+    for (int k = 0; k < kReportFiguresFrames; ++k) {
         double all = 0;
         for (const json& row : document["rows"]) {
             EXPECT_NEAR(row["gpu_ms"]["samples"][k].get<double>(), of_passes(row, k), 1e-9);
             all += of_passes(row, k);
         }
-        for (const json& row : document["rows"]) // of the whole frame
+        // Closure: time of all passes over that of the whole frame.
+        for (const json& row : document["rows"])
             EXPECT_NEAR(row["closure"]["samples"][k].get<double>(),
                         all / row["wall_ms"]["samples"][k].get<double>(), 1e-9);
     }
 }
 
-/// So that no row always follows the same one.
-TEST(Rounds, GoThereAndBack) {
-    app::CompareRequest request = asked({"reuse:face=16,shadow_map=16", "raytrace:depth=1"});
+/// Rows run in reverse order in every second round, so that no row always follows the same row.
+TEST(Rounds, OrderOfRowsAlternates) {
+    app::CompareRequest request = report_figures_asked(
+        {"reuse:face=16,shadow_map=16", "raytrace:depth=1"});
     std::vector<std::string> measured;
     request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t) {
         if (label.find(", round ") != std::string::npos)

@@ -1,4 +1,5 @@
-// What the rules of engine/require say of captures, held against captures.
+// Tests of the rules in engine/require, which say what a picture needs of captures, against real
+// captures.
 #include "render/captured.hpp"
 #include "require/model.hpp"
 #include "support/drawn_hall.hpp"
@@ -13,9 +14,9 @@ namespace {
 
 using namespace catoptric;
 
-constexpr std::uint32_t kFace = 32, kShadowEdge = 128;
+constexpr std::uint32_t kRequireFace = 32, kShadowEdge = 128;
 
-/// A hall with one mirror and a thing that moves.
+/// Returns a random hall with one mirror and one moving object.
 scene::Scene hall(std::uint64_t seed) {
     scene::Scene scene = test::drawn_hall(seed, 3);
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
@@ -28,6 +29,7 @@ scene::Scene hall(std::uint64_t seed) {
     return scene;
 }
 
+/// Returns the colours and distances of a face as bytes.
 std::vector<std::byte> bytes_of(const render::Captured& captured, std::size_t face) {
     std::vector<std::byte> bytes;
     for (const auto& all : {captured.colour_bytes, captured.distance_bytes}) {
@@ -38,13 +40,13 @@ std::vector<std::byte> bytes_of(const render::Captured& captured, std::size_t fa
     return bytes;
 }
 
-TEST(Require, FacesWhoseStampStaysKeepTheirBytes) {
+TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
     int stays = 0, changes = 0;
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
         const scene::Scene scene = hall(seed);
         require::Requirements requirements(scene);
         app::Session session(test::engine(), scene);
-        app::FrameSpec spec{.techniques = {"parallax:face=" + std::to_string(kFace) +
+        app::FrameSpec spec{.techniques = {"parallax:face=" + std::to_string(kRequireFace) +
                                            ",shadow_map=" + std::to_string(kShadowEdge)},
                             .camera = scene.cameras[0],
                             .size = {16, 16}};
@@ -71,20 +73,20 @@ TEST(Require, FacesWhoseStampStaysKeepTheirBytes) {
     RecordProperty("kept", stays), RecordProperty("changed", changes);
 }
 
-/// The face of a cube that holds the direction.
+/// Returns the cube face that a direction points to.
 std::size_t face_of(const vec3& direction) {
     const vec3 size = abs(direction);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     return static_cast<std::size_t>(2 * axis + (direction[axis] < 0 ? 1 : 0));
 }
 
-TEST(Require, MirrorsLookIntoNoFaceThatIsLeftOut) {
+TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
     std::size_t looked = 0, left_out = 0;
     for (const scene::Scene& scene : {scene::flat(), scene::furnished_room(), scene::gallery()}) {
         app::Session session(test::engine(), scene);
         for (const scene::Camera& camera : scene.cameras) {
             if (&camera != &scene.cameras.front() && scene.name == "gallery")
-                continue; // takes long
+                continue; // skip the other cameras, because the gallery takes long
             const scene::Camera now = scene::camera_at(camera, 0);
             const scene::Scene at_rest = scene::at(scene, 0);
             const require::Model model = require::required({at_rest, now, {64, 48}});

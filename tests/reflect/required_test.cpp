@@ -1,5 +1,5 @@
-// What a picture does not require is left out, and the picture stays: every frame beside the same
-// frame of a session that renders everything, byte by byte.
+// Tests of the model `required`, which leaves out work that a picture does not need. Each picture
+// must equal that of a session that renders everything, byte for byte.
 #include "scene/load.hpp"
 #include "support/drawn_hall.hpp"
 #include "support/rendering.hpp"
@@ -14,8 +14,9 @@ namespace {
 using namespace catoptric;
 using Names = std::vector<std::string>;
 
-constexpr uvec2 kSize{40, 32};
-constexpr int kMostBounces = 8; ///< that a byte tells of in drawn halls
+constexpr uvec2 kRequiredSize{40, 32};
+/// Largest number of bounces that can change a byte of a picture in the random halls.
+constexpr int kMostBounces = 8;
 
 Names names_of(const app::FrameTimes& times) {
     Names names;
@@ -36,30 +37,33 @@ bool needs_all_faces(const require::Model& model) {
     });
 }
 
-/// Two sessions of one scene in which the same happens.
+/// Two sessions of the same scene that receive the same edits: one renders everything, the other
+/// what is required.
 class Pair {
 public:
     Pair(const scene::Scene& scene, std::vector<std::string> techniques,
          std::uint32_t in_flight = 1)
-        : spec(test::request(scene, techniques, kSize)), all_(test::engine(), scene, in_flight),
-          few_(test::engine(), scene, in_flight) {}
+        : spec(test::request(scene, techniques, kRequiredSize)),
+          all_(test::engine(), scene, in_flight), few_(test::engine(), scene, in_flight) {}
 
-    /// Passes of the frame with what is required.
+    /// Renders the next frame in both sessions and compares the pictures. Returns the names of the
+    /// passes of the session that renders what is required.
     Names frame() {
         const auto [wanted, found] = next();
         model_ = found.model();
         EXPECT_TRUE(same_pictures(wanted, found)) << "frame " << number_;
         if (!spec.keeps_history) {
             EXPECT_EQ(found.remembers(), wanted.remembers());
-            const bool is_whole = needs_all_faces(found.model()); // else some faces hold nothing
+            // If not all faces are needed, some hold nothing, so the states differ.
+            const bool is_whole = needs_all_faces(found.model());
             EXPECT_TRUE(!is_whole || found.state() == wanted.state()) << "frame " << number_;
         }
         return names_of(found.times());
     }
-    /// Until pictures are the same again, in at most so many frames, and stay the same in as many
-    /// more; how many that took.
+    /// Renders twice `most` frames. Expects that the pictures of both sessions are equal after the
+    /// first `most` frames. Returns the number of the last frame in which they differed.
     int catch_up(int most) {
-        int last = 0; // that differed
+        int last = 0; // number of the last frame with a difference
         for (int k = 1; k <= 2 * most; ++k) {
             const auto [wanted, found] = next();
             if (!same_pictures(wanted, found)) last = k;
@@ -67,7 +71,8 @@ public:
         EXPECT_LE(last, most);
         return last;
     }
-    /// Until only the picture is drawn, in at most so many frames; how many that took.
+    /// Renders frames until no capture is drawn any more, at most `most` frames. Returns their
+    /// number.
     int settle(int most = 40) {
         for (int k = 1; k <= most; ++k)
             if (!draws_captures(frame())) return k;
@@ -83,7 +88,7 @@ public:
     }
     const scene::Scene& scene() const { return all_.scene(); }
     app::Counts counts() const { return few_.counts(); }
-    const require::Model& model() const { return model_; } ///< of the last frame
+    const require::Model& model() const { return model_; } ///< model of the last frame
 
     app::FrameSpec spec;
 
@@ -92,7 +97,7 @@ private:
         ++number_;
         app::FrameSpec required = spec;
         required.model = app::Modelling::required;
-        app::Frame wanted = all_.frame(spec); // first, as it always was
+        app::Frame wanted = all_.frame(spec); // renders everything, before the other session
         return {std::move(wanted), few_.frame(required)};
     }
     static bool same_pictures(const app::Frame& wanted, const app::Frame& found) {
@@ -118,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, Required,
                              return "row" + std::to_string(instance.index);
                          });
 
-TEST_P(Required, ShowsWhatEverythingShows) {
+TEST_P(Required, PicturesEqualThoseOfEverything) {
     if (std::string_view(GetParam()).ends_with("colour=float") && !test::has_float_colour())
         GTEST_SKIP() << "this device does not filter images of 32-bit floats";
     Pair pair(test::room(3, 2), {GetParam()});
@@ -137,12 +142,14 @@ TEST_P(Required, ShowsWhatEverythingShows) {
     for (int k = 0; k < 4; ++k) pair.frame();
 }
 
-TEST(RequiredFrames, OfAStillSceneAreViewAndCompose) {
+TEST(RequiredFrames, StillSceneNeedsOnlyViewAndCompose) {
     Pair pair(test::hall(), {"parallax:face=32"});
-    // Nobody looks behind the panel on the wall.
+    // No mirror pixel looks at the part of the panel's capture behind the wall, so that face is
+    // cleared.
     EXPECT_EQ(pair.frame(), (Names{"shadow", "capture/1", "capture/2", "capture/3.1-4",
                                    "capture/3.6-6", "capture/3.5-5.clear", "view", "compose"}));
-    // Of each mirror the faces that show another, and of these where they do.
+    // The second frame draws only the faces that show another mirror, and within a face only the
+    // area of these mirrors.
     EXPECT_EQ(pair.frame(),
               (Names{"capture.keep", "capture/1.1-1", "capture/1.3-3", "capture/1.5-5",
                      "capture/2.2-2", "capture/2.3-3", "capture/2.5-5", "capture/3.1-1",
@@ -153,8 +160,9 @@ TEST(RequiredFrames, OfAStillSceneAreViewAndCompose) {
     EXPECT_EQ(pair.frame(), kSettled) << "captures are not the camera's";
 }
 
-// What a technique's captures keep is asked of those that there are.
-TEST(RequiredFrames, DoNotNeedTheFirstMirror) {
+// The first mirror is out of sight and has no capture. The options of the captures must come from a
+// mirror that has one.
+TEST(RequiredFrames, FirstMirrorNeedsNoCapture) {
     scene::Scene scene = test::hall();
     test::add_ball(scene, "outside", scene.objects.back().material, {9, 0, 0}, .5, 2);
     std::rotate(scene.objects.begin(), scene.objects.end() - 1, scene.objects.end());
@@ -165,7 +173,7 @@ TEST(RequiredFrames, DoNotNeedTheFirstMirror) {
     }
 }
 
-TEST(RequiredFrames, ShowFlatMirrorsBesideCaptures) {
+TEST(RequiredFrames, FlatMirrorsAreShownBesideCaptures) {
     Pair pair(test::hall(), {"3=planar *=parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
     pair.settle();
@@ -173,7 +181,7 @@ TEST(RequiredFrames, ShowFlatMirrorsBesideCaptures) {
     pair.frame();
 }
 
-TEST(RequiredFrames, DrawAnewWhatChanged) {
+TEST(RequiredFrames, ChangedLightAndMaterialsAreDrawnAgain) {
     Pair pair(test::room(3, 2), {"parallax:face=16"});
     pair.settle();
     const std::size_t lamp = pair.scene().materials.size() - 2;
@@ -193,7 +201,7 @@ TEST(RequiredFrames, DrawAnewWhatChanged) {
     EXPECT_EQ(pair.frame(), kSettled);
 }
 
-TEST(RequiredFrames, FollowWhatMovesUntilItStands) {
+TEST(RequiredFrames, MovingObjectsAreDrawnUntilTheyStop) {
     Pair pair(scene::cornell_mirrors(), {"parallax:face=16"});
     for (int k = 0; k < 8; ++k) {
         EXPECT_TRUE(draws_captures(pair.frame()));
@@ -203,8 +211,8 @@ TEST(RequiredFrames, FollowWhatMovesUntilItStands) {
     EXPECT_EQ(pair.frame(), kSettled);
 }
 
-// What a search reads beside the captures is made from all faces of a cube, each time one is drawn.
-TEST(RequiredFrames, KeepBoundsOfDistancesAsLongAsCaptures) {
+// The pyramid is computed from all six faces of a cube whenever one of them is drawn.
+TEST(RequiredFrames, PyramidIsMadeAgainWheneverACaptureIsDrawn) {
     Pair pair(scene::cornell_mirrors(), {"pyramid:face=16"});
     for (int k = 0; k < 6; ++k) {
         EXPECT_THAT(pair.frame(), testing::Contains("pyramid"));
@@ -212,11 +220,11 @@ TEST(RequiredFrames, KeepBoundsOfDistancesAsLongAsCaptures) {
     }
     pair.settle();
     EXPECT_EQ(pair.frame(), kSettled);
-    pair.spec.ambient = .3; // of colours, but captures are one thing
+    pair.spec.ambient = .3; // only colours change, but a capture is drawn as a whole
     EXPECT_THAT(pair.frame(), testing::Contains("pyramid"));
 }
 
-/// A bare room with a ball mirror, a block before it and a lamp.
+/// Returns a closed room with a mirror ball, a block beside it and a point light.
 scene::Scene room_with_block() {
     scene::Scene scene{.name = "block"};
     const std::size_t white = add_material(scene, {.albedo = vec3(.7f)});
@@ -232,7 +240,7 @@ scene::Scene room_with_block() {
     return scene;
 }
 
-TEST(RequiredFrames, DrawFacesThatShowWhatMoved) {
+TEST(RequiredFrames, OnlyFacesThatShowTheMoverAreDrawn) {
     Pair pair(room_with_block(), {"parallax:face=16,shadow_map=64"});
     const std::size_t block = pair.scene().objects.size() - 1;
     const auto move = [&](double x) {
@@ -244,7 +252,8 @@ TEST(RequiredFrames, DrawFacesThatShowWhatMoved) {
     pair.settle();
     EXPECT_THAT(move(3.4), testing::Contains("capture/1")) << "it had never moved before";
     pair.settle();
-    // +X and, where its shadow falls, below; the light sees it below.
+    // The block changes the capture's face +X, and its shadow the face below. The shadow map
+    // changes in its face below.
     EXPECT_EQ(move(3.3), (Names{"shadow.4-4", "capture.keep", "capture/1.1-1", "capture/1.4-4",
                                 "view", "compose"}));
     pair.settle();
@@ -253,10 +262,10 @@ TEST(RequiredFrames, DrawFacesThatShowWhatMoved) {
     EXPECT_THAT(move(2.0), testing::Not(testing::Contains("capture/1")));
 }
 
-/// Halls with partitions that hide mirrors, from a seed, and what may happen in them. Captures of
-/// mirrors that nobody saw begin when somebody does, and what comes to them from mirrors that were
-/// not captured either comes a bounce a frame; everything else is there at once.
-TEST(RequiredFrames, FollowWhateverHappens) {
+/// Random halls with partitions that hide mirrors, with random events. The capture of a hidden
+/// mirror starts when the mirror comes into view. Reflections of other hidden mirrors in the
+/// capture arrive one bounce per frame. Everything else must be right at once.
+TEST(RequiredFrames, PicturesAreRightAfterRandomEvents) {
     for (const std::uint64_t seed : {3, 11, 12}) {
         SCOPED_TRACE(seed);
         const scene::Scene hall = test::drawn_hall(seed, 4);
@@ -264,14 +273,14 @@ TEST(RequiredFrames, FollowWhateverHappens) {
         const auto object = [&](const std::string& name, std::size_t count) {
             for (std::size_t i = 0; i < hall.objects.size(); ++i)
                 if (hall.objects[i].name == name && count-- == 0) return i;
-            return hall.objects.size() - 1; // a seed may have drawn none
+            return hall.objects.size() - 1; // the hall of this seed has no such object
         };
         const auto frames = [&](int count) {
             for (int k = 0; k < count; ++k) pair.frame();
         };
         frames(4);
         int late = 0;
-        for (const std::size_t mirror : scene::mirrors(hall)) { // each comes into view
+        for (const std::size_t mirror : scene::mirrors(hall)) { // each mirror comes into view
             const dvec3 place(hall.objects[mirror].world_from_object[3]);
             pair.spec.camera = {.eye = place + dvec3(.3, .2, -1.7), .target = place};
             late = std::max(late, pair.catch_up(kMostBounces));
@@ -286,7 +295,7 @@ TEST(RequiredFrames, FollowWhateverHappens) {
         for (const auto& [name, by] :
              {std::pair{"partition", dvec3(0, 0, .8)}, std::pair{"ball", dvec3(.4, .1, 0)},
               std::pair{"block", dvec3(0, -.2, .5)}})
-            for (int k = 0; k < 3; ++k) { // begins to move, goes on
+            for (int k = 0; k < 3; ++k) { // the object begins to move and continues
                 const std::size_t moved = object(name, 0);
                 dmat4 to = pair.scene().objects[moved].world_from_object;
                 to[3] += dvec4(by, 0);
@@ -298,7 +307,7 @@ TEST(RequiredFrames, FollowWhateverHappens) {
     }
 }
 
-TEST(RequiredFrames, BeginAnewAfterACut) {
+TEST(RequiredFrames, CapturesAreDrawnAgainAfterACut) {
     Pair pair(test::room(3, 1), {"reuse:face=16"});
     pair.settle();
     pair.both([](app::Session& session) { session.forget(); });
@@ -309,20 +318,20 @@ TEST(RequiredFrames, BeginAnewAfterACut) {
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(draws_captures(pair.frame()));
 }
 
-TEST(RequiredFrames, BeginAnewWithOtherEdges) {
+TEST(RequiredFrames, CapturesAreDrawnAgainAtAnotherResolution) {
     Pair pair(test::room(3, 1), {"parallax:face=auto"});
     for (int k = 0; k < 3; ++k) pair.frame();
-    pair.spec.size = {72, 56}; // finer
+    pair.spec.size = {72, 56}; // a larger picture needs finer captures
     EXPECT_TRUE(draws_captures(pair.frame()));
     pair.settle();
 }
 
-TEST(RequiredFrames, GoOnFromWhereTheyWereSetAside) {
+TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
     Pair pair(test::room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
     std::vector<app::Sequence> aside;
     pair.both([&](app::Session& session) { aside.push_back(session.suspend()); });
-    for (int k = 0; k < 2; ++k) pair.frame(); // others, of the same technique
+    for (int k = 0; k < 2; ++k) pair.frame(); // frames of another sequence with the same technique
     std::size_t i = 0;
     pair.both([&](app::Session& session) { session.resume(std::move(aside[i++])); });
     pair.settle();
@@ -333,7 +342,7 @@ TEST(RequiredFrames, GoOnFromWhereTheyWereSetAside) {
     EXPECT_EQ(pair.frame(), kSettled);
 }
 
-TEST(RequiredFrames, AsideLeaveTheSequenceAlone) {
+TEST(RequiredFrames, FramesThatKeepHistoryLeaveTheSequenceAlone) {
     Pair pair(test::room(3, 1), {"parallax:face=16"});
     const app::FrameSpec still = pair.spec;
     const auto aside = [&](const char* technique, double ambient) {
@@ -355,11 +364,11 @@ TEST(RequiredFrames, AsideLeaveTheSequenceAlone) {
     EXPECT_TRUE(draws_captures(pair.frame()));
 }
 
-/// What comparisons find is known late then; no frame waits for it.
-TEST(RequiredFrames, SettleWithSeveralInFlight) {
+/// With frames in flight, results of comparisons arrive late, and no frame waits for them.
+TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
     const scene::Scene scene = test::room(3, 1);
     app::Session all(test::engine(), scene, 3), few(test::engine(), scene, 3);
-    app::FrameSpec spec = test::request(scene, {"parallax:face=16"}, kSize);
+    app::FrameSpec spec = test::request(scene, {"parallax:face=16"}, kRequiredSize);
     app::FrameSpec required = spec;
     required.model = app::Modelling::required;
     std::optional<app::Frame> wanted, found;
@@ -368,7 +377,7 @@ TEST(RequiredFrames, SettleWithSeveralInFlight) {
     EXPECT_EQ(names_of(found->times()), kSettled);
 }
 
-TEST(RequiredFrames, TakeNoMoreMemoryWithTime) {
+TEST(RequiredFrames, MemoryStaysConstantOverTime) {
     Pair pair(scene::cornell_mirrors(), {"parallax:face=16", "reuse:face=16"});
     pair.frame(), pair.frame(), pair.frame();
     const std::uint64_t before = pair.counts().memory_bytes;
@@ -379,10 +388,10 @@ TEST(RequiredFrames, TakeNoMoreMemoryWithTime) {
     EXPECT_EQ(pair.counts().memory_bytes, before);
 }
 
-TEST(RequiredFrames, SayWhatTheyAre) {
+TEST(RequiredFrames, FramesReportTheirModel) {
     const scene::Scene scene = test::room(1, 1);
     app::Session session(test::engine(), scene);
-    app::FrameSpec spec = test::request(scene, {"reuse:face=16"}, kSize);
+    app::FrameSpec spec = test::request(scene, {"reuse:face=16"}, kRequiredSize);
     EXPECT_EQ(session.frame(spec).read().model, app::Modelling::everything);
     spec.model = app::Modelling::required;
     const app::Frame frame = session.frame(spec);

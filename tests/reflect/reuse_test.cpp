@@ -1,4 +1,5 @@
-// Part two of the report gives what part one gives, a bounce a frame: byte for byte.
+// Tests that `reuse`, part two of the seed report, equals `naive`, part one, byte for byte: `reuse`
+// gains one bounce a frame.
 #include "support/rendering.hpp"
 
 #include <cmath>
@@ -8,7 +9,7 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{512, 512};
+constexpr uvec2 kReuseSize{512, 512};
 
 TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     const scene::Scene scene = scene::cornell_mirrors();
@@ -34,7 +35,7 @@ TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     }
 }
 
-/// Sums of squared differences, both clamped to [0, 1], where the mask says.
+/// Sum of the squared differences of two pictures, clamped to [0,1], over a mask.
 struct Change {
     double sum = 0, largest_pixel = 0;
     std::size_t pixels = 0;
@@ -57,17 +58,18 @@ Change change(const measure::Picture& a, const measure::Picture& b, const measur
     return result;
 }
 
-/// From the fourth bounce on, the difference is a handful of pixels, and the one in which the lamp
-/// appears last (0 to 1 in a single pixel of ball 4) outweighs all others: the steps are judged
-/// without the pixel that changes most, all of them together with it.
-TEST(Naive, EachBounceChangesLess) {
+/// From the fourth bounce on, only a few pixels change. The pixel in which the lamp appears last,
+/// in ball 4, changes from 0 to 1 and outweighs all others. Single steps are therefore compared
+/// without the pixel that changes most. The total is compared with this pixel.
+TEST(Naive, EachBounceChangesThePictureLess) {
     const scene::Scene scene = scene::cornell_mirrors();
-    const measure::Mask mirrors = measure::mirrors(test::render(scene, "raytrace", kSize).hits);
-    measure::Picture last = test::render(scene, "naive:bounces=0", kSize).hdr;
+    const measure::Mask mirrors = measure::mirrors(
+        test::render(scene, "raytrace", kReuseSize).hits);
+    measure::Picture last = test::render(scene, "naive:bounces=0", kReuseSize).hdr;
     std::vector<Change> steps;
     for (int k = 0; k <= 4; ++k) {
         const measure::Picture next =
-            test::render(scene, "naive:bounces=" + std::to_string(k + 1), kSize).hdr;
+            test::render(scene, "naive:bounces=" + std::to_string(k + 1), kReuseSize).hdr;
         steps.push_back(change(last, next, mirrors));
         std::cout << "[ MEASURED ] naive:" << k << " to naive:" << k + 1 << ": rmse "
                   << steps.back().rmse(false) << ", " << steps.back().rmse(true)
@@ -83,7 +85,7 @@ TEST(Naive, EachBounceChangesLess) {
     EXPECT_GE(steps.front().rmse(false), std::pow(2.5, 4) * steps.back().rmse(false));
 }
 
-TEST(Naive, RendersTheSceneAsOftenAsTheReportCounts) {
+TEST(Naive, ScenePassesEqualThoseOfTheSeedReport) {
     const int expected[] = {2, 6, 10, 14, 18};
     for (int i = 0; i <= 4; ++i)
         EXPECT_EQ(test::render(scene::cornell_mirrors(),

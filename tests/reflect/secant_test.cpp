@@ -1,11 +1,11 @@
-// The secant search: its first step is the report's, the next ones are worth far larger captures.
+// Tests of the secant search: without steps it must equal `parallax`.
 #include "support/searches.hpp"
 
 namespace {
 
 using namespace catoptric;
 
-TEST(Secant, WithoutStepsIsParallax) {
+TEST(Secant, WithoutStepsEqualsParallax) {
     const scene::Scene scene = scene::cornell_mirrors();
     for (const std::string settings :
          {"face=64", "face=37,distance=r16f", "face=64,distance=unorm8,shadow=none"}) {

@@ -1,5 +1,6 @@
-// Captures of which a frame draws only some: how old pictures can become, that they end as
-// everything's, and that nothing is put off for ever.
+// Tests of the capture budget, under which a frame draws only some captures. The age of captures
+// must be bounded, and a still scene must converge to full captures. Every capture must get its
+// turn.
 #include "support/drawn_hall.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
@@ -14,13 +15,14 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{64, 64};
+constexpr uvec2 kSlicesSize{64, 64};
 
+/// Returns the number of frames within which each mirror has its turn.
 std::uint32_t round_of(std::uint32_t mirrors, std::uint32_t most) {
     return (mirrors + most - 1) / most;
 }
 
-/// Mirrors of which passes have drawn a capture.
+/// Returns the numbers of the mirrors whose captures the frame's passes drew.
 std::set<int> drawn(const app::FrameTimes& times) {
     std::set<int> mirrors;
     for (const app::PassTime& pass : times.passes)
@@ -33,13 +35,13 @@ scene::Scene coarse_room() { return test::with_coarse_balls(test::room(3, 1)); }
 
 app::FrameSpec limited(const scene::Scene& scene, std::uint32_t most,
                        const std::string& technique = "parallax:face=32,shadow_map=64") {
-    app::FrameSpec spec = test::request(scene, {technique}, kSize);
+    app::FrameSpec spec = test::request(scene, {technique}, kSlicesSize);
     spec.model = app::Modelling::required;
     spec.most_captures = most;
     return spec;
 }
 
-/// What a frame says of itself is what its passes do.
+/// Expects that the budget a frame reports agrees with its passes.
 void expect_told(const app::Frame& frame, std::uint32_t most) {
     ASSERT_TRUE(frame.slices());
     const app::CaptureBudget& slices = *frame.slices();
@@ -51,8 +53,8 @@ void expect_told(const app::Frame& frame, std::uint32_t most) {
 
 constexpr int kCells = 5;
 
-/// Mirror balls, each in a cell of its own whose walls are seen from inside alone: no ball shows
-/// another, and each shows what the cells emit.
+/// Returns mirror balls, each in its own closed cell. The walls are visible only from inside their
+/// cell, so no ball shows another. Each ball shows the light that its cell emits.
 scene::Scene cells() {
     scene::Scene scene{.name = "cells"};
     const std::size_t hot = add_material(scene,
@@ -76,8 +78,9 @@ scene::Scene cells() {
     return test::with_coarse_balls(std::move(scene));
 }
 
-// The cells emit the number of the frame, so a ball's pixel says of which frame its capture is.
-TEST(CaptureBudget, ShowNothingOlderThanARound) {
+// The cells emit the number of the frame as light. A ball's pixel therefore tells in which frame
+// its capture was drawn.
+TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
     for (const std::uint32_t most : {1u, 2u, 3u}) {
         app::Session session(test::engine(), cells());
         const app::FrameSpec spec = limited(session.scene(), most, "parallax:face=32,shadow=none");
@@ -104,8 +107,8 @@ TEST(CaptureBudget, ShowNothingOlderThanARound) {
     }
 }
 
-// A bounce takes a round in place of a frame.
-TEST(CaptureBudget, EndAsEverythingDoes) {
+// Under a budget, each bounce needs a round of frames instead of one frame.
+TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
     for (const std::uint32_t most : {1u, 2u}) {
         const scene::Scene scene = coarse_room();
         app::Session all(test::engine(), scene), few(test::engine(), scene);
@@ -144,8 +147,8 @@ TEST(CaptureBudget, EndAsEverythingDoes) {
     }
 }
 
-// Cameras, edits and movements at random in a drawn hall, sooner than mirrors have had their turn.
-TEST(CaptureBudget, EndAsEverythingDoesWhateverHappened) {
+// Changes cameras and moves objects at random, faster than mirrors have their turns.
+TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
     for (const std::uint64_t seed : {3, 11}) {
         const scene::Scene hall = test::drawn_hall(seed, 4);
         app::Session all(test::engine(), hall), few(test::engine(), hall);
@@ -176,8 +179,8 @@ TEST(CaptureBudget, EndAsEverythingDoesWhateverHappened) {
     }
 }
 
-// Something moves in every frame.
-TEST(CaptureBudget, DrawEachMirrorInARound) {
+// Something moves in every frame, so every capture always waits to be drawn.
+TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
     const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = limited(scene, 1);
@@ -193,7 +196,7 @@ TEST(CaptureBudget, DrawEachMirrorInARound) {
     }
 }
 
-TEST(CaptureBudget, OfAllMirrorsAreNone) {
+TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
     const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
     app::Session one(test::engine(), scene), other(test::engine(), scene);
     for (int k = 0; k < 6; ++k) {
@@ -206,13 +209,14 @@ TEST(CaptureBudget, OfAllMirrorsAreNone) {
     }
 }
 
-// Whatever the device: hardly any time is one mirror a frame, much of it all.
-TEST(CaptureBudget, FollowMilliseconds) {
+// Tests budgets in milliseconds that are right on any device: nearly no time draws one mirror a
+// frame, and very much time draws all mirrors.
+TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
     const scene::Scene scene = coarse_room();
     app::Session little(test::engine(), scene), much(test::engine(), scene);
     app::FrameSpec spec = limited(scene, 0);
     for (int k = 1; k <= 5; ++k) {
-        spec.ambient = .05 * k; // all are to be drawn
+        spec.ambient = .05 * k; // a change of the ambient light, so all captures must be drawn
         spec.budget_ms = 1e-6;
         const app::Frame frame = little.frame(spec);
         expect_told(frame, k == 1 ? 3 : 1);
@@ -220,7 +224,7 @@ TEST(CaptureBudget, FollowMilliseconds) {
         app::FrameSpec aside = spec;
         aside.keeps_history = true;
         EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
-        if (k == 3) { // measured on both sides of what comes between
+        if (k == 3) { // the times measured before and after this other sequence still count
             app::Sequence sequence = little.suspend();
             EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
             little.resume(std::move(sequence));
@@ -230,7 +234,7 @@ TEST(CaptureBudget, FollowMilliseconds) {
     }
 }
 
-TEST(CaptureBudget, AreTheSameWithSeveralInFlight) {
+TEST(CaptureBudget, PicturesDoNotDependOnFramesInFlight) {
     const scene::Scene scene = coarse_room();
     app::Session one(test::engine(), scene), more(test::engine(), scene, 3);
     for (int k = 0; k < 8; ++k) {
@@ -239,21 +243,23 @@ TEST(CaptureBudget, AreTheSameWithSeveralInFlight) {
         const app::Frame wanted = one.frame(spec), found = more.frame(spec);
         EXPECT_TRUE(test::same_bytes(found.hdr(), wanted.hdr())) << k;
     }
-    app::FrameSpec whole = limited(scene, 0); // goes on from what was put off
+    // Without a budget, the captures that were put off are drawn.
+    app::FrameSpec whole = limited(scene, 0);
     std::optional<app::Frame> wanted, found;
     for (int k = 0; k < 40; ++k) wanted = one.frame(whole), found = more.frame(whole);
     EXPECT_TRUE(test::same_bytes(found->hdr(), wanted->hdr()));
     EXPECT_EQ(drawn(found->times()), std::set<int>());
 }
 
-// The first ball, whose turn comes first, is hidden by what is no wall: it changes nothing.
-TEST(CaptureBudget, AreNotSettledWhileSomebodyWaits) {
+// A shell hides the first ball, which has the first turn, so that drawing its capture changes no
+// visible pixel. The run must not end as settled then, because other captures still wait.
+TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
     scene::Scene scene = coarse_room();
     scene::Object shell = scene.objects[scene::mirrors(scene).front()];
     shell.name = "shell", shell.material = 0, shell.sphere.reset();
     shell.world_from_object = shell.world_from_object * glm::scale(dmat4(1), dvec3(1.05));
     scene.objects.push_back(shell);
-    app::Request request = test::request(scene, {"parallax:face=32,shadow_map=64"}, kSize);
+    app::Request request = test::request(scene, {"parallax:face=32,shadow_map=64"}, kSlicesSize);
     request.model = app::Modelling::required;
     request.frames = 28, request.until_settled = true;
     app::Session session(test::engine(), scene);
@@ -264,11 +270,11 @@ TEST(CaptureBudget, AreNotSettledWhileSomebodyWaits) {
     EXPECT_GT(sliced.frames.size(), whole.frames.size());
     EXPECT_TRUE(test::same_bytes(sliced.parts.front().hdr, whole.parts.front().hdr));
     EXPECT_EQ(sliced.parts.front().slices->waiting, 0u);
-    request.frames = 1; // a round of three mirrors
+    request.frames = 1; // under a budget, one frame counts as a round of three
     EXPECT_EQ(app::run(session, request).frames.size(), 3u);
 }
 
-TEST(CaptureBudget, AreRefusedWhereTheyMeanNothing) {
+TEST(CaptureBudget, InvalidBudgetsAreRefused) {
     const scene::Scene scene = coarse_room();
     app::Session session(test::engine(), scene);
     const auto refused = [&](app::FrameSpec spec, const std::string& text) {

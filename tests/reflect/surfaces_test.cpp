@@ -1,5 +1,5 @@
-// Surfaces of more than one colour: known answers in both worlds, and both worlds against each
-// other.
+// Tests of textured surfaces and materials: rasterisation and ray tracing against known answers and
+// against each other.
 #include "core/shader_math.hpp"
 #include "support/rendering.hpp"
 
@@ -14,14 +14,14 @@ using namespace catoptric;
 using glm::dvec2, glm::ivec2;
 using scene::Texture;
 
-constexpr const char* kWorlds[] = {"naive:bounces=0,shadow_map=512", "raytrace"};
+constexpr const char* kSurfacesWorlds[] = {"naive:bounces=0,shadow_map=512", "raytrace"};
 
-/// sRGB of IEC 61966-2-1 in linear light.
+/// Converts an sRGB value (IEC 61966-2-1) to linear light.
 double linear_of(double encoded) {
     return encoded <= .04045 ? encoded / 12.92 : std::pow((encoded + .055) / 1.055, 2.4);
 }
 
-/// Texels of any colour and alpha.
+/// Returns an image of random texels, alpha included.
 std::shared_ptr<scene::Image> image(uvec2 size, std::uint32_t seed) {
     std::mt19937 random(seed);
     auto image = std::make_shared<scene::Image>();
@@ -32,7 +32,7 @@ std::shared_ptr<scene::Image> image(uvec2 size, std::uint32_t seed) {
     return image;
 }
 
-/// A page of double precision that says what a texture shows at (u, v).
+/// Returns the value of a texture at (u, v), computed in doubles.
 dvec4 sampled(const Texture& texture, dvec2 uv) {
     const dvec2 at(texture.u_row.x * uv.x + texture.u_row.y * uv.y + texture.u_row.z,
                    texture.v_row.x * uv.x + texture.v_row.y * uv.y + texture.v_row.z);
@@ -63,7 +63,8 @@ dvec4 sampled(const Texture& texture, dvec2 uv) {
                     glm::mix(texel(i.x, i.y + 1), texel(i.x + 1, i.y + 1), share.x), share.y);
 }
 
-/// Looks straight at the unit square z = 0, which fills the picture; (0, 0) is its top left.
+/// Returns a camera in front of the unit square at z = 0, which fills the picture. (u, v) = (0, 0)
+/// is at the top left.
 scene::Camera before_the_square() {
     const double degrees = 2 * glm::degrees(std::atan(.5));
     return {.name = "before",
@@ -72,13 +73,14 @@ scene::Camera before_the_square() {
             .vertical_fov_degrees = degrees};
 }
 
-/// The unit square with (u, v) from `low` to `high`, v downwards.
+/// Returns the unit square with texture coordinates from `low` to `high`, v downwards.
 scene::Mesh square(vec2 low, vec2 high) {
     scene::Mesh mesh = scene::quad("square", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     mesh.uv[0] = {{low.x, high.y}, {high.x, high.y}, {high.x, low.y}, {low.x, low.y}};
     return mesh;
 }
 
+/// Returns a scene of one mesh with a material, in front of the camera.
 scene::Scene showing(scene::Mesh mesh, const scene::Material& material) {
     scene::Scene scene{.name = "square"};
     test::add_mesh(scene, std::move(mesh), test::add_material(scene, material));
@@ -86,9 +88,9 @@ scene::Scene showing(scene::Mesh mesh, const scene::Material& material) {
     return scene;
 }
 
-/// The largest difference of a channel from what `wanted(u, v)` says, (u, v) from 0 to 1.
+/// Returns the largest difference of a channel from `wanted(u, v)`, with u and v from 0 to 1.
 template <typename ResolvedScene>
-double farthest(const measure::Picture& picture, ResolvedScene&& wanted) {
+double surfaces_farthest(const measure::Picture& picture, ResolvedScene&& wanted) {
     double result = 0;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
@@ -121,9 +123,10 @@ INSTANTIATE_TEST_SUITE_P(
                         "turned", repeat, repeat, false, true, {.8f, .6f, .3f}, {-.6f, .8f, -.2f}}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(Textures, AreWhatOnePageOfDoublesSays) {
+TEST_P(Textures, TexturesEqualTheDoublePrecisionComputation) {
     const TextureCase& which = GetParam();
-    // Neither edge is a power of two, and 36 pixels do not meet the 5 and 3 texels' centres.
+    // The image's edges are no powers of two. With 36 pixels, no pixel lies at the centre of a
+    // texel of 5 x 3.
     const Texture texture{.image = image({5, 3}, 7),
                           .wrap_u = which.wrap_u,
                           .wrap_v = which.wrap_v,
@@ -135,7 +138,7 @@ TEST_P(Textures, AreWhatOnePageOfDoublesSays) {
     const scene::Scene scene = showing(
         square(low, high),
         {.name = "page", .albedo = vec3(1), .unlit = true, .albedo_texture = texture});
-    for (const char* world : kWorlds) {
+    for (const char* world : kSurfacesWorlds) {
         const measure::Picture picture = test::render(scene, world, {36, 36}).hdr;
         int off = 0;
         for (int y = 0; y < 36; ++y)
@@ -145,17 +148,17 @@ TEST_P(Textures, AreWhatOnePageOfDoublesSays) {
                 const dvec3 apart = abs(dvec3(picture.at(x, y)) - wanted);
                 off += std::max({apart.x, apart.y, apart.z}) > 1e-4;
             }
-        // Where the nearest texel changes, the last bit decides.
+        // At the border of two texels, rounding decides which one is nearest.
         EXPECT_LE(off, which.nearest ? 4 : 0) << world;
     }
 }
 
-TEST(TexelCentres, ShowTheirTexels) {
+TEST(TexelCentres, TexelCentresShowTheirTexels) {
     const Texture texture{.image = image({8, 8}, 3), .srgb = true};
     const scene::Scene scene = showing(
         square({0, 0}, {1, 1}),
         {.albedo = {1, .5f, .25f}, .unlit = true, .albedo_texture = texture});
-    for (const char* world : kWorlds) {
+    for (const char* world : kSurfacesWorlds) {
         const measure::Picture picture = test::render(scene, world, {8, 8}).hdr;
         for (int i = 0; i < 64; ++i) {
             const std::uint32_t texel = texture.image->texels[static_cast<std::size_t>(i)];
@@ -167,62 +170,65 @@ TEST(TexelCentres, ShowTheirTexels) {
     }
 }
 
-TEST(SecondTextureSpace, IsItsOwn) {
+TEST(SecondTextureSpace, SecondSetOfTextureCoordinatesIsUsed) {
     scene::Mesh mesh = square({0, 0}, {1, 1});
-    mesh.uv[1] = {{0, 0}, {0, 0}, {1, 0}, {1, 0}}; // u upwards
+    // In the second set of coordinates, u increases upwards.
+    mesh.uv[1] = {{0, 0}, {0, 0}, {1, 0}, {1, 0}};
     const Texture texture{.image = image({4, 1}, 5), .wrap_u = clamp, .uv_set = 1};
     const scene::Scene scene = showing(
         mesh, {.albedo = vec3(1), .unlit = true, .albedo_texture = texture});
-    for (const char* world : kWorlds)
-        EXPECT_LE(farthest(test::render(scene, world, {16, 16}).hdr,
-                           [&](dvec2 at) {
-                               return sampled(texture, {1 - at.y, .5});
-                           }),
+    for (const char* world : kSurfacesWorlds)
+        EXPECT_LE(surfaces_farthest(test::render(scene, world, {16, 16}).hdr,
+                                    [&](dvec2 at) {
+                                        return sampled(texture, {1 - at.y, .5});
+                                    }),
                   1e-4)
             << world;
 }
 
-TEST(VertexColours, AreMixedAndMultiplied) {
+TEST(VertexColours, VertexColoursAreInterpolatedAndMultiplied) {
     scene::Mesh mesh = square({0, 0}, {1, 1});
     mesh.colours = {{1, 0, 0, 1}, {1, 0, 1, 1}, {1, 1, 1, 1}, {1, 1, 0, 1}};
     const scene::Scene scene = showing(mesh, {.albedo = {.5f, 1, 1}, .unlit = true});
-    for (const char* world : kWorlds)
-        EXPECT_LE(farthest(test::render(scene, world, {16, 16}).hdr,
-                           [](dvec2 at) { return dvec3(.5, 1 - at.y, at.x); }),
+    for (const char* world : kSurfacesWorlds)
+        EXPECT_LE(surfaces_farthest(test::render(scene, world, {16, 16}).hdr,
+                                    [](dvec2 at) { return dvec3(.5, 1 - at.y, at.x); }),
                   1e-5)
             << world;
 }
 
-/// Emission by a texture shows and lights nothing; that of another object is not touched by it.
-TEST(EmissionTexture, ShowsAndLightsNothing) {
+/// An emission texture is visible but lights nothing. It must not affect the light of other
+/// objects.
+TEST(EmissionTexture, EmissionTextureIsVisibleAndLightsNothing) {
     const Texture texture{.image = image({4, 4}, 9)};
     scene::Scene scene = showing(square({0, 0}, {1, 1}),
                                  {.emission = {2, 3, 4}, .emission_texture = texture});
     EXPECT_TRUE(scene::lights(scene).empty());
-    for (const char* world : kWorlds)
-        EXPECT_LE(farthest(test::render(scene, world, {16, 16}).hdr,
-                           [&](dvec2 at) { return dvec3(2, 3, 4) * dvec3(sampled(texture, at)); }),
+    for (const char* world : kSurfacesWorlds)
+        EXPECT_LE(surfaces_farthest(
+                      test::render(scene, world, {16, 16}).hdr,
+                      [&](dvec2 at) { return dvec3(2, 3, 4) * dvec3(sampled(texture, at)); }),
                   4e-4)
             << world;
     scene.materials[0].light = vec3(1);
     EXPECT_EQ(scene::lights(scene).size(), 1u);
 }
 
-/// A sharp floor in a box that shines evenly reflects R of that, by Schlick's formula, and 1 - R of
-/// its ambient light.
-TEST(SharpSurfaces, ReflectBySchlick) {
+/// A smooth floor in a box of constant radiance must reflect the share R of that radiance by
+/// Schlick's formula. The rest, 1 - R, is its diffuse ambient light.
+TEST(SharpSurfaces, ReflectanceFollowsSchlick) {
     struct Case {
         vec3 colour;
         float metallic;
         vec3 f0;
-        bool away = false; ///< of one side, which is seen from behind
+        bool away = false; ///< the floor has one side and is seen from behind
     };
     for (const Case& each :
          {Case{{.8f, .5f, .2f}, 1, vec3(.04f)}, Case{{.8f, .5f, .2f}, 1, vec3(.04f), true},
           Case{{.8f, .5f, .2f}, 0, vec3(.25f)}, Case{{.6f, .6f, .6f}, .5f, {.1f, .2f, .3f}}}) {
         scene::Scene scene = test::furnace(1);
-        scene.objects.pop_back();           // its ball
-        scene.materials[0].light = vec3(0); // they shine, and light nothing
+        scene.objects.pop_back();           // remove the mirror ball
+        scene.materials[0].light = vec3(0); // the box is visible but lights nothing
         const std::size_t floor = test::add_material(scene, {.name = "floor",
                                                              .albedo = each.colour,
                                                              .metallic = each.metallic,
@@ -255,7 +261,7 @@ TEST(SharpSurfaces, ReflectBySchlick) {
                     for (int i = 0; i < 3; ++i) {
                         const double r = f0[i] + (1 - f0[i]) * away;
                         const double wanted = (1 - r) * c[i] * (1 - each.metallic) *
-                                                  .05 + // ambient light alone
+                                                  .05 + // diffuse part, lit by ambient light only
                                               r * test::kFurnace[i];
                         off = std::max(off, std::abs(part.hdr.at(x, y)[i] - wanted));
                     }
@@ -266,9 +272,9 @@ TEST(SharpSurfaces, ReflectBySchlick) {
     }
 }
 
-/// A mirror that glows shows its own light: seen by the eye, and by a mirror before it. Tilted, it
-/// reflects only the dark.
-TEST(GlowingMirror, ShowsItsOwnLight) {
+/// A mirror that emits light must show its own light, seen directly and in a mirror. The mirror is
+/// tilted so that it reflects only darkness.
+TEST(GlowingMirror, GlowingMirrorShowsItsOwnLight) {
     const vec3 glow(.25f, .5f, 1);
     for (const bool in_mirror : {false, true}) {
         scene::Scene scene = showing(
@@ -281,14 +287,15 @@ TEST(GlowingMirror, ShowsItsOwnLight) {
                            {-12, -4, 3}, {-12, 12, 19}, {13, 12, 19}, {13, -4, 3});
         for (const char* technique : {"raytrace", "reuse:face=64", "secant:face=64,continue=4",
                                       "hybrid:face=64,continue=4"})
-            EXPECT_LE(farthest(test::render(scene, technique, {16, 16}, 3).hdr,
-                               [&](dvec2) { return dvec3(glow); }),
+            EXPECT_LE(surfaces_farthest(test::render(scene, technique, {16, 16}, 3).hdr,
+                                        [&](dvec2) { return dvec3(glow); }),
                       in_mirror ? 2e-3 : 1e-6)
                 << technique << ' ' << in_mirror;
     }
 }
 
-/// A board with a hole of the texture's left half hangs over a floor, beneath a small lamp.
+/// Returns a scene of a board above a floor, lit by a small lamp. The left half of the board's
+/// texture is transparent, so with `cutoff` above 0 the board has a hole there.
 scene::Scene hole(float cutoff) {
     scene::Scene scene{.name = "hole"};
     auto halves = std::make_shared<scene::Image>();
@@ -309,9 +316,9 @@ scene::Scene hole(float cutoff) {
     return scene;
 }
 
-TEST(CutOut, IsNeitherSeenNorCastsAShadow) {
-    // From above: left of the middle one sees the floor through the board, lit.
-    for (const char* world : kWorlds) {
+TEST(CutOut, CutOutPartIsInvisibleAndCastsNoShadow) {
+    // Seen from above, the floor left of the middle is visible through the hole, and is lit.
+    for (const char* world : kSurfacesWorlds) {
         const measure::Picture cut = test::render(hole(.5f), world, {32, 32}).hdr,
                                whole = test::render(hole(0), world, {32, 32}).hdr;
         scene::Scene without = hole(.5f);
@@ -320,15 +327,17 @@ TEST(CutOut, IsNeitherSeenNorCastsAShadow) {
         EXPECT_LE(glm::length(cut.at(12, 16) - open.at(12, 16)), 1e-5) << world;
         EXPECT_LE(glm::length(cut.at(20, 16) - whole.at(20, 16)), 1e-5) << world;
         EXPECT_GT(glm::length(cut.at(12, 16) - whole.at(12, 16)), .01) << world;
-        // The board is 1.3 times as large in the shadow: floor beside it, to the left and right.
+        // The shadow of the board is 1.3 times as large as the board. These pixels show the floor
+        // to the left and right of the board.
         EXPECT_LE(glm::length(cut.at(7, 16) - open.at(7, 16)), 1e-5) << world;
         EXPECT_LE(glm::length(cut.at(25, 16) - whole.at(25, 16)), 1e-5) << world;
         EXPECT_GT(open.at(25, 16).x, 1.5f * whole.at(25, 16).x) << world;
     }
 }
 
-/// Of a board whose front turns away from eye and lamp, which are on one side.
-TEST(Sides, AreSeenAndLitAsTheMaterialSays) {
+/// Eye and lamp are on the same side of a board. With `away`, the board's front faces away from
+/// both.
+TEST(Sides, SidesAreSeenAndLitAsTheMaterialSays) {
     const auto board = [](bool front_only, bool two_sided, bool away) {
         scene::Mesh mesh = square({0, 0}, {1, 1});
         if (away) {
@@ -341,13 +350,14 @@ TEST(Sides, AreSeenAndLitAsTheMaterialSays) {
                        {.4, 1.4, 1}, {.4, 1.6, 1}, {.6, 1.6, 1}, {.6, 1.4, 1});
         return scene;
     };
-    for (const char* world : kWorlds) {
+    for (const char* world : kSurfacesWorlds) {
         const auto colour = [&](bool front_only, bool two_sided, bool away) {
             return test::render(board(front_only, two_sided, away), world, {8, 8}).hdr.at(3, 4).x;
         };
         const float lit = colour(false, false, false);
         EXPECT_GT(lit, .1f) << world;
-        EXPECT_FLOAT_EQ(colour(false, false, true), .5f * .05f) << world; // ambient alone
+        // Lit by ambient light only.
+        EXPECT_FLOAT_EQ(colour(false, false, true), .5f * .05f) << world;
         EXPECT_NEAR(colour(false, true, true), lit, 1e-5) << world;
         EXPECT_NEAR(colour(false, true, false), lit, 1e-5) << world;
         EXPECT_NEAR(colour(true, false, false), lit, 1e-5) << world;
@@ -355,8 +365,8 @@ TEST(Sides, AreSeenAndLitAsTheMaterialSays) {
     }
 }
 
-/// What is not seen from behind casts its shadow from there all the same.
-TEST(Sides, CastShadowsEitherWay) {
+/// A board that is invisible from behind must still cast a shadow when lit from behind.
+TEST(Sides, OneSidedBoardCastsItsShadowEitherWay) {
     for (const bool away : {false, true}) {
         scene::Scene scene = hole(0);
         scene.materials[1].front_only = true;
@@ -366,14 +376,14 @@ TEST(Sides, CastShadowsEitherWay) {
             for (uvec3& triangle : board.triangles) std::swap(triangle.y, triangle.z);
         scene::Scene without = scene;
         without.objects.erase(without.objects.begin() + 1);
-        for (const char* world : kWorlds)
+        for (const char* world : kSurfacesWorlds)
             EXPECT_LT(test::render(scene, world, {32, 32}).hdr.at(25, 16).x,
                       .6f * test::render(without, world, {32, 32}).hdr.at(25, 16).x)
                 << world << away;
     }
 }
 
-/// A room with something of everything, drawn by chance.
+/// Returns a room with random objects of all kinds of materials.
 scene::Scene motley(std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto real = [&](double low, double high) {
@@ -407,9 +417,9 @@ scene::Scene motley(std::uint32_t seed) {
     return scene;
 }
 
-/// Share of pixels off that are neither mirrors, smooth, beside another object or colour, nor at
-/// an edge of a shadow, which is asked by the difference from another map.
-TEST(Worlds, AgreeOnSurfacesOfAllKinds) {
+/// Compares rasterisation with ray tracing. Leaves out mirrors, smooth surfaces, and pixels whose
+/// neighbours have another colour, which includes edges of objects and shadows.
+TEST(Worlds, RasterisationEqualsRayTracingOnAllMaterials) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const scene::Scene scene = motley(seed);
         const uvec2 size{96, 96};
@@ -427,7 +437,7 @@ TEST(Worlds, AgreeOnSurfacesOfAllKinds) {
                     const vec3 colour = rays.hdr.at(x + k % 3 - 1, y + k / 3 - 1);
                     low = min(low, colour), high = max(high, colour);
                 }
-                if (f32::largest(high - low) > .1f) continue; // an edge
+                if (f32::largest(high - low) > .1f) continue; // skip pixels at an edge
                 ++judged;
                 off += f32::largest(abs(raster.hdr.at(x, y) - rays.hdr.at(x, y))) > .02f;
             }
@@ -437,8 +447,8 @@ TEST(Worlds, AgreeOnSurfacesOfAllKinds) {
     }
 }
 
-/// Textured things in spaces of their own (many copies) are those of single meshes.
-TEST(Copies, AreTexturedAsSinglesAre) {
+/// Copies of a textured mesh, kept in object spaces, must look like single meshes.
+TEST(Copies, TexturedCopiesEqualSingleMeshes) {
     scene::Scene scene = test::room(0, 1);
     scene::Mesh mesh = scene::ball("copy", 4);
     for (const vec3& n : mesh.normals) mesh.uv[0].push_back({n.x * 3, n.y * 3});
@@ -458,7 +468,7 @@ TEST(Copies, AreTexturedAsSinglesAre) {
         object.mesh = single.meshes.size() - 1;
         single.objects.push_back(object);
     }
-    for (const char* world : kWorlds) {
+    for (const char* world : kSurfacesWorlds) {
         const measure::Picture a = test::render(scene, world, {64, 64}).hdr,
                                b = test::render(single, world, {64, 64}).hdr;
         int off = 0;

@@ -1,4 +1,5 @@
-// Several techniques in one frame: the pictures of separate runs, on one timeline.
+// Tests of several techniques in one frame: each must render the picture of a separate run, and all
+// passes share one timeline.
 #include "support/rendering.hpp"
 
 #include <set>
@@ -11,7 +12,7 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
     std::vector<std::string> techniques;
     for (const app::TechniqueInfo& technique : app::techniques())
         techniques.push_back(test::with(technique, {{"face", "64"}, {"shadow_map", "256"}}));
-    techniques.push_back("naive:bounces=1,face=32"); // the same technique twice
+    techniques.push_back("naive:bounces=1,face=32"); // `naive` a second time, with other settings
     app::Request request = test::request(scene::cornell_mirrors(), techniques, {96, 80});
     request.warmup = 1, request.frames = 2;
     request.animate = true;

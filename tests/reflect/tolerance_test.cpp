@@ -1,5 +1,5 @@
-// What searches call a hit: a surface that goes on is met, what the edge of a nearer one hides is
-// not.
+// Tests of the hits that searches report. A continuous surface must be a hit, and a surface behind
+// the edge of a nearer one must not.
 #include "support/paths.hpp"
 #include "support/searches.hpp"
 
@@ -9,11 +9,12 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{64, 64};
-constexpr double kMirror = 2, kWall = -4; // z
+constexpr uvec2 kToleranceSize{64, 64};
+constexpr double kMirror = 2, kWall = -4; // z of the mirror and of the wall opposite
 
-/// A box with a flat mirror and upright boards, `nearer` (a share of the way) before the wall
-/// opposite. What their edges hide from the mirror's centre other points of it see.
+/// Returns a box with a flat mirror and upright boards in front of the opposite wall. The boards
+/// are nearer to the mirror by the share `nearer` of the distance. Their edges hide parts of the
+/// wall from the mirror's centre, but not from all points of the mirror.
 scene::Scene slats(double nearer) {
     scene::Scene scene{.name = "slats"};
     test::add_bright_box(scene, {-4, -4, kWall}, {4, 4, 4});
@@ -28,15 +29,16 @@ scene::Scene slats(double nearer) {
     return scene;
 }
 
-/// First-order pixels, how many are hits, and how many of these looked more than this many degrees
-/// aside.
+/// Number of first-order pixels, of hits among them, and of hits that looked aside by more than the
+/// allowed angle.
 struct Hits {
     std::size_t pixels = 0, hits = 0, wrong = 0;
 };
 
 Hits hits(double nearer, const std::string& technique, double degrees) {
     Hits found;
-    for (const measure::LookedUp& pixel : test::looked_up(slats(nearer), technique, kSize)) {
+    for (const measure::LookedUp& pixel :
+         test::looked_up(slats(nearer), technique, kToleranceSize)) {
         ++found.pixels;
         if (pixel.state != 0) continue;
         ++found.hits;
@@ -50,7 +52,7 @@ Hits hits(double nearer, const std::string& technique, double degrees) {
 
 const std::vector<std::string> kSearches{"secant", "march", "pyramid", "layered", "proxy"};
 
-TEST(Tolerance, ASurfaceThatGoesOnIsMet) {
+TEST(Tolerance, ContinuousSurfaceIsAHit) {
     for (const std::string& search : kSearches)
         for (const std::string settings :
              {"face=64", "face=256", "face=64,distance=unorm8,range=10",
@@ -60,15 +62,15 @@ TEST(Tolerance, ASurfaceThatGoesOnIsMet) {
             EXPECT_GE(found.hits, found.pixels * 99 / 100) << search << settings;
             EXPECT_LE(found.wrong, found.pixels * 3 / 100) << search << settings;
         }
-    // A board so close to the wall that one may be taken for the other.
+    // This board is so close to the wall that either may count as the hit.
     for (const std::string& search : kSearches) {
         const Hits found = hits(.02, search + ":shadow=none,face=128", 1);
         EXPECT_GE(found.hits, found.pixels * 95 / 100) << search;
     }
 }
 
-/// At most so many of a hundred pixels look aside and call it a hit.
-TEST(Tolerance, WhatAnEdgeHidesIsNotMet) {
+/// Limits, in percent of the pixels, the hits that looked in a wrong direction.
+TEST(Tolerance, SurfaceHiddenBehindAnEdgeIsNoHit) {
     const std::map<std::string, std::size_t> most{
         {"secant", 4}, {"march", 5}, {"pyramid", 2}, {"layered", 5}};
     for (const auto& [search, percent] : most) {
@@ -77,8 +79,9 @@ TEST(Tolerance, WhatAnEdgeHidesIsNotMet) {
     }
 }
 
-// Its box is that of the walls: what stands a twentieth of the way before them is something else.
-TEST(Tolerance, AProxyKnowsWhatIsNotOnIt) {
+// The box of `proxy` follows the walls. A board in front of a wall must not count as a hit on the
+// box. The tolerance is a twentieth of the distance.
+TEST(Tolerance, ProxyReportsNoHitForObjectsBeforeItsBox) {
     const Hits close = hits(.03, "proxy:shadow=none,face=256", 1),
                apart = hits(.08, "proxy:shadow=none,face=256", 1);
     EXPECT_EQ(close.hits, close.pixels);

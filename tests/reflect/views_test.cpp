@@ -1,4 +1,4 @@
-// Errors over drawn views, of rows as they are compared.
+// Tests of the errors that a comparison measures over drawn views.
 #include "app/compare.hpp"
 #include "support/rendering.hpp"
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace catoptric;
 
-app::CompareRequest asked(const std::vector<std::string>& rows) {
+app::CompareRequest views_asked(const std::vector<std::string>& rows) {
     app::CompareRequest request;
     request.base = test::request(test::room(2, 1), rows, {32, 32});
     request.views = 6;
@@ -18,11 +18,12 @@ app::CompareRequest asked(const std::vector<std::string>& rows) {
     return request;
 }
 
-/// As in the one view: a row that equals the reference at its sample count has no error anywhere.
-TEST(ComparedViews, ARowIsJudgedAtItsOwnSampleCount) {
+/// As in a single view, a row that equals the reference at its own sample count must have no error
+/// in any view.
+TEST(ComparedViews, RowIsComparedAtItsOwnSampleCount) {
     const report::Comparison found = app::compare(
         test::engine(),
-        asked({"raytrace:depth=16,samples=4", "raytrace:depth=16", "raytrace:depth=0"}));
+        views_asked({"raytrace:depth=16,samples=4", "raytrace:depth=16", "raytrace:depth=0"}));
     ASSERT_EQ(found.rows.size(), 3u);
     for (const report::Row& row : found.rows) {
         ASSERT_EQ(row.views.size(), 6u) << row.label;
@@ -41,8 +42,8 @@ TEST(ComparedViews, ARowIsJudgedAtItsOwnSampleCount) {
     EXPECT_TRUE(found.complete);
 }
 
-TEST(ComparedViews, KeepWhatThereIsWhenStopped) {
-    app::CompareRequest request = asked({"naive:bounces=0", "reuse:face=32"});
+TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
+    app::CompareRequest request = views_asked({"naive:bounces=0", "reuse:face=32"});
     std::atomic<int> signal{0};
     request.watcher.stop = &signal;
     std::vector<std::string> labels;
@@ -51,7 +52,8 @@ TEST(ComparedViews, KeepWhatThereIsWhenStopped) {
         EXPECT_LT(index, count);
         if (label == "view 3 of 6: reuse:face=32") signal = 2;
     };
-    std::vector<std::size_t> known; // views of the first row, whenever there is more
+    // Numbers of known views of the first row, noted each time a row is finished.
+    std::vector<std::size_t> known;
     request.on_finished_row = [&](const report::Comparison& so_far) {
         EXPECT_FALSE(so_far.complete);
         known.push_back(so_far.rows.front().views.size());
@@ -74,11 +76,12 @@ TEST(ComparedViews, KeepWhatThereIsWhenStopped) {
     }
 }
 
-/// Every row that looks into captures splits its error at light edges, causes or not; a plan, too,
-/// whose captures have edges of their own.
-TEST(ComparedLightEdges, AreOfEveryRowThatLooksIntoCaptures) {
-    app::CompareRequest request = asked({"secant:face=16", "secant:face=auto", "naive:bounces=0",
-                                         "1=secant:face=64 2=secant:face=16", "secant:face=64"});
+/// Every row that reads captures must report its error at light edges, with or without a split by
+/// causes. This includes plans whose captures have different edges.
+TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
+    app::CompareRequest request = views_asked(
+        {"secant:face=16", "secant:face=auto", "naive:bounces=0",
+         "1=secant:face=64 2=secant:face=16", "secant:face=64"});
     request.base.size = {96, 96};
     request.views = 1;
     const report::Comparison found = app::compare(test::engine(), request);
@@ -98,7 +101,8 @@ TEST(ComparedLightEdges, AreOfEveryRowThatLooksIntoCaptures) {
     EXPECT_FALSE(found.rows[2].light_edges);
     ASSERT_TRUE(found.rows[0].light_edges && found.rows[1].light_edges &&
                 found.rows[3].light_edges && found.rows[4].light_edges);
-    // The larger the texels, the more pixels are within one; the plan has one mirror of each.
+    // Larger texels put more pixels within a texel of a light edge. The plan has one mirror with
+    // large texels and one with small texels.
     EXPECT_GT(found.rows[0].light_edges->pixels, found.rows[3].light_edges->pixels);
     EXPECT_GT(found.rows[3].light_edges->pixels, found.rows[4].light_edges->pixels);
 }

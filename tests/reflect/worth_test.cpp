@@ -1,5 +1,5 @@
-// What each search is worth: its error beside that of parallax. One file, so that the searches
-// share the pictures they are measured by.
+// Tests how much each search reduces the error of `parallax`. All tests are in one file, so that
+// they share their rendered pictures.
 #include "support/worth.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 
 using namespace catoptric;
 
-TEST(Worth, OfEachSearch) {
+TEST(Worth, EachSearchMeetsItsErrorBounds) {
     for (const auto& [search, worth] : test::kWorths) {
         SCOPED_TRACE(search);
         test::expect_worth(search, test::looks().front());
@@ -20,11 +20,11 @@ TEST(Worth, SecantNeedsSmallerCapturesThanParallax) {
     test::expect_small_captures(test::looks().front());
 }
 
-TEST(Worth, HybridTracesLittleForMuch) { test::expect_hybrid(test::looks().front()); }
+TEST(Worth, HybridTracesFewPixelsForItsErrorBounds) { test::expect_hybrid(test::looks().front()); }
 
-/// Of the searches the dearer is the better one, from places that none was made for too, and none
-/// draws lines where there are none.
-TEST(Searches, KeepTheirOrderFromAnyPlace) {
+/// The more expensive of two searches must be the better one, also from cameras that were not used
+/// in development. No search may draw long false lines.
+TEST(Searches, OrderOfTheSearchesHoldsFromEveryCamera) {
     std::vector<test::Look> looks = test::looks();
     std::ranges::copy(test::unforeseen_looks(), std::back_inserter(looks));
     for (const test::Look& look : looks) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Unpacks scenes that others made under build/scenes: assimp-testmodels and sweethome3d-furniture of the distribution,
-# @webxr-input-profiles/assets of npm. Nothing is installed. Exit code 1 with the reason where one cannot be had.
-# Called by ./dev scenes.
+# Unpacks scenes by other authors into build/scenes: the Debian packages assimp-testmodels and sweethome3d-furniture,
+# and the npm package @webxr-input-profiles/assets. Installs nothing. Exits with 1 and the reason if a package cannot be
+# downloaded. Called by ./dev scenes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scenes=$PWD/build/scenes

@@ -1,7 +1,7 @@
-// What pictures of a scene show, and whether raster and rays show the same: one line of JSON for
-// each of its cameras.
-//   catoptric_scenes SCENE [DIR]     DIR: also pictures raster-N.png, rays-N.png, judged-N.png
-// Called by ./dev scenes, whose table is docs/scenes.md.
+// Measures pictures of a scene: whether raster and ray tracing agree, how much textures change, and
+// how much luminance follows normals. Prints one line of JSON per camera of the scene.
+//   catoptric_scenes SCENE [DIR]     DIR: also writes raster-N.png, rays-N.png and judged-N.png
+// Called by ./dev scenes, which writes docs/scenes.md.
 #include "app/exposure.hpp"
 #include "app/resolved_scene.hpp"
 #include "core/error.hpp"
@@ -25,7 +25,7 @@ using nlohmann::json;
 
 constexpr uvec2 kSize{128, 128};
 constexpr float kOff = .02f;
-constexpr int kLeastPixels = 32; // of an object that is judged by itself
+constexpr int kLeastPixels = 32; // size of the smallest object judged on its own
 
 app::Request request_of(app::ResolvedScene& wanted, std::size_t camera) {
     app::Request request;
@@ -51,7 +51,7 @@ float apart(const vec3& a, const vec3& b) {
     return f32::largest(abs(clamp(a, 0.0f, 1.0f) - clamp(b, 0.0f, 1.0f)));
 }
 
-/// What is seen around a pixel, at kFine x kFine places a pixel.
+/// Surfaces that the camera sees, at kFine x kFine places per pixel.
 struct Looked {
     uvec2 size;
     std::vector<scenes::Seen> seen;
@@ -66,14 +66,15 @@ struct Looked {
     }
 };
 
-/// Why a pixel is not judged.
+/// Why a pixel is left out of the comparison of raster and ray tracing.
 enum class Left { not_at_all, mirror, sharp, edge };
 
 bool differ(const scenes::Seen& a, const scenes::Seen& b, float pixel) {
     if (a.object != b.object || a.cut != b.cut || a.shadowed != b.shadowed ||
         a.texels != b.texels || a.sharp != b.sharp)
         return true;
-    // Of one object, the nearer surface ends: no plane through either leads to the other.
+    // Two places of one object count as different if neither lies near the plane of the other's
+    // triangle. The object then has an outline between the places.
     return a.object >= 0 && std::min(std::abs(dot(a.facet, b.place - a.place)),
                                      std::abs(dot(b.facet, a.place - b.place))) > 2 * pixel;
 }
@@ -93,8 +94,9 @@ Left why_left(const Looked& looked, const scenes::Sight& sight, const scene::Sce
     return Left::not_at_all;
 }
 
-/// Raster against rays: pixels that are off outside what is left out, and of how many that show
-/// something. `judged`, if given, becomes a picture: grey left out, red off, else black.
+/// Compares raster and ray tracing. Returns how many pixels show a surface, how many are left out
+/// and why, and how many of the rest are off. `judged`, if given, becomes a picture: left-out
+/// pixels grey, pixels that are off red, others black.
 json agreement(const app::Request& request, const Looked& looked, const scenes::Sight& sight,
                const measure::Picture& raster, const measure::Picture& rays, bool leaves_sharp,
                measure::Picture* judged) {
@@ -123,7 +125,7 @@ json agreement(const app::Request& request, const Looked& looked, const scenes::
             {"background_off", background_off}};
 }
 
-/// Pixels by the object that they show.
+/// Returns the pixels of each object that covers at least kLeastPixels pixels.
 std::map<int, std::vector<std::size_t>> pixels_of(const Looked& looked) {
     std::map<int, std::vector<std::size_t>> pixels;
     for (std::size_t i = 0; i < std::size_t{looked.size.x} * looked.size.y; ++i)
@@ -132,7 +134,8 @@ std::map<int, std::vector<std::size_t>> pixels_of(const Looked& looked) {
     return pixels;
 }
 
-/// Standard deviation of the channel that varies most, over what is seen of a texture, 0..1.
+/// Returns the standard deviation of the visible texels of a texture, 0 to 1, of the channel that
+/// varies most.
 float deviation(const Looked& looked, const std::vector<std::size_t>& pixels) {
     dvec3 sum(0), squares(0);
     for (const std::size_t i : pixels) {
@@ -144,8 +147,7 @@ float deviation(const Looked& looked, const std::vector<std::size_t>& pixels) {
     return float(std::sqrt(std::max({0.0, variance.x, variance.y, variance.z})));
 }
 
-/// The same scene without what varies on a surface: every base-colour texture is its mean, alpha
-/// stays, vertices are white.
+/// Returns the scene with each base-colour texture replaced by its mean colour. Alpha stays.
 scene::Scene plain(scene::Scene scene) {
     for (scene::Material& material : scene.materials) {
         if (!material.albedo_texture) continue;
@@ -165,9 +167,9 @@ scene::Scene plain(scene::Scene scene) {
 
 float luminance(const vec3& colour) { return dot(colour, vec3(.2126f, .7152f, .0722f)); }
 
-/// How far luminance varies over an object's normals: of its means over normals of about one
-/// direction, (most - least) / most; none where no two directions are 30 degrees apart, and of what
-/// is black.
+/// Returns how far luminance varies over an object's normals: (most - least) / most, of means over
+/// similar normals. Returns nothing if no two normals are 30 degrees apart or if the object is
+/// black.
 std::optional<float> variation(const measure::Picture& picture, const Looked& looked,
                                const std::vector<std::size_t>& pixels) {
     struct Sum {
@@ -195,7 +197,8 @@ std::optional<float> variation(const measure::Picture& picture, const Looked& lo
     return (most - least) / most;
 }
 
-/// What textures change, object by object, and how far its light follows an object's normals.
+/// Returns two figures for each object: the share of pixels that its texture changes, and how far
+/// luminance varies over its normals.
 json surfaces(const app::Request& request, const Looked& looked, const measure::Picture& rays,
               const measure::Picture& plain_rays) {
     json textures = json::array(), lit = json::array();
@@ -221,7 +224,7 @@ json surfaces(const app::Request& request, const Looked& looked, const measure::
     return {{"textures", textures}, {"lit", lit}};
 }
 
-/// Without colours at vertices, since `plain` means surfaces of one colour.
+/// Returns the scene without vertex colours. After `plain`, each surface then has one colour.
 scene::Scene without_colours(scene::Scene scene) {
     for (scene::Mesh& mesh : scene.meshes) mesh.colours.clear();
     return scene;

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""run.py PROGRAM MEASURE [PATTERN...]: measures the scenes of valid.txt and refused.txt below build/scenes and the built-in
-ones (as 'own/NAME'), or of these those whose name has a PATTERN in it, and writes docs/scenes.md of all that have been
-measured so far. PROGRAM: catoptric; MEASURE: catoptric_scenes. Called by ./dev scenes."""
+"""run.py PROGRAM MEASURE [PATTERN...]: measures scenes and writes docs/scenes.md. Called by ./dev scenes.
+
+The scenes are those of valid.txt and refused.txt below build/scenes and the built-in scenes, named 'own/NAME'. With
+PATTERNs, only scenes whose name contains a PATTERN are measured. docs/scenes.md shows all scenes measured so far.
+PROGRAM: catoptric; MEASURE: catoptric_scenes."""
 import datetime
 import json
 import pathlib
@@ -29,7 +31,7 @@ def listed(name):
 
 
 def run(command, limit=600):
-    """Exit code (128 + n where signal n ended it), seconds, stdout, last line of stderr."""
+    """Runs a command. Returns its exit code (128 + n after signal n), seconds, stdout, and the last error on stderr."""
     began = time.monotonic()
     try:
         ended = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=limit)
@@ -73,7 +75,7 @@ def measure(program, tool, name, refused):
 
 
 def share(agreement):
-    """Pixels off of those that are judged; none where nothing is left to judge."""
+    """Returns the share of judged pixels that are off, or None if no pixel was judged."""
     judged = agreement["judged"]
     return (agreement["off"] + agreement["background_off"]) / judged if judged else None
 
@@ -89,14 +91,14 @@ def percent(value, digits=2):
 
 
 def judged(row):
-    """Share of the pixels that show something and were judged, over all cameras."""
+    """Returns the share of pixels that were judged, among those that show a surface, over all cameras."""
     all_of = [camera["agreement"] for camera in row.get("cameras", [])]
     shown = sum(one["shown"] for one in all_of)
     return sum(one["judged"] for one in all_of) / shown if shown else None
 
 
 def edges(rows):
-    """What was left out as edges, and how much of it is off, over all files."""
+    """Returns a sentence about pixels left out as edges and how many of them are off, over all files."""
     all_of = [camera["agreement"] for row in rows for camera in row.get("cameras", [])]
     total = {key: sum(one[key] for one in all_of) for key in ("shown", "judged", "edge", "edge_off")}
     return (f"- Of the pixels that show a surface {percent(total['judged'] / total['shown'], 0)} % were judged and "
@@ -125,7 +127,7 @@ def head(first):
 
 
 def lowest(row, list_name, figure):
-    """The lowest figure over the file's objects, with the object; none where it has none."""
+    """Returns the lowest figure over the objects of a file and the object's name, or None without objects."""
     found = [(one[figure], one["object"]) for camera in row.get("cameras", []) for one in camera[list_name]]
     return min(found, key=lambda pair: pair[0]) if found else None
 

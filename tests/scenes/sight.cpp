@@ -27,7 +27,7 @@ Place place_in(const scene::Texture& texture, const vec4& uv) {
     return {dot(texture.u_row, place), dot(texture.v_row, place)};
 }
 
-/// The nearest texel's number.
+/// Returns the index of the nearest texel.
 std::uint64_t nearest(const scene::Texture& texture, const vec4& uv) {
     const auto [u, v] = place_in(texture, uv);
     const ivec2 size(texture.image->size);
@@ -36,7 +36,7 @@ std::uint64_t nearest(const scene::Texture& texture, const vec4& uv) {
     return std::uint64_t(y) * std::uint64_t(size.x) + std::uint64_t(x);
 }
 
-/// Filtered as the texture says; bytes are not decoded.
+/// Samples a texture with its own filter. Returns stored values as 0 to 1, without sRGB decoding.
 vec4 sample(const scene::Texture& texture, const vec4& uv) {
     const ivec2 size(texture.image->size);
     if (texture.nearest) {
@@ -81,7 +81,7 @@ Sight::Sight(const app::Request& request)
 
 std::optional<Sight::Met> Sight::meet(f32::Ray ray, float farthest, std::uint32_t skipped,
                                       int& cut) const {
-    constexpr int kMost = 64; // surfaces, one behind the other
+    constexpr int kMost = 64; // most cut-out surfaces along a ray
     for (cut = 0; cut < kMost; ++cut) {
         const auto hit = bvh::closest_hit<float>(tree_, ray, farthest, skipped);
         if (!hit) return {};
@@ -147,7 +147,8 @@ Seen Sight::see(const f32::Ray& ray) const {
     const scene::Material& material = material_of(met->hit.object);
     float roughness = material.roughness;
     if (material.roughness_texture) roughness *= sample(*material.roughness_texture, met->uv).g;
-    // Not for those that are about to be: a roughness is sampled here with roundings of its own.
+    // Surfaces slightly rougher than the limit count as sharp too, because this code samples
+    // roughness with other rounding errors than the device.
     seen.sharp = roughness <= now_.mirror_max_roughness * 1.01f;
     for (const auto& texture :
          {material.albedo_texture, material.emission_texture, material.roughness_texture})

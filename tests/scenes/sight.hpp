@@ -8,34 +8,35 @@
 
 #include <vector>
 
-/// What rays of a request's camera meet, on the processor, apart from what the device computes.
+/// Finds what rays of a request's camera meet. The host does this, independently of the device.
 namespace scenes {
 
 using namespace catoptric;
 
-/// Rays a pixel's side: the middle one goes through the pixel's centre.
+/// Rays along each side of a pixel. The middle ray goes through the pixel's centre.
 inline constexpr std::uint32_t kFine = 3;
 
 struct Seen {
-    int object = -1;            ///< -1: nothing
+    int object = -1;            ///< index; -1: the ray meets nothing
     float distance = 0;         ///< along the ray, scene units
     vec3 place{0};              ///< scene units
-    vec3 facet{0}, normal{0};   ///< unit; `normal` on the side that is looked at
-    int cut = 0;                ///< surfaces that the ray passed where they are cut out
-    std::uint32_t shadowed = 0; ///< bit n: light n, which the surface faces, is hidden from it
-    std::uint64_t texels = 0;   ///< differs where a texture that is not filtered does
-    bool sharp = false;         ///< smooth enough to be reflected in
-    vec4 texel{0};              ///< base colour's, as the file has it, 0..1; alpha last
+    vec3 facet{0}, normal{0};   ///< unit vectors; `normal` faces the camera
+    int cut = 0;                ///< cut-out surfaces that the ray passed through
+    std::uint32_t shadowed = 0; ///< bit n: faces light n, but lies in its shadow
+    std::uint64_t texels = 0;   ///< hash of the texels of unfiltered textures
+    bool sharp = false;         ///< smooth enough to show reflections
+    vec4 texel{0};              ///< base colour as in the file, 0 to 1; alpha last
 };
 
 class Sight {
 public:
-    /// At the request's instant. Costs a hierarchy over all triangles.
+    /// Prepares the scene at the request's time. Builds a BVH over all triangles.
     explicit Sight(const app::Request& request);
 
-    /// kFine x kFine rays a pixel, row by row; some two microseconds a ray, more with lights.
+    /// Returns what kFine x kFine rays per pixel meet, row by row. A ray takes about two
+    /// microseconds, more with lights.
     std::vector<Seen> look() const;
-    /// Width of a pixel so far away, scene units.
+    /// Returns the width of a pixel at a distance, both in scene units.
     float pixel_at(float distance) const;
 
 private:
@@ -44,7 +45,8 @@ private:
         vec4 uv{0};
         float alpha = 1;
     };
-    /// The first thing that is not cut out at the place; `cut`: how many were.
+    /// Returns the first hit outside the cut-out parts of surfaces. `cut` becomes the number of
+    /// cut-out surfaces before the hit.
     std::optional<Met> meet(f32::Ray ray, float farthest, std::uint32_t skipped, int& cut) const;
     Seen see(const f32::Ray& ray) const;
     std::uint32_t shadows(const Seen& seen, std::uint32_t triangle) const;
@@ -55,7 +57,7 @@ private:
     scene::Scene now_;
     render::Space space_;
     render::Geometry geometry_;
-    std::vector<uvec3> triangles_; ///< by original number: corners in the geometry's lists
+    std::vector<uvec3> triangles_; ///< indices of corners, by triangle
     bvh::Bvh tree_;
     shared::View view_;
     uvec2 size_;

@@ -6,8 +6,8 @@
 
 namespace test {
 
-/// A box, `open` without the wall behind the eye, whose walls emit a colour each, and a mirror ball
-/// beside its middle.
+/// Returns a box with a mirror ball near its middle. Each wall emits its own colour. `open` leaves
+/// out the wall behind the eye. `boards` are the centres of green light-emitting boards.
 inline scene::Scene box(const std::vector<dvec3>& boards, bool open = false) {
     scene::Scene scene{.name = open ? "open box" : "box"};
     for (int face = 0; face < (open ? 5 : 6); ++face)

@@ -11,24 +11,24 @@
 
 namespace catoptric {
 
-/// How a test's parameter is shown.
+/// Prints a format as a parameter of a test.
 inline void PrintTo(Format format, std::ostream* out) { *out << name_of(format); }
 
 } // namespace catoptric
 
-/// Cube captures as numbers.
+/// Functions that render captures and read them back as numbers.
 namespace test {
 
 using render::Captured;
 
-/// The layers of cubes that were asked for.
+/// A capture that was read back, with its second depth layer if that was requested.
 struct Layers {
     Captured first;
-    std::optional<Captured> second; ///< where the options ask for it
+    std::optional<Captured> second; ///< second depth layer; only with CaptureOptions::second_layer
 };
 
-/// Captures every mirror once, without shadows; the other mirrors are black. `range_world`: of
-/// r8_unorm.
+/// Captures every mirror once, without shadows and with all other mirrors black. `range_world`: the
+/// range of r8_unorm distances, in world units. `staged`: see bench().
 inline Layers captured(const scene::Scene& scene, render::CaptureOptions options,
                        double range_world, bool staged = false) {
     auto& [device, pipelines] = bench(staged);
@@ -62,7 +62,7 @@ inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format di
     return captured(scene, options, range_world, staged).first;
 }
 
-/// Both layers. Eight bits range over 10 world units.
+/// Captures both depth layers. Distances as r8_unorm range over 10 world units.
 inline std::pair<Captured, Captured> capture_layers(const scene::Scene& scene, std::uint32_t face,
                                                     Format distance) {
     render::CaptureOptions options;

@@ -4,30 +4,33 @@
 #include "bvh/tlas.hpp"
 #include "support/kernel_shapes.hpp"
 
-/// A room in which things have spaces of their own, and rays through it, all from a seed.
+/// A random scene with instances in object space, and random rays through it. Both come from a
+/// seed.
 namespace test {
 
-/// With what its origin lacks as a sum of two floats.
+/// A ray with `low`, the rounding error of its origin as floats.
 struct CrowdRay {
     f32::Ray ray;
     vec3 low{0};
     float t_max = std::numeric_limits<float>::infinity();
 };
 
-/// What an instance's record says (bvh/tlas.hpp).
+/// Returns the place and axes that the record of an instance stores (bvh/tlas.hpp).
 inline f32::Place place_of(const bvh::Instance& instance) {
     const dmat3 to = instance.scene_from_own, back = glm::transpose(glm::inverse(to));
     return {vec3(back[0]), vec3(back[1]), vec3(back[2]),         vec3(to[0]),
             vec3(to[1]),   vec3(to[2]),   vec3(instance.centre), bvh::low_part(instance.centre)};
 }
 
-/// A turn, then a size along each axis; mirrored.
+/// Returns a random rotation after a scale of each axis. The scale squeezes the second axis and
+/// mirrors the third.
 inline dmat3 turned_to(Numbers& numbers, double size, double squeeze) {
     const dvec3 x(numbers.direction()), y = glm::normalize(cross(x, dvec3(numbers.direction())));
     return dmat3(x, y, cross(x, y)) * dmat3(size, 0, 0, 0, size * squeeze, 0, 0, 0, -size);
 }
 
-/// Sixty balls and tori of 1e-6 to 1, turned, squeezed and mirrored, among forty triangles.
+/// A random scene of 60 instances among 40 triangles. The instances are balls and tori with sizes
+/// of 1e-6 to 1, which are rotated, squeezed and mirrored.
 class Crowd {
 public:
     explicit Crowd(std::uint64_t seed) : numbers_(seed) {
@@ -50,8 +53,9 @@ public:
     const std::vector<bvh::Instance>& things() const { return things_; }
     std::vector<bvh::Instance>& things() { return things_; }
 
-    /// With the scene's lengths times `scene` and those of the things' own spaces times `own`,
-    /// both powers of two; everything stays where it is beside the rest.
+    /// Returns the tree of the scene, with scene lengths multiplied by `scene` and lengths in
+    /// object space multiplied by `own`. Both factors are powers of two. The objects keep their
+    /// places relative to each other.
     bvh::Bvh hierarchy(float scene = 1, float own = 1) const {
         const bvh::Bvh trees[]{bvh::build(scaled(shapes_[0], own)),
                                bvh::build(scaled(shapes_[1], own))};
@@ -65,8 +69,9 @@ public:
         return bvh::assemble(bvh::build(scaled(room_, scene)), placed);
     }
 
-    /// In turn: anywhere; from beside a thing to a place on it; from a triangle of a thing; from
-    /// afar to a thing's middle. Some end early.
+    /// Returns random rays of four kinds in turn: anywhere; from near an instance to a point on it;
+    /// from a triangle of an instance; from anywhere to the centre of an instance. A quarter of the
+    /// rays have a finite t_max.
     std::vector<CrowdRay> rays(std::size_t count) {
         std::vector<CrowdRay> rays(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -121,7 +126,8 @@ private:
     std::vector<bvh::Instance> things_;
 };
 
-/// The ray times `scene`; its t stays where the direction grows as well.
+/// Returns the ray with its origin multiplied by `scene`. If `direction` is true, the direction is
+/// multiplied as well and t stays the same.
 inline CrowdRay scaled(CrowdRay ray, float scene, bool direction) {
     ray.ray.origin *= scene, ray.low *= scene;
     if (direction)

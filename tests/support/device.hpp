@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-/// The validated devices of a test program. Any message of the validation layer fails the test
-/// during which it came.
+/// The devices of a test program, with the validation layer. Any message of the validation layer
+/// fails the test during which it occurs.
 namespace test {
 
 using namespace catoptric;
 
-/// A device with its pipelines, for tests that fill graphs of their own.
+/// A device with its pipelines, for tests that build their own render graphs.
 struct Bench {
     explicit Bench(const gpu::DeviceOptions& options) : device(options), pipelines(device) {}
     gpu::Device device;
@@ -29,8 +29,8 @@ struct Bench {
 namespace detail {
 
 struct Devices {
-    std::map<bool, std::unique_ptr<Bench>> benches;       ///< by `staged`
-    std::map<bool, std::unique_ptr<app::Engine>> engines; ///< by `layered`
+    std::map<bool, std::unique_ptr<Bench>> benches;       ///< devices, by the argument of bench()
+    std::map<bool, std::unique_ptr<app::Engine>> engines; ///< engines, by the argument of engine()
 };
 inline Devices devices;
 
@@ -43,7 +43,8 @@ inline std::string what_of(const std::function<void()>& check) {
     return "";
 }
 
-/// Devices go before main ends: drivers do not like to be called while the program is unloaded.
+/// Destroys the devices before main ends, because drivers can crash if they are called while the
+/// program is unloaded.
 class CloseDevices : public testing::Environment {
     void TearDown() override { devices = {}; }
 };
@@ -65,7 +66,8 @@ inline const bool watched = [] {
 
 } // namespace detail
 
-/// Made at first use, one for the whole program. `staged`: as if device memory could not be mapped.
+/// Returns the device of the test program and creates it at first use. With `staged`, the device
+/// behaves as if its memory could not be mapped.
 inline Bench& bench(bool staged = false) {
     auto& made = detail::devices.benches[staged];
     if (!made)
@@ -74,7 +76,8 @@ inline Bench& bench(bool staged = false) {
     return *made;
 }
 
-/// The same with the whole engine on top. `layered` false: captures face by face.
+/// Returns the engine of the test program and creates it at first use. Without `layered`, the
+/// engine draws captures face by face.
 inline app::Engine& engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
@@ -83,17 +86,17 @@ inline app::Engine& engine(bool layered = true) {
     return *made;
 }
 
-/// Whether the device draws with `colour=float`, which filters images of 32-bit floats. Tests of
-/// devices that do not (limits/limits_test.cpp) look at the refusal.
+/// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
+/// limits/limits_test.cpp tests the error on devices that do not support it.
 inline bool has_float_colour() { return bench().device.filters_floats(); }
 
-/// One frame of a graph; the runner keeps what the frame after it may ask for.
+/// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
 inline graph::FrameTimes run(graph::Runner& runner, const graph::Graph& graph,
                              graph::Timing timing = graph::Timing::isolated) {
     return runner.run(graph, timing);
 }
 
-/// Texels of an image as numbers of the type T, channel after channel.
+/// Returns the texels of an image, or the contents of a buffer, as numbers of type T.
 template <typename T, typename Resource>
 std::vector<T> read_as(graph::Runner& runner, Resource resource) {
     const std::vector<std::byte> bytes = runner.read(resource);

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <vector>
 
-/// Halls with partitions and mirrors drawn from a seed, and rays through them.
+/// Random halls with partitions and mirrors, made from a seed, and rays through a scene.
 namespace test {
 
-/// A turn by an angle about an axis, then a place.
+/// Returns the transform that rotates by `angle` about `axis` and then moves the origin to `at`.
 inline dmat4 turned(dvec3 axis, double angle, dvec3 at) {
     const dvec3 x = glm::normalize(
                     cross(axis, std::abs(axis.x) < .5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0))),
@@ -24,9 +24,12 @@ inline dmat4 turned(dvec3 axis, double angle, dvec3 at) {
     return place;
 }
 
-/// A box of 16 x 12 x 20 with up to three partitions across it, each of them whole, with a gap at a
-/// side, or seen from its front alone; `mirrors` of them: balls, blocks and panels, turned anyhow;
-/// blocks that are none; a lamp under the ceiling and a bare light.
+/// Returns a random hall of 16 x 12 x 20 with `mirrors` mirrors: balls, blocks and panels in random
+/// orientations. The hall has as many objects that are no mirrors, a lamp under the ceiling, and a
+/// point light.
+///
+/// Up to three partitions cross the hall. A partition is whole, has a gap at a side, or is seen
+/// only from its front.
 inline scene::Scene drawn_hall(std::uint64_t seed, int mirrors) {
     Numbers numbers(seed);
     scene::Scene scene{.name = "hall"};
@@ -75,7 +78,7 @@ inline scene::Scene drawn_hall(std::uint64_t seed, int mirrors) {
     return scene;
 }
 
-/// What rays meet in a scene at an instant, found in double precision.
+/// Finds the objects that rays meet in a scene at an instant, in double precision.
 class Tree {
 public:
     explicit Tree(const scene::Scene& now) {
@@ -87,7 +90,8 @@ public:
         double t = 0;
         bool operator==(const Met&) const = default;
     };
-    /// First of what is there for a ray that sees, but for one object; none: object is the count.
+    /// Returns the first object that a ray meets, except object `but`. Pass the number of objects
+    /// as `but` to exclude none. `skipped`: flags of triangles that the ray ignores.
     std::optional<Met> meets(dvec3 from, const dvec3& direction, std::size_t but,
                              std::uint32_t skipped) const {
         double passed = 0;
@@ -100,14 +104,14 @@ public:
             passed += step, from += step * direction;
         }
     }
-    /// Whether something that casts shadows lies between.
+    /// Returns whether an object that casts shadows lies between the place and the light.
     bool is_shaded(const dvec3& place, const dvec3& light) const {
         const dvec3 way = light - place;
         const auto hit = bvh::closest_hit<double>(tree_, {place + 1e-6 * way, way, 0}, 1.,
                                                   bvh::kShadowless);
         return hit.has_value();
     }
-    /// A place on the object's surface.
+    /// Returns a random place on the object's surface.
     dvec3 place_on(std::size_t object, Numbers& numbers) const {
         const auto [first, count] = ranges_[object];
         const bvh::Triangle& t = triangles_[first + numbers.below(count)];
@@ -135,7 +139,8 @@ private:
     }
 
     std::vector<bvh::Triangle> triangles_;
-    std::vector<std::pair<std::size_t, std::size_t>> ranges_; ///< of an object: first, count
+    /// First triangle and number of triangles of each object.
+    std::vector<std::pair<std::size_t, std::size_t>> ranges_;
     bvh::Bvh tree_;
 };
 

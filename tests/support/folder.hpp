@@ -9,7 +9,7 @@
 
 namespace test {
 
-/// A test in a folder of its own that is gone after it.
+/// Base class of tests that need files. Creates a folder for each test and removes it afterwards.
 class InFolder : public testing::Test {
 protected:
     InFolder() { std::filesystem::create_directories(folder); }

@@ -4,13 +4,14 @@
 
 #include <string>
 
-/// Frames as large as a test wants them, whose passes record nothing.
+/// Render graphs of any size, for tests of the planner. Their passes record no commands.
 namespace test {
 
 using namespace catoptric;
 
-/// What `reuse` declares for so many mirrors: shadow, a capture each that reads last frame's cubes,
-/// view and compose; mirrors + 3 passes.
+/// Returns the graph that technique `reuse` declares for this number of mirrors: a shadow pass, one
+/// capture pass per mirror, a view pass and a compose pass. Each capture reads the cubes of the
+/// last frame.
 inline graph::Graph reuse_frame(std::uint32_t mirrors) {
     using graph::Use;
     constexpr graph::Clear kBlack{};

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-/// Triangles for trees, and what is true of each tree.
+/// Random triangles to build trees from, and checks that every tree must pass.
 namespace test {
 
 using catoptric::Bounds, catoptric::vec4;
@@ -27,7 +27,8 @@ inline std::vector<catoptric::bvh::Triangle> soup(std::size_t count, unsigned se
     return result;
 }
 
-/// Depth, leaf size, boxes that hold what is below them, every triangle in exactly one leaf.
+/// Visits all nodes of a tree. Checks that leaves are small, that boxes enclose the triangles below
+/// them, and that each triangle is in exactly one leaf. Counts nodes, triangles and depth.
 struct Census {
     const catoptric::bvh::Bvh& bvh;
     std::size_t nodes = 0, triangles = 0;
@@ -69,7 +70,8 @@ inline void expect_sound(const catoptric::bvh::Bvh& bvh, std::size_t triangles) 
     EXPECT_EQ(catoptric::bvh::number_of(bvh.nodes[1].w), catoptric::bvh::node_count(bvh));
     EXPECT_EQ(census.nodes + 1, catoptric::bvh::node_count(bvh));
     EXPECT_LE(census.deepest, catoptric::bvh::kMaxDepth);
-    // Words survive being read as floats; the second half of a node has none.
+    // A word that is stored in `w` must be a normal float, because devices may change other values
+    // when they read floats. The second half of a node stores no words.
     for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
         EXPECT_EQ(std::isnormal(bvh.nodes[i].w), i % 4 < 2) << i;
     for (const vec4& texel : bvh.triangles) EXPECT_TRUE(std::isnormal(texel.w));

@@ -10,11 +10,12 @@
 #include <string>
 #include <vector>
 
-/// The device's walk of the hierarchy on rays of our own (shaders/tests/kernel.comp), and the C++
-/// mirror beside it. Triangles and rays go in as they are: no centre, no unit scale, no loader.
+/// Traces rays of a test through a BVH on the device (shaders/tests/kernel.comp) and on the CPU,
+/// and compares the hits. Triangles and rays are used as they are, without centring, scaling or
+/// loading.
 namespace test {
 
-/// As the shader reads it.
+/// A ray in the layout that the shader reads.
 struct KernelRay {
     vec3 origin{0};
     float t_max = std::numeric_limits<float>::infinity();
@@ -23,20 +24,20 @@ struct KernelRay {
 };
 static_assert(sizeof(KernelRay) == 32);
 
-/// As the shader writes it; zeros where nothing was met.
+/// A hit in the layout that the shader writes. Distance, weights and numbers are 0 for a miss.
 struct KernelHit {
     float t = 0;
     vec3 barycentric{0};
     std::uint32_t triangle = 0, object = 0;
-    std::uint32_t outcome = 0; ///< 1: something was met; 2: the walk gave up
-    std::uint32_t steps = 0;   ///< node visits and triangle tests
+    std::uint32_t outcome = 0; ///< bit 0: hit; bit 1: the walk gave up
+    std::uint32_t steps = 0;   ///< number of node visits and triangle tests
     bool found() const { return (outcome & 1u) != 0; }
     bool exhausted() const { return (outcome & 2u) != 0; }
 };
 static_assert(sizeof(KernelHit) == 32);
 
-/// Where a ray starts: the triangle's place in the hierarchy, weights of its corners, where it
-/// goes.
+/// The start of a ray on a triangle: the index of the triangle in the BVH, the weights of its
+/// corners, and the ray's direction.
 struct KernelStart {
     vec3 weights{0};
     std::uint32_t place = 0;
@@ -45,7 +46,8 @@ struct KernelStart {
 };
 static_assert(sizeof(KernelStart) == 32);
 
-/// The point, the facet's unit normal (zero where it has none) and the lifted origin of the ray.
+/// The start of a ray as the shader computes it: the point, the facet's unit normal (0 if it has
+/// none), and the ray's origin, which is moved off the surface.
 struct KernelLeaving {
     vec3 point{0};
     float unused_0 = 0;
@@ -56,7 +58,7 @@ struct KernelLeaving {
 };
 static_assert(sizeof(KernelLeaving) == 48);
 
-/// A hierarchy on the device.
+/// A BVH on the device, with functions that trace rays through it.
 class Kernel {
 public:
     explicit Kernel(bvh::Bvh hierarchy)
@@ -67,19 +69,19 @@ public:
     }
     explicit Kernel(std::span<const bvh::Triangle> triangles) : Kernel(bvh::build(triangles)) {}
 
-    /// Rules to leave out, by the constants of shaders/lib/plain.glsl: what they are good for shows
-    /// without them.
+    /// Robustness rules that the shader leaves out, as constants of shaders/lib/plain.glsl. Without
+    /// a rule, a test shows the errors that the rule prevents.
     gpu::Constants rules{};
 
     const bvh::Bvh& hierarchy() const { return hierarchy_; }
 
-    /// What each ray meets first, triangles with a flag of `skipped` left out. At most 4 million
-    /// rays. `lows`: what their origins lack as sums of two floats; none: nothing.
+    /// Returns the first hit of each ray, at most 4 million rays. Triangles with a flag of
+    /// `skipped` are ignored. `lows`: rounding errors of the rays' origins as floats; empty: 0.
     std::vector<KernelHit> closest(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0,
                                    const std::vector<vec4>& lows = {}) {
         return walk(rays, skipped, lows, 0);
     }
-    /// Whether each ray meets anything; of a hit only `outcome` and `steps` are told.
+    /// Returns whether each ray meets anything. Of a hit, only `outcome` and `steps` are set.
     std::vector<KernelHit> any(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0,
                                const std::vector<vec4>& lows = {}) {
         return walk(rays, skipped, lows, 1);
@@ -93,7 +95,7 @@ private:
     std::vector<KernelHit> walk(const std::vector<KernelRay>& rays, std::uint32_t skipped,
                                 const std::vector<vec4>& lows, std::uint32_t occluded) {
         gpu::Constants constants = rules;
-        const bool object_spaces = hierarchy_.nodes[2].x > 0; // bvh/tlas.hpp
+        const bool object_spaces = hierarchy_.nodes[2].x > 0; // tree with instances (bvh/tlas.hpp)
         constants.emplace_back("object_spaces", object_spaces ? 1u : 0u);
         constants.emplace_back("exact_spheres", has_balls() ? 1u : 0u);
         upload(bench().device, lows_, "lows",
@@ -144,7 +146,7 @@ private:
 
 inline std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 
-/// Bit for bit, in everything but the number of steps.
+/// Returns whether two hits are equal bit for bit, except for the number of steps.
 inline bool same(const KernelHit& a, const KernelHit& b) {
     const auto words = [](const KernelHit& h) {
         return std::array{bits(h.t),
@@ -158,7 +160,7 @@ inline bool same(const KernelHit& a, const KernelHit& b) {
     return words(a) == words(b);
 }
 
-/// What the C++ mirror of the walk answers.
+/// Returns the hit that the CPU reference finds (bvh/closest_hit.hpp).
 inline KernelHit mirror_of(const bvh::Bvh& hierarchy, const KernelRay& ray,
                            std::uint32_t skipped = 0, const vec3& low = vec3(0)) {
     bvh::Steps steps;
@@ -187,8 +189,8 @@ inline std::string text(const KernelRay& ray) {
     return out.str();
 }
 
-/// Number of rays of which device and mirror say different things; the first fails the test with
-/// both answers. `stride`: every how many-th ray the mirror is asked.
+/// Returns the number of rays for which the device and the CPU reference differ. The first such ray
+/// fails the test with both hits. `stride`: compares only every stride-th ray.
 inline std::size_t differences(const Kernel& kernel, const std::vector<KernelRay>& rays,
                                const std::vector<KernelHit>& hits, std::uint32_t skipped = 0,
                                std::size_t stride = 1, const std::vector<vec4>& lows = {}) {

@@ -11,19 +11,21 @@
 #include <optional>
 #include <vector>
 
-/// Geometry for tests of the ray kernel, all from a seed.
+/// Meshes for tests of ray tracing, and random starts of rays inside the meshes.
 namespace test {
 
-/// A closed mesh, and from where rays may start strictly inside: `reach` around points of its core,
-/// which is its centre or, for a torus, a circle about z.
+/// A closed mesh, and the region strictly inside from which rays may start: all cubes of half edge
+/// `reach` around points of the core. The core is the mesh's centre or, for a torus, a circle about
+/// the z axis.
 struct ClosedMesh {
     scene::Mesh mesh;
     double core_radius;
     double reach; ///< half edge of a cube around a point of the core
 };
-constexpr double kInsideMargin = 0.12; ///< from such a cube to the mesh, at least
+constexpr double kInsideMargin = 0.12; ///< least distance of these cubes from the mesh
 
-/// 64 rings of 32 around a circle of radius 1, tube radius 0.4; neighbours share their corners.
+/// Returns a torus of 64 x 32 quadrilaterals. Its circle has radius 1, its tube radius 0.4.
+/// Neighbouring triangles share their corners.
 inline ClosedMesh torus() {
     constexpr std::uint32_t kRings = 64, kSides = 32;
     scene::Mesh mesh{.name = "torus"};
@@ -43,8 +45,8 @@ inline ClosedMesh torus() {
     return {std::move(mesh), 1, 0.15};
 }
 
-/// A closed room of twelve triangles without a round number; `stretch` makes a corridor of it,
-/// along z.
+/// Returns a closed box of twelve triangles whose coordinates are no round numbers. `stretch` makes
+/// the box longer along z.
 inline ClosedMesh box(std::string name, double stretch) {
     scene::Mesh mesh{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
@@ -59,8 +61,8 @@ inline ClosedMesh box(std::string name, double stretch) {
 
 inline ClosedMesh ball() { return {scene::ball("ball", 5), 0, 0.5}; }
 
-/// The mesh times `scale` plus `offset`, rounded to float; nothing when that leaves a triangle
-/// without an area.
+/// Returns the mesh times `scale` plus `offset`, rounded to float. Returns nothing if rounding
+/// leaves a triangle without area.
 inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh, double scale,
                                                         dvec3 offset) {
     std::vector<bvh::Triangle> result;
@@ -76,14 +78,15 @@ inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh,
     return result;
 }
 
-/// Whether rounding `scale` times the mesh plus `offset` moves corners and starting points by less
-/// than what lies between them.
+/// Returns whether float precision suffices for a mesh times `scale` plus `offset`: rounding moves
+/// points by less than the distance between the starts of rays and the mesh.
 inline bool is_resolved(double scale, dvec3 offset) {
     const double largest = 2 * scale + glm::length(offset);
     return std::sqrt(3.0) * std::ldexp(largest, -23) < kInsideMargin * scale;
 }
 
-/// Where a ray starts strictly inside the placed mesh if that is resolved, rounded to float.
+/// Returns a random start of a ray inside the placed mesh, rounded to float. The start is strictly
+/// inside if is_resolved is true.
 inline vec3 inside(const ClosedMesh& closed, double scale, dvec3 offset, Numbers& numbers) {
     dvec3 core(0);
     if (closed.core_radius > 0) {

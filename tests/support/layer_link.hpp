@@ -2,11 +2,11 @@
 
 #include <vulkan/vk_layer.h>
 
-/// What the test layers (faults/layer, limits/layer) share.
+/// Code that both Vulkan layers of the tests use (faults/layer, limits/layer).
 namespace test {
 
 /// Returns the loader's link to the next layer or the driver, from the chain of a create call; null
-/// where there is none.
+/// if the chain has no such link.
 template <typename Link, typename Info>
 Link* find_link(const Info* create, VkStructureType type) {
     for (auto* next = static_cast<const VkBaseInStructure*>(create->pNext); next;

@@ -3,10 +3,11 @@
 #include "measure/lines.hpp"
 #include "support/rendering.hpp"
 
-/// Scenes under open sky, and how near a raster picture of them is to a traced one.
+/// Outdoor scenes, and comparisons of their rasterised pictures with ray-traced ones.
 namespace test {
 
-/// A light's place and the way it shines, along -z of its node.
+/// Returns the transform of a light at `from` that shines along `axis`. A light shines along -z of
+/// its node.
 inline dmat4 shining(const dvec3& from, const dvec3& axis) {
     const dvec3 back = -glm::normalize(axis);
     const dvec3 other = std::abs(back.y) < .9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
@@ -14,7 +15,7 @@ inline dmat4 shining(const dvec3& from, const dvec3& axis) {
     return {dvec4(right, 0), dvec4(glm::cross(back, right), 0), dvec4(back, 0), dvec4(from, 1)};
 }
 
-/// A grey floor of 4x4 around the origin, y = 0.
+/// Returns a scene of a grey floor of 4x4 around the origin at y = 0.
 inline scene::Scene floor_alone() {
     scene::Scene scene{.name = "floor"};
     const std::size_t grey = add_material(scene, {.name = "grey", .albedo = {.6f, .5f, .4f}});
@@ -22,7 +23,7 @@ inline scene::Scene floor_alone() {
     return scene;
 }
 
-/// The floor with a wall, a ball and a block on it, seen from the side.
+/// Returns a scene of the floor with a wall, a ball and a block, seen from the side.
 inline scene::Scene yard() {
     scene::Scene scene = floor_alone();
     scene.name = "yard";
@@ -36,13 +37,14 @@ inline scene::Scene yard() {
     return scene;
 }
 
-/// Largest channel of the difference, as pictures are shown.
+/// Returns the largest channel of the difference of two colours, each clamped to [0,1].
 inline float apart(const vec3& a, const vec3& b) {
     const vec3 size = abs(clamp(a, 0.0f, 1.0f) - clamp(b, 0.0f, 1.0f));
     return std::max({size.x, size.y, size.z});
 }
 
-/// Pixels within two of which light and shadow meet: where a picture without shadows is another.
+/// Returns the mask of all pixels within two pixels of a shadow's edge. A pixel is in shadow if the
+/// pictures with and without shadows differ there.
 inline measure::Mask shadow_edges(const measure::Picture& lit, const measure::Picture& shadowed) {
     measure::Mask edges(lit.pixels.size(), 0);
     const auto is_dark = [&](int x, int y) {
@@ -59,7 +61,7 @@ inline measure::Mask shadow_edges(const measure::Picture& lit, const measure::Pi
     return edges;
 }
 
-/// Share of the pixels of the picture that are off and in no mask.
+/// Returns the share of a picture's pixels that are off and not in the mask `left_out`.
 inline double share_off(const measure::Picture& a, const measure::Picture& b,
                         const measure::Mask& left_out) {
     std::size_t off = 0;
@@ -68,7 +70,7 @@ inline double share_off(const measure::Picture& a, const measure::Picture& b,
     return double(off) / double(a.pixels.size());
 }
 
-/// The picture at its first camera without ambient light.
+/// Renders frames from the scene's first camera without ambient light and returns the last.
 inline app::Part render_dark(const scene::Scene& scene, const std::string& technique, uvec2 size,
                              int frames = 1) {
     app::Request asked = request(scene, {technique}, size);
@@ -77,7 +79,8 @@ inline app::Part render_dark(const scene::Scene& scene, const std::string& techn
     return std::move(app::run(engine(), asked).parts.front());
 }
 
-/// Share off of the raster picture beside shadow edges.
+/// Returns the share of pixels off between the rasterised and the ray-traced picture, without
+/// pixels at shadow edges.
 inline double share_off_of_raster(const scene::Scene& scene, uvec2 size) {
     const app::Part traced = render_dark(scene, "raytrace", size),
                     lit = render_dark(scene, "raytrace:shadow=none", size),

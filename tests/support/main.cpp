@@ -1,7 +1,7 @@
-// main of every test program. `--from FILE`: only the tests of that source file, in one process, so
-// that they share devices, compiled shaders and rendered pictures. Where CATOPTRIC_TEST_SECONDS
-// names a folder, the processor seconds of each test are written there; ./dev test prints the
-// dearest.
+// The main function of every test program. `--from FILE` runs only the tests of that source file.
+// They run in one process, so that they share devices, compiled shaders and rendered pictures.
+// If CATOPTRIC_TEST_SECONDS names a folder, the processor time of each test is written to a file in
+// this folder. `./dev test` prints the slowest tests.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,7 +15,8 @@
 
 namespace {
 
-/// Of this process with its driver's threads, and of the processes that it has waited for.
+/// Returns the processor time of this process with its driver's threads, plus that of the child
+/// processes that it has waited for.
 double processor_seconds() {
     double seconds = 0;
     for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -46,7 +47,8 @@ private:
     double start_ = 0;
 };
 
-/// Names of all tests that stand in the file, as a filter; empty without one.
+/// Returns a GoogleTest filter with the names of all tests of a source file; empty if the file has
+/// no tests.
 std::string filter_of(const std::string& file) {
     std::string filter;
     const testing::UnitTest& all = *testing::UnitTest::GetInstance();

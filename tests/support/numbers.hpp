@@ -10,7 +10,7 @@ namespace test {
 
 using catoptric::vec3;
 
-/// Numbers from a counter (SplitMix64): fast, and the same on every machine.
+/// A random number generator (SplitMix64) that is fast and gives the same numbers on every machine.
 class Numbers {
 public:
     explicit Numbers(std::uint64_t seed) : state_(seed) {}
@@ -20,7 +20,7 @@ public:
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
     }
-    /// In [0, 1), a multiple of 2^-24.
+    /// Returns a number in [0, 1) that is a multiple of 2^-24.
     float unit() { return static_cast<float>(word() >> 8) * 0x1p-24f; }
     float between(float lo, float hi) { return lo + (hi - lo) * unit(); }
     std::size_t below(std::size_t count) {
@@ -37,12 +37,13 @@ public:
             if (size > 0.1f && size <= 1) return v / size;
         }
     }
-    /// Either sign, 10^low .. 10^high, every power as likely.
+    /// Returns a number of random sign with a magnitude of 10^low to 10^high, uniform in the
+    /// exponent.
     float wide(float low, float high) {
         const float size = std::pow(10.0f, between(low, high));
         return word() % 2 == 0 ? size : -size;
     }
-    /// Weights of a point, uniform over the triangle.
+    /// Returns the barycentric weights of a random point, uniform over the triangle.
     vec3 weights() {
         const float s = std::sqrt(unit()), r = unit();
         return {1 - s, s * (1 - r), s * r};

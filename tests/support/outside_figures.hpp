@@ -5,8 +5,8 @@
 #include <iomanip>
 #include <iostream>
 
-/// Ray tracing of the built-in scene beside figures of two independent renderers: ambient 0,
-/// 512x512, balls as meshes.
+/// Compares ray tracing of the built-in scene with figures of two independent renderers. Ambient
+/// light is 0, the size is 512x512, and balls are meshes.
 namespace test {
 
 inline app::Part trace(int depth, int samples) {
@@ -18,7 +18,7 @@ inline app::Part trace(int depth, int samples) {
     return std::move(app::run(engine(), asked).parts.front());
 }
 
-/// Expects `found` within a share of `wanted`, and prints both.
+/// Expects that `found` differs from `wanted` by at most `share` times `wanted`, and prints both.
 inline void expect_share(const std::string& what, double found, double wanted, double share) {
     std::cout << "[ MEASURED ] " << what << ": " << std::setprecision(8) << found << ", outside "
               << wanted << ", " << std::setprecision(3) << std::showpos

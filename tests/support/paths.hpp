@@ -10,24 +10,26 @@
 #include <string>
 #include <vector>
 
-/// Pictures that say which mirrors a ray has met on its way: surroundings of radiance 1, and three
-/// mirrors, each of which halves one channel.
+/// Scenes whose pictures tell which mirrors a ray has met. The surroundings have radiance 1, and
+/// each of three mirrors halves one colour channel.
 namespace test {
 
-/// Material of mirror `number`, 0 to 2, which halves channel `number`.
+/// Adds the material of mirror `number` (0 to 2), which halves channel `number`, and returns its
+/// index.
 inline std::size_t add_halving_mirror(scene::Scene& scene, int number) {
     scene::Material material{.name = "mirror" + std::to_string(number + 1), .mirror = true};
     material.reflectance[number] = .5f;
     return add_material(scene, material);
 }
 
-/// A closed box [lo, hi] every point of which emits 1 in all channels.
+/// Adds a closed box [lo, hi] that emits radiance 1 in all channels at every point.
 inline void add_bright_box(scene::Scene& scene, dvec3 lo, dvec3 hi) {
     const std::size_t bright = add_material(scene, {.name = "bright", .emission = vec3(1)});
     for (int face = 0; face < 6; ++face) add_mesh(scene, wall(face, lo, hi), bright);
 }
 
-/// Three balls in a bright box that see each other, exact spheres all.
+/// Returns a scene of three mirror balls in a bright box. The balls reflect each other and are
+/// exact spheres.
 inline scene::Scene three_balls() {
     scene::Scene scene{.name = "three balls"};
     add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
@@ -41,36 +43,37 @@ inline scene::Scene three_balls() {
     return scene;
 }
 
-/// A board of this radiance on both sides.
+/// Adds a board that emits this radiance on both sides.
 inline void add_glowing_board(scene::Scene& scene, vec3 emission, dvec3 centre, dvec3 half_along,
                               dvec3 half_up) {
     const std::size_t glow = add_material(scene, {.name = "glow", .emission = emission});
-    for (const dvec3& up : {half_up, -half_up}) // a light shines to where its corners run around
+    for (const dvec3& up : {half_up, -half_up}) // a lamp shines from its front side only
         add_quad(scene, "board", glow, centre - half_along - up, centre + half_along - up,
                  centre + half_along + up, centre - half_along + up);
 }
 
-/// Pixels of mirrors, and how many of them are off.
+/// Number of compared mirror pixels, and number of those that are off.
 struct Compared {
     std::size_t pixels = 0, off = 0;
     double share() const { return static_cast<double>(off) / static_cast<double>(pixels); }
 };
 
 inline bool is_off(const vec3& a, const vec3& b) {
+    // A channel that is NaN counts as off, because the comparison is then false.
     for (int i = 0; i < 3; ++i)
-        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kOff))) return true; // NaN too
+        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kOff))) return true;
     return false;
 }
 
-/// Mirrors that the traced ray of a pixel has met, from its colour (of a mirror of radiance 1's
-/// surroundings); 0 for black.
+/// Returns how many mirrors a traced ray has met, from the colour of its pixel; 0 for black. The
+/// surroundings of the mirrors must have radiance 1.
 inline int mirrors_met(const vec3& colour) {
     const float product = colour.x * colour.y * colour.z;
     return product > 0 ? static_cast<int>(std::lround(-std::log2(product))) : 0;
 }
 
-/// Over the mirrors' pixels for which `counts(hit, colour)` holds of what the traced rays met and
-/// brought.
+/// Compares a picture with the ray-traced one over the mirror pixels for which `counts(hit,
+/// colour)` is true. Hit and colour are those of the ray-traced picture.
 template <typename Counts>
 Compared compared(const measure::Picture& picture, const app::Part& truth, Counts&& counts) {
     Compared result;

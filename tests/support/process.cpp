@@ -23,7 +23,8 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Reads to the end; calls `seen` once, as soon as `marker` has come.
+/// Reads all text from a file descriptor and closes it. Calls `seen` once, as soon as the text
+/// contains `marker`.
 std::string read_all(int fd, const std::string& marker = {}, std::function<void()> seen = {}) {
     std::string text;
     char block[1 << 16];
@@ -35,7 +36,7 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
     return text;
 }
 
-/// In the child, between fork and exec.
+/// Prepares the child process after fork as `start` says, and then executes the program.
 [[noreturn]] void become(const Start& start, int out, int err) {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     for (const auto& [resource, most] :

@@ -11,33 +11,36 @@
 namespace test {
 
 struct Ended {
-    int exit_code = -1; ///< 128 + n when signal n killed it
+    int exit_code = -1; ///< 128 + n if signal n ended the process
     std::string out, err;
-    double seconds = 0;              ///< from its start to its end
-    std::uint64_t peak_bytes = 0;    ///< most memory that was resident
-    double seconds_after_signal = 0; ///< from the signal that was sent, if one was
+    double seconds = 0;              ///< seconds from the start of the process to its end
+    std::uint64_t peak_bytes = 0;    ///< largest resident memory
+    double seconds_after_signal = 0; ///< seconds from the signal to the end; 0: no signal sent
 };
 
 struct Start {
-    std::vector<std::string> command;                    ///< the program's path first
-    std::map<std::string, std::string> environment = {}; ///< added to ours
-    std::string out_path = {};       ///< stdout goes here instead of `Ended::out`
+    /// The path of the program, then its arguments.
+    std::vector<std::string> command;
+    /// Variables that are added to the environment of this process.
+    std::map<std::string, std::string> environment = {};
+    std::string out_path = {};       ///< file for stdout, instead of `Ended::out`
     bool no_reader = false;          ///< stdout is a pipe whose other end is closed
     std::uint64_t file_limit = 0;    ///< bytes after which writing to a file fails; 0 = no limit
-    std::uint64_t memory_limit = 0;  ///< bytes of address space; 0 = no limit
-    std::uint64_t seconds_limit = 0; ///< processor time after which it is killed; 0 = no limit
-    int signal = 0;                  ///< sent once stderr has `signal_at` in it; 0 = none
+    std::uint64_t memory_limit = 0;  ///< largest address space in bytes; 0 = no limit
+    std::uint64_t seconds_limit = 0; ///< processor time after which the system kills it; 0 = none
+    int signal = 0;                  ///< signal to send once stderr contains `signal_at`; 0 = none
     std::string signal_at = {};
-    std::chrono::milliseconds signal_after{0}; ///< from then
-    std::chrono::milliseconds again_after{0};  ///< from the signal to the same once more; 0 = once
-    std::filesystem::path folder = {};         ///< where it runs; empty = here
+    std::chrono::milliseconds signal_after{0}; ///< delay between `signal_at` and the signal
+    std::chrono::milliseconds again_after{0};  ///< delay until the signal is sent again; 0 = once
+    std::filesystem::path folder = {};         ///< working folder; empty = the current one
 };
 
-/// Runs a program to its end.
+/// Runs a program until it ends and returns its exit code, output, time and memory.
 Ended run_process(const Start& start);
 
-/// Runs `work` in a copy of this process, which then ends at once, without its destructors. Returns
-/// what it returned, with the signal or exception that ended it in words.
+/// Runs `work` in a forked copy of this process, which then ends without running destructors.
+/// Returns the text that `work` returned. If a signal or an exception ended the copy, the text says
+/// which one.
 std::string in_child(const std::function<std::string()>& work);
 
 } // namespace test

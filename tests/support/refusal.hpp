@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-/// Errors that a test asks for.
+/// Functions that expect an error.
 namespace test {
 
-/// What the error says that comes out of `action`, which is to be of this kind; without one the
-/// test fails.
+/// Runs `action`, which must throw an error of this kind, and returns the error's text. Fails the
+/// test if nothing is thrown.
 inline std::string refusal(catoptric::Failure failure, const std::function<void()>& action) {
     try {
         action();
@@ -24,7 +24,7 @@ inline std::string refusal(catoptric::Failure failure, const std::function<void(
     return "";
 }
 
-/// Expects `Error(failure)` whose text holds every one of the words.
+/// Expects that `action` throws an error of this kind whose text contains each of `words`.
 inline void expect_refused(const std::function<void()>& action, catoptric::Failure failure,
                            const std::vector<std::string>& words) {
     const std::string text = refusal(failure, action);

@@ -14,15 +14,15 @@
 
 namespace catoptric::app {
 
-/// How a test's parameter is shown.
+/// Prints a technique as a parameter of a test.
 inline void PrintTo(const TechniqueInfo& technique, std::ostream* out) { *out << technique.name; }
 
 } // namespace catoptric::app
 
-/// Rendering a picture in one line, and comparing two.
+/// Functions that render a picture in one call, and that compare two pictures.
 namespace test {
 
-/// One measured frame without warm-up, seen by the scene's first camera.
+/// Returns a request for one measured frame without warm-up, seen by the scene's first camera.
 inline app::Request request(const scene::Scene& scene, const std::vector<std::string>& techniques,
                             uvec2 size) {
     app::Request asked;
@@ -41,20 +41,21 @@ inline app::Part render(const scene::Scene& scene, const std::string& technique,
     return std::move(app::run(engine(), asked).parts.front());
 }
 
-/// The last of so many frames of a still, of which only that one is as large as asked for and says
-/// where mirrors looked: what captures hold, all that it has of those before, is the same whatever
-/// the picture's size. Not for face=auto.
+/// Renders `frames` frames of a still scene and returns the last. Only the last frame has the
+/// requested size and lookup directions. The earlier frames are small, which saves time: the last
+/// frame needs only their captures, which do not depend on the picture's size. Not for face=auto,
+/// whose captures do.
 inline std::vector<app::Part> last_of(const app::Request& asked, int frames) {
     app::Session session(engine(), asked.scene);
     app::FrameSpec early = asked;
-    early.model = app::Modelling::required; // the same pictures in less time
+    early.model = app::Modelling::required; // gives the same pictures in less time
     app::FrameSpec last = early;
     early.size = {16, 16}, early.with_lookup = false;
     for (int k = 1; k < frames; ++k) session.frame(early);
     return session.frame(last).read_all();
 }
 
-/// "name:knob=value,..." of those wanted settings that the technique has a knob for.
+/// Returns "name:knob=value,..." with those of the settings for which the technique has a knob.
 inline std::string with(const app::TechniqueInfo& technique,
                         const std::vector<std::pair<std::string, std::string>>& settings) {
     std::string text = technique.name;
@@ -81,7 +82,7 @@ inline bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
 }
 
-/// Pixels of the picture that are not finite numbers.
+/// Returns how many pixels of the picture are not finite numbers.
 inline std::size_t nonfinite(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& c) {
         return !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));

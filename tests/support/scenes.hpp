@@ -15,11 +15,11 @@ using namespace catoptric;
 
 using scene::add_ball, scene::add_material, scene::add_mesh, scene::add_quad, scene::wall;
 
-/// What every wall of a furnace emits: exact in binary16.
+/// Radiance of every wall of a furnace; exact in 16-bit floats.
 constexpr vec3 kFurnace{0.5f, 0.25f, 0.75f};
 
-/// A closed box, every point of which emits kFurnace and reflects nothing, with one or two mirror
-/// balls.
+/// Returns a furnace: a closed box with one or two mirror balls. Every point of the box emits
+/// kFurnace and reflects nothing, so every pixel must show kFurnace.
 inline scene::Scene furnace(int mirrors) {
     scene::Scene scene{.name = "furnace"};
     const std::size_t hot = add_material(scene, {.name = "hot", .emission = kFurnace});
@@ -34,15 +34,16 @@ inline scene::Scene furnace(int mirrors) {
     return scene;
 }
 
-/// The same with balls of 256 triangles: for small pictures, of which triangles cost most.
+/// Returns the scene with balls of only 256 triangles, because triangles take most of the time of
+/// small pictures.
 inline scene::Scene with_coarse_balls(scene::Scene scene) {
     for (const scene::Object& object : scene.objects)
         if (object.sphere) scene.meshes[object.mesh] = scene::ball("ball", 3);
     return scene;
 }
 
-/// White room with coloured side walls, `lights` lamps under the ceiling and `mirrors` (0 to 3)
-/// balls.
+/// Returns a white room with coloured side walls, `lights` lamps under the ceiling and `mirrors` (0
+/// to 3) mirror balls.
 inline scene::Scene room(int mirrors, int lights) {
     scene::Scene scene{.name = "room"};
     const std::size_t white = add_material(scene, {.name = "white", .albedo = {.7f, .7f, .7f}});
@@ -71,8 +72,8 @@ inline scene::Scene room(int mirrors, int lights) {
     return scene;
 }
 
-/// The room with one lamp, a mirror ball, a mirrored block and a flat mirror on the wall behind
-/// them: mirrors in mirrors, of which only the ball is an exact sphere.
+/// Returns the room with one lamp, a mirror ball, a mirrored block, and a flat mirror on the wall
+/// behind them. The mirrors reflect each other, and only the ball is an exact sphere.
 inline scene::Scene hall() {
     scene::Scene scene = room(0, 1);
     scene.name = "hall";
@@ -80,7 +81,7 @@ inline scene::Scene hall() {
     add_ball(scene, "ball", mirror, {-.9, -1.2, -.2}, .7);
     scene::Mesh block{.name = "block"};
     for (int face = 0; face < 6; ++face) {
-        // Walls of the box turned outwards: low and high exchanged.
+        // The walls of the block face outwards, because the low and high corners are exchanged.
         const scene::Mesh side = wall(face, {1.5, -.7, .9}, {.5, -1.9, -.1});
         const auto first = static_cast<std::uint32_t>(block.positions.size());
         block.positions.insert(block.positions.end(), side.positions.begin(), side.positions.end());
@@ -93,7 +94,8 @@ inline scene::Scene hall() {
     return scene;
 }
 
-/// Two boards at a right angle in one mesh, facing each other: a mirror that sees itself.
+/// Returns a mesh of two boards at a right angle that face each other. As a mirror, the mesh
+/// reflects itself.
 inline scene::Mesh hollow_corner() {
     scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9},
                                      {-1.5, 1.5, 1.5});

@@ -7,20 +7,21 @@
 #include <iostream>
 #include <map>
 
-/// How techniques that look into captures do in the built-in scene, 512x512, seen from three
-/// places.
+/// Measures the errors of techniques that search captures, in the built-in scene at 512x512, from
+/// several cameras.
 namespace test {
 
 inline constexpr uvec2 kContractSize{512, 512};
-inline constexpr int kConvergedFrames = 4; ///< deeper bounces have arrived
+inline constexpr int kConvergedFrames = 4; ///< frames until deeper bounces have arrived
 
-/// A camera and the instant at which it looks.
+/// A camera and the instant of its picture.
 struct Look {
     scene::Camera camera;
     double time = 0;
 };
 
-/// The scene's own, one aside and one from above; ball 4 stands elsewhere in each.
+/// Returns three cameras: the scene's own, one at the side and one above. Ball 4 is at another
+/// place at each camera's instant.
 inline std::vector<Look> looks() {
     return {{scene::cornell_mirrors().cameras.front(), 0},
             {{.name = "side",
@@ -35,8 +36,8 @@ inline std::vector<Look> looks() {
              2.6}};
 }
 
-/// Where searches were not looked at while they were made: low in the room's mouth, along its
-/// floor, and down from under the ceiling.
+/// Returns three cameras that were not used while searches were developed: low at the open front of
+/// the room, along the floor, and down from below the ceiling.
 inline std::vector<Look> unforeseen_looks() {
     return {{{.name = "low",
               .eye = {540, 12, -60},
@@ -55,16 +56,17 @@ inline std::vector<Look> unforeseen_looks() {
              0}};
 }
 
-/// Against ray tracing: linear rmse by what the reflected ray meets, and where mirrors looked.
+/// Errors of a technique against ray tracing: rmse in linear RGB by what the reflected ray meets,
+/// and errors of the looked-up directions.
 struct Judged {
     double all = 0, first_order = 0, mirror_in_mirror = 0;
     measure::LookupError lookup;
-    double traced_fraction = 0; ///< of mirror pixels, where a search leaves some to tracing
+    double traced_fraction = 0; ///< share of mirror pixels that are traced (`hybrid`)
 };
 
 namespace detail {
 
-/// The reference from one place, and where rays really go from there.
+/// The reference picture from one camera, and an oracle that knows where its reflected rays end.
 struct ReferencePicture {
     app::Part part;
     app::Oracle oracle;
@@ -99,8 +101,8 @@ inline Judged judge(const scene::Scene& scene, const Look& look, const std::stri
 
 } // namespace detail
 
-/// What techniques get wrong from one place. Each is rendered once a program, the reference too:
-/// tests of several searches share what they are measured by. A look is known by its name.
+/// Returns the errors of techniques from one camera. A program renders each technique and reference
+/// only once per camera name, because tests of several searches share the results.
 inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
                                  const std::vector<std::string>& techniques,
                                  const std::string& reference = "raytrace:depth=16") {
@@ -123,8 +125,9 @@ inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
     return judged;
 }
 
-/// What the eye finds wrong in mirrors, against ray tracing, for each technique, in their second
-/// frame: there is nothing in a deeper one that a search does not follow itself.
+/// Returns FLIP and other differences from ray tracing over the mirrors, for the second frame of
+/// each technique. The second frame suffices, because searches follow rays to deeper mirrors
+/// themselves.
 inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scene, const Look& look,
                                                         std::vector<std::string> techniques) {
     techniques.push_back("raytrace:depth=16");
@@ -146,7 +149,8 @@ inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scen
     return seen;
 }
 
-/// Where each first-order pixel looked and should have, seen by the scene's first camera.
+/// Returns the error of the looked-up direction of each first-order pixel, seen by the scene's
+/// first camera.
 inline std::vector<measure::LookedUp> looked_up(const scene::Scene& scene,
                                                 const std::string& technique, uvec2 size) {
     app::Request asked = request(scene, {technique}, size);

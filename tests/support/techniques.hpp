@@ -4,12 +4,12 @@
 
 #include <string>
 
-/// Passes of techniques and captures without a session around them.
+/// Adds the passes of techniques and captures to a graph, without a session.
 namespace test {
 
 using namespace catoptric;
 
-/// One technique for all mirrors.
+/// Adds the passes of a frame in which one technique draws all mirrors.
 inline reflect::Outputs add_technique(graph::Graph& graph, const render::FrameInputs& inputs,
                                       const std::string& technique) {
     return reflect::add_frame(
@@ -18,7 +18,7 @@ inline reflect::Outputs add_technique(graph::Graph& graph, const render::FrameIn
                         std::vector<std::string>(inputs.scene.mirror_count(), "mirror")));
 }
 
-/// Captures of all mirrors, in which the others are black.
+/// Adds passes that capture all mirrors. Each capture shows the other mirrors black.
 inline render::Cubes add_black_captures(graph::Graph& graph, const render::FrameInputs& inputs,
                                         const render::CaptureOptions& options) {
     const render::Captures captures = render::declare_captures(

@@ -5,8 +5,8 @@
 
 namespace test {
 
-/// The device that a person asked for (bench/machine/run.sh), as `app::EngineOptions` takes it;
-/// empty: the first usable.
+/// Returns the device that CATOPTRIC_TEST_DEVICE names (bench/machine/run.sh), in the form that
+/// `app::EngineOptions` takes. Empty stands for the first usable device.
 inline std::string wanted_device() {
     const char* wanted = std::getenv("CATOPTRIC_TEST_DEVICE");
     return wanted ? wanted : "";

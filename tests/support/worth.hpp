@@ -2,18 +2,20 @@
 
 #include "support/searches.hpp"
 
-/// What each search must be worth from wherever it is seen. reflect/worth_test.cpp asks from the
-/// scene's own camera, long/worth_test.cpp from all.
+/// Bounds for the error of each search. reflect/worth_test.cpp tests them from the scene's own
+/// camera, long/worth_test.cpp from all cameras.
 namespace test {
 
-/// Shares of the error of `parallax:face=512`.
+/// Largest errors that a search may have, as shares of the error of `parallax:face=512` unless
+/// another base is named. Searches with continue=4 follow reflected rays through further mirrors,
+/// those with continue=0 do not.
 struct Worth {
-    double first_order;      ///< face=512, reflected rays that meet no second mirror
-    double all;              ///< face=512, followed through other mirrors
-    double coarse;           ///< face=256, followed through other mirrors
-    double mirror_in_mirror; ///< face=512, share of the same search that is not followed
-    double angle;            ///< face=512, mean of the looked-up direction on first-order pixels
-    double wrong_object = 1; ///< ... and no share of parallax: of those pixels
+    double first_order;      ///< rmse of first-order pixels at face=512
+    double all;              ///< rmse of all mirror pixels at face=512, continue=4
+    double coarse;           ///< rmse of all mirror pixels at face=256, continue=4
+    double mirror_in_mirror; ///< rmse of mirror-in-mirror pixels, as share of that with continue=0
+    double angle;            ///< mean error of lookup directions in first-order pixels
+    double wrong_object = 1; ///< share of first-order pixels, not relative to parallax
 };
 
 inline const std::map<std::string, Worth> kWorths{{"secant", {.53, .38, .45, .24, .012}},
@@ -37,7 +39,7 @@ inline void expect_worth(const std::string& search, const Look& look) {
     EXPECT_LE(alone.lookup.wrong_object, worth.wrong_object);
 }
 
-/// Secant needs smaller captures than parallax.
+/// Expects that `secant` with smaller captures has no larger errors than `parallax`.
 inline void expect_small_captures(const Look& look) {
     const auto judged = judge(
         scene::cornell_mirrors(), look,
@@ -46,7 +48,8 @@ inline void expect_small_captures(const Look& look) {
     EXPECT_LE(judged[2].lookup.mean_degrees, .025 * judged[0].lookup.mean_degrees);
 }
 
-/// Hybrid is worth what it traces, and traces little in a closed room.
+/// Expects that `hybrid` has much smaller errors than `parallax` and traces few pixels, also in the
+/// closed room.
 inline void expect_hybrid(const Look& look) {
     const auto judged = judge(
         scene::cornell_mirrors(), look,

@@ -1,4 +1,5 @@
-// Whose shadow by a light falls on nothing.
+// Tests of render::find_backdrops, which finds the objects whose shadow falls on nothing for a
+// given light.
 #include "render/backdrop.hpp"
 #include "render/space.hpp"
 #include "scene/load.hpp"
@@ -12,7 +13,8 @@ namespace {
 using namespace catoptric;
 using Names = std::vector<std::string>;
 
-/// By a light at a place in world units, or from infinitely far, along `place`.
+/// Returns the names of the objects that find_backdrops reports. The light is at `place` in world
+/// units. A directional light instead shines along `place` from infinitely far away.
 Names backdrops(const scene::Scene& scene, const dvec3& place, bool directional = false) {
     const render::Space space = render::space_of(scene);
     shared::Light light{};
@@ -27,8 +29,8 @@ Names backdrops(const scene::Scene& scene, const dvec3& place, bool directional 
     return names;
 }
 
-/// Six walls of a room of 4 x 3 x 6 around the origin, named by number, and a crate.
-scene::Scene room() {
+/// Builds a room of 4 x 3 x 6 around the origin: six walls, named "0" to "5", and a crate.
+scene::Scene backdrop_room() {
     scene::Scene scene{.name = "room"};
     const std::size_t grey = test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)});
     for (int face = 0; face < 6; ++face) {
@@ -40,36 +42,38 @@ scene::Scene room() {
     return scene;
 }
 
-TEST(Backdrops, AreTheWallsOfARoomThatTheLightIsIn) {
-    EXPECT_THAT(backdrops(room(), {.3, 1.2, .4}),
+TEST(Backdrops, WallsOfTheRoomAroundTheLightAreBackdrops) {
+    EXPECT_THAT(backdrops(backdrop_room(), {.3, 1.2, .4}),
                 testing::ElementsAre("0", "1", "2", "3", "4", "5"));
 }
 
-TEST(Backdrops, AreNotTheWallsBetweenALightAndTheRoom) {
-    EXPECT_EQ(backdrops(room(), {5, 0, 0}).size(), 5u) << "all but the wall that it shines through";
-    EXPECT_EQ(backdrops(room(), {0, -1, 0}, true).size(), 5u) << "all but the ceiling";
+TEST(Backdrops, WallBetweenLightAndRoomIsNoBackdrop) {
+    EXPECT_EQ(backdrops(backdrop_room(), {5, 0, 0}).size(), 5u)
+        << "all but the wall that it shines through";
+    EXPECT_EQ(backdrops(backdrop_room(), {0, -1, 0}, true).size(), 5u) << "all but the ceiling";
 }
 
-TEST(Backdrops, IsNoWallWithSomethingBehindIt) {
-    scene::Scene scene = room();
+TEST(Backdrops, WallWithGeometryBehindItIsNoBackdrop) {
+    scene::Scene scene = backdrop_room();
     test::add_mesh(scene, scene::box("outside", {2.5, -1, -1}, {3, 1, 1}),
                    scene.objects[0].material);
     EXPECT_THAT(backdrops(scene, {0, 1, 0}), testing::ElementsAre("1", "2", "3", "4", "5"));
-    // Through it, beginning inside.
-    scene = room();
+    // A shelf that begins inside the room and passes through the wall.
+    scene = backdrop_room();
     test::add_quad(scene, "shelf", scene.objects[0].material, {1, 0, 0}, {3, 0, 0}, {3, 0, 1},
                    {1, 0, 1});
     EXPECT_THAT(backdrops(scene, {0, 1, 0}), testing::ElementsAre("1", "2", "3", "4", "5"));
-    // By less than a sixteenth of a millimetre, too: a mirror that hangs before a wall.
-    scene = room();
+    // A mirror that hangs .0001 in front of a wall casts its shadow on the wall.
+    scene = backdrop_room();
     test::add_quad(scene, "mirror", scene.objects[0].material, {-1, -1, -2.9999}, {1, -1, -2.9999},
                    {1, 1, -2.9999}, {-1, 1, -2.9999});
     EXPECT_THAT(backdrops(scene, {0, 1, 0}), testing::Not(testing::Contains("mirror")));
 }
 
-/// A shelf a millimetre before the ground, which reaches to the horizon.
-TEST(Backdrops, AreToldBesideThingsThatReachFar) {
-    scene::Scene scene = room();
+/// The ground reaches to the horizon, and a shelf lies .001 above the ground. The shelf casts its
+/// shadow on the ground.
+TEST(Backdrops, ShelfCloseAboveAVastGroundIsNoBackdrop) {
+    scene::Scene scene = backdrop_room();
     test::add_quad(scene, "ground", scene.objects[0].material, {-4e4, -1.5, 4e4}, {4e4, -1.5, 4e4},
                    {4e4, -1.5, -4e4}, {-4e4, -1.5, -4e4});
     test::add_quad(scene, "shelf", scene.objects[0].material, {-1, -1.499, 2}, {1, -1.499, 2},
@@ -79,14 +83,15 @@ TEST(Backdrops, AreToldBesideThingsThatReachFar) {
     EXPECT_THAT(names, testing::Not(testing::Contains("shelf")));
 }
 
-/// The left wall leans: boxes of floor and back reach behind it, they do not.
-TEST(Backdrops, AreToldByVerticesWhereBoxesDoNotTell) {
+/// The left wall of `cornell-mirrors` leans. The bounding boxes of the floor and the back wall
+/// reach behind the plane of the left wall, but their vertices do not.
+TEST(Backdrops, VerticesDecideWhereBoundingBoxesDoNot) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     EXPECT_THAT(backdrops(scene, {278, 548.7, 279.5}),
                 testing::ElementsAre("floor", "ceiling", "back", "right", "left"));
 }
 
-TEST(Backdrops, AreNoLampsAndNothingOfManyTriangles) {
+TEST(Backdrops, LampsAndMeshesOfManyTrianglesAreNoBackdrops) {
     scene::Scene scene{.name = "dome"};
     const std::size_t grey = test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}),
                       glow = test::add_material(scene, {.name = "glow", .emission = vec3(1)});

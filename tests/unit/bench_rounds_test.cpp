@@ -1,4 +1,5 @@
-// How benchmarks are measured: whose turn it is, and what is counted.
+// Tests of how benchmarks are measured: the order in which benchmarks take turns, and the processor
+// usage that is counted.
 #include "app/bench.hpp"
 
 #include "core/error.hpp"
@@ -14,7 +15,7 @@ using namespace catoptric;
 using app::Subject;
 using app::UsageMeter;
 
-/// Writes its letter for each iteration, and a bar when it leaves.
+/// Builds a benchmark that logs `letter` for each iteration and '|' at the end of each turn.
 Subject writer(char letter, std::string& log, int warmup = 1) {
     return {.name = std::string(1, letter),
             .work =
@@ -27,7 +28,7 @@ Subject writer(char letter, std::string& log, int warmup = 1) {
             .caller = letter == 'a' ? "caller of a" : ""};
 }
 
-TEST(BenchRounds, GoThereAndBackAfterAllWarmedUp) {
+TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
     std::string log;
     const UsageMeter meter(UsageMeter::Of::process);
     const std::vector<Subject> subjects{writer('a', log, 2), writer('b', log), writer('c', log, 0)};
@@ -38,7 +39,7 @@ TEST(BenchRounds, GoThereAndBackAfterAllWarmedUp) {
                    "a|b|c|");
 }
 
-TEST(BenchRounds, AnIterationsShareIsKept) {
+TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
     std::string log;
     const UsageMeter meter(UsageMeter::Of::process);
     const std::vector<Subject> subjects{writer('a', log, 0), writer('b', log, 0)};
@@ -51,12 +52,13 @@ TEST(BenchRounds, AnIterationsShareIsKept) {
     ASSERT_EQ(found[0].rounds.size(), 2U);
     EXPECT_EQ(found[0].rounds[0].iterations, 2U);
     EXPECT_EQ(found[0].rounds[1].iterations, 1U);
-    // "||" of the warm-ups, then a and aa.
+    // The log has "||" of the warm-ups, then "a" and "aa". The counter is the mean of lengths 3 and
+    // 4.
     EXPECT_EQ(found[0].rounds[0].counters.at("length"), 3.5);
     EXPECT_EQ(found[2].rounds[0].real_ms, 2);
 }
 
-TEST(BenchRounds, NoMoreRoundsThanIterationsAndNoNameTwice) {
+TEST(BenchRounds, RoundsAreAtMostIterationsAndRepeatedNamesAreRefused) {
     std::string log;
     const UsageMeter meter(UsageMeter::Of::process);
     EXPECT_EQ(app::measure_rounds({writer('b', log)}, meter,
@@ -78,8 +80,8 @@ double thread_ms() {
     return 1e3 * static_cast<double>(used.tv_sec) + 1e-6 * static_cast<double>(used.tv_nsec);
 }
 
-/// What a thread of its own uses is the process's and not the caller's.
-TEST(UsageMeter, CountsOtherThreads) {
+/// Processor time of another thread counts for the process, but not for the calling thread.
+TEST(UsageMeter, ProcessUsageIncludesOtherThreads) {
     const UsageMeter process(UsageMeter::Of::process), caller(UsageMeter::Of::caller);
     const double caller_before = thread_ms();
     const app::Usage all = process.read(), own = caller.read();

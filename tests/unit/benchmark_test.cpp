@@ -1,4 +1,4 @@
-// Benchmarks beside each other: what is slower, and what their files say.
+// Tests of comparing two benchmark runs (faster, slower or unknown) and of benchmark files.
 #include "report/benchmarks.hpp"
 
 #include "core/error.hpp"
@@ -20,7 +20,8 @@ using measure::Cost;
 using Outcome = Change::Outcome;
 using nlohmann::json;
 
-/// Six rounds of these milliseconds; a millisecond of processor time, and of the clock, each.
+/// Builds a benchmark with one round for each value of `ms`. The value is both the wall-clock time
+/// and the processor time of the round.
 Benchmark benchmark(const std::string& name, const std::vector<double>& ms) {
     Benchmark made{name, {}};
     for (const double value : ms) {
@@ -31,7 +32,7 @@ Benchmark benchmark(const std::string& name, const std::vector<double>& ms) {
     return made;
 }
 
-BenchmarkRun run_of(std::vector<Benchmark> list) {
+BenchmarkRun benchmark_run_of(std::vector<Benchmark> list) {
     BenchmarkRun run;
     run.device.type = "cpu";
     run.benchmarks = std::move(list);
@@ -50,10 +51,11 @@ Change change(const BenchmarkRun& before, const BenchmarkRun& after) {
     return measure::compare(before, after).list.at(0);
 }
 
-TEST(BenchmarkCompare, TheRatioIsTheMedianOfRoundByRound) {
-    // 1.5, 1, 1, 1, 1, 3: its median is 1 though that of the medians is not.
-    const Change found = change(run_of({benchmark("a", {10, 10, 20, 20, 30, 10})}),
-                                run_of({benchmark("a", {15, 10, 20, 20, 30, 30})}));
+TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
+    // The ratios of the rounds are 1.5, 1, 1, 1, 1 and 3, with median 1. The ratio of the two
+    // medians would be 20 / 15.
+    const Change found = change(benchmark_run_of({benchmark("a", {10, 10, 20, 20, 30, 10})}),
+                                benchmark_run_of({benchmark("a", {15, 10, 20, 20, 30, 30})}));
     EXPECT_EQ(found.ratio.median, 1);
     EXPECT_EQ(found.ratio.ci95.low, 1);
     EXPECT_EQ(found.ratio.ci95.high, 3);
@@ -61,9 +63,10 @@ TEST(BenchmarkCompare, TheRatioIsTheMedianOfRoundByRound) {
     EXPECT_EQ(found.outcome(), Outcome::same);
 }
 
-TEST(BenchmarkCompare, ApartWhereTheIntervalExcludesOne) {
+TEST(BenchmarkCompare, RunsDifferIfTheRatioIntervalExcludesOne) {
     const auto outcome = [](double factor) {
-        return change(run_of({benchmark("a", kSix)}), run_of({benchmark("a", times(factor))}))
+        return change(benchmark_run_of({benchmark("a", kSix)}),
+                      benchmark_run_of({benchmark("a", times(factor))}))
             .outcome();
     };
     EXPECT_EQ(outcome(1.01), Outcome::slower);
@@ -71,55 +74,59 @@ TEST(BenchmarkCompare, ApartWhereTheIntervalExcludesOne) {
     EXPECT_EQ(outcome(.99), Outcome::faster);
 }
 
-TEST(BenchmarkCompare, FewerThanSixRoundsSayNothing) {
+TEST(BenchmarkCompare, FewerThanSixRoundsGiveAnUnknownOutcome) {
     const std::vector<double> five{1, 1, 1, 1, 1}, double_of_it{2, 2, 2, 2, 2};
-    EXPECT_EQ(
-        change(run_of({benchmark("a", five)}), run_of({benchmark("a", double_of_it)})).outcome(),
-        Outcome::unknown);
+    EXPECT_EQ(change(benchmark_run_of({benchmark("a", five)}),
+                     benchmark_run_of({benchmark("a", double_of_it)}))
+                  .outcome(),
+              Outcome::unknown);
 }
 
-TEST(BenchmarkCompare, ByCyclesWhereBothHaveThem) {
+TEST(BenchmarkCompare, CyclesAreComparedIfBothRunsCountedThem) {
     Benchmark counted = benchmark("a", kSix), more = benchmark("a", times(.5));
     for (BenchmarkRound& round : counted.rounds) round.cycles = 1e6;
     for (BenchmarkRound& round : more.rounds) round.cycles = 2e6;
-    const Change found = change(run_of({counted}), run_of({more}));
+    const Change found = change(benchmark_run_of({counted}), benchmark_run_of({more}));
     EXPECT_EQ(found.cost, Cost::cycles);
     EXPECT_EQ(found.ratio.median, 2);
     EXPECT_EQ(found.outcome(), Outcome::mixed) << "twice the cycles in half the time";
     more.rounds[3].cycles.reset();
-    EXPECT_EQ(change(run_of({counted}), run_of({more})).cost, Cost::cpu_time);
+    EXPECT_EQ(change(benchmark_run_of({counted}), benchmark_run_of({more})).cost, Cost::cpu_time);
 }
 
-TEST(BenchmarkCompare, WorkOfMoreThreadsThatEndsSoonerIsNotSlower) {
+TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
     Benchmark shared = benchmark("a", times(1.1));
     for (BenchmarkRound& round : shared.rounds) round.real_ms /= 2;
-    EXPECT_EQ(change(run_of({benchmark("a", kSix)}), run_of({shared})).outcome(), Outcome::mixed);
+    EXPECT_EQ(
+        change(benchmark_run_of({benchmark("a", kSix)}), benchmark_run_of({shared})).outcome(),
+        Outcome::mixed);
 }
 
-TEST(BenchmarkCompare, ByTheClockWhereTheDeviceIsNoProcessor) {
-    BenchmarkRun gpu = run_of({benchmark("a", kSix)});
+TEST(BenchmarkCompare, WallTimeIsComparedIfTheDeviceIsNoProcessor) {
+    BenchmarkRun gpu = benchmark_run_of({benchmark("a", kSix)});
     gpu.device.type = "discrete";
-    EXPECT_EQ(change(run_of({benchmark("a", kSix)}), gpu).cost, Cost::real_time);
+    EXPECT_EQ(change(benchmark_run_of({benchmark("a", kSix)}), gpu).cost, Cost::real_time);
 }
 
-TEST(BenchmarkCompare, WhatIsInOneAloneIsNamed) {
+TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
     const measure::Changes found = measure::compare(
-        run_of({benchmark("gone", kSix), benchmark("both", kSix)}),
-        run_of({benchmark("both", kSix), benchmark("new", kSix)}));
+        benchmark_run_of({benchmark("gone", kSix), benchmark("both", kSix)}),
+        benchmark_run_of({benchmark("both", kSix), benchmark("new", kSix)}));
     ASSERT_EQ(found.list.size(), 1U);
     EXPECT_THAT(found.only_before, testing::ElementsAre("gone"));
     EXPECT_THAT(found.only_after, testing::ElementsAre("new"));
 }
 
-TEST(BenchmarkJoin, RoundsFollowAndWhatOneLacksIsLeftOut) {
-    const BenchmarkRun both = measure::joined(run_of({benchmark("a", {1, 2}), benchmark("b", {5})}),
-                                              run_of({benchmark("a", {3})}));
+TEST(BenchmarkJoin, JoinedRunsAppendRoundsAndDropUnmatchedBenchmarks) {
+    const BenchmarkRun both = measure::joined(
+        benchmark_run_of({benchmark("a", {1, 2}), benchmark("b", {5})}),
+        benchmark_run_of({benchmark("a", {3})}));
     ASSERT_EQ(both.benchmarks.size(), 1U);
     EXPECT_EQ(costs_of(both.benchmarks[0], Cost::real_time), (std::vector{1.0, 2.0, 3.0}));
 }
 
-TEST(BenchmarkFile, HasTheShapeOfGoogleBenchmark) {
-    BenchmarkRun run = run_of({benchmark("frame/x", kSix)});
+TEST(BenchmarkFile, FileFollowsTheGoogleBenchmarkFormat) {
+    BenchmarkRun run = benchmark_run_of({benchmark("frame/x", kSix)});
     run.benchmarks[0].rounds[0].cycles = 5e6;
     run.benchmarks[0].rounds[0].counters["rays"] = 508289;
     run.uncounted = "nobody knows";
@@ -148,8 +155,8 @@ TEST(BenchmarkFile, HasTheShapeOfGoogleBenchmark) {
     EXPECT_EQ(median["real_time_ci95"], (json{10, 15}));
 }
 
-TEST(BenchmarkFile, IsReadAsItWasWritten) {
-    BenchmarkRun run = run_of({benchmark("a", kSix), benchmark("b", {1.5})});
+TEST(BenchmarkFile, WrittenRunIsReadBackUnchanged) {
+    BenchmarkRun run = benchmark_run_of({benchmark("a", kSix), benchmark("b", {1.5})});
     run.commit = "abc", run.device.name = "llvmpipe", run.noisy = true;
     run.benchmarks[1].rounds[0].cycles = 7, run.benchmarks[1].rounds[0].instructions = 9;
     run.benchmarks[1].rounds[0].counters["gpu_ms"] = .25;
@@ -167,8 +174,9 @@ TEST(BenchmarkFile, IsReadAsItWasWritten) {
     EXPECT_EQ(round.counters, (std::map<std::string, double>{{"gpu_ms", .25}}));
 }
 
-/// As Google Benchmark writes it: other units, an aggregate, one that failed.
-TEST(BenchmarkFile, OthersAreRead) {
+/// The file is in the form that Google Benchmark writes: times in ns and us, an aggregate entry and
+/// an entry of a failed benchmark.
+TEST(BenchmarkFile, FileOfGoogleBenchmarkIsRead) {
     const BenchmarkRun read = report::read_benchmarks(
         R"({"context": {"num_cpus": 2}, "benchmarks": [
         {"name": "plan/34", "run_name": "plan/34", "run_type": "iteration", "iterations": 9,
@@ -187,7 +195,7 @@ TEST(BenchmarkFile, OthersAreRead) {
     EXPECT_DOUBLE_EQ(read.benchmarks[1].rounds[0].real_ms, .003);
 }
 
-TEST(BenchmarkFile, WhatIsWrongIsNamedWithItsPlace) {
+TEST(BenchmarkFile, ErrorsNamePlaceExpectedAndFound) {
     const auto entry = [](const std::string& members) {
         return R"({"benchmarks": [{"name": "a", "real_time": 1, "cpu_time": 1, "time_unit": "ms"}, )" +
                members + "]}";
@@ -221,10 +229,10 @@ TEST(BenchmarkFile, WhatIsWrongIsNamedWithItsPlace) {
     }
 }
 
-TEST(BenchmarkChanges, AreWritten) {
-    const json document = json::parse(
-        report::to_json(measure::compare(run_of({benchmark("a", kSix), benchmark("b", {1})}),
-                                         run_of({benchmark("a", times(2)), benchmark("c", {1})}))));
+TEST(BenchmarkChanges, ComparisonIsWrittenAsJson) {
+    const json document = json::parse(report::to_json(
+        measure::compare(benchmark_run_of({benchmark("a", kSix), benchmark("b", {1})}),
+                         benchmark_run_of({benchmark("a", times(2)), benchmark("c", {1})}))));
     EXPECT_EQ(document["schema"], "catoptric/bench-compare/1");
     ASSERT_EQ(document["benchmarks"].size(), 1U);
     const json& row = document["benchmarks"][0];

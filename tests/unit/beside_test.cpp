@@ -1,4 +1,5 @@
-// SCENE.catoptric.json, and what completes a file.
+// Tests of scene overrides in SCENE.catoptric.json, and of the light and camera that are added to
+// scene files without them.
 #include "app/resolved_scene.hpp"
 #include "core/file.hpp"
 #include "measure/picture_file.hpp"
@@ -26,7 +27,7 @@ protected:
         write_file(folder / name, text);
         return (folder / name).string();
     }
-    /// The scene with a file beside it.
+    /// Loads a small scene whose override file x.obj.catoptric.json contains the text `beside`.
     app::ResolvedScene load(const std::string& beside, const SceneOverrides& overrides = {}) const {
         const std::string scene = write("x.obj", kDark + kCamera);
         write("x.obj.catoptric.json", beside);
@@ -37,7 +38,7 @@ protected:
     }
 };
 
-TEST_F(Beside, EveryKeyIsRead) {
+TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
     const app::ResolvedScene found = load(
         R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true,
@@ -62,7 +63,7 @@ TEST_F(Beside, EveryKeyIsRead) {
     EXPECT_EQ(scene.files.size(), 3u) << "nothing may be written over what was read";
 }
 
-TEST_F(Beside, ItIsPartOfTheHashAndCanBeLeftOut) {
+TEST_F(Beside, OverrideFileChangesTheSceneHashAndCanBeIgnored) {
     const app::ResolvedScene plain = load("{}");
     const std::string path = (folder / "x.obj").string();
     for (const char* text : {R"({"mirrors": ["thing"]})", R"({"environment": "none"})",
@@ -73,7 +74,7 @@ TEST_F(Beside, ItIsPartOfTheHashAndCanBeLeftOut) {
     }
 }
 
-TEST_F(Beside, AnIndexCountsInTheOrderOfTheScene) {
+TEST_F(Beside, CameraIndexCountsInTheOrderOfTheScene) {
     const std::string scene = write("x.obj", kDark + kCamera +
                                                  "# catoptric camera d 0 0 6 0 0 0 0 1 0 40\n" +
                                                  "# catoptric camera e 0 0 7 0 0 0 0 1 0 40\n");
@@ -89,7 +90,7 @@ TEST_F(Beside, AnIndexCountsInTheOrderOfTheScene) {
     }
 }
 
-TEST_F(Beside, TheCommandLineWins) {
+TEST_F(Beside, CommandLineWinsOverTheOverrideFile) {
     SceneOverrides overrides;
     overrides.exposure = ExposureOverride{2};
     overrides.environment = "none";
@@ -107,7 +108,7 @@ TEST_F(Beside, TheCommandLineWins) {
     EXPECT_EQ(app::camera_of(found, 1).name, "c");
 }
 
-TEST_F(Beside, WhatCannotBeNamesFileAndKey) {
+TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
     EXPECT_THAT(refused(R"({"camra": "c"})"),
                 HasSubstr("x.obj.catoptric.json: 'camra': wanted one of mirrors, lights, "));
     EXPECT_THAT(refused(R"({"camra": "c"})"), HasSubstr("(did you mean 'camera'?)"));
@@ -126,8 +127,9 @@ TEST_F(Beside, WhatCannotBeNamesFileAndKey) {
         HasSubstr("x.obj.catoptric.json: environment: 'gone.exr' is not there"));
 }
 
-/// What only the scene tells.
-TEST_F(Beside, WhatTheSceneHasNotNamesFileAndKey) {
+/// Errors of an override file that appear only once the scene is known, such as names of missing
+/// objects.
+TEST_F(Beside, MissingSceneItemErrorsNameFileAndKey) {
     const struct {
         const char *text, *wanted;
     } cases[] = {{R"({"mirrors": ["thing", "nope"]})", "mirrors 'nope': matches no object"},
@@ -151,7 +153,7 @@ TEST_F(Beside, WhatTheSceneHasNotNamesFileAndKey) {
               nullptr);
 }
 
-TEST_F(Beside, OnlyAFileOfAnimationsHasOneToChoose) {
+TEST_F(Beside, AnimationNameIsRefusedForAFileWithoutAnimations) {
     SceneOverrides walk;
     walk.animation = "walk";
     const std::string path = write("x.obj", kDark);
@@ -163,7 +165,7 @@ TEST_F(Beside, OnlyAFileOfAnimationsHasOneToChoose) {
     EXPECT_NO_THROW(app::resolve_scene(path, {.overrides = walk}));
 }
 
-TEST_F(Beside, WhatIsWrittenIsReadAgain) {
+TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
     SceneOverrides overrides;
     overrides.mirrors = {{"a=b", vec3(1)}, {"c", {.1f, .5f, 0}}};
@@ -184,7 +186,8 @@ TEST_F(Beside, WhatIsWrittenIsReadAgain) {
                 HasSubstr("wanted a picture below"));
 }
 
-/// A box whose walls turn to its middle or away from it, with a mirror at one of them.
+/// Returns OBJ text of a closed box. The walls face inwards or outwards, and a mirror may hang at
+/// one wall.
 std::string closed_room(bool turns_in, bool has_mirror) {
     std::string text = "mtllib m.mtl\n";
     for (int i = 0; i < 8; ++i)
@@ -203,7 +206,7 @@ std::string closed_room(bool turns_in, bool has_mirror) {
     return has_mirror ? text + "o mirror\nusemtl tin\nf 9 10 11 12\n" : text;
 }
 
-TEST_F(Beside, AClosedRoomIsSeenFromInside) {
+TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
     write("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\n");
     const auto camera_of = [&](const std::string& text) {
         app::ResolvedScene found = app::resolve_scene(write("x.obj", text), {});
@@ -224,11 +227,11 @@ TEST_F(Beside, AClosedRoomIsSeenFromInside) {
     EXPECT_FALSE(camera_of(closed_room(false, false))) << "a crate";
     EXPECT_FALSE(camera_of(kDark)) << "not closed";
     std::string open = closed_room(true, true);
-    open.erase(open.find("f 7 8 6 5")); // and what follows
+    open.erase(open.find("f 7 8 6 5")); // removes this wall and the text after it
     EXPECT_FALSE(camera_of(open)) << "walls are missing";
 }
 
-TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
+TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
     const std::string path = write("x.obj", kDark);
     app::ResolvedScene found = app::resolve_scene(path, {});
     const Camera camera = app::camera_of(found, 2);
@@ -243,13 +246,13 @@ TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
                                  "added-camera"));
     EXPECT_THAT(found.said, ElementsAre(HasSubstr("lit by the environment studio"),
                                         HasSubstr("using --camera " + camera_text(camera))));
-    // The numbers that are said give the same camera again.
+    // The camera numbers in the message, given back as an option, make the same camera.
     const Camera typed = camera_named(camera_text(camera), found.scene);
     EXPECT_EQ(typed.eye, camera.eye);
     EXPECT_EQ(typed.target, camera.target);
 }
 
-TEST_F(Beside, ALightOrAWordAboutItIsEnough) {
+TEST_F(Beside, NoEnvironmentIsAddedToALitSceneOrIfTheUserChoseNone) {
     SceneOverrides none;
     none.environment = "none";
     const std::string dark = write("x.obj", kDark + kCamera);
@@ -268,7 +271,7 @@ TEST_F(Beside, ALightOrAWordAboutItIsEnough) {
         HasSubstr("--environment-rotate: wanted an environment, found none"));
 }
 
-TEST_F(Beside, EnvironmentsAreLightOnly) {
+TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
     measure::Picture picture(3, 2);
     picture.at(1, 1) = vec3(0, -1, 0);
     measure::write_exr(picture, folder / "sky.exr");
@@ -284,8 +287,9 @@ TEST_F(Beside, EnvironmentsAreLightOnly) {
                 HasSubstr("gone.hdr"));
 }
 
-/// A flat Radiance file: shared exponents, rows from the top.
-TEST_F(Beside, RadianceFilesAreRead) {
+/// The Radiance file is not run-length encoded. Each texel has a shared exponent, and rows run from
+/// the top.
+TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
     std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
     for (const int byte : {128, 64, 32, 129, 255, 128, 0, 133}) file += static_cast<char>(byte);
     SceneOverrides overrides;
@@ -294,14 +298,16 @@ TEST_F(Beside, RadianceFilesAreRead) {
                                                         {.overrides = overrides});
     ASSERT_EQ(found.scene.environment->size, uvec2(2, 1));
     const std::vector<vec3>& texels = found.scene.environment->texels;
-    const vec3 first(1, .5f, .25f), second(31.875f, 16, 0); // mantissa / 256 * 2^(exponent - 128)
-    for (int c = 0; c < 3; ++c) {                           // half a step more, or none
+    const vec3 first(1, .5f, .25f),
+        second(31.875f, 16, 0); // RGBE: mantissa / 256 * 2^(exponent - 128)
+    // The reader may add half a quantisation step.
+    for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(texels[0][c], first[c], 1.0 / 256);
         EXPECT_NEAR(texels[1][c], second[c], 1.0 / 8);
     }
 }
 
-TEST_F(Beside, BuiltInScenesStayAsTheyAre) {
+TEST_F(Beside, BuiltInScenesGetNoAddedLightOrCamera) {
     app::ResolvedScene found = app::resolve_scene("cornell-mirrors", {});
     EXPECT_EQ(hash(found.scene), hash(cornell_mirrors()));
     EXPECT_EQ(app::ambient_of(found), .05);

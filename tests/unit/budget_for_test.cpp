@@ -1,4 +1,5 @@
-// How much a scene's file may ask for on this machine.
+// Tests of the loading budget: the triangles, vertices and bytes that a scene file may contain on a
+// machine.
 #include "scene/budget_for.hpp"
 
 #include "support/folder.hpp"
@@ -14,7 +15,7 @@ constexpr std::uint64_t kGibibyte = std::uint64_t{1} << 30;
 
 class BudgetFor : public test::InFolder {
 protected:
-    /// A file of so many bytes, none of which is on the disk.
+    /// Creates a sparse file of `bytes` bytes, which occupies no disk space, and returns its path.
     std::filesystem::path file(std::uint64_t bytes) const {
         const std::filesystem::path path = folder / "scene.glb";
         std::ofstream(path).close();
@@ -23,7 +24,7 @@ protected:
     }
 };
 
-TEST_F(BudgetFor, ASmallFileGetsNoMoreOnALargeMachine) {
+TEST_F(BudgetFor, SmallFileKeepsTheDefaultTriangleBudgetOnALargeMachine) {
     const Budget budget = budget_for(file(1000), {}, 1000 * kGibibyte);
     EXPECT_EQ(budget.triangles, Budget().triangles);
     EXPECT_EQ(budget.vertices, Budget().vertices);
@@ -31,7 +32,7 @@ TEST_F(BudgetFor, ASmallFileGetsNoMoreOnALargeMachine) {
     EXPECT_EQ(budget.file_bytes, 125 * kGibibyte);
 }
 
-TEST_F(BudgetFor, ALargeFileGetsWhatItStoresAndMemoryHolds) {
+TEST_F(BudgetFor, LargeFileBudgetIsLimitedByFileSizeAndMemory) {
     const std::filesystem::path path = file(kGibibyte);
     EXPECT_EQ(budget_for(path, {}, 1000 * kGibibyte).triangles, kGibibyte / 6);
     EXPECT_EQ(budget_for(path, {}, 1000 * kGibibyte).vertices, 3 * (kGibibyte / 6));
@@ -40,7 +41,7 @@ TEST_F(BudgetFor, ALargeFileGetsWhatItStoresAndMemoryHolds) {
     EXPECT_EQ(budget_for(path, {}, kGibibyte).file_bytes, Budget().file_bytes);
 }
 
-TEST_F(BudgetFor, TheUserHasTheLastWord) {
+TEST_F(BudgetFor, UserLimitsReplaceComputedLimits) {
     const Budget most = budget_for(file(1000), {.bytes = 7, .triangles = 50'000'000}, 0);
     EXPECT_EQ(most.file_bytes, 7u);
     EXPECT_EQ(most.triangles, 50'000'000u);
@@ -49,7 +50,9 @@ TEST_F(BudgetFor, TheUserHasTheLastWord) {
     EXPECT_EQ(budget_for(file(1000), {.triangles = 3}, 0).vertices, Budget().vertices);
 }
 
-TEST_F(BudgetFor, FreeMemoryIsKnown) { EXPECT_GT(free_memory(), std::uint64_t{1} << 24); }
+TEST_F(BudgetFor, FreeMemoryOfTheMachineIsKnown) {
+    EXPECT_GT(free_memory(), std::uint64_t{1} << 24);
+}
 
 } // namespace
 } // namespace catoptric::scene

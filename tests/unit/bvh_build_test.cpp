@@ -1,4 +1,5 @@
-// How a tree is made: divisions beside all that there are, and trees by any number of threads.
+// Tests of BVH construction. Divisions are compared with all possible divisions, and trees with
+// trees built by other numbers of threads.
 #include "bvh/subtree.hpp"
 #include "core/shader_math.hpp"
 #include "support/hierarchies.hpp"
@@ -22,7 +23,7 @@ std::vector<Reference> references(std::span<const Triangle> triangles) {
     return result;
 }
 
-/// Half the area of their box times how many they are.
+/// Returns the cost of references in one node: half the area of their bounds times their number.
 double cost_of(std::span<const Reference> references) {
     Bounds<double> box;
     for (const Reference& r : references)
@@ -39,7 +40,7 @@ std::vector<Reference> sorted(std::vector<Reference> references, int axis) {
     return references;
 }
 
-TEST(BvhDivision, SweepFindsTheCheapestOfAll) {
+TEST(BvhDivision, SweepFindsTheCheapestDivision) {
     for (unsigned seed = 1; seed <= 200; ++seed) {
         const std::size_t count = 2 + seed % (kSweepCount - 1), most = count - seed % 2;
         std::vector<Reference> few = references(soup(count, seed));
@@ -56,8 +57,8 @@ TEST(BvhDivision, SweepFindsTheCheapestOfAll) {
     }
 }
 
-/// Planes between bins of equal width, by definition.
-TEST(BvhDivision, BinsFindTheCheapestOfTheirPlanes) {
+/// The expected cost comes from trying every plane between bins of equal width.
+TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const std::size_t count = 50 * seed, most = seed % 2 == 0 ? count : 3 * count / 4;
         std::vector<Reference> all = references(soup(count, seed));
@@ -96,7 +97,8 @@ TEST(BvhDivision, BinsFindTheCheapestOfTheirPlanes) {
     }
 }
 
-/// What may be hard to divide, more of it than one thread builds at once.
+/// A named list of triangles that may be hard to divide. Most lists are longer than one thread
+/// builds at once.
 struct Input {
     const char* name;
     std::vector<Triangle> triangles;
@@ -120,7 +122,7 @@ std::vector<Input> inputs() {
     Input heap{"one centre", soup(kMany, 5), kMany};
     for (Triangle& t : heap.triangles) t.b = -t.a, t.c = vec3(0);
     list.push_back(heap);
-    // Copies and what is not finite leave holes.
+    // Copies and triangles with NaN are dropped, which leaves gaps between the kept triangles.
     Input holes{"holes", soup(kMany, 6), 0};
     for (std::size_t i = 0; i < kMany; ++i) {
         Triangle& t = holes.triangles[i];
@@ -132,7 +134,8 @@ std::vector<Input> inputs() {
         "any finite numbers, most of them far out", soup(kMany, 7), kMany, {vec3(-1), vec3(1)}};
     test::Numbers random(8);
     for (std::size_t i = 0; i < kMany; ++i) {
-        bits.triangles[i].object = static_cast<std::uint32_t>(i); // no copies
+        // Triangles of distinct objects do not count as copies.
+        bits.triangles[i].object = static_cast<std::uint32_t>(i);
         for (vec3* corner : {&bits.triangles[i].a, &bits.triangles[i].b, &bits.triangles[i].c})
             for (int k = 0; k < 3; ++k)
                 (*corner)[k] = i % 100 == 0 ? std::copysign(f32::kLargest, (*corner)[k])
@@ -164,8 +167,8 @@ TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
     }
 }
 
-/// Each triangle that was finite is there once, as it was given, but for copies.
-TEST(BvhBuild, NothingIsLostBetweenThreads) {
+/// A tree built by three threads stores no triangle twice, and each stored triangle unchanged.
+TEST(BvhBuild, ThreadedBuildStoresTrianglesOnceAndUnchanged) {
     for (const Input& input : inputs()) {
         SCOPED_TRACE(input.name);
         const Bvh bvh = build(input.triangles, input.core, kMaxLeaf, 3);

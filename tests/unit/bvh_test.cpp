@@ -2,6 +2,7 @@
 #include "bvh/closest_hit.hpp"
 #include "support/hierarchies.hpp"
 #include "support/numbers.hpp"
+#include "support/special_values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,12 +17,9 @@ namespace {
 
 using test::expect_sound, test::same, test::soup;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-/// Unit ball from an octahedron; neighbours compute a shared midpoint from the same two corners in
-/// either order, so it is the same float.
-std::vector<Triangle> ball(int levels, float scale = 1, vec3 offset = vec3(0)) {
+/// Builds a ball by dividing the faces of an octahedron `levels` times. Neighbouring faces compute
+/// the midpoint of their shared edge from the same two corners, so both get the same floats.
+std::vector<Triangle> bvh_ball(int levels, float scale = 1, vec3 offset = vec3(0)) {
     std::vector<std::array<vec3, 3>> faces;
     for (int i = 0; i < 8; ++i) {
         const vec3 x((i & 1) != 0 ? -1 : 1, 0, 0), y(0, (i & 2) != 0 ? -1 : 1, 0);
@@ -42,7 +40,7 @@ std::vector<Triangle> ball(int levels, float scale = 1, vec3 offset = vec3(0)) {
     return result;
 }
 
-TEST(Bvh, IsSoundForAnyCount) {
+TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
     for (std::size_t count : {0, 1, 2, 3, 4, 5, 8, 9, 100, 5000}) {
         SCOPED_TRACE(count);
         const Bvh bvh = build(soup(count, 1));
@@ -51,28 +49,28 @@ TEST(Bvh, IsSoundForAnyCount) {
     }
 }
 
-TEST(Bvh, EmptyIsAMiss) {
+TEST(Bvh, RaysMissAnEmptyTree) {
     const Bvh bvh = build({});
-    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(1)}, kInfinity));
-    EXPECT_FALSE(any_hit<float>(bvh, {vec3(0), vec3(1)}, kInfinity));
+    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
+    EXPECT_FALSE(any_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
 }
 
-TEST(Bvh, SameInputSameBytes) {
+TEST(Bvh, EqualInputsGiveEqualBytes) {
     const Bvh a = build(soup(3000, 2)), b = build(soup(3000, 2));
     EXPECT_TRUE(same(a.nodes, b.nodes));
     EXPECT_TRUE(same(a.triangles, b.triangles));
 }
 
-TEST(Bvh, ALampIsMetFromItsFrontAndItsBackOnlyByRaysThatDoNotSee) {
-    const Triangle lamp{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 0, kOneSided}; // faces +z
+TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
+    const Triangle lamp{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 0, kOneSided}; // the lamp faces +z
     const Bvh bvh = build(std::vector{lamp});
     const auto meets = [&](double from, std::uint32_t skipped) {
         const dvec3 origin(0, 0, from), direction(0, 0, 1 - from);
         const bool in_double =
-            closest_hit<double>(bvh, {origin, direction, 0}, kInfinity, skipped).has_value();
+            closest_hit<double>(bvh, {origin, direction, 0}, test::kInfinity, skipped).has_value();
         const Ray<float> ray{vec3(origin), vec3(direction), 0};
-        EXPECT_EQ(closest_hit<float>(bvh, ray, kInfinity, skipped).has_value(), in_double);
-        EXPECT_EQ(brute_force<float>(bvh, ray, kInfinity, skipped).has_value(), in_double);
+        EXPECT_EQ(closest_hit<float>(bvh, ray, test::kInfinity, skipped).has_value(), in_double);
+        EXPECT_EQ(brute_force<float>(bvh, ray, test::kInfinity, skipped).has_value(), in_double);
         return in_double;
     };
     EXPECT_TRUE(meets(3, kOneSided));
@@ -81,17 +79,17 @@ TEST(Bvh, ALampIsMetFromItsFrontAndItsBackOnlyByRaysThatDoNotSee) {
     EXPECT_TRUE(meets(-1, kShadowless)) << "whichever side it turns, it casts a shadow";
 }
 
-TEST(Bvh, KeepsNumberObjectAndFlags) {
+TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
     const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHidden};
     const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};
     const Bvh bvh = build(std::vector{far, near});
     const Ray<float> ray{vec3(0), vec3(0, 0, 1)};
-    const auto first = closest_hit<float>(bvh, ray, kInfinity);
+    const auto first = closest_hit<float>(bvh, ray, test::kInfinity);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->triangle, 1u);
     EXPECT_EQ(first->object, 7u);
     EXPECT_EQ(first->t, 1);
-    const auto seen = closest_hit<float>(bvh, ray, kInfinity, kHidden);
+    const auto seen = closest_hit<float>(bvh, ray, test::kInfinity, kHidden);
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->triangle, 0u) << "camera rays pass through";
     EXPECT_EQ(seen->object, 0x1ffffffeu);
@@ -100,17 +98,17 @@ TEST(Bvh, KeepsNumberObjectAndFlags) {
     EXPECT_FALSE(any_hit<float>(bvh, ray, 1)) << "t_max is excluded";
 }
 
-TEST(Bvh, DropsAndCountsWhatIsNotFinite) {
+TEST(Bvh, NonFiniteTrianglesAreDroppedAndCounted) {
     std::vector<Triangle> triangles = soup(100, 3);
-    triangles[10].b.y = kNan;
-    triangles[20].c.x = kInfinity;
-    triangles[99].a.z = -kInfinity;
+    triangles[10].b.y = test::kNan;
+    triangles[20].c.x = test::kInfinity;
+    triangles[99].a.z = -test::kInfinity;
     const Bvh bvh = build(triangles);
     EXPECT_EQ(bvh.dropped, 3u);
     expect_sound(bvh, 97);
 }
 
-TEST(Bvh, SurvivesRandomBits) {
+TEST(Bvh, BuildSurvivesCornersOfRandomBits) {
     std::mt19937 bits(4);
     for (int round = 0; round < 200; ++round) {
         std::vector<Triangle> triangles(60);
@@ -127,29 +125,31 @@ TEST(Bvh, SurvivesRandomBits) {
         const Bvh bvh = build(triangles);
         EXPECT_EQ(bvh.dropped, triangles.size() - finite);
         expect_sound(bvh, finite);
-        closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, kInfinity);
+        closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, test::kInfinity);
     }
 }
 
-TEST(Bvh, CopiesOfOneTriangleAndTheLowestNumberWins) {
+TEST(Bvh, LowestNumberWinsAmongCoincidentTriangles) {
     std::vector<Triangle> copies(100000, {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}});
     for (std::size_t i = 0; i < copies.size(); ++i)
-        copies[i].object = static_cast<std::uint32_t>(copies.size() - i); // all of them are kept
+        copies[i].object = static_cast<std::uint32_t>(copies.size() -
+                                                      i); // distinct objects keep all copies
     const auto start = std::chrono::steady_clock::now();
     const Bvh bvh = build(copies);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     EXPECT_LT(time.count(), 5);
     expect_sound(bvh, copies.size());
-    const auto hit = closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, kInfinity);
+    const auto hit = closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0u);
     Steps steps;
-    EXPECT_TRUE(any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, kInfinity, 0, &steps));
+    EXPECT_TRUE(any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity, 0, &steps));
     EXPECT_LE(steps.total(), kMaxDepth + kMaxLeaf);
 }
 
-TEST(Bvh, CopiesInOneObjectCountAsOne) {
-    // Two heaps, each with its corners in two orders, two objects and two sets of flags.
+TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
+    // Copies at two depths, each with two corner orders, two objects and two sets of flags: 16
+    // distinct triangles.
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < 8000; ++i) {
         Triangle t{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, i / 2 % 2, i / 4 % 2 == 0 ? 0 : kHidden};
@@ -167,21 +167,22 @@ TEST(Bvh, CopiesInOneObjectCountAsOne) {
     EXPECT_EQ(build(few).copies, 0u) << "a leaf has room for them";
 }
 
-TEST(Bvh, CoplanarCopiesInOtherLeavesTie) {
-    std::vector<Triangle> triangles = ball(4);
+TEST(Bvh, LowestNumberWinsAmongCopiesInDifferentLeaves) {
+    std::vector<Triangle> triangles = bvh_ball(4);
     const std::vector<Triangle> original = triangles;
     triangles.insert(triangles.end(), original.begin(), original.end());
     const Bvh bvh = build(triangles);
     test::Numbers random(5);
     for (int i = 0; i < 2000; ++i) {
         const auto hit = closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()},
-                                            kInfinity);
+                                            test::kInfinity);
         ASSERT_TRUE(hit);
         ASSERT_LT(hit->triangle, original.size());
     }
 }
 
-/// Each split by cost would cut off the largest four octaves: 62 levels.
+/// Splits by cost alone would cut off the largest four octaves of sizes at each level. The tree
+/// would then have 62 levels.
 TEST(Bvh, DepthIsBoundedForGeometricallyShrinkingTriangles) {
     std::vector<Triangle> triangles;
     for (int i = 0; i < 2000; ++i) {
@@ -198,13 +199,14 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
         const vec3 origin = 2.0f * random.in_cube();
-        // Most aimed at edges and corners, which lie on the boxes' faces.
+        // Most rays aim at edges and corners of triangles, which lie on the faces of bounding
+        // boxes.
         const Triangle& aim = triangles[random.below(triangles.size())];
         const float along = i % 4 == 0 ? 0 : random.between(0, 1);
         const vec3 target = i % 4 == 1 ? random.in_cube() : aim.a + along * (aim.b - aim.a);
         Ray<Real> ray{Vec<Real>(origin), Vec<Real>(target - origin)};
         if (i % 8 == 0) ray.direction[i / 8 % 3] = i % 16 == 0 ? Real(0) : Real(-0.0);
-        const Real t_max = i % 2 == 0 ? Real(kInfinity) : Real(random.between(0, 1.5f));
+        const Real t_max = i % 2 == 0 ? Real(test::kInfinity) : Real(random.between(0, 1.5f));
         const auto tree = closest_hit<Real>(bvh, ray, t_max);
         const auto all = brute_force<Real>(bvh, ray, t_max);
         ASSERT_EQ(tree, all) << "ray " << i;
@@ -214,15 +216,15 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
     EXPECT_GT(hits, rays / 10);
 }
 
-TEST(ClosestHit, EqualsBruteForceBitForBit) {
+TEST(ClosestHit, TreeHitsEqualBruteForceHitsBitForBit) {
     expect_equal_to_brute_force<float>(soup(500, 6), 10000, 7);
     expect_equal_to_brute_force<double>(soup(500, 6), 5000, 8);
-    expect_equal_to_brute_force<float>(ball(3), 10000, 9);
+    expect_equal_to_brute_force<float>(bvh_ball(3), 10000, 9);
 }
 
-/// Beside an edge much longer than its distance the sheared corners are off by more than a box
-/// test's own roundings: without the slack of box_ray half of these hits are culled.
-TEST(ClosestHit, BoxesKeepHitsBesideLongEdges) {
+/// Rays pass close to a very long edge. There, rounding errors of the triangle test exceed those of
+/// the box test. Without the slack in box_ray, boxes would cull half of these hits.
+TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
     test::Numbers random(21);
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -236,21 +238,21 @@ TEST(ClosestHit, BoxesKeepHitsBesideLongEdges) {
         const vec3 target(edge.x - length * random.between(0, 1e-7f), edge.y, random.between(1, 3));
         const Bvh bvh = build(std::span(&t, 1));
         const Ray<float> ray{origin, target - origin};
-        const auto expected = brute_force<float>(bvh, ray, kInfinity);
-        ASSERT_EQ(closest_hit<float>(bvh, ray, kInfinity), expected) << i;
+        const auto expected = brute_force<float>(bvh, ray, test::kInfinity);
+        ASSERT_EQ(closest_hit<float>(bvh, ray, test::kInfinity), expected) << i;
         hits += expected ? 1 : 0;
     }
     EXPECT_GT(hits, 200);
 }
 
-TEST(ClosestHit, FloatAgreesWithDouble) {
-    const Bvh bvh = build(ball(4));
+TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
+    const Bvh bvh = build(bvh_ball(4));
     test::Numbers random(10);
     for (int i = 0; i < 20000; ++i) {
         const vec3 origin = 0.5f * random.in_cube(), direction = random.direction();
-        const auto single = closest_hit<float>(bvh, {origin, direction}, kInfinity);
+        const auto single = closest_hit<float>(bvh, {origin, direction}, test::kInfinity);
         const auto precise_hit = closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)},
-                                                     kInfinity);
+                                                     test::kInfinity);
         ASSERT_TRUE(single && precise_hit);
         ASSERT_NEAR(single->t, precise_hit->t, 4e-6);
         const vec3& b = single->barycentric;
@@ -259,9 +261,10 @@ TEST(ClosestHit, FloatAgreesWithDouble) {
     }
 }
 
-/// Rays from strictly inside a closed mesh, aimed at a point of a random edge or at a corner.
+/// Counts the rays that miss a closed mesh although they start inside. Each ray aims at a corner or
+/// at a point of a random edge.
 int leaks(float scale, vec3 offset, int rays, unsigned seed) {
-    const std::vector<Triangle> triangles = ball(4, scale, offset);
+    const std::vector<Triangle> triangles = bvh_ball(4, scale, offset);
     const Bvh bvh = build(triangles);
     test::Numbers random(seed);
     int result = 0;
@@ -269,20 +272,20 @@ int leaks(float scale, vec3 offset, int rays, unsigned seed) {
         const Triangle& t = triangles[random.below(triangles.size())];
         const vec3 target = i % 4 == 0 ? t.a : t.a + random.between(0, 1) * (t.b - t.a);
         const vec3 origin = offset + 0.4f * scale * random.in_cube();
-        if (!closest_hit<float>(bvh, {origin, target - origin}, kInfinity)) ++result;
+        if (!closest_hit<float>(bvh, {origin, target - origin}, test::kInfinity)) ++result;
     }
     return result;
 }
 
-TEST(ClosestHit, ClosedMeshHasNoLeaks) {
+TEST(ClosestHit, RaysFromInsideAClosedMeshAlwaysHit) {
     EXPECT_EQ(leaks(1, vec3(0), 100000, 11), 0);
     EXPECT_EQ(leaks(1e-4f, vec3(0), 20000, 12), 0);
     EXPECT_EQ(leaks(1e4f, vec3(0), 20000, 13), 0);
     EXPECT_EQ(leaks(100, vec3(148376, 1234, -223423), 20000, 14), 0);
 }
 
-TEST(ClosestHit, NoLeaksAlongTheAxes) {
-    const std::vector<Triangle> triangles = ball(3);
+TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
+    const std::vector<Triangle> triangles = bvh_ball(3);
     const Bvh bvh = build(triangles);
     for (const Triangle& t : triangles)
         for (int axis = 0; axis < 3; ++axis)
@@ -292,35 +295,35 @@ TEST(ClosestHit, NoLeaksAlongTheAxes) {
                 vec3 origin = t.a;
                 origin[axis] = 0;
                 if (glm::length(origin) > 0.99f) continue;
-                ASSERT_TRUE(closest_hit<float>(bvh, {origin, direction}, kInfinity));
+                ASSERT_TRUE(closest_hit<float>(bvh, {origin, direction}, test::kInfinity));
             }
 }
 
-TEST(ClosestHit, BadRaysMissInBoundedSteps) {
-    const Bvh bvh = build(ball(4));
+TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
+    const Bvh bvh = build(bvh_ball(4));
     test::Numbers random(15);
-    for (float bad : {kNan, kInfinity, -kInfinity})
+    for (float bad : {test::kNan, test::kInfinity, -test::kInfinity})
         for (int k = 0; k < 7; ++k) {
             vec3 origin(0), direction = random.direction();
-            float t_max = kInfinity;
+            float t_max = test::kInfinity;
             if (k < 3)
                 origin[k] = bad;
             else if (k < 6)
                 direction[k - 3] = bad;
             else
                 t_max = bad;
-            if (k == 6 && bad > 0) continue; // t_max = +infinity is the usual one
+            if (k == 6 && bad > 0) continue; // t_max = +infinity is valid
             Steps steps;
             EXPECT_FALSE(closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
             EXPECT_FALSE(any_hit<float>(bvh, {origin, direction}, t_max));
             EXPECT_FALSE(brute_force<float>(bvh, {origin, direction}, t_max));
             EXPECT_EQ(steps.total(), 0u);
         }
-    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(0)}, kInfinity)) << "no direction";
+    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kInfinity)) << "no direction";
     EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(1)}, -0.0f));
 }
 
-TEST(ClosestHit, PowersOfTwoLeaveTheHitsUnchanged) {
+TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
     const std::vector<Triangle> triangles = soup(500, 16);
     const Bvh one = build(triangles);
     for (int k : {-20, -7, 13, 20}) {
@@ -331,8 +334,8 @@ TEST(ClosestHit, PowersOfTwoLeaveTheHitsUnchanged) {
         test::Numbers random(17);
         for (int i = 0; i < 2000; ++i) {
             const vec3 origin = 2.0f * random.in_cube(), direction = random.direction();
-            const auto a = closest_hit<float>(one, {origin, direction}, kInfinity);
-            const auto b = closest_hit<float>(other, {s * origin, direction}, kInfinity);
+            const auto a = closest_hit<float>(one, {origin, direction}, test::kInfinity);
+            const auto b = closest_hit<float>(other, {s * origin, direction}, test::kInfinity);
             ASSERT_EQ(a.has_value(), b.has_value());
             if (!a) continue;
             ASSERT_EQ(a->triangle, b->triangle);
@@ -341,8 +344,8 @@ TEST(ClosestHit, PowersOfTwoLeaveTheHitsUnchanged) {
     }
 }
 
-/// Corners of 1e-8 to 1e8, so that most are slivers.
-TEST(ClosestHit, NoRayMeetsTheTriangleItLeaves) {
+/// The coordinates of corners range from 1e-8 to 1e8, so that most triangles are slivers.
+TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
     test::Numbers random(19);
     const auto wide = [&] {
         return random.between(-1, 1) < 0 ? -std::pow(10.0f, random.between(-8, 8))
@@ -360,16 +363,16 @@ TEST(ClosestHit, NoRayMeetsTheTriangleItLeaves) {
             const vec3 direction = random.direction();
             const vec3 n = f32::facet_normal(t.a, t.b, t.c);
             const Ray<float> ray{f32::spawn_origin(p, error, n, direction), direction, 1};
-            ASSERT_FALSE(closest_hit<float>(bvh, ray, kInfinity));
+            ASSERT_FALSE(closest_hit<float>(bvh, ray, test::kInfinity));
         }
     }
 }
 
-/// From every facet of a ball seen from inside, the ray reaches another one, not a neighbour in
-/// its own place.
-TEST(ClosestHit, SpawnedRaysCrossTheBall) {
+/// A ray spawned at a facet of a ball and directed inwards crosses the ball. The ray hits no facet
+/// close to its origin.
+TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
     for (float scale : {1e-3f, 1.0f, 1e3f}) {
-        const std::vector<Triangle> triangles = ball(3, scale, vec3(2, 3, 5) * scale);
+        const std::vector<Triangle> triangles = bvh_ball(3, scale, vec3(2, 3, 5) * scale);
         const Bvh bvh = build(triangles);
         test::Numbers random(20);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -379,34 +382,35 @@ TEST(ClosestHit, SpawnedRaysCrossTheBall) {
             const vec3 inward = vec3(2, 3, 5) * scale - p;
             const vec3 direction = glm::normalize(inward + 0.5f * scale * random.direction());
             const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
-            const auto hit = closest_hit<float>(bvh, {origin, direction, 0}, kInfinity);
+            const auto hit = closest_hit<float>(bvh, {origin, direction, 0}, test::kInfinity);
             ASSERT_TRUE(hit);
             ASSERT_GT(hit->t, scale);
         }
     }
 }
 
-TEST(Refit, ToWhereEverythingStandsChangesNothing) {
+TEST(Refit, RefitWithoutMovementChangesNothing) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
         std::vector<Triangle> triangles = soup(500, 3);
-        triangles[7].b.y = kNan;
+        triangles[7].b.y = test::kNan;
         const Bvh built = build(triangles, core);
         Bvh refitted = built;
-        triangles[7] = triangles[8]; // left out at build: not looked at again
+        triangles[7] = triangles[8]; // triangle 7 was dropped at build, so refit ignores it
         refit(refitted, triangles, core);
         EXPECT_TRUE(same(built.nodes, refitted.nodes));
         EXPECT_TRUE(same(built.triangles, refitted.triangles));
     }
 }
 
-/// Hits of a tree that was refitted over and over equal those of one made for the place, to the
-/// last bit, of two triangles in one place too.
-TEST(Refit, RaysMeetWhatTheyMeetInANewTree) {
+/// Hits in a tree after repeated refits equal the hits in a newly built tree bit for bit. This also
+/// holds for coincident triangles.
+TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
     test::Numbers random(21);
-    std::vector<Triangle> triangles = ball(3);
+    std::vector<Triangle> triangles = bvh_ball(3);
     const std::size_t room = triangles.size();
     for (const Triangle& t : soup(400, 4)) triangles.push_back(t);
-    for (std::size_t i = 0; i < 50; ++i) triangles.push_back(triangles[room + i]); // copies
+    for (std::size_t i = 0; i < 50; ++i)
+        triangles.push_back(triangles[room + i]); // coincident copies
     Bvh refitted = build(triangles);
     std::size_t found = 0;
     for (int step = 0; step < 6; ++step) {
@@ -420,8 +424,8 @@ TEST(Refit, RaysMeetWhatTheyMeetInANewTree) {
             const Triangle& aim = triangles[random.below(triangles.size())];
             const vec3 origin = 2.0f * random.in_cube();
             const Ray<float> ray{origin, (k % 2 ? aim.a : (aim.a + aim.b) * 0.5f) - origin, 0};
-            const auto hit = closest_hit<float>(refitted, ray, kInfinity),
-                       wanted = closest_hit<float>(anew, ray, kInfinity);
+            const auto hit = closest_hit<float>(refitted, ray, test::kInfinity),
+                       wanted = closest_hit<float>(anew, ray, test::kInfinity);
             ASSERT_EQ(hit.has_value(), wanted.has_value());
             if (!hit) continue;
             ++found;
@@ -433,8 +437,9 @@ TEST(Refit, RaysMeetWhatTheyMeetInANewTree) {
     EXPECT_GT(found, 15000u);
 }
 
-/// The least run of stored triangles outside of which both hold the same.
-Run run_of(const Bvh& before, const Bvh& after) {
+/// Returns the smallest range of stored triangle data that contains all differences between two
+/// trees.
+Run bvh_run_of(const Bvh& before, const Bvh& after) {
     Run run;
     for (std::size_t i = 0; i < after.triangles.size(); i += 3)
         if (std::memcmp(&before.triangles[i], &after.triangles[i], 3 * sizeof(vec4)) != 0)
@@ -442,9 +447,9 @@ Run run_of(const Bvh& before, const Bvh& after) {
     return run;
 }
 
-/// What is left alone where little moves is what would have been made anew: the same bytes by way
-/// of another core, for which all boxes are made.
-TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
+/// A refit of only the boxes around moved triangles gives the same bytes as a refit of all boxes.
+/// Another core in between forces the refit of all boxes.
+TEST(Refit, PartialRefitEqualsFullRefit) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
         std::vector<Triangle> triangles = soup(500, 6);
         for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -455,9 +460,10 @@ TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
         test::Numbers random(23);
         for (int step = 0; step < 5; ++step) {
             for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.in_cube();
-            triangles[90].a = -triangles[90].a; // a zero that changes its sign is elsewhere, too
+            triangles[90].a =
+                -triangles[90].a; // a zero that changes its sign counts as a move, too
             const auto run = refit(few, triangles, core, &reach);
-            EXPECT_EQ(run, run_of(all, few));
+            EXPECT_EQ(run, bvh_run_of(all, few));
             std::vector<Triangle> elsewhere = triangles;
             for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
             refit(all, elsewhere, {vec3(-9), vec3(9)});
@@ -470,7 +476,7 @@ TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
     }
 }
 
-TEST(Refit, CostRisesWhereNeighboursPart) {
+TEST(Refit, CostRisesIfNeighbouringTrianglesMoveApart) {
     std::vector<Triangle> triangles = soup(500, 5);
     Bvh tree = build(triangles);
     const double before = cost(tree);
@@ -484,13 +490,13 @@ TEST(Refit, CostRisesWhereNeighboursPart) {
     EXPECT_LT(cost(build(triangles)), .5 * cost(tree));
 }
 
-TEST(ClosestHit, VisitsFewNodes) {
-    const Bvh bvh = build(ball(5)); // 8192 triangles
+TEST(ClosestHit, RaysVisitFewNodes) {
+    const Bvh bvh = build(bvh_ball(5)); // the ball has 8192 triangles
     test::Numbers random(18);
     std::size_t total = 0;
     for (int i = 0; i < 1000; ++i) {
         Steps steps;
-        closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, kInfinity, 0,
+        closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, test::kInfinity, 0,
                            &steps);
         total += steps.total();
     }

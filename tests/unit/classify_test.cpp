@@ -1,4 +1,5 @@
-// What surfaces are.
+// Tests of deciding which materials are mirrors or unsupported features, of texture lookup, and of
+// the shapes of mirrors.
 #include "scene/build.hpp"
 #include "scene/classify.hpp"
 #include "scene/mirror_shape.hpp"
@@ -14,7 +15,7 @@ using namespace catoptric;
 using namespace catoptric::scene;
 using testing::ElementsAre;
 
-/// A wall of 1 x 1 with this material, its texture space over it once.
+/// Builds a 1 x 1 wall of the given material. The texture covers the wall once.
 Scene panel(Material material) {
     Scene scene{.name = "wall"};
     Mesh mesh = quad("wall", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
@@ -34,7 +35,7 @@ Material metal(float roughness, vec3 colour = vec3(1)) {
     return {.name = "m", .albedo = colour, .metallic = 1, .roughness = roughness};
 }
 
-TEST(Classify, SharpMetalIsAMirrorAndRoughOneAGap) {
+TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
     for (const auto& [roughness, is] : {std::pair(0.f, true), {.1f, true}, {.11f, false}}) {
         Scene scene = panel(metal(roughness));
         classify(scene);
@@ -45,13 +46,14 @@ TEST(Classify, SharpMetalIsAMirrorAndRoughOneAGap) {
         EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'm'");
         EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
         scene.mirror_max_roughness = .2f;
-        classify(scene); // again, with another limit
+        // Classifies again with a higher roughness limit.
+        classify(scene);
         EXPECT_EQ(mirrors(scene).size(), 1u);
         EXPECT_TRUE(scene.unsupported.empty());
     }
 }
 
-TEST(Classify, TheLargestChannelOfF0Tells) {
+TEST(Classify, LargestF0ChannelDecidesWhetherAMetalIsAMirror) {
     for (const auto& [blue, is] : {std::pair(.19f, false), {.2f, true}}) {
         Scene scene = panel(metal(0, {.05f, .1f, blue}));
         classify(scene);
@@ -60,7 +62,7 @@ TEST(Classify, TheLargestChannelOfF0Tells) {
     }
 }
 
-TEST(Classify, SmoothDielectricsAreMirrorsOnlyWhereAsked) {
+TEST(Classify, SmoothDielectricsAreMirrorsOnlyOnRequest) {
     Scene scene = panel({.name = "lacquer", .albedo = vec3(.5f), .roughness = .05f});
     classify(scene);
     EXPECT_FALSE(scene.objects[0].mirror);
@@ -80,7 +82,7 @@ std::vector<std::string> ids(const Scene& scene) {
     return list;
 }
 
-TEST(SettleGaps, LightThatNoTechniqueComputesIsListed) {
+TEST(SettleGaps, IndirectLightOfDiffuseSurfacesIsListedAsUnsupported) {
     Scene scene = panel({.name = "wall", .albedo = vec3(.5f)});
     settle_unsupported(scene);
     EXPECT_THAT(ids(scene), testing::IsEmpty()) << "nothing lights it";
@@ -94,7 +96,8 @@ TEST(SettleGaps, LightThatNoTechniqueComputesIsListed) {
     scene.environment = std::make_shared<Environment>();
     settle_unsupported(scene);
     EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
-    settle_unsupported(scene); // again
+    // A second call must not list anything twice.
+    settle_unsupported(scene);
     EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
     for (const Material& none :
          {Material{.albedo = vec3(0)}, {.albedo = vec3(1), .unlit = true}, metal(0)}) {
@@ -104,7 +107,7 @@ TEST(SettleGaps, LightThatNoTechniqueComputesIsListed) {
     }
 }
 
-TEST(SettleGaps, ALobeIsLeftOutWhereASurfaceIsRough) {
+TEST(SettleGaps, LeftOutSpecularLobesOfRoughDielectricsAreListed) {
     Scene scene = panel({.name = "paint", .albedo = vec3(.5f), .roughness = .3f});
     settle_unsupported(scene);
     EXPECT_TRUE(scene.unsupported.empty()) << "no file asks for a lobe";
@@ -121,7 +124,7 @@ TEST(SettleGaps, ALobeIsLeftOutWhereASurfaceIsRough) {
     EXPECT_THAT(listed(.1f), testing::IsEmpty()) << "a rough metal is listed as such";
 }
 
-TEST(Classify, ConstantMirrorsStayAsTheyAre) {
+TEST(Classify, MirrorsOfConstantReflectanceStayMirrors) {
     Scene scene = panel({.name = "m", .mirror = true, .reflectance = vec3(.01f)});
     classify(scene);
     EXPECT_FALSE(scene.objects[0].mirror);
@@ -129,16 +132,17 @@ TEST(Classify, ConstantMirrorsStayAsTheyAre) {
     EXPECT_TRUE(scene.unsupported.empty());
 }
 
-/// One texel in `columns` is smooth: roughness lies in green, metallic in blue.
+/// Builds a metal wall with a roughness texture of `columns` texels, of which one is smooth. The
+/// texture stores roughness in green and metallic in blue.
 Scene partly_smooth(std::uint32_t columns) {
-    std::vector<std::uint32_t> texels(columns, 0xffffff00u); // green 255, blue 255
+    std::vector<std::uint32_t> texels(columns, 0xffffff00u); // rough metal: green 255, blue 255
     texels[0] = 0xffff0000u;
     Material material = metal(1);
     material.roughness_texture = texture({columns, 1}, texels);
     return panel(material);
 }
 
-TEST(Classify, TexturedIsAMirrorFromATwentiethOfItsArea) {
+TEST(Classify, TexturedMetalIsAMirrorIfATwentiethOfItsAreaIsSmooth) {
     for (const auto& [columns, is] : {std::pair(2u, true), {19u, true}, {21u, false}}) {
         Scene scene = partly_smooth(columns);
         EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
@@ -148,11 +152,13 @@ TEST(Classify, TexturedIsAMirrorFromATwentiethOfItsArea) {
     }
 }
 
-/// Area counts, not triangles; and it is that of the world.
-TEST(Classify, AreasAreThoseOfTheWorld) {
+/// A surface's share of mirror is weighted by triangle area in world space, not by the number of
+/// triangles.
+TEST(Classify, MirrorShareIsWeightedByWorldArea) {
     Scene scene{.name = "two"};
     Material material = metal(1);
-    material.roughness_texture = texture({2, 1}, {0xffff0000u, 0xffffff00u}); // left is smooth
+    material.roughness_texture = texture({2, 1},
+                                         {0xffff0000u, 0xffffff00u}); // the left texel is smooth
     const std::size_t index = add_material(scene, material);
     Mesh mesh = quad("both", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     mesh.uv[0].assign(4, {.25f, .5f});
@@ -165,13 +171,14 @@ TEST(Classify, AreasAreThoseOfTheWorld) {
     for (const uvec3& t : rough.triangles) mesh.triangles.push_back(t + 4u);
     add_mesh(scene, mesh, index);
     EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, .25, .001);
-    scene.objects[0].world_from_object[2].z = 1.0 / 3; // squeezed: now 1 to 1
+    scene.objects[0].world_from_object[2].z = 1.0 / 3; // now both areas are equal, 1 to 1
     EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, .5, .001);
 }
 
-TEST(Classify, ColoursOfTexturesAndVerticesAreMultiplied) {
+TEST(Classify, F0MultipliesMaterialTextureAndVertexColours) {
     Material material = metal(0, {.5f, .5f, .5f});
-    material.albedo_texture = texture({1, 1}, {0xff808080u}, true); // .2159 linear
+    material.albedo_texture = texture({1, 1}, {0xff808080u},
+                                      true); // sRGB 0x80 is .2159 in linear light
     Scene scene = panel(material);
     scene.meshes[0].colours.assign(4, vec4(1));
     const float f0 = .5f * linear_from_srgb(0x80);
@@ -185,16 +192,17 @@ TEST(Classify, ColoursOfTexturesAndVerticesAreMultiplied) {
     EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 0);
 }
 
-TEST(Classify, WhatIsCutOutIsNoArea) {
+TEST(Classify, CutOutTexelsDoNotCountAsArea) {
     Material material = metal(1);
     material.alpha_cutoff = .5f;
-    material.albedo_texture = texture({2, 1}, {0xffffffffu, 0x00ffffffu}); // right: not there
+    material.albedo_texture = texture({2, 1},
+                                      {0xffffffffu, 0x00ffffffu}); // the right texel is cut out
     material.roughness_texture = texture({2, 1}, {0xffff0000u, 0xffffff00u});
     const Scene scene = panel(material);
     EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 1);
 }
 
-TEST(Texel, WrapsAsItsTextureSays) {
+TEST(Texel, LookupFollowsTheWrapModeOfTheTexture) {
     using enum Texture::Wrap;
     Texture one = texture({3, 1}, {10, 20, 30});
     const auto red = [&](float u) { return std::lround(255 * texel_at(one, {u, 0}).x); };
@@ -210,7 +218,7 @@ TEST(Texel, WrapsAsItsTextureSays) {
     one.wrap_u = clamp;
     EXPECT_EQ(red(7), 30);
     EXPECT_EQ(red(-7), 10);
-    one.u_row = {0, 0, .5f}; // a transform
+    one.u_row = {0, 0, .5f}; // a texture transform that makes every u equal to .5
     EXPECT_EQ(red(7), 20);
     EXPECT_NEAR(mean_texel(one).x, 20 / 255.0, 1e-6);
 }
@@ -221,7 +229,7 @@ Shape::Kind kind_of(Mesh mesh) {
     return shape_of(scene, scene.objects[0]).kind;
 }
 
-TEST(ShapeOf, KnowsTheKinds) {
+TEST(ShapeOf, MeshesAreClassifiedByShape) {
     using enum Shape::Kind;
     EXPECT_EQ(kind_of(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})), flat);
     EXPECT_EQ(kind_of(ball("b", 4)), sphere);
@@ -239,11 +247,12 @@ TEST(ShapeOf, KnowsTheKinds) {
     EXPECT_EQ(kind_of(step), other);
 }
 
-TEST(ShapeOf, FitsTheSphereOfAPart) {
+TEST(ShapeOf, SphereIsFittedToPartOfABall) {
     Scene scene;
     Mesh dish = ball("dish", 4);
     std::erase_if(dish.triangles, [&](const uvec3& t) { return dish.positions[t.x].y > -.5; });
-    std::vector<dvec3> used; // as loaders leave it: no vertex that nothing uses
+    // Like a loader, the test keeps only vertices that a triangle uses.
+    std::vector<dvec3> used;
     for (uvec3& t : dish.triangles)
         for (int k = 0; k < 3; ++k) {
             used.push_back(dish.positions[t[k]]);
@@ -261,7 +270,7 @@ TEST(ShapeOf, FitsTheSphereOfAPart) {
     EXPECT_LT(shape.tolerance, 1e-6);
 }
 
-TEST(ShapeOf, ABoxIsConvexAndClosed) {
+TEST(ShapeOf, ClosedBoxIsConvexOrConcaveByFacing) {
     Scene scene;
     Mesh box{.name = "box"};
     for (int face = 0; face < 6; ++face) {
@@ -280,15 +289,16 @@ TEST(ShapeOf, ABoxIsConvexAndClosed) {
     EXPECT_EQ(shape.kind, Shape::Kind::convex);
 }
 
-/// A file's ball carries no mark: `info`, `auto` and the searches that follow rays exactly ask what
-/// one function says of its triangles.
-TEST(Classify, AMirrorThatIsABallIsASphere) {
+/// Scene files do not mark balls. One function recognises a ball by its triangles, for `info`,
+/// `auto` and searches that intersect exact spheres.
+TEST(Classify, SmoothMirrorBallsGetAnExactSphere) {
     Scene scene{.name = "balls"};
     const std::size_t mirror = add_material(scene, {.name = "m", .mirror = true});
     add_mesh(scene, ball("ball", 5), mirror);
     scene.objects.back().world_from_object = dmat4(.5);
     scene.objects.back().world_from_object[3] = dvec4(3, -2, 1, 1);
-    Mesh facets{.name = "facets"}; // the same ball, but that each triangle mirrors as a plane
+    // The same ball, but with normals such that each triangle mirrors as a plane.
+    Mesh facets{.name = "facets"};
     const Mesh smooth = ball("ball", 5);
     for (const uvec3& t : smooth.triangles) {
         const auto first = static_cast<std::uint32_t>(facets.positions.size());

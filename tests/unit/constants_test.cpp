@@ -1,4 +1,5 @@
-// One name, one number: shaders/lib/constants.glsl.
+// Tests that each specialisation constant of shaders/lib/constants.glsl has the same number in all
+// shaders.
 #include "gpu/shader.hpp"
 
 #include <gtest/gtest.h>
@@ -10,8 +11,9 @@ namespace {
 
 using namespace catoptric::gpu;
 
-TEST(Constants, AreNumberedOnce) {
-    constexpr std::uint32_t kOwn = 40; // OWN_CONSTANTS
+TEST(Constants, SpecialisationConstantsHaveOneNumberInAllShaders) {
+    // OWN_CONSTANTS of the shaders: each shader numbers its own constants from here on.
+    constexpr std::uint32_t kOwn = 40;
     std::map<std::string, std::set<std::uint32_t>> ids;
     std::map<std::uint32_t, std::set<std::string>> names;
     for (const EmbeddedShader& shader : embedded_shaders()) {

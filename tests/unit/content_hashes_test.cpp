@@ -1,4 +1,5 @@
-// ContentHashes of captures' faces and of shadow maps: equal only where nothing can have changed.
+// Tests of the content hashes of captured faces and shadow maps. Hashes may be equal only if the
+// pictures cannot have changed.
 #include "core/shader_math.hpp"
 #include "require/model.hpp"
 #include "require/pieces.hpp"
@@ -17,7 +18,7 @@ using namespace catoptric::require;
 
 constexpr std::uint32_t kEdge = 1024;
 
-/// What the model says of a scene's instants.
+/// Computes the work that a scene's picture requires (the model) at given times in seconds.
 class Instants {
 public:
     explicit Instants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
@@ -41,7 +42,7 @@ int kept(const Model& before, const Model& after) {
     return count;
 }
 
-TEST(RequireStamps, StayWhileNothingMoves) {
+TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
     const scene::Scene scene = scene::cornell_mirrors();
     Instants instants(scene);
     const Model first = instants.at(0), second = instants.at(0), elsewhere = instants.at(1),
@@ -56,7 +57,7 @@ TEST(RequireStamps, StayWhileNothingMoves) {
     EXPECT_NE(first.casters[0].content_hash, elsewhere.casters[0].content_hash);
 }
 
-TEST(RequireStamps, ChangeWithABallThatMovesOnlyWhereItOrItsShadowShows) {
+TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
     const scene::Scene scene = scene::cornell_mirrors();
     Instants instants(scene);
     Model before = instants.at(0);
@@ -66,14 +67,14 @@ TEST(RequireStamps, ChangeWithABallThatMovesOnlyWhereItOrItsShadowShows) {
         stays += kept(before, after);
         for (std::size_t face = 0; face < 6; ++face)
             EXPECT_NE(before.mirrors[3].content_hashes[face],
-                      after.mirrors[3].content_hashes[face]); // its own
+                      after.mirrors[3].content_hashes[face]); // the moving ball's own capture
         before = after;
     }
     EXPECT_GE(stays, 20 * 24 / 3);
     RecordProperty("kept", stays);
 }
 
-TEST(RequireStamps, ChangeWithTheLampWithAMaterialAndWithAnEdit) {
+TEST(RequireStamps, EditsOfLampsMaterialsAndObjectsChangeContentHashes) {
     const scene::Scene rest = scene::cornell_mirrors();
     scene::Scene scene = rest;
     Requirements requirements(scene);
@@ -91,7 +92,8 @@ TEST(RequireStamps, ChangeWithTheLampWithAMaterialAndWithAnEdit) {
     EXPECT_TRUE(model().lights.empty());
     scene.materials[3].emission = {1, 1, 1};
     EXPECT_EQ(kept(painted, model()), 24);
-    scene.objects[0].world_from_object[3].y = -1; // the floor, which had no motion
+    // Edits the floor, which has no motion.
+    scene.objects[0].world_from_object[3].y = -1;
     const Model lowered = model();
     EXPECT_EQ(kept(painted, lowered), 0);
     EXPECT_EQ(kept(lowered, model()), 24);
@@ -99,8 +101,9 @@ TEST(RequireStamps, ChangeWithTheLampWithAMaterialAndWithAnEdit) {
     EXPECT_EQ(kept(lowered, model()), 0);
 }
 
-/// However near: near planes are for those to tell who know them.
-TEST(RequireStamps, StayWhereWhatComesNearerIsNotSeen) {
+/// A block that comes nearer changes only the hash of the face that shows the block. Content hashes
+/// do not cover near planes, which the owner of the views compares.
+TEST(RequireStamps, ApproachingBlockChangesOnlyTheFaceThatShowsTheBlock) {
     scene::Scene scene{.name = "bare"};
     const std::size_t white = add_material(scene, {.albedo = vec3(.7f)});
     for (int face = 0; face < 6; ++face)
@@ -112,19 +115,21 @@ TEST(RequireStamps, StayWhereWhatComesNearerIsNotSeen) {
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
     Instants instants(scene);
     const Model before = instants.at(.1), after = instants.at(.2);
-    EXPECT_EQ(kept(before, after), 5); // all but +X
+    // Five faces keep their hash: all but face +X.
+    EXPECT_EQ(kept(before, after), 5);
     EXPECT_NE(before.mirrors[0].content_hashes[0], after.mirrors[0].content_hashes[0]);
 }
 
-TEST(RequireShadows, FallWhereTheLightSendsThem) {
+TEST(RequireShadows, ShadowBoundsFollowTheLight) {
     const Bounds<double> room{{-10, 0, -10}, {10, 10, 10}};
     scene::PointLight light{.position = {0, 10, 0}};
-    // All of it is in the floor once its top is, 2.5 times as far from the lamp.
+    // The shadow of the object's top reaches the floor at 2.5 times the top's distance from the
+    // lamp.
     const Shade below = shade_of(light, {{-1, 5, -1}, {1, 6, 1}}, room);
     EXPECT_EQ(below.from.hi, dvec3(1, 6, 1));
     EXPECT_EQ(below.to.hi, dvec3(2.5, 0, 2.5));
     EXPECT_EQ(below.to.lo, dvec3(-2.5, -2.5, -2.5));
-    // Around the lamp: anywhere.
+    // An object around the lamp may shade any place of the room.
     EXPECT_EQ(shade_of(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
     light = {.axis = {0, -1, 0}, .directional = true};
     const Shade along = shade_of(light, {{-1, 5, -1}, {1, 6, 1}}, room);
@@ -132,15 +137,16 @@ TEST(RequireShadows, FallWhereTheLightSendsThem) {
     EXPECT_EQ(along.to.hi, dvec3(1, 0, 1));
 }
 
-constexpr int kRays = 16; ///< along the edge of a face
+constexpr int kRays = 16; ///< rays along the edge of a face
 
-/// A ray through a face, of kRays * kRays.
+/// Returns the direction of ray `k` of the kRays * kRays rays through a cube map's face.
 dvec3 ray_of(int face, int k) {
     const double u = (2. * (k % kRays) + 1) / kRays - 1, v = (2. * (k / kRays) + 1) / kRays - 1;
     return f64::cube_direction(face, dvec3(u, v, 1));
 }
 
-/// What rays of one face of a capture meet, and which lights shine there.
+/// Returns three results for each ray through a face of a capture: the object that the ray hits,
+/// the distance, and the lights that are shaded at the hit.
 std::vector<std::vector<double>> seen_in_face(const test::Tree& tree, const scene::Scene& now,
                                               std::size_t mirror, int face) {
     const dvec3 centre = scene::bounds(now, now.objects[mirror]).centre();
@@ -160,7 +166,8 @@ std::vector<std::vector<double>> seen_in_face(const test::Tree& tree, const scen
     return seen;
 }
 
-/// Rays that differ lie where pieces do.
+/// Counts rays whose results differ between two times, but that lie outside the part of the face
+/// that `differing` reports.
 int outside(const MirrorNeeds& before, const MirrorNeeds& after, int face,
             const std::vector<std::vector<double>>& then,
             const std::vector<std::vector<double>>& now) {
@@ -175,12 +182,13 @@ int outside(const MirrorNeeds& before, const MirrorNeeds& after, int face,
     return count;
 }
 
-TEST(RequireStamps, RaysFindNoChangeWhereAStampStays) {
+TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
     int stays = 0, changes = 0, faces = 0, parts = 0;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
         scene::Scene scene = test::drawn_hall(seed, 3);
         test::Numbers numbers(seed + 1000);
-        const std::size_t mover = scene.objects.size() - 2 - numbers.below(6); // before the lamp
+        // Chooses one of the six objects before the lamp.
+        const std::size_t mover = scene.objects.size() - 2 - numbers.below(6);
         scene.objects[mover].motion = scene::Harmonic{.amplitude = dvec3(numbers.direction()),
                                                       .period = 2};
         Instants instants(scene);

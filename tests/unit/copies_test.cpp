@@ -1,5 +1,5 @@
-// Many objects in one place: what a ray's walk costs grows with what there is to see, not with how
-// often it is there.
+// Tests of many coincident objects. The traversal steps of a ray must not grow with the number of
+// copies.
 #include "app/rays.hpp"
 #include "app/scene_facts.hpp"
 #include "bvh/closest_hit.hpp"
@@ -26,7 +26,7 @@ scene::Scene with_copies(std::size_t count) {
     return scene;
 }
 
-/// Steps of all rays that cross the triangle's bounds in a grid.
+/// Counts the traversal steps of a grid of rays through the bounds of `count` coincident triangles.
 std::size_t steps_past(std::size_t count) {
     const scene::Scene scene = with_copies(count);
     const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene));
@@ -48,20 +48,22 @@ std::size_t steps_past(std::size_t count) {
     return steps.total();
 }
 
-TEST(CopiesInOnePlace, CostARayNoMoreThanAFew) {
+TEST(CopiesInOnePlace, ManyCopiesCostARayNoMoreStepsThanFewCopies) {
     const std::size_t few = steps_past(8);
     EXPECT_EQ(steps_past(2000), few);
     EXPECT_EQ(steps_past(4000), few);
 }
 
-/// Those that one object cuts out are seen through to another's.
-TEST(CopiesInOnePlace, OfMaskedSurfacesAreKept) {
+/// One masked copy is kept for each object. Where the mask of one object cuts out its surface, a
+/// ray sees the copy of another object.
+TEST(CopiesInOnePlace, CopiesOfMaskedSurfacesAreKept) {
     std::vector<bvh::Triangle> triangles;
     for (std::uint32_t i = 0; i < 40; ++i)
         triangles.push_back(
             {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kMasked : 0});
     const bvh::Bvh tree = bvh::build(triangles, {}, bvh::Copies::of_all);
-    EXPECT_EQ(bvh::triangle_count(tree), 11u); // of 10 masked objects one each, of the others one
+    // Ten masked objects keep one copy each, and the other ten objects keep one copy together.
+    EXPECT_EQ(bvh::triangle_count(tree), 11u);
     EXPECT_EQ(bvh::triangle_count(bvh::build(triangles)), 20u);
 }
 

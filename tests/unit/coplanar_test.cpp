@@ -1,5 +1,5 @@
-// Parts of shipped scenes that lie in one plane on top of each other: which one a picture shows is
-// chance.
+// Tests that no two objects of a shipped scene overlap in one plane. Chance would decide which of
+// the two a picture shows.
 #include "scene/load.hpp"
 #include "scene/scene.hpp"
 #include "scene/transform.hpp"
@@ -23,8 +23,8 @@ struct Facet {
     std::size_t object;
 };
 
-/// Whether two triangles of one plane share more than `slack` along every direction across their
-/// edges.
+/// Returns whether two coplanar triangles overlap by more than `slack`. Uses separating axes: the
+/// direction across each edge.
 bool overlap(const Facet& a, const Facet& b, double slack) {
     for (const Facet* from : {&a, &b})
         for (int i = 0; i < 3; ++i) {
@@ -41,12 +41,13 @@ bool overlap(const Facet& a, const Facet& b, double slack) {
     return true;
 }
 
-TEST(ShippedScenes, NoTwoPartsLieInOnePlane) {
+TEST(ShippedScenes, NoTwoObjectsOverlapInOnePlane) {
     for (const std::string name :
          {"cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat", "gallery", "room"}) {
         const Scene scene = load(name);
         const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;
-        // By where their planes are, along a direction of no symmetry, in steps of the slack.
+        // Groups facets by plane. The key is the rounded normal and the rounded distance from the
+        // origin. Opposite normals share a key.
         std::map<std::array<long, 4>, std::vector<Facet>> planes;
         for (std::size_t i = 0; i < scene.objects.size(); ++i) {
             const Object& object = scene.objects[i];
@@ -62,7 +63,9 @@ TEST(ShippedScenes, NoTwoPartsLieInOnePlane) {
                 if (glm::dot(facet.normal, dvec3(.9, .7, .3)) < 0) facet.normal = -facet.normal;
                 const double height = glm::dot(facet.normal, facet.corners[0]) / (4 * slack);
                 const dvec3 n = facet.normal * 1e5;
-                for (const double half : {-.25, .25}) // a step's edge is inside another step
+                // Two overlapping steps of distance, so that equal planes at a step's border share
+                // a step.
+                for (const double half : {-.25, .25})
                     planes[{std::lround(n.x), std::lround(n.y), std::lround(n.z),
                             std::lround(height + half)}]
                         .push_back(facet);

@@ -1,4 +1,5 @@
-// Units are made for where a scene is, not for what lies far outside of it.
+// Tests of the core, the bounds of a scene without objects that lie far outside. Scene units are
+// chosen from the core.
 #include "bvh/closest_hit.hpp"
 #include "core/error.hpp"
 #include "render/geometry.hpp"
@@ -28,29 +29,29 @@ scene::Scene with_stray(double distance) {
     return scene;
 }
 
-void expect_same(const Bounds<double>& found, const Bounds<double>& wanted) {
+void core_expect_same(const Bounds<double>& found, const Bounds<double>& wanted) {
     EXPECT_EQ(found.lo, wanted.lo);
     EXPECT_EQ(found.hi, wanted.hi);
 }
 
-TEST(Core, IsEverythingWhereNothingIsFarOutside) {
+TEST(Core, CoreIsTheWholeSceneIfNothingIsFarOutside) {
     for (const scene::Scene& scene :
          {scene::cornell_mirrors(), test::room(3, 2), test::furnace(1), with_stray(1500)})
-        expect_same(core_bounds(scene), scene::bounds(scene));
+        core_expect_same(core_bounds(scene), scene::bounds(scene));
     EXPECT_TRUE(core_bounds({}).empty());
 }
 
-TEST(Core, LeavesOutStrayObjects) {
+TEST(Core, CoreLeavesOutObjectsFarOutside) {
     const Bounds<double> room = scene::bounds(scene::cornell_mirrors());
     for (const double distance : {1e4, 1e6, 1e9, 1e30})
-        expect_same(core_bounds(with_stray(distance)), room);
+        core_expect_same(core_bounds(with_stray(distance)), room);
     scene::Scene many = with_stray(1e5);
     for (int i = 0; i < 3; ++i)
         test::add_mesh(many, triangle("more", dvec3(0, 1e7 * (i + 1), 0), 1e5), 0);
-    expect_same(core_bounds(many), room);
+    core_expect_same(core_bounds(many), room);
 }
 
-TEST(Core, LeavesOutAStrayTriangleOfAMeshThatHoldsEverything) {
+TEST(Core, CoreLeavesOutAFarTriangleOfTheOnlyMesh) {
     scene::Scene one{.name = "one mesh"};
     test::add_material(one, {.name = "grey"});
     scene::Mesh mesh = scene::ball("everything", 3);
@@ -65,22 +66,23 @@ TEST(Core, LeavesOutAStrayTriangleOfAMeshThatHoldsEverything) {
     mesh.triangles.push_back({last - 3, last - 2, last - 1});
     test::add_mesh(one, mesh, 0);
     const Bounds<double> found = core_bounds(one);
-    for (int axis = 0; axis < 3; ++axis) { // of a sample of its corners
+    // The core is found from a sample of corners, so the test allows a tolerance.
+    for (int axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(found.lo[axis], core.lo[axis], .1);
         EXPECT_NEAR(found.hi[axis], core.hi[axis], .1);
     }
 }
 
-TEST(Core, LeavesOutASkyWithMoreTrianglesThanTheScene) {
+TEST(Core, CoreLeavesOutADistantSkyOfManyTriangles) {
     scene::Scene scene = test::room(3, 1);
     const Bounds<double> room = scene::bounds(scene);
     scene::Mesh sky = scene::ball("sky", 6);
     for (dvec3& position : sky.positions) position = 1e6 * position + dvec3(3e5, 0, 0);
     test::add_mesh(scene, sky, 0);
-    expect_same(core_bounds(scene), room);
+    core_expect_same(core_bounds(scene), room);
 }
 
-TEST(Core, UnitsOfTheRoomStayWhateverStrays) {
+TEST(Core, ObjectsFarOutsideDoNotChangeSceneUnits) {
     const render::Space plain = render::space_of(scene::cornell_mirrors());
     for (const double distance : {1e4, 1e9}) {
         const render::Space with = render::space_of(with_stray(distance));
@@ -91,7 +93,7 @@ TEST(Core, UnitsOfTheRoomStayWhateverStrays) {
     }
 }
 
-/// A room about 5 long with mirror balls of these radii and places.
+/// Builds a room about 5 units long with mirror balls of the given radii and places.
 scene::Scene room_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
@@ -104,8 +106,9 @@ dvec3 origin_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
     return render::space_of(room_with(mirrors)).origin_world;
 }
 
-/// A float keeps 24 bits: a mirror that is small beside its distance from the origin becomes it.
-TEST(Core, SmallMirrorsAreTheOrigin) {
+/// Floats keep 24 bits, so a mirror that is small compared with its distance from the origin loses
+/// precision. The origin moves to such a mirror.
+TEST(Core, OriginMovesToSmallMirrors) {
     const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::room(0, 1)).centre();
     EXPECT_EQ(origin_with({{.1, place}}), middle);
     EXPECT_EQ(origin_with({{.001, place}}), middle) << "2^-11 of the distance";
@@ -119,7 +122,7 @@ TEST(Core, SmallMirrorsAreTheOrigin) {
         << "neighbours share it";
 }
 
-TEST(Core, MirrorsThatNoOriginSuitsDoNotMoveIt) {
+TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
     const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::room(0, 1)).centre();
     const std::vector<std::pair<double, dvec3>> apart{{1e-4, place}, {1e-4, -place}};
     EXPECT_EQ(origin_with(apart), middle);
@@ -130,8 +133,9 @@ TEST(Core, MirrorsThatNoOriginSuitsDoNotMoveIt) {
         EXPECT_TRUE(geometry.ranges[mirror].own) << mirror;
 }
 
-/// One that strays is small beside its distance, and would take the room its digits.
-TEST(Core, AMirrorThatStraysDoesNotMoveTheOrigin) {
+/// A mirror far outside the room is small compared with its distance. If the origin moved there,
+/// the vertices of the room would lose precision.
+TEST(Core, MirrorFarOutsideDoesNotMoveTheOrigin) {
     const scene::Scene scene = room_with({{.5, {1e6, 2e5, 0}}});
     const render::Space space = render::space_of(scene);
     EXPECT_EQ(space.origin_world, scene::bounds(test::room(0, 1)).centre());
@@ -141,7 +145,7 @@ TEST(Core, AMirrorThatStraysDoesNotMoveTheOrigin) {
         EXPECT_FALSE(geometry.ranges[i].own) << scene.objects[i].name;
 }
 
-TEST(Core, WhatFloatsCannotReachIsNamed) {
+TEST(Core, ObjectsBeyondTheReachOfFloatsAreNamed) {
     scene::Scene scene = scene::cornell_mirrors();
     const std::size_t objects = scene.objects.size();
     test::add_mesh(scene, triangle("reachable", dvec3(1e20, 0, 0), 1e19), 0);
@@ -155,7 +159,8 @@ TEST(Core, WhatFloatsCannotReachIsNamed) {
                                                      "1e+18 sizes of the scene's core"));
     }
     scene::Notes notes;
-    scene::finish(scene, "file.obj", notes); // a file is read without it
+    // finish(), which every loader calls, drops the object that floats cannot reach.
+    scene::finish(scene, "file.obj", notes);
     EXPECT_EQ(scene.objects.size(), objects + 1);
     EXPECT_THAT(scene.warnings,
                 testing::ElementsAre("file.obj: objects farther away than floats reach, left out: "
@@ -174,11 +179,13 @@ std::vector<bvh::Triangle> triangles_of(const render::Geometry& geometry) {
     return triangles;
 }
 
-/// As rays and rasteriser tell a light's front, whichever way a file's corners run.
-TEST(Geometry, ALightsCornersRunCounterClockwiseAboutItsNormals) {
+/// Rays and the rasteriser tell the front of a lamp by the order of its corners. make_geometry
+/// therefore orders the corners by the normals, whatever order the file has.
+TEST(Geometry, LampCornersRunCounterClockwiseAroundTheirNormals) {
     scene::Scene scene{.name = "lamp"};
     scene.materials = {{.name = "lamp", .emission = vec3(1)}, {.name = "wall", .albedo = vec3(1)}};
-    scene.meshes = {scene::quad("quad", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})}; // faces +z
+    scene.meshes = {
+        scene::quad("quad", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})}; // the quad faces +z
     dmat4 mirrored(1);
     mirrored[0].x = -1;
     for (const std::size_t material : {0, 1})
@@ -196,9 +203,9 @@ TEST(Geometry, ALightsCornersRunCounterClockwiseAboutItsNormals) {
     }
 }
 
-/// Boxes are widened by roundings that are relative to a distance; one stray triangle must not
-/// widen all of them, and is found itself.
-TEST(Core, AStrayTriangleCostsNoRayItsWalk) {
+/// The boxes of a BVH are widened by a rounding error that grows with distance. One stray triangle
+/// must not widen all boxes, and rays must still find the stray triangle.
+TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
     const scene::Scene room = scene::cornell_mirrors(), scene = with_stray(1e9);
     const render::Geometry plain = render::make_geometry(room, render::space_of(room)),
                            geometry = render::make_geometry(scene, render::space_of(scene));

@@ -1,4 +1,5 @@
-// Which object each pixel shows, found without a tree: an independent witness is the tree's walk.
+// Tests of objects_covering, which finds the object that each pixel shows without a BVH. Rays
+// through a BVH give the expected objects.
 #include "app/coverage.hpp"
 #include "app/rays.hpp"
 #include "bvh/closest_hit.hpp"
@@ -34,7 +35,7 @@ scene::Camera drawn_camera(const scene::Camera& near, std::mt19937& random) {
     return camera;
 }
 
-TEST(Coverage, SeesWhatATreeSees) {
+TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
     constexpr uvec2 kSize{61, 47};
     std::mt19937 random(5);
     for (const char* name : {"cornell-mirrors", "room", "courtyard", "gallery"}) {
@@ -51,7 +52,7 @@ TEST(Coverage, SeesWhatATreeSees) {
     }
 }
 
-TEST(Coverage, EndsAtTheLimitOfTests) {
+TEST(Coverage, SearchStopsAtTheLimitOfTests) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     const render::Space space = render::space_of(scene);
     const render::Geometry geometry = render::make_geometry(scene, space);

@@ -1,6 +1,7 @@
 #include "measure/difference.hpp"
 
 #include "support/refusal.hpp"
+#include "support/special_values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,10 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-Picture row_of(const std::vector<vec3>& pixels) {
+Picture difference_row_of(const std::vector<vec3>& pixels) {
     Picture picture(static_cast<int>(pixels.size()), 1);
     picture.pixels = pixels;
     return picture;
@@ -34,34 +32,35 @@ Picture random_picture(int width, int height, unsigned seed, float low, float hi
     return picture;
 }
 
-TEST(Difference, HandComputed) {
-    const Picture a = row_of({vec3(0), vec3(0.5F, 0.25F, 1), vec3(1)});
-    const Picture b = row_of({vec3(0), vec3(0.25F, 0.75F, 1), vec3(0.5F, 1, 1)});
+TEST(Difference, FiguresEqualHandComputedValues) {
+    const Picture a = difference_row_of({vec3(0), vec3(0.5F, 0.25F, 1), vec3(1)});
+    const Picture b = difference_row_of({vec3(0), vec3(0.25F, 0.75F, 1), vec3(0.5F, 1, 1)});
     const Difference d = difference(a, b, {}, std::vector<float>{0, 0.25F, 0.5F});
     EXPECT_EQ(d.pixels, 3U);
     EXPECT_EQ(d.nonfinite, 0U);
-    EXPECT_DOUBLE_EQ(d.rmse, 0.25); // (1/16 + 1/4 + 1/4) / 9 = 1/16
+    EXPECT_DOUBLE_EQ(d.rmse, 0.25); // rmse squared: (1/16 + 1/4 + 1/4) / 9 = 1/16
     EXPECT_DOUBLE_EQ(d.mae, 1.25 / 9);
     EXPECT_DOUBLE_EQ(d.flip, 0.25);
-    EXPECT_DOUBLE_EQ(d.psnr.value(), 12.041199826559248); // 20 log10 4
+    EXPECT_DOUBLE_EQ(d.psnr.value(), 12.041199826559248); // PSNR of an rmse of 1/4: 20 log10 4
     EXPECT_DOUBLE_EQ(d.max, 0.5);
-    EXPECT_EQ(d.max_x, 1); // the first of two
+    EXPECT_EQ(d.max_x, 1); // the first of two pixels with the largest difference
     EXPECT_EQ(d.max_y, 0);
     EXPECT_DOUBLE_EQ(d.p99, 0.5);
 }
 
-TEST(Difference, P99IsLinearBetweenRanks) {
+TEST(Difference, P99InterpolatesLinearlyBetweenRanks) {
     std::vector<vec3> ramp;
     for (int i = 0; i <= 50; ++i) ramp.push_back(vec3(0, static_cast<float>(i) / 64.0F, 0));
-    const Difference d = difference(row_of(ramp), Picture(51, 1), {}, std::vector<float>(51));
-    EXPECT_DOUBLE_EQ(d.p99, 49.5 / 64); // rank 0.99 * 50
+    const Difference d = difference(difference_row_of(ramp), Picture(51, 1), {},
+                                    std::vector<float>(51));
+    EXPECT_DOUBLE_EQ(d.p99, 49.5 / 64); // rank 0.99 * 50 = 49.5, between two samples
     EXPECT_DOUBLE_EQ(d.max, 50.0 / 64);
     EXPECT_EQ(d.max_x, 50);
 }
 
-TEST(Difference, OnlyWhatIsWithinTheDisplayCounts) {
-    const Picture a = row_of({vec3(17, -4, 0.5F)});
-    const Picture b = row_of({vec3(1, 0, 0.5F)});
+TEST(Difference, ValuesAreClampedToTheDisplayRange) {
+    const Picture a = difference_row_of({vec3(17, -4, 0.5F)});
+    const Picture b = difference_row_of({vec3(1, 0, 0.5F)});
     const Difference d = difference(a, b, {}, std::vector<float>{0});
     EXPECT_EQ(d.rmse, 0);
     EXPECT_EQ(d.max, 0);
@@ -69,8 +68,8 @@ TEST(Difference, OnlyWhatIsWithinTheDisplayCounts) {
     EXPECT_EQ(d.max_x, 0);
 }
 
-TEST(Difference, TheMaskDecides) {
-    const Picture a = row_of({vec3(1), vec3(1), vec3(0)});
+TEST(Difference, OnlyPixelsOfTheMaskCount) {
+    const Picture a = difference_row_of({vec3(1), vec3(1), vec3(0)});
     const Difference d = difference(a, Picture(3, 1), {0, 1, 255},
                                     std::vector<float>{1, 0.5F, 0.25F});
     EXPECT_EQ(d.pixels, 2U);
@@ -80,9 +79,11 @@ TEST(Difference, TheMaskDecides) {
     EXPECT_EQ(d.max_x, 1);
 }
 
-TEST(Difference, NonfiniteIsCountedInEitherPictureAndLeftOut) {
-    const Picture a = row_of({vec3(0, kNan, 0), vec3(0.5F), vec3(1), vec3(kInfinity)});
-    const Picture b = row_of({vec3(0), vec3(0), vec3(1, 1, -kInfinity), vec3(kNan)});
+TEST(Difference, NonFinitePixelsOfEitherPictureAreCountedAndLeftOut) {
+    const Picture a = difference_row_of(
+        {vec3(0, test::kNan, 0), vec3(0.5F), vec3(1), vec3(test::kInfinity)});
+    const Picture b = difference_row_of(
+        {vec3(0), vec3(0), vec3(1, 1, -test::kInfinity), vec3(test::kNan)});
     const Difference d = difference(a, b, {}, std::vector<float>{1, 0.5F, 1, 1});
     EXPECT_EQ(d.pixels, 4U);
     EXPECT_EQ(d.nonfinite, 3U);
@@ -94,8 +95,8 @@ TEST(Difference, NonfiniteIsCountedInEitherPictureAndLeftOut) {
     EXPECT_EQ(masked.nonfinite, 0U);
 }
 
-TEST(Difference, NothingToJudgeIsNotEqual) {
-    const Picture a = row_of({vec3(kNan)});
+TEST(Difference, DifferenceWithoutFinitePixelsIsNan) {
+    const Picture a = difference_row_of({vec3(test::kNan)});
     for (const Mask& mask : {Mask{0}, Mask{1}}) {
         const Difference d = difference(a, a, mask, std::vector<float>{0});
         EXPECT_EQ(d.pixels, mask[0]);
@@ -108,7 +109,7 @@ TEST(Difference, NothingToJudgeIsNotEqual) {
     }
 }
 
-TEST(Difference, SymmetricAndIndependentOfTheOrderOfPixels) {
+TEST(Difference, DifferenceIsSymmetricAndIndependentOfPixelOrder) {
     const int width = 37;
     const Picture a = random_picture(width, 23, 1, 0, 1);
     const Picture b = random_picture(width, 23, 2, 0, 1);
@@ -141,10 +142,11 @@ TEST(Difference, SymmetricAndIndependentOfTheOrderOfPixels) {
               static_cast<std::size_t>(d.max_y * width + d.max_x));
 }
 
-TEST(Difference, AgreesWithAPlainWitness) {
+TEST(Difference, FiguresAgreeWithAnIndependentComputation) {
     const Picture a = random_picture(16, 16, 4, -0.2F, 1.3F);
     const Picture b = random_picture(16, 16, 5, -0.2F, 1.3F);
-    // One channel at a time, sorted in full: another way round than the code's.
+    // Computes the expected figures independently of the tested code: one channel at a time, with a
+    // full sort.
     long double squares = 0, absolutes = 0;
     std::vector<double> largest(256, 0);
     for (int c = 2; c >= 0; --c)
@@ -164,7 +166,7 @@ TEST(Difference, AgreesWithAPlainWitness) {
     EXPECT_NEAR(d.psnr.value(), -10 * std::log10(static_cast<double>(squares) / 768), 1e-11);
 }
 
-TEST(Difference, SizesMustAgree) {
+TEST(Difference, PicturesMasksAndMapsOfDifferentSizesAreRefused) {
     const std::vector<float> map(6);
     EXPECT_EQ(test::refusal(Failure::bad_data,
                             [&] { difference(Picture(3, 2), Picture(2, 3), {}, map); }),
@@ -181,8 +183,8 @@ TEST(Difference, SizesMustAgree) {
         HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
 }
 
-TEST(Mean, PlainAndClamped) {
-    const Picture picture = row_of({vec3(0, 3, -1), vec3(1, 0.5F, 0.5F)});
+TEST(Mean, MeanUsesUnclampedOrClampedValues) {
+    const Picture picture = difference_row_of({vec3(0, 3, -1), vec3(1, 0.5F, 0.5F)});
     const Mean plain = mean_of(picture, Range::unclamped);
     EXPECT_EQ(plain.rgb, dvec3(0.5, 1.75, -0.25));
     EXPECT_DOUBLE_EQ(plain.all, 2.0 / 3);
@@ -193,8 +195,8 @@ TEST(Mean, PlainAndClamped) {
     EXPECT_TRUE(std::isnan(mean_of(picture, Range::clamped, {0, 0}).all));
 }
 
-TEST(Mean, DoesNotHideNan) {
-    const Picture picture = row_of({vec3(kNan, kInfinity, 0.5F)});
+TEST(Mean, MeanOfNanIsNan) {
+    const Picture picture = difference_row_of({vec3(test::kNan, test::kInfinity, 0.5F)});
     for (const Range range : {Range::unclamped, Range::clamped})
         EXPECT_TRUE(std::isnan(mean_of(picture, range).rgb.x));
     EXPECT_EQ(mean_of(picture, Range::clamped).rgb.y, 1);

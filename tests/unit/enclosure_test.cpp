@@ -1,4 +1,5 @@
-// Which points a mirror's triangles shut in.
+// Tests of render::encloses, which tells whether a mirror's triangles enclose a point, and of
+// render::is_shell.
 #include "render/enclosure.hpp"
 #include "scene/shapes.hpp"
 #include "support/scenes.hpp"
@@ -9,9 +10,10 @@ namespace {
 
 using namespace catoptric;
 
-/// A mesh alone in scene units that are its own.
-struct Alone {
-    explicit Alone(scene::Mesh mesh) {
+/// The geometry of a scene that contains only one mirror mesh, with scene units equal to world
+/// units.
+struct EnclosureAlone {
+    explicit EnclosureAlone(scene::Mesh mesh) {
         scene::Scene scene;
         test::add_mesh(scene, std::move(mesh), test::add_material(scene, {.mirror = true}));
         geometry = render::make_geometry(scene, {});
@@ -22,8 +24,9 @@ struct Alone {
     render::Geometry geometry;
 };
 
-/// The walls 0..5 of a box of 2 units that are asked for, in one mesh with corners of their own.
-scene::Mesh box(std::initializer_list<int> walls, bool outwards) {
+/// Builds one mesh of the listed walls (0 to 5) of a box with edges of 2 units. Walls share no
+/// vertices.
+scene::Mesh enclosure_box(std::initializer_list<int> walls, bool outwards) {
     scene::Mesh mesh;
     for (const int wall : walls) {
         const scene::Mesh side = outwards ? test::wall(wall, dvec3(1), dvec3(-1))
@@ -36,20 +39,20 @@ scene::Mesh box(std::initializer_list<int> walls, bool outwards) {
     return mesh;
 }
 
-TEST(Shell, IsClosedAndFacesOut) {
+TEST(Shell, ShellIsAClosedMeshThatFacesOutwards) {
     const auto all = {0, 1, 2, 3, 4, 5};
     EXPECT_TRUE(render::is_shell(scene::ball("ball", 3)));
-    EXPECT_TRUE(render::is_shell(box(all, true)));
-    EXPECT_FALSE(render::is_shell(box(all, false))) << "faces in";
-    EXPECT_FALSE(render::is_shell(box({0, 1, 2, 3, 4}, true))) << "open";
+    EXPECT_TRUE(render::is_shell(enclosure_box(all, true)));
+    EXPECT_FALSE(render::is_shell(enclosure_box(all, false))) << "faces in";
+    EXPECT_FALSE(render::is_shell(enclosure_box({0, 1, 2, 3, 4}, true))) << "open";
     EXPECT_FALSE(render::is_shell(scene::torus("torus", 1, .3, 24))) << "not seen from its middle";
     scene::Mesh turned = scene::ball("ball", 2);
     std::swap(turned.triangles[5].x, turned.triangles[5].y);
     EXPECT_FALSE(render::is_shell(turned)) << "one triangle faces in";
 }
 
-TEST(Enclosure, ABallShutsInWhatIsInIt) {
-    const Alone ball(scene::ball("ball", 3));
+TEST(Enclosure, BallEnclosesThePointsInside) {
+    const EnclosureAlone ball(scene::ball("ball", 3));
     for (const vec3 inside : {vec3(0), vec3(.5f, -.3f, .2f), vec3(0, 0, -.999f)})
         EXPECT_TRUE(ball.encloses(inside));
     for (const vec3 outside : {vec3(.7f, .7f, .7f), vec3(0, 0, -1.001f), vec3(5, 0, 0)})
@@ -57,17 +60,18 @@ TEST(Enclosure, ABallShutsInWhatIsInIt) {
     EXPECT_TRUE(ball.encloses(vec3(0, 0, -1))) << "a vertex";
 }
 
-TEST(Enclosure, WhicheverWayItsFacesTurn) {
+TEST(Enclosure, ClosedBoxEnclosesPointsWhicheverWayItsFacesPoint) {
     for (const bool outwards : {true, false}) {
-        const Alone closed(box({0, 1, 2, 3, 4, 5}, outwards));
+        const EnclosureAlone closed(enclosure_box({0, 1, 2, 3, 4, 5}, outwards));
         EXPECT_TRUE(closed.encloses(vec3(.2f, .9f, -.9f)));
         EXPECT_TRUE(closed.encloses(vec3(1, .1f, .2f))) << "a face";
         EXPECT_FALSE(closed.encloses(vec3(1.001f, 0, 0)));
     }
 }
 
-TEST(Enclosure, NothingIsShutInByWhatIsOpen) {
-    const Alone open(box({0, 1, 2, 3, 4}, false)), pane(box({4}, false));
+TEST(Enclosure, OpenMeshesEncloseNoPoint) {
+    const EnclosureAlone open(enclosure_box({0, 1, 2, 3, 4}, false)),
+        pane(enclosure_box({4}, false));
     EXPECT_FALSE(open.encloses(vec3(0)));
     EXPECT_FALSE(pane.encloses(vec3(0, 0, 1)));
 }

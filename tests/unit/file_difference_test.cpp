@@ -1,4 +1,4 @@
-// Differences of pictures in files, which are read in bands.
+// Tests of the difference of two picture files, which are read in bands of rows.
 #include "measure/file_difference.hpp"
 
 #include "measure/difference_sum.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 class FileDifferences : public test::InFolder {};
 
-/// Flat areas, edges and noise.
+/// Draws a picture with flat areas, edges and noise from a seed.
 Picture drawn(int width, int height, unsigned seed) {
     std::mt19937 random(seed);
     Picture picture(width, height);
@@ -30,8 +30,8 @@ Picture drawn(int width, int height, unsigned seed) {
     return picture;
 }
 
-/// Several bands high and not a multiple of one: every figure is that of the whole pictures.
-TEST_F(FileDifferences, BandsGiveTheFiguresOfWholePictures) {
+/// The pictures are several bands high, and their height is no multiple of a band's height.
+TEST_F(FileDifferences, FiguresFromBandsEqualThoseOfWholePictures) {
     const int width = 8192, height = 700;
     write_exr(drawn(width, height, 1), folder / "a.exr");
     write_exr(drawn(width, height, 2), folder / "b.exr");
@@ -54,7 +54,7 @@ TEST_F(FileDifferences, BandsGiveTheFiguresOfWholePictures) {
     EXPECT_EQ(found.b_clamped.all, mean_of(b, Range::clamped).all);
 }
 
-TEST_F(FileDifferences, PicturesOfTwoSizesAreRefusedByTheirHeaders) {
+TEST_F(FileDifferences, PictureFilesOfDifferentSizesAreRefused) {
     write_png(Picture(3, 2), folder / "a.png");
     write_png(Picture(2, 3), folder / "b.png");
     EXPECT_THAT(

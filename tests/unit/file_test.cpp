@@ -34,7 +34,7 @@ Error error_of(Body&& body) {
     return Error(Failure::internal, "nothing was thrown");
 }
 
-TEST_F(File, ComesBackByteForByteAndReplaces) {
+TEST_F(File, WrittenFileIsReadBackByteForByte) {
     const std::string first("a\0b\r\n\xff", 6);
     catoptric::write_file(folder / "x", first);
     EXPECT_EQ(catoptric::read_file(folder / "x"), first);
@@ -43,13 +43,14 @@ TEST_F(File, ComesBackByteForByteAndReplaces) {
     EXPECT_EQ(entries(), 1);
 }
 
-/// Who ended in the middle of writing left a part behind; whoever is still at it keeps theirs.
-TEST_F(File, TidiesUpAfterTheDead) {
+/// write_file removes the partial file of a process that ended while writing. Partial files of
+/// running processes stay.
+TEST_F(File, PartialFilesOfEndedProcessesAreRemoved) {
     const pid_t dead = ::fork();
     if (dead == 0) ::_exit(0);
     ::waitpid(dead, nullptr, 0);
     for (const std::string& name :
-         {"x.partial-" + std::to_string(dead), // left behind
+         {"x.partial-" + std::to_string(dead), // partial file of a process that ended
           "x.partial-" + std::to_string(::getppid()), std::string("x.partial-1k"),
           std::string("y.partial-") + std::to_string(dead)})
         std::ofstream(folder / name) << "part";
@@ -58,8 +59,9 @@ TEST_F(File, TidiesUpAfterTheDead) {
     EXPECT_EQ(entries(), 4) << "x, a living process's, no process's, and another file's";
 }
 
-/// Neither wider, where it was private, nor narrower; and the mode is there before the bytes are.
-TEST_F(File, ReplacedFileKeepsItsMode) {
+/// Replacing a file neither adds nor removes permissions. The permissions are set before the bytes
+/// are written.
+TEST_F(File, ReplacedFileKeepsItsPermissions) {
     for (const fs::perms mode : {fs::perms(0600), fs::perms(0444), fs::perms(0775)}) {
         catoptric::write_file(folder / "x", "old");
         fs::permissions(folder / "x", mode);
@@ -72,7 +74,7 @@ TEST_F(File, ReplacedFileKeepsItsMode) {
     EXPECT_EQ(fs::status(folder / "x").permissions(), fs::perms(0775));
 }
 
-TEST_F(File, RealPathIsTheEndOfAllLinks) {
+TEST_F(File, RealPathResolvesAllLinks) {
     using catoptric::real_path;
     const fs::path real = fs::canonical(folder);
     fs::create_directories(folder / "a/b");
@@ -84,30 +86,31 @@ TEST_F(File, RealPathIsTheEndOfAllLinks) {
     EXPECT_EQ(real_path(folder / "a/twice"), real / "a/missing.txt");
     EXPECT_EQ(real_path(folder / "no/../such/folder/x"), real / "such/folder/x");
     EXPECT_EQ(real_path("x"), fs::canonical(".") / "x");
-    fs::create_symlink("loop", folder / "loop"); // ends somewhere
+    // On a loop of links, real_path must end nevertheless.
+    fs::create_symlink("loop", folder / "loop");
     EXPECT_EQ(real_path(folder / "loop"), folder / "loop");
 }
 
-TEST_F(File, LinkIsFollowed) {
+TEST_F(File, WritingToALinkWritesTheTarget) {
     fs::create_symlink("real", folder / "link");
     catoptric::write_file(folder / "link", "text");
     EXPECT_TRUE(fs::is_symlink(folder / "link"));
     EXPECT_EQ(catoptric::read_file(folder / "real"), "text");
 }
 
-TEST_F(File, MissingFolderCannotBeCreatedIn) {
+TEST_F(File, WritingIntoAMissingFolderIsAnError) {
     const Error error = error_of([&] { catoptric::write_file(folder / "no" / "x", "text"); });
     EXPECT_EQ(error.failure, Failure::cannot_create);
     EXPECT_THAT(error.what(), HasSubstr((folder / "no" / "x").string()));
 }
 
-TEST_F(File, FolderIsNoFile) {
+TEST_F(File, ReadingOrWritingAFolderIsAnError) {
     EXPECT_EQ(error_of([&] { catoptric::write_file(folder, "text"); }).failure,
               Failure::cannot_create);
     EXPECT_EQ(error_of([&] { catoptric::read_file(folder); }).failure, Failure::missing_input);
 }
 
-TEST_F(File, FullDeviceIsAnIoErrorAndStaysADevice) {
+TEST_F(File, WritingToAFullDeviceIsAnIoError) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
     const Error error = error_of([] { catoptric::write_file("/dev/full", "text"); });
     EXPECT_EQ(error.failure, Failure::io);
@@ -115,14 +118,14 @@ TEST_F(File, FullDeviceIsAnIoErrorAndStaysADevice) {
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-TEST_F(File, NameTooLongLeavesNothingBehind) {
+TEST_F(File, TooLongNameLeavesNoPartialFile) {
     const Error error = error_of(
         [&] { catoptric::write_file(folder / std::string(300, 'x'), "t"); });
     EXPECT_EQ(error.failure, Failure::cannot_create);
     EXPECT_EQ(entries(), 0);
 }
 
-TEST_F(File, MissingFileIsMissingInput) {
+TEST_F(File, ReadingAMissingFileIsAMissingInputError) {
     const Error error = error_of([&] { catoptric::read_file(folder / "gone"); });
     EXPECT_EQ(error.failure, Failure::missing_input);
     EXPECT_THAT(error.what(), HasSubstr("gone"));

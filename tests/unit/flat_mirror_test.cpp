@@ -1,4 +1,5 @@
-// Which mirrors are flat, and the views that they have.
+// Tests of finding flat mirrors and flat faces, and of the mirrored views that show their
+// reflections.
 #include "render/mirrored.hpp"
 #include "render/views.hpp"
 #include "scene/build.hpp"
@@ -20,7 +21,7 @@ const dmat4 kTurned = glm::rotate(glm::translate(dmat4(1), dvec3(30, -7, 2)), .7
                                   glm::normalize(dvec3(1, 2, -1))) *
                       glm::scale(dmat4(1), dvec3(3, .5, 2));
 
-TEST(FlatMirror, IsFoundWhereverItStands) {
+TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
     const auto flat = scene::flat(board(), kTurned);
     ASSERT_TRUE(flat);
     EXPECT_LE(flat->off, 1e-12);
@@ -40,22 +41,25 @@ TEST(FlatMirror, IsFoundWhereverItStands) {
     EXPECT_FALSE(scene::flat(board(), dmat4(0))) << "without an area";
 }
 
-TEST(FlatMirror, IsAsFarOffAsItsNormalsAndVerticesAre) {
+TEST(FlatMirror, DeviationFromFlatCoversNormalsAndVertices) {
     scene::Mesh turned = board();
     turned.normals[2] = glm::normalize(vec3(.003f, 0, 1));
     EXPECT_NEAR(scene::flat(turned, dmat4(1))->off, .003, 1e-6);
     turned.normals[2] = glm::normalize(vec3(.03f, 0, 1));
     EXPECT_FALSE(scene::flat(turned, dmat4(1)));
     scene::Mesh bent = board();
-    bent.positions[3].z = .004; // sqrt(2) from the diagonal: the larger triangle, whose plane it is
+    // The vertex is sqrt(2) from the diagonal, so its triangle tilts by .004 / sqrt(2) against the
+    // other triangle.
+    bent.positions[3].z = .004;
     EXPECT_NEAR(scene::flat(bent, dmat4(1))->off, .004 / std::sqrt(2.0), 1e-7);
     scene::Mesh back = board();
     for (vec3& normal : back.normals) normal = -normal;
     EXPECT_EQ(scene::flat(back, dmat4(1))->off, 0) << "a mirror has two sides";
 }
 
-/// A board modelled as a thin closed box, turned: two large faces and a rim of four.
-TEST(FlatFaces, OfAThinBoxAreItsSix) {
+/// A rotated board, modelled as a thin closed box, has two large faces and four narrow faces at the
+/// rim.
+TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     const scene::Mesh box = scene::box("board", {-1, -1, -.02}, {1, 1, .02});
     ASSERT_FALSE(scene::flat(box, kTurned));
     const scene::FlatFaces flats = scene::flat_faces(box, kTurned);
@@ -81,10 +85,11 @@ TEST(FlatFaces, OfAThinBoxAreItsSix) {
         EXPECT_LT(dot(dvec3(kTurned[3]) - face.point, face.normal), 0);
 }
 
-TEST(FlatFaces, LeaveOutWhatIsBent) {
+TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
     scene::Mesh rounded = scene::box("board", {-1, -1, -.1}, {1, 1, .1});
     for (const uvec3& t : rounded.triangles)
-        for (int k = 0; k < 3; ++k) // the rim shines as if it were round
+        // Normals of the rim are bent, as if the rim were round.
+        for (int k = 0; k < 3; ++k)
             if (std::abs(rounded.normals[t[k]].z) < .5f)
                 rounded.normals[t[k]] = glm::normalize(rounded.normals[t[k]] + vec3(0, 0, .2f));
     const scene::FlatFaces flats = scene::flat_faces(rounded, dmat4(1));
@@ -99,8 +104,8 @@ TEST(FlatFaces, LeaveOutWhatIsBent) {
     EXPECT_FALSE(quad.faces.front().is_one_sided) << "a mirror has two sides";
 }
 
-// A sixteenth of atan(2 tan(30 deg) / 600).
-TEST(FlatMirror, ToleranceIsAPartOfAPixel) {
+// The expected tolerance is a sixteenth of a pixel's angle, atan(2 tan(30 deg) / 600).
+TEST(FlatMirror, FlatToleranceIsASixteenthOfAPixel) {
     const scene::Camera camera{.vertical_fov_degrees = 60};
     EXPECT_NEAR(scene::flat_tolerance(camera, {10, 600}), 2 * std::tan(M_PI / 6) / 600 / 16, 1e-9);
     EXPECT_NEAR(scene::flat_tolerance({.orthographic_height = 3}, {10, 600}), 2.0 / 600 / 16, 1e-9);
@@ -118,7 +123,7 @@ std::optional<render::MirrorPlane> plane(const scene::Mesh& mesh, int bounces = 
     return render::MirrorPlane{*scene::flat(mesh, dmat4(1)), bounces};
 }
 
-TEST(MirroredViews, StandBehindTheMirrorAndSeeWhatTheEyeSeesInIt) {
+TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
     int most = 2;
     const auto views = render::mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}), {plane(board())},
                                               {64, 64}, most);
@@ -129,10 +134,10 @@ TEST(MirroredViews, StandBehindTheMirrorAndSeeWhatTheEyeSeesInIt) {
     const auto behind = render::mirrored_views(eye_at({.5, .25, -3}, {.5, .25, 0}),
                                                {plane(board())}, {64, 64}, most);
     EXPECT_EQ(behind.at(0).view.clip, vec4(0, 0, -1, -3)) << "on whichever side the eye is";
-    // x from -1.5 / 3 to .5 / 3 of half the picture, y from -1.25 / 3 to .75 / 3 turned over; a
-    // pixel more around.
+    // The mirror covers x from -1.5 / 3 to .5 / 3 of half the picture, and y from -1.25 / 3 to .75
+    // / 3, upside down. The area has a margin of one pixel.
     EXPECT_EQ(views[0].area, (graph::Area{15, 23, 24, 24}));
-    // What lies at p in the picture's world is where its image is in the view's.
+    // A point p lies in the mirrored view where the mirror image of p lies in the camera's view.
     const vec3 p(.3f, -.6f, 2), image(.3f, -.6f, -2);
     const render::Eye eye = eye_at({.5, .25, 3}, {.5, .25, 0});
     const vec3 seen = image - eye.view.eye, mirrored = p - views[0].view.eye;
@@ -142,7 +147,7 @@ TEST(MirroredViews, StandBehindTheMirrorAndSeeWhatTheEyeSeesInIt) {
     EXPECT_EQ(most, 2);
 }
 
-TEST(MirroredViews, AreOfWhatThePictureShows) {
+TEST(MirroredViews, OnlyMirrorsInThePictureGetMirroredViews) {
     const auto count = [](const dvec3& place, const dvec3& target) {
         int most = 2;
         return render::mirrored_views(eye_at(place, target), {plane(board())}, {64, 64}, most)
@@ -155,7 +160,7 @@ TEST(MirroredViews, AreOfWhatThePictureShows) {
     EXPECT_EQ(count({0, 3, 0}, {.5, 0, 0}), 0u) << "edge on";
 }
 
-TEST(MirroredViews, AreOfTheFacesOfABodyThatTheEyeIsInFrontOf) {
+TEST(MirroredViews, OnlyFacesTowardsTheEyeGetMirroredViews) {
     std::vector<std::optional<render::MirrorPlane>> faces;
     for (scene::Flat& face :
          scene::flat_faces(scene::box("b", {-1, -1, -.1}, {1, 1, .1}), dmat4(1)).faces)
@@ -170,9 +175,8 @@ TEST(MirroredViews, AreOfTheFacesOfABodyThatTheEyeIsInFrontOf) {
     EXPECT_EQ(count({2, 2, 3}), 3u);
 }
 
-TEST(MirroredViews, GoAsDeepAsAskedForAndNoDeeperThanAFrameHolds) {
-    std::vector<std::optional<render::MirrorPlane>>
-        corner; // three walls of a box around the eye, and the other three
+TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
+    std::vector<std::optional<render::MirrorPlane>> corner; // the six walls of a box around the eye
     for (int face = 0; face < 6; ++face)
         corner.push_back(plane(scene::wall(face, dvec3(-1), dvec3(1)), 16));
     const render::Eye eye = eye_at({.1, .2, -.3}, {1, 1, 1});
@@ -207,7 +211,7 @@ TEST(MirroredViews, GoAsDeepAsAskedForAndNoDeeperThanAFrameHolds) {
     }
 }
 
-TEST(MirroredViews, MeetWhatIsInFrontOfTheMirrorAndInItsPartOfThePicture) {
+TEST(MirroredViews, MirroredViewCullsBoxesBehindOrBesideTheMirror) {
     int most = 1;
     const render::MirroredView view = render::mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}),
                                                              {plane(board())}, {64, 64}, most)

@@ -12,8 +12,8 @@
 namespace catoptric::measure {
 namespace {
 
-// The formulas of tests/golden/flip_reference.py, which also explains them; the figures in kCases
-// are what it prints.
+// The formulas of the test pictures equal those of tests/golden/flip_reference.py, which explains
+// them. That script printed the figures in kCases.
 using Formula = int (*)(int x, int y, int c, bool b);
 
 int scramble(int x, int y, int c, unsigned seed) {
@@ -30,7 +30,7 @@ int constant(int, int, int c, bool b) {
 }
 int edges(int x, int y, int, bool b) { return x + y / 2 < (b ? 25 : 22) ? 40 : 220; }
 int points(int x, int y, int, bool b) { return x % 8 == 4 && y % 8 == 4 && !b ? 255 : 128; }
-int noise(int x, int y, int c, bool b) { return scramble(x, y, c, b ? 2 : 1); }
+int flip_noise(int x, int y, int c, bool b) { return scramble(x, y, c, b ? 2 : 1); }
 int natural(int x, int y, int c, bool b) {
     const int from_centre = x - (b ? 32 : 30);
     const bool ball = from_centre * from_centre + (y - 20) * (y - 20) < 144;
@@ -58,11 +58,11 @@ struct Case {
 constexpr std::array<std::array<double, 2>, 5> kPlaces = {
     {{0, 0}, {0.5, 0.5}, {0.3, 0.7}, {0.9, 0.1}, {0.999, 0.999}}};
 const Case kCases[] = {
-    // from flip-evaluator 1.7
+    // The expected figures come from flip-evaluator 1.7, the program of FLIP's authors.
     {constant, 24, 16, 67, 0.2156905, {0.2156905, 0.2156905, 0.2156905, 0.2156905, 0.2156905}},
     {edges, 40, 30, 67, 0.1488630, {0.0000000, 0.1508427, 0.9661281, 0.0000000, 0.0000000}},
     {points, 32, 24, 67, 0.0653677, {0.0000576, 0.0071267, 0.0004929, 0.1244844, 0.0021309}},
-    {noise, 33, 21, 67, 0.4316227, {0.5222005, 0.4762466, 0.3012399, 0.3117291, 0.6648194}},
+    {flip_noise, 33, 21, 67, 0.4316227, {0.5222005, 0.4762466, 0.3012399, 0.3117291, 0.6648194}},
     {natural, 64, 48, 67, 0.1401119, {0.0755432, 0.1352261, 0.1119139, 0.1328537, 0.1346985}},
     {primaries, 9, 7, 67, 1.0000000, {1.0000000, 1.0000000, 1.0000000, 1.0000000, 1.0000000}},
     {natural, 50, 1, 67, 0.1030659, {0.0756613, 0.1061340, 0.0944556, 0.1233173, 0.1225968}},
@@ -78,11 +78,11 @@ Picture cut_out(const Picture& picture, int left, int top, int width, int height
     return part;
 }
 
-// Pictures are computed in tiles; where these end must not show.
-TEST(Flip, APixelDependsOnNothingBeyondItsReach) {
+// FLIP is computed in tiles, and the borders of tiles must not change the result.
+TEST(Flip, PixelErrorDependsOnlyOnPixelsWithinReach) {
     constexpr int kWidth = 620, kHeight = 310, kLeft = 117, kTop = 23;
-    const Picture a = picture_of(noise, kWidth, kHeight, false),
-                  b = picture_of(noise, kWidth, kHeight, true);
+    const Picture a = picture_of(flip_noise, kWidth, kHeight, false),
+                  b = picture_of(flip_noise, kWidth, kHeight, true);
     const int width = kWidth - 2 * kLeft, height = kHeight - 2 * kTop, reach = flip_reach();
     const std::vector<float> whole = flip(a, b),
                              part = flip(cut_out(a, kLeft, kTop, width, height),
@@ -96,13 +96,13 @@ TEST(Flip, APixelDependsOnNothingBeyondItsReach) {
 
 class Published : public testing::TestWithParam<Case> {};
 
-TEST_P(Published, MapAndMeanEqualTheAuthorsProgram) {
+TEST_P(Published, MapAndMeanEqualThoseOfFlipEvaluator) {
     const Case& wanted = GetParam();
     const Picture a = picture_of(wanted.formula, wanted.width, wanted.height, false);
     const Picture b = picture_of(wanted.formula, wanted.width, wanted.height, true);
     const std::vector<float> map = flip(a, b, wanted.pixels_per_degree);
-    // The authors' program works in float: where a picture is flat, rounding (1e-8) comes out of
-    // the square root as 1e-4 of feature, 3e-5 of error. Ours works in double.
+    // The program of FLIP's authors works in float, ours in double. In flat pictures, a square root
+    // turns their rounding of 1e-8 into a feature difference of 1e-4 and an error of 3e-5.
     EXPECT_NEAR(flip_mean(map), wanted.mean, wanted.formula == constant ? 3e-5 : 1e-5);
     for (std::size_t i = 0; i < kPlaces.size(); ++i) {
         const int x = static_cast<int>(kPlaces[i][0] * wanted.width);
@@ -114,7 +114,8 @@ TEST_P(Published, MapAndMeanEqualTheAuthorsProgram) {
 
 INSTANTIATE_TEST_SUITE_P(Flip, Published, testing::ValuesIn(kCases));
 
-/// Linear light that no 8 bits hold; flip_reference.py has the formula, too.
+/// Builds a picture of linear values between the steps of 8 bits. flip_reference.py uses the same
+/// formula.
 Picture between_steps(bool b) {
     Picture picture(40, 24);
     for (int y = 0; y < picture.height; ++y)
@@ -125,12 +126,12 @@ Picture between_steps(bool b) {
     return picture;
 }
 
-TEST(Flip, OfFloatsEqualsTheAuthorsProgram) {
+TEST(Flip, FlipOfUnroundedFloatsEqualsThatOfFlipEvaluator) {
     const Picture a = between_steps(false), b = between_steps(true);
     const auto mean = [&](auto&& display, double stops) {
         return flip_mean(flip(display(a, stops), display(b, stops)));
     };
-    // from flip-evaluator 1.7
+    // The expected figures come from flip-evaluator 1.7, the program of FLIP's authors.
     EXPECT_NEAR(mean(to_unrounded_display, -.5), .0062926, 2e-5);
     EXPECT_NEAR(mean(to_unrounded_display, .5), .0076279, 2e-5);
     EXPECT_NEAR(mean(to_display, -.5), .0074952, 2e-5);
@@ -138,11 +139,11 @@ TEST(Flip, OfFloatsEqualsTheAuthorsProgram) {
 }
 
 TEST(Flip, EqualPicturesGiveExactlyZero) {
-    const Picture a = picture_of(noise, 20, 20, false);
+    const Picture a = picture_of(flip_noise, 20, 20, false);
     for (const float error : flip(a, a)) EXPECT_EQ(error, 0.0F);
 }
 
-TEST(Flip, IsSymmetric) {
+TEST(Flip, FlipIsSymmetric) {
     const Picture a = picture_of(natural, 40, 30, false);
     const Picture b = picture_of(natural, 40, 30, true);
     EXPECT_EQ(flip(a, b), flip(b, a));
@@ -165,15 +166,16 @@ TEST(Flip, MirroredPicturesGiveTheMirroredMap) {
             EXPECT_NEAR(map[y * 40 + x], other[y * 40 + 39 - x], 1e-6);
 }
 
-TEST(Flip, AFlatPairDiffersTheSameEverywhereAtEveryDistance) {
-    // No features and nothing to blur: only the colours are left (the figure of the constant case).
+TEST(Flip, FlatPicturesDifferEquallyAtEveryViewingDistance) {
+    // A flat picture has no features and nothing to blur. The error is therefore the colour
+    // difference of the `constant` case.
     for (const double pixels_per_degree : {1.0, 20.0, 67.0, 300.0})
         for (const float error : flip(picture_of(constant, 12, 9, false),
                                       picture_of(constant, 12, 9, true), pixels_per_degree))
             EXPECT_NEAR(error, 0.2156905, 1e-4);
 }
 
-TEST(Flip, BlackAgainstWhiteIsNearlyAsBadAsCanBe) {
+TEST(Flip, ErrorOfBlackAgainstWhiteIsNearlyOne) {
     Picture white(8, 8);
     for (vec3& pixel : white.pixels) pixel = vec3(1);
     const double mean = flip_mean(flip(Picture(8, 8), white));
@@ -181,7 +183,7 @@ TEST(Flip, BlackAgainstWhiteIsNearlyAsBadAsCanBe) {
     EXPECT_LE(mean, 1);
 }
 
-TEST(Flip, MeanCountsOnlyTheMask) {
+TEST(Flip, MeanCountsOnlyPixelsOfTheMask) {
     const std::vector<float> map = {0.5F, 1, 0.25F, 0};
     EXPECT_EQ(flip_mean(map), 0.4375);
     EXPECT_EQ(flip_mean(map, {1, 0, 255, 0}), 0.375);
@@ -189,22 +191,22 @@ TEST(Flip, MeanCountsOnlyTheMask) {
     EXPECT_THROW(flip_mean(map, {1, 0}), Error);
 }
 
-std::string refusal(catoptric::Failure failure, int width_a, int height_a, int width_b,
-                    int height_b, double ppd = 67) {
+std::string flip_refusal(catoptric::Failure failure, int width_a, int height_a, int width_b,
+                         int height_b, double ppd = 67) {
     return test::refusal(
         failure, [&] { flip(Picture(width_a, height_a), Picture(width_b, height_b), ppd); });
 }
 
-TEST(Flip, RefusesWhatHasNoAnswer) {
-    EXPECT_EQ(refusal(catoptric::Failure::bad_data, 4, 3, 3, 4),
+TEST(Flip, InvalidSizesAndPixelDensitiesAreRefused) {
+    EXPECT_EQ(flip_refusal(catoptric::Failure::bad_data, 4, 3, 3, 4),
               "FLIP wants two pictures of the same size, found 4x3 and 3x4");
-    EXPECT_EQ(refusal(catoptric::Failure::bad_data, 0, 0, 0, 0),
+    EXPECT_EQ(flip_refusal(catoptric::Failure::bad_data, 0, 0, 0, 0),
               "FLIP wants at least one pixel, found 0x0");
-    EXPECT_EQ(refusal(catoptric::Failure::usage, 4, 3, 4, 3, 0),
+    EXPECT_EQ(flip_refusal(catoptric::Failure::usage, 4, 3, 4, 3, 0),
               "FLIP wants 1 to 1000 pixels per degree, found 0");
-    EXPECT_EQ(
-        refusal(catoptric::Failure::usage, 4, 3, 4, 3, std::numeric_limits<double>::quiet_NaN()),
-        "FLIP wants 1 to 1000 pixels per degree, found nan");
+    EXPECT_EQ(flip_refusal(catoptric::Failure::usage, 4, 3, 4, 3,
+                           std::numeric_limits<double>::quiet_NaN()),
+              "FLIP wants 1 to 1000 pixels per degree, found nan");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// What one pixel covers after reflection, against two rays that are followed, and the edges it asks
-// for.
+// Tests of the footprint, which is the angle that one pixel covers after a reflection, and of the
+// capture face edges that follow from footprints.
 #include "render/footprint.hpp"
 #include "render/views.hpp"
 #include "scene/shapes.hpp"
@@ -15,16 +15,19 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::render;
 
-const double kPixel = 2 * std::tan(glm::radians(37.5) / 2) / 512; ///< on the contract camera's axis
+const double kPixel = 2 * std::tan(glm::radians(37.5) / 2) /
+                      512; ///< radians of a pixel at the picture's centre
 
-/// The contract's camera at another place, along an axis.
+/// Returns the pixels of a square picture from `eye` towards `target`, with the field of view of
+/// the built-in scene's camera.
 Pixels pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height = 512) {
     const scene::Camera camera{.eye = eye, .target = target, .vertical_fov_degrees = 37.5};
     return {camera_view(camera, Space{}, uvec2(height), 1), height};
 }
 
-/// Where a ray from the origin with this angle to +x goes on after a circle of radius |r| about
-/// (centre, 0), as an angle; r < 0: the circle's far side, a hollow mirror.
+/// Returns the direction of a ray, as an angle, after reflection at a circle of radius |r| around
+/// (centre, 0). The ray starts at the origin with `angle` to +x. If r < 0, the circle's far side
+/// reflects, as a hollow mirror.
 double onward(double centre, double r, double angle) {
     const dvec3 d(std::cos(angle), std::sin(angle), 0), c(centre, 0, 0);
     const double along = dot(c, d), half = std::sqrt(r * r - dot(c, c) + along * along);
@@ -33,10 +36,10 @@ double onward(double centre, double r, double angle) {
     return std::atan2(out.y, out.x);
 }
 
-TEST(Footprint, IsTheAngleBetweenTwoRaysThatWereFollowed) {
+TEST(Footprint, FootprintEqualsTheAngleBetweenTwoTracedRays) {
     constexpr double kCentre = 10, kTiny = 1e-7;
     for (const double r : {.5, 3.0, -.5, -3.0})
-        for (const double share : {.0, .4, .8}) { // of the way to the rim
+        for (const double share : {.0, .4, .8}) { // share of the way to the rim of the circle
             const double angle = std::asin(share * std::abs(r) / kCentre);
             const double cosine = std::sqrt(1 - share * share);
             const double distance = kCentre * std::cos(angle) - r * cosine;
@@ -47,25 +50,28 @@ TEST(Footprint, IsTheAngleBetweenTwoRaysThatWereFollowed) {
         }
 }
 
-TEST(Footprint, OfAFlatOrFocusingMirrorIsThePixel) {
+TEST(Footprint, FootprintOfAFlatOrFocusingMirrorIsThePixelAngle) {
     EXPECT_EQ(reflected_footprint(kPixel, 1e9, 0, 1e-9), kPixel);
     EXPECT_EQ(reflected_footprint(kPixel, 1, -.5, 1),
-              kPixel); // the eye in the focus of a hollow mirror
-    EXPECT_EQ(reflected_footprint(kPixel, 0, 5, 1), kPixel); // the eye on the mirror
+              kPixel); // the eye is in the focus of a hollow mirror
+    EXPECT_EQ(reflected_footprint(kPixel, 0, 5, 1), kPixel); // the eye is on the mirror
 }
 
-TEST(Footprint, KnownEdges) {
+TEST(Footprint, FaceEdgesEqualHandComputedValues) {
     const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
     EXPECT_NEAR(pixels.angle(1), kPixel, 1e-7 * kPixel);
-    EXPECT_NEAR(face_need(kPixel), 1184.62, .01); // a flat mirror
-    // A ball ahead: 2 pi / 4 over a pixel and twice what its nearest point turns by.
+    EXPECT_NEAR(face_need(kPixel), 1184.62, .01); // the face edge that a flat mirror needs
+    // At the nearest point of a ball straight ahead, a reflected pixel covers 1 + 2 distance /
+    // radius times its angle.
     EXPECT_NEAR(sphere_need(pixels, {0, 0, 12}, 2), face_need(kPixel * (1 + 2 * 10 / 2.)), .01);
-    EXPECT_EQ(sphere_need(pixels, {0, 0, 1}, 2), face_need(pixels.angle(0))); // from inside
+    EXPECT_EQ(sphere_need(pixels, {0, 0, 1}, 2),
+              face_need(pixels.angle(0))); // the eye is inside the ball
 }
 
-TEST(Footprint, PixelsOffTheAxisAreSmaller) {
+TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
     const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
-    // Two pixels of the middle row, that far from the axis in the picture's plane.
+    // The expected angle lies between the two borders of a pixel in the middle row, at distance
+    // `place` from the axis.
     for (const double place : {.0, .1, .3}) {
         const double between = std::atan(place + kPixel / 2) - std::atan(place - kPixel / 2);
         EXPECT_NEAR(pixels.angle(std::cos(std::atan(place))) / between, 1, 1e-6);
@@ -78,12 +84,13 @@ TEST(Footprint, PixelsOffTheAxisAreSmaller) {
     EXPECT_NEAR(aside / ahead, 1 + .3 * .3, .01);
 }
 
-TEST(Footprint, OfWhatIsNotInThePictureIsNothing) {
+TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
     const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
     EXPECT_EQ(sphere_need(pixels, {0, 0, -12}, 2), 0);
     EXPECT_EQ(sphere_need(pixels, {12, 0, 12}, 2), 0);
     EXPECT_GT(sphere_need(pixels, {5, 0, 12}, 2), 0) << "its rim is";
-    // Wholly behind the eye, and so wide that its bounds reach around the picture's sides.
+    // The triangle lies wholly behind the eye, but is so wide that its bounds reach around the
+    // sides of the picture.
     const std::vector<shared::Vertex> corners{
         {{-50, -50, -9}, {0, 0, 1}}, {{50, -50, -.5f}, {0, 0, 1}}, {{0, 50, -.5f}, {0, 0, 1}}};
     const std::vector<std::uint32_t> triangle{0, 1, 2};
@@ -99,7 +106,8 @@ struct Mirror {
     }
 };
 
-/// The triangles of a mesh, each corner moulded to a place and a normal.
+/// Builds a mirror from the triangles of a mesh. `moulded` maps each corner to a vertex with
+/// position and normal.
 Mirror mirror_of(const scene::Mesh& mesh,
                  const std::function<shared::Vertex(const dvec3&)>& moulded) {
     Mirror mirror;
@@ -109,29 +117,31 @@ Mirror mirror_of(const scene::Mesh& mesh,
     return mirror;
 }
 
-TEST(Footprint, AMeshNeedsWhatItsSphereNeeds) {
+TEST(Footprint, BallMeshNeedsTheSameEdgeAsItsSphere) {
     constexpr double kRadius = .2;
     const dvec3 centre(.1, -.2, .3), eye(-1, .4, -.7);
     const Mirror ball = mirror_of(scene::ball("ball", 5), [&](const dvec3& p) {
         return shared::Vertex{vec3(centre + kRadius * p), vec3(p)};
     });
-    // The facet next to the eye is met at up to half its width, of about a twentieth of the radius.
+    // The tolerance allows for the width of a facet, about a twentieth of the radius. The point
+    // nearest to the eye is up to half a facet away from a vertex.
     for (const dvec3& target : {centre, centre + dvec3(.3, .1, 0)}) {
         const double wanted = sphere_need(pixels_at(eye, target), vec3(centre), kRadius);
         EXPECT_NEAR(ball.need(eye, target), wanted, .01 * wanted);
     }
 }
 
-TEST(Footprint, AHollowMirrorNeedsMoreThanABulge) {
+TEST(Footprint, HollowMirrorNeedsALargerEdgeThanABulgingMirror) {
     constexpr double kRadius = 2, kDistance = 5;
-    // A cap about (0, 0, -1), a corner of the ball, seen along its axis from outside and inside.
+    // The mirror is a cap of a ball around its corner (0, 0, -1), seen along its axis from outside
+    // and from inside.
     scene::Mesh cap = scene::ball("cap", 5);
     std::erase_if(cap.triangles, [&](const uvec3& t) {
         return !(cap.positions[t.x].z < -.99 && cap.positions[t.y].z < -.99 &&
                  cap.positions[t.z].z < -.99);
     });
     ASSERT_FALSE(cap.triangles.empty());
-    for (const double side : {1., -1.}) { // whichever way its normals point
+    for (const double side : {1., -1.}) { // the mirror's normals point out or in
         const Mirror mirror = mirror_of(cap, [&](const dvec3& p) {
             return shared::Vertex{vec3(kRadius * p), vec3(side * p)};
         });
@@ -143,8 +153,9 @@ TEST(Footprint, AHollowMirrorNeedsMoreThanABulge) {
     }
 }
 
-TEST(Footprint, ACylinderNeedsWhatItsStraightLinesNeed) {
-    // Facets of a plane, bent: corners along and across its axis, and diagonals.
+TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
+    // The cylinder is a bent plane of 8 x 8 cells. Its triangles have edges along, across and
+    // diagonal to the axis.
     scene::Mesh plane{.name = "plane"};
     for (int i = 0; i <= 8; ++i)
         for (int j = 0; j <= 8; ++j) plane.positions.emplace_back(.1 * i - .4, .1 * j - .4, 0);
@@ -158,7 +169,8 @@ TEST(Footprint, ACylinderNeedsWhatItsStraightLinesNeed) {
         return shared::Vertex{n + vec3(0, static_cast<float>(p.y), 0), n};
     };
     const dvec3 eye(0, 0, 5), middle(0);
-    const double corner = 2 * .4 * .4 / (5 * 5); // of the plane: its tangent from the axis, squared
+    // Squared tangent of the angle between the camera's axis and a corner of the plane.
+    const double corner = 2 * .4 * .4 / (5 * 5);
     const double wanted = face_need(kPixel) * (1 + corner);
     EXPECT_NEAR(mirror_of(plane, bent).need(eye, middle), wanted, .01 * wanted);
     const auto flat = [](const dvec3& p) { return shared::Vertex{vec3(p), vec3(0, 0, 1)}; };
@@ -168,7 +180,7 @@ TEST(Footprint, ACylinderNeedsWhatItsStraightLinesNeed) {
     EXPECT_EQ(mirror_of(plane, nothing).need(eye, middle), 0);
 }
 
-TEST(Footprint, OneEdgeHoldsEveryNeed) {
+TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     const auto edge = [](const std::vector<double>& needs) { return common_edge(needs, 16384); };
     EXPECT_EQ(edge({}), 16u);
     EXPECT_EQ(edge({0}), 16u);

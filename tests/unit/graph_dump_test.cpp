@@ -1,6 +1,7 @@
-// What people and programs are shown of a plan.
+// Tests of the text, DOT and JSON descriptions of a planned render graph.
 #include "graph/dump.hpp"
 #include "support/frames.hpp"
+#include "support/graphs.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -8,13 +9,14 @@
 namespace catoptric::graph {
 namespace {
 
+using test::kBlack;
+
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-constexpr Clear kBlack{};
-
-/// Two images that share memory, a kept one, a culled pass and a buffer.
+/// A render graph with two images that share memory, an image kept for the next frame, a culled
+/// pass and a buffer.
 struct Dump : ::testing::Test {
     Graph g;
     Image first = add("first"), second = add("second"), third = add("third");
@@ -52,7 +54,7 @@ struct Dump : ::testing::Test {
     }
 };
 
-TEST_F(Dump, Text) {
+TEST_F(Dump, TextListsPassesImagesAndBuffers) {
     EXPECT_EQ(to_text(g, plan),
               R"(6 passes, scene_passes 1, 5376 bytes (6400 without sharing)
 
@@ -92,7 +94,7 @@ buffers
 )");
 }
 
-TEST_F(Dump, DotShowsCulledDashedAndLastFrameDotted) {
+TEST_F(Dump, DotDrawsCulledPassesDashedAndPreviousFrameDotted) {
     const std::string dot = to_dot(g, plan);
     EXPECT_THAT(dot, HasSubstr("p0 [shape=box, style=solid, label=\"one\\n(scene)\"]"));
     EXPECT_THAT(dot, HasSubstr("p3 [shape=box, style=dashed, label=\"vain\"]"));
@@ -105,7 +107,7 @@ TEST_F(Dump, DotShowsCulledDashedAndLastFrameDotted) {
     EXPECT_THAT(dot, HasSubstr("p6 -> i3 [style=solid, label=\"colour [0,1)\"]"));
 }
 
-TEST_F(Dump, Json) {
+TEST_F(Dump, JsonListsPassesImagesAndBuffers) {
     const Json json = Json::parse(to_json(g, plan));
     ASSERT_EQ(json["passes"].size(), 6u);
     EXPECT_EQ(json["passes"][0]["name"], "one");
@@ -133,7 +135,7 @@ TEST_F(Dump, Json) {
     EXPECT_EQ(json["bytes_unshared"], 6400);
 }
 
-TEST(EmptyDump, HasNoSections) {
+TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
     const Graph g;
     const Plan plan = graph::plan(g, {}, plain_sizer());
     EXPECT_EQ(to_text(g, plan),
@@ -142,8 +144,8 @@ TEST(EmptyDump, HasNoSections) {
     EXPECT_EQ(Json::parse(to_json(g, plan))["passes"], Json::array());
 }
 
-// In a frame of hundreds of mirrors every depth image lies where all the others lay.
-TEST(LargeDump, NamesTheFirstThatShareAndCountsTheOthers) {
+// In a frame of 100 mirrors, the depth images of all captures share the same memory.
+TEST(LargeDump, DumpNamesTheFirstSharingImagesAndCountsTheOthers) {
     const Graph g = test::reuse_frame(100);
     const std::string text = to_text(g, graph::plan(g, {}, plain_sizer()));
     EXPECT_THAT(text, HasSubstr("shares with 'view.depth', 'capture/1.depth', 'capture/2.depth'"));

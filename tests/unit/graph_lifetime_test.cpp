@@ -1,7 +1,8 @@
-// Kept and imported resources, mips, attachments that nobody reads: what the plan makes of them,
-// and the words with which wrong ones are refused.
+// Tests of persistent and imported resources, of mips, and of attachments that no pass reads: their
+// planned barriers, and the errors for invalid graphs.
 #include "graph/dump.hpp"
 #include "graph/shape.hpp"
+#include "support/graphs.hpp"
 #include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
@@ -9,21 +10,19 @@
 namespace catoptric::graph {
 namespace {
 
+using test::kBlack, test::nothing, test::planned;
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Clear kBlack{};
-void nothing(Commands&) {}
-
-Plan planned(const Graph& graph) { return plan(graph, {}, plain_sizer()); }
-
-std::string refusal(const Graph& graph) {
+std::string graph_lifetime_refusal(const Graph& graph) {
     return test::refusal(Failure::internal, [&] { planned(graph); });
 }
 
-/// "image 0 mips [0,1) layers [0,2) before > after", with what else is waited for counted.
-std::string text(const Barrier& b) {
+/// Returns a barrier as text, "image 0 mips [0,1) layers [0,2) before > after", and the number of
+/// other uses that the barrier waits for.
+std::string graph_lifetime_text(const Barrier& b) {
     const auto word = [](const Touch& t) {
         return t.nothing ? "nothing" : std::string(name_of(t.use)) + (t.write ? "!" : "");
     };
@@ -39,13 +38,13 @@ std::string text(const Barrier& b) {
 
 std::vector<std::string> texts(const std::vector<Barrier>& barriers) {
     std::vector<std::string> all;
-    for (const Barrier& barrier : barriers) all.push_back(text(barrier));
+    for (const Barrier& barrier : barriers) all.push_back(graph_lifetime_text(barrier));
     return all;
 }
 
 const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
 
-/// A history in which layers [first, end) of "cubes" were made from `stamp`.
+/// Returns a history in which layers [first, end) of image "cubes" have the content hash `stamp`.
 History held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
     ContentHashes stamps(12);
     stamps.set(first, end, stamp);
@@ -68,7 +67,7 @@ struct View {
     }
 };
 
-TEST(PersistentImages, HoldWhatTheHistorySays) {
+TEST(PersistentImages, HistoryDecidesWhichContentIsHeld) {
     const View fresh;
     EXPECT_FALSE(fresh.g.holds_content(fresh.cubes, 0));
     const View later(held(0, 6, 7));
@@ -82,7 +81,7 @@ TEST(PersistentImages, HoldWhatTheHistorySays) {
     EXPECT_FALSE(other.holds_content(other.persistent(desc), 7));
 }
 
-TEST(PersistentImages, AreMadeInOneFrameAndReadWithoutABarrierInTheNext) {
+TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
     View first;
     first.make(first.cubes, 7);
     first.view(first.cubes);
@@ -100,19 +99,19 @@ TEST(PersistentImages, AreMadeInOneFrameAndReadWithoutABarrierInTheNext) {
     EXPECT_THAT(texts(plan.last),
                 ElementsAre("image 1 mips [0,1) layers [0,1) colour! > copy_from"));
     EXPECT_TRUE(plan.images[0].alone);
-    EXPECT_EQ(plan.images[0].bytes, 12u * 8 * 8 * 8); // one copy
+    EXPECT_EQ(plan.images[0].bytes, 12u * 8 * 8 * 8); // a persistent image has one copy
     EXPECT_THAT(to_text(second.g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, kept, passes"));
 }
 
-TEST(PersistentImages, MayBeWantedOfAFrameThatDoesNotTouchThem) {
+TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
     View v(held(0, 12, 7));
     v.g.mark_output(v.cubes.layers(0, 6));
     const Plan plan = planned(v.g);
     EXPECT_THAT(plan.passes, IsEmpty());
-    EXPECT_THAT(plan.last, IsEmpty()); // it is readable as it is
+    EXPECT_THAT(plan.last, IsEmpty()); // the image is already readable
 }
 
-TEST(PersistentImages, AreWrittenThoughNobodyReadsThemInTheFrame) {
+TEST(PersistentImages, PassThatWritesAPersistentImageIsNotCulled) {
     View v;
     v.make(v.cubes.layers(6, 6), 7);
     const Plan plan = planned(v.g);
@@ -120,36 +119,39 @@ TEST(PersistentImages, AreWrittenThoughNobodyReadsThemInTheFrame) {
     EXPECT_EQ(plan.passes[0].unread, 0u);
 }
 
-TEST(PersistentImages, LayersThatWereNeverWrittenAreNotRead) {
+TEST(PersistentImages, ReadingUnwrittenLayersIsRefused) {
     View v(held(0, 6, 7));
     v.view(v.cubes);
-    EXPECT_EQ(refusal(v.g), "pass 'view' reads 'cubes' [0,12) as sampled before any pass writes "
-                            "layers [6,12)");
+    EXPECT_EQ(graph_lifetime_refusal(v.g),
+              "pass 'view' reads 'cubes' [0,12) as sampled before any pass writes "
+              "layers [6,12)");
 }
 
-TEST(PersistentImages, SayWhatTheyAreMadeFrom) {
+TEST(PersistentImages, WritingWithoutAContentHashIsRefused) {
     View v;
     v.g.pass("make").writes(v.cubes, Use::colour, kBlack).layers(12).record(nothing);
     v.g.set_content_hash(v.cubes.layers(0, 6), 7);
-    EXPECT_EQ(refusal(v.g),
+    EXPECT_EQ(graph_lifetime_refusal(v.g),
               "pass 'make' writes 'cubes' [0,12), which is kept, but nobody says what "
               "layers [6,12) are made from");
 }
 
-TEST(PersistentImages, AreNotMadeFromSomethingByNobody) {
+TEST(PersistentImages, ContentHashWithoutAWriteIsRefused) {
     View v(held(0, 12, 7));
     v.view(v.cubes);
     v.g.set_content_hash(v.cubes.layers(0, 6), 7);
-    EXPECT_EQ(refusal(v.g), "'cubes' [0,6) is said to be made from something, but no pass writes "
-                            "layers [0,6)");
+    EXPECT_EQ(graph_lifetime_refusal(v.g),
+              "'cubes' [0,6) is said to be made from something, but no pass writes "
+              "layers [0,6)");
     View w;
     w.make(w.cubes.layers(6, 6), 1);
     w.g.set_content_hash(w.cubes.layers(6, 7), 1);
-    EXPECT_EQ(refusal(w.g), "'cubes' [6,13) is said to be made from something, but the image has "
-                            "layers [0,12) and 1 mip(s)");
+    EXPECT_EQ(graph_lifetime_refusal(w.g),
+              "'cubes' [6,13) is said to be made from something, but the image has "
+              "layers [0,12) and 1 mip(s)");
 }
 
-TEST(PersistentImages, HaveNoPrevious) {
+TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
     View v;
     try {
         v.g.previous(v.cubes);
@@ -165,7 +167,7 @@ TEST(PersistentImages, HaveNoPrevious) {
     }
 }
 
-TEST(Imported, TexturesArriveReadyAndStayAsTheyAre) {
+TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
     Graph g;
     const Image texture = g.import(kDesc, nullptr, Use::sampled, Use::sampled);
     const Image out = g.image({.name = "out"});
@@ -187,10 +189,11 @@ TEST(Imported, TexturesArriveReadyAndStayAsTheyAre) {
     EXPECT_THAT(to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
 }
 
-TEST(Imported, WindowsArriveInAnyStateAndAreLeftToBeShown) {
+TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
     Graph g;
     const Image window = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
-    g.pass("show").writes(window, Use::colour, kBlack).record(nothing); // nobody wants it here
+    // No output depends on the window.
+    g.pass("show").writes(window, Use::colour, kBlack).record(nothing);
     const Plan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
@@ -199,7 +202,7 @@ TEST(Imported, WindowsArriveInAnyStateAndAreLeftToBeShown) {
     EXPECT_THAT(texts(plan.last), ElementsAre("image 0 mips [0,1) layers [0,1) colour! > present"));
 }
 
-TEST(Imported, AllLayersAreLeftAsIsSaid) {
+TEST(Imported, AllLayersEndInTheDeclaredUse) {
     Graph g;
     const Image image = g.import(kDesc, nullptr, Use::copy_from, Use::sampled);
     g.pass("some").writes(image.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
@@ -208,31 +211,34 @@ TEST(Imported, AllLayersAreLeftAsIsSaid) {
                             "image 0 mips [0,1) layers [6,12) copy_from > sampled +1"));
 }
 
-TEST(Imported, ContentsThatDoNotMatterAreNotRead) {
+TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
     Graph g;
     const Image image = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
     const Image out = g.image({.name = "out"});
     g.pass("view").reads(image, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
-    EXPECT_THAT(refusal(g), HasSubstr("pass 'view' reads 'window' [0,1) as sampled before any"));
+    EXPECT_THAT(graph_lifetime_refusal(g),
+                HasSubstr("pass 'view' reads 'window' [0,1) as sampled before any"));
 }
 
-TEST(Imported, IsReadWhereItComesFrom) {
+TEST(Imported, ImportedResourceAsOutputIsRefused) {
     Graph g;
     const Image image = g.import({.name = "window"}, nullptr, Use::sampled, Use::sampled);
     g.mark_output(image);
-    EXPECT_EQ(refusal(g), "'window' [0,1) is wanted, but imported: read it where it comes from");
+    EXPECT_EQ(graph_lifetime_refusal(g),
+              "'window' [0,1) is wanted, but imported: read it where it comes from");
     Graph h;
     const Buffer buffer = h.import(BufferDesc{.name = "back", .bytes = 4}, nullptr);
     h.mark_output(buffer);
-    EXPECT_EQ(refusal(h), "buffer 'back' is wanted, but imported: read it where it comes from");
+    EXPECT_EQ(graph_lifetime_refusal(h),
+              "buffer 'back' is wanted, but imported: read it where it comes from");
 }
 
-TEST(Imported, BuffersAreLeftToTheHost) {
+TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
     Graph g;
     const Buffer list = g.import(BufferDesc{.name = "list", .bytes = 64}, nullptr);
     const Buffer back = g.import(BufferDesc{.name = "back", .bytes = 64}, nullptr);
     g.pass("fill")
-        .reads(list, Use::storage_read) // nobody in this frame wrote it
+        .reads(list, Use::storage_read) // no pass of this frame writes the list
         .writes(back, Use::storage_write)
         .record(nothing);
     const Plan plan = planned(g);
@@ -258,7 +264,7 @@ struct Mips : ::testing::Test {
     }
 };
 
-TEST_F(Mips, HaveBarriersOfTheirOwn) {
+TEST_F(Mips, EachMipHasItsOwnBarriers) {
     for (std::uint32_t m = 0; m < 4; ++m) write(m);
     view(image);
     const Plan plan = planned(g);
@@ -269,10 +275,10 @@ TEST_F(Mips, HaveBarriersOfTheirOwn) {
                 ElementsAre("image 0 mips [0,3) layers [0,2) sampled > sampled",
                             "image 0 mips [3,4) layers [0,2) storage_write! > sampled",
                             "image 1 mips [0,1) layers [0,1) nothing > colour!"));
-    EXPECT_EQ(plan.images[0].bytes, 768u); // (32 + 8 + 2 + 1) texels, 2 layers, 8 bytes: padded
+    EXPECT_EQ(plan.images[0].bytes, 768u); // (32 + 8 + 2 + 1) texels * 2 layers * 8 bytes, padded
 }
 
-TEST_F(Mips, BarriersOfSomeLayersAreRectangles) {
+TEST_F(Mips, BarriersCoverRangesOfMipsAndLayers) {
     for (std::uint32_t m = 0; m < 4; ++m) write(m);
     view(image.layers(1, 1));
     EXPECT_THAT(texts(planned(g).passes.at(4).barriers),
@@ -281,59 +287,64 @@ TEST_F(Mips, BarriersOfSomeLayersAreRectangles) {
                             "image 1 mips [0,1) layers [0,1) nothing > colour!"));
 }
 
-TEST_F(Mips, AreReadOnlyWhereTheyAreWritten) {
+TEST_F(Mips, ReadingUnwrittenMipsIsRefused) {
     write(0);
     write(1);
     view(image.mips(0, 3));
-    EXPECT_EQ(refusal(g), "pass 'view' reads 'pyramid' [0,2) mips [0,3) as sampled before any pass "
-                          "writes layers [0,2) of mip 2");
+    EXPECT_EQ(graph_lifetime_refusal(g),
+              "pass 'view' reads 'pyramid' [0,2) mips [0,3) as sampled before any pass "
+              "writes layers [0,2) of mip 2");
 }
 
-TEST_F(Mips, AreWrittenOneAtATime) {
+TEST_F(Mips, WritingSeveralMipsAtOnceIsRefused) {
     g.pass("all").writes(image, Use::storage_write).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'all' uses 'pyramid' [0,2) mips [0,4) as storage_write: one mip at "
-                          "a time");
+    EXPECT_EQ(graph_lifetime_refusal(g),
+              "pass 'all' uses 'pyramid' [0,2) mips [0,4) as storage_write: one mip at "
+              "a time");
 }
 
-TEST_F(Mips, OutOfRange) {
+TEST_F(Mips, MipOutOfRangeIsRefused) {
     g.pass("all").writes(image.mip(4), Use::storage_write).record(nothing);
-    EXPECT_EQ(refusal(g),
+    EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'all' uses 'pyramid' [0,2) mip 4 as storage_write, but the image has "
               "mips [0,4)");
 }
 
-TEST_F(Mips, MoreThanThereAre) {
+TEST_F(Mips, MoreMipsThanTheSizeAllowsAreRefused) {
     g.image({.name = "deep", .width = 8, .height = 4, .mips = 5});
-    EXPECT_EQ(refusal(g), "image 'deep' wants 5 mips, but of 8x4 there are 1 to 4");
+    EXPECT_EQ(graph_lifetime_refusal(g), "image 'deep' wants 5 mips, but of 8x4 there are 1 to 4");
 }
 
-TEST_F(Mips, WantedOutOfRange) {
+TEST_F(Mips, OutputOfMipsOutOfRangeIsRefused) {
     write(0);
     g.mark_output(image.mips(0, 5));
-    EXPECT_EQ(refusal(g), "'pyramid' [0,2) mips [0,5) is wanted, but the image has mips [0,4)");
+    EXPECT_EQ(graph_lifetime_refusal(g),
+              "'pyramid' [0,2) mips [0,5) is wanted, but the image has mips [0,4)");
 }
 
-TEST_F(Mips, AttachmentsAreAsLargeAsTheirMip) {
+TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
     const Image depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 4});
     g.pass("draw")
         .writes(image.mip(1).layers(0, 1), Use::colour, kBlack)
         .writes(depth, Use::depth, kBlack)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'draw' attaches 'pyramid' [0,1) mip 1 as colour (4x2) and 'depth' "
-                          "[0,1) as depth (8x4): attachments have one size");
+    EXPECT_EQ(graph_lifetime_refusal(g),
+              "pass 'draw' attaches 'pyramid' [0,1) mip 1 as colour (4x2) and 'depth' "
+              "[0,1) as depth (8x4): attachments have one size");
 }
 
-TEST_F(Mips, OneMayBeReadWhileAnotherIsWritten) {
+TEST_F(Mips, ReadingAndWritingOneMipInTheSamePassIsRefused) {
     write(0);
     g.pass("twice")
         .reads(image.mip(0), Use::sampled)
         .writes(image.mip(0), Use::storage_write)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'twice' reads 'pyramid' [0,2) mip 0 as sampled while it writes "
-                          "'pyramid' [0,2) mip 0 as storage_write, in layers [0,2) of mip 0");
+    EXPECT_EQ(graph_lifetime_refusal(g),
+              "pass 'twice' reads 'pyramid' [0,2) mip 0 as sampled while it writes "
+              "'pyramid' [0,2) mip 0 as storage_write, in layers [0,2) of mip 0");
 }
 
-TEST(Unread, IsWhatNobodyReadsBeforeItIsWrittenAgain) {
+TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
     Graph g;
     const Image depth = g.image({.name = "depth", .format = Format::d32f, .layers = 2});
     const Image a = g.image({.name = "a", .layers = 2}), b = g.image({.name = "b", .layers = 2});
@@ -344,19 +355,23 @@ TEST(Unread, IsWhatNobodyReadsBeforeItIsWrittenAgain) {
             .layers(2)
             .record(nothing);
     };
-    draw("first", a, kBlack); // its depth is loaded by the second
+    // The second pass loads the depth of the first pass.
+    draw("first", a, kBlack);
     draw("second", b, std::nullopt);
     draw("third", a, kBlack);
     g.mark_output(a);
     g.mark_output(b);
     const Plan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 3u);
-    EXPECT_EQ(plan.passes[0].unread, 1u); // its depth is loaded, its colour written again
-    EXPECT_EQ(plan.passes[1].unread, 2u); // its depth is cleared by the third
-    EXPECT_EQ(plan.passes[2].unread, 2u); // nobody follows
+    // Bit 0: the colour of the first pass is written again before any read.
+    EXPECT_EQ(plan.passes[0].unread, 1u);
+    // Bit 1: the third pass clears the depth of the second pass.
+    EXPECT_EQ(plan.passes[1].unread, 2u);
+    // Bit 1: no pass reads the depth of the third pass.
+    EXPECT_EQ(plan.passes[2].unread, 2u);
 }
 
-TEST(Shape, IsNotWhatPassesRecordOrClearTo) {
+TEST(Shape, GraphShapeIgnoresClearValuesAndContentHashes) {
     const auto graph = [](const std::string& name, float red, std::uint64_t stamp, bool there) {
         View v(there ? held(0, 12, stamp) : History{});
         v.g.pass(name).writes(v.out, Use::colour, Clear{red}).record(nothing);

@@ -1,5 +1,5 @@
-// The planner's bookkeeping beside the plainest that does the same: a value for each cell, every
-// pair of placements.
+// Tests of the graph planner's data structures against simple versions: one value per cell, and all
+// pairs of placements.
 #include "graph/memory_users.hpp"
 #include "graph/runs.hpp"
 #include "support/frames.hpp"
@@ -22,7 +22,7 @@ private:
     std::mt19937 random_;
 };
 
-std::vector<int> cells_of(const Runs<int>& runs) {
+std::vector<int> graph_parts_cells_of(const Runs<int>& runs) {
     std::vector<int> cells;
     runs.each([&](std::uint32_t begin, std::uint32_t end, int value) {
         cells.resize(cells.size() + (end - begin), value);
@@ -30,7 +30,7 @@ std::vector<int> cells_of(const Runs<int>& runs) {
     return cells;
 }
 
-TEST(Runs, HoldWhatAValueForEachCellWouldHold) {
+TEST(Runs, RunsEqualOneValuePerCell) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         Draw draw(seed);
         const std::uint32_t size = draw.below(40) + 1;
@@ -44,7 +44,7 @@ TEST(Runs, HoldWhatAValueForEachCellWouldHold) {
             const auto change = [&](int& cell) { cell = set ? value : (cell + value) % 5; };
             runs.change(first, end, [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
             for (std::uint32_t i = first; i < end; ++i) change(cells[i]);
-            ASSERT_EQ(cells_of(runs), cells) << "seed " << seed << ", step " << step;
+            ASSERT_EQ(graph_parts_cells_of(runs), cells) << "seed " << seed << ", step " << step;
             const auto begin = cells.begin();
             EXPECT_EQ(runs.any(first, end, value),
                       std::count(begin + first, begin + end, value) > 0);
@@ -52,7 +52,7 @@ TEST(Runs, HoldWhatAValueForEachCellWouldHold) {
     }
 }
 
-TEST(Runs, JoinNeighboursOfOneValue) {
+TEST(Runs, NeighbouringRunsOfEqualValueAreJoined) {
     Runs<int> runs(100, 0);
     for (std::uint32_t i = 0; i < 100; i += 2) runs.set(i, i + 1, 1);
     for (std::uint32_t i = 1; i < 100; i += 2) runs.set(i, i + 1, 1);
@@ -65,7 +65,7 @@ Placement at(std::uint64_t offset, std::uint64_t bytes, std::uint32_t heap) {
     return {.used = true, .heap = heap, .offset = offset, .bytes = bytes};
 }
 
-TEST(MemoryUsers, AreThoseOfEveryPieceThatOverlaps) {
+TEST(MemoryUsers, MemoryUsersAreThoseOfAllOverlappingPlacements) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         Draw draw(seed);
         Plan plan;
@@ -93,7 +93,7 @@ TEST(MemoryUsers, AreThoseOfEveryPieceThatOverlaps) {
     }
 }
 
-TEST(Touches, CodesAreOneToOne) {
+TEST(Touches, TouchCodesAreOneToOne) {
     for (int use = 0; use <= static_cast<int>(Use::indirect); ++use)
         for (const bool write : {false, true})
             for (const bool raster : {false, true}) {
@@ -108,7 +108,8 @@ TEST(Touches, CodesAreOneToOne) {
     EXPECT_EQ(touch_of(code_of({})), Touch{});
 }
 
-/// The lowest place beside everything that is alive at the same time, found the long way.
+/// Returns the lowest free offset for `mine`. Tries every offset against every image that lives at
+/// the same time.
 std::uint64_t lowest_place(const std::vector<Placement>& placed, const Placement& mine,
                            std::uint64_t alignment) {
     for (std::uint64_t offset = 0;; offset += alignment) {
@@ -121,8 +122,8 @@ std::uint64_t lowest_place(const std::vector<Placement>& placed, const Placement
     }
 }
 
-/// Images of drawn sizes that live from one drawn pass to another.
-TEST(Places, AreTheLowestThatAreFree) {
+/// The images have random sizes, and each lives from one random pass to another.
+TEST(Places, ImagesGetTheLowestFreeOffset) {
     constexpr std::uint32_t kPasses = 12, kImages = 30;
     for (unsigned seed = 0; seed < 100; ++seed) {
         Draw draw(seed);
@@ -166,14 +167,15 @@ TEST(Places, AreTheLowestThatAreFree) {
     }
 }
 
-TEST(LargeFrames, ShareOneDepthImageAndWaitForItsLastUser) {
+TEST(LargeFrames, CapturesShareTheMemoryOfOneDepthImage) {
     constexpr std::uint32_t kMirrors = 200;
     const Graph g = test::reuse_frame(kMirrors);
     const Plan found = plan(g, {}, plain_sizer());
     ASSERT_EQ(found.passes.size(), kMirrors + 3);
     for (std::uint32_t n = 0; n < kMirrors; ++n)
         EXPECT_EQ(found.images[6 + n].offset, found.images[6].offset);
-    // Shadow, the capture's own layers of both cubes, and the shared depth.
+    // Barriers of a capture pass are for its own layers of the cubes and of the distance maps, and
+    // for the shared depth image.
     for (std::uint32_t n = 1; n < kMirrors; ++n) EXPECT_EQ(found.passes[1 + n].barriers.size(), 3u);
     EXPECT_LT(found.bytes, 2 * kMirrors * 6 * 64 * 64 * (8 + 4) + 6 * 64 * 64 * 4 + 1000000u);
 }

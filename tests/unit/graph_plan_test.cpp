@@ -1,7 +1,9 @@
-// The report's frames as graphs, and small graphs of which the whole plan is known.
+// Tests of the render graph's planner: the frames of the seed report, and small graphs whose whole
+// plan is known.
 #include "replay.hpp"
 
 #include "core/error.hpp"
+#include "support/graphs.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,15 +12,12 @@
 namespace catoptric::graph {
 namespace {
 
+using test::kBlack, test::nothing, test::planned;
+
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr Clear kBlack{};
 constexpr std::uint32_t kFace = 64;
-
-void nothing(Commands&) {}
-
-Plan planned(const Graph& graph) { return plan(graph, {}, plain_sizer()); }
 
 std::vector<std::string> names_of(const Graph& graph, const Plan& plan) {
     std::vector<std::string> names;
@@ -35,8 +34,9 @@ const Touch kSampledInRaster = touch(Use::sampled, false, true);
 const Touch kSampledInCompute = touch(Use::sampled, false, false);
 const Touch kCopied = touch(Use::copy_from, false, false);
 
-/// "before>after [first,count]" plus what else is waited for; enough to compare by eye.
-std::string text(const Barrier& b) {
+/// Returns a barrier as text: the resource, [first layer,layer count], the use before and after,
+/// and other uses that the barrier waits for.
+std::string graph_plan_text(const Barrier& b) {
     const auto word = [](const Touch& t) {
         return t.nothing ? std::string("nothing")
                          : std::string(name_of(t.use)) + (t.write ? "!" : "") +
@@ -53,17 +53,18 @@ std::string text(const Barrier& b) {
 
 std::vector<std::string> barriers_of(const Plan& plan, std::size_t pass) {
     std::vector<std::string> all;
-    for (const Barrier& b : plan.passes.at(pass).barriers) all.push_back(text(b));
+    for (const Barrier& b : plan.passes.at(pass).barriers) all.push_back(graph_plan_text(b));
     return all;
 }
 
 std::vector<std::string> last_barriers(const Plan& plan) {
     std::vector<std::string> all;
-    for (const Barrier& b : plan.last) all.push_back(text(b));
+    for (const Barrier& b : plan.last) all.push_back(graph_plan_text(b));
     return all;
 }
 
-/// What both frames of the report have: shadow before the captures, view after them.
+/// The passes that both frames of the seed report share: a shadow pass before the captures, and a
+/// view pass after the captures.
 struct Frame {
     explicit Frame(int mirror_count) : mirrors(static_cast<std::uint32_t>(mirror_count)) {
         g.pass("shadow", Tag::scene).writes(shadow, Use::depth, kBlack).record(nothing);
@@ -74,7 +75,8 @@ struct Frame {
             {.name = name, .width = kFace, .height = kFace, .layers = 6 * mirrors, .cube = true});
     }
 
-    /// One scene pass for each mirror.
+    /// Adds one scene pass per mirror. The pass draws the mirror's capture into `target` and may
+    /// read `source`.
     void capture(const std::string& name, Image target, std::optional<Image> source) {
         for (std::uint32_t n = 0; n < mirrors; ++n) {
             PassBuilder pass = g.pass(name + "/" + std::to_string(n), Tag::scene);
@@ -106,7 +108,8 @@ struct Frame {
     Image ldr = g.image({.name = "ldr", .format = Format::rgba8_unorm, .width = 32, .height = 32});
 };
 
-/// Part one: every bounce captures all mirrors anew from the bounce before.
+/// The frame of the seed report's part one: each bounce captures all mirrors again, with the
+/// captures of the bounce before.
 struct NaiveFrame : Frame {
     NaiveFrame(int mirror_count, int bounces) : Frame(mirror_count) {
         for (int k = 0; k < bounces; ++k) {
@@ -120,7 +123,8 @@ struct NaiveFrame : Frame {
     std::vector<Image> images;
 };
 
-/// Part two: one capture, deeper bounces arrive from the frame before.
+/// The frame of the seed report's part two: each mirror is captured once, and deeper bounces come
+/// from the captures of the previous frame.
 struct ReuseFrame : Frame {
     explicit ReuseFrame(int mirror_count) : Frame(mirror_count) {
         capture("capture", captured, g.previous(captured));
@@ -140,7 +144,7 @@ TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
         }
 }
 
-TEST(GraphPlan, NaiveFrameHasTwoPhysicalCubeImages) {
+TEST(GraphPlan, NaiveFrameUsesTheMemoryOfTwoCubeImages) {
     for (const int bounces : {2, 3, 4, 8}) {
         const NaiveFrame frame(4, bounces);
         const Plan plan = planned(frame.g);
@@ -156,9 +160,10 @@ TEST(GraphPlan, NaiveFrameHasTwoPhysicalCubeImages) {
     }
 }
 
-TEST(GraphPlan, PingPongWaitsForTheLastReaderOfTheMemory) {
+TEST(GraphPlan, ReusedMemoryWaitsForItsLastReader) {
     const NaiveFrame frame(1, 3);
-    const Plan plan = planned(frame.g); // shadow, capture0, capture1, capture2, view, compose
+    const Plan plan = planned(
+        frame.g); // passes: shadow, capture0, capture1, capture2, view, compose
     EXPECT_THAT(barriers_of(plan, 3), ::testing::Contains("image 6 [0,6] nothing > colour!/raster "
                                                           "+sampled/raster"));
 }
@@ -170,7 +175,7 @@ TEST(GraphPlan, ReuseFrameRendersTheSceneOncePerMirror) {
     EXPECT_THAT(replay(frame.g, plan, plain_sizer()), IsEmpty());
 }
 
-TEST(GraphPlan, KeptImageCountsTwiceAndSharesNothing) {
+TEST(GraphPlan, HistoryImageHasTwoCopiesAndSharesNoMemory) {
     const ReuseFrame frame(4);
     const Plan plan = planned(frame.g);
     const Placement& cubes = plan.images[frame.captured.id];
@@ -181,16 +186,16 @@ TEST(GraphPlan, KeptImageCountsTwiceAndSharesNothing) {
     EXPECT_EQ(cubes.offset + cubes.bytes, plan.bytes);
 }
 
-TEST(GraphPlan, KeptImageIsReadWithoutABarrierAndLeftReadable) {
+TEST(GraphPlan, HistoryImageIsReadWithoutABarrierAndLeftReadable) {
     const ReuseFrame frame(2);
     const Plan plan = planned(frame.g);
     for (const PlannedPass& pass : plan.passes)
-        for (const Barrier& b : pass.barriers) EXPECT_FALSE(b.previous) << text(b);
+        for (const Barrier& b : pass.barriers) EXPECT_FALSE(b.previous) << graph_plan_text(b);
     EXPECT_THAT(last_barriers(plan), ElementsAre("image 3 [0,1] colour!/raster > copy_from",
                                                  "image 4 [0,12] sampled/raster > sampled"));
 }
 
-TEST(GraphPlan, HistoryIsWhatTheRunnerKept) {
+TEST(GraphPlan, HistoryContainsOnlyImagesOfThePreviousFrame) {
     Graph g(History{.previous = {"cubes"}, .persistent = {}});
     const Image cubes = g.image({.name = "cubes"});
     const Image other = g.image({.name = "other"});
@@ -198,7 +203,7 @@ TEST(GraphPlan, HistoryIsWhatTheRunnerKept) {
     EXPECT_FALSE(g.has_history(other));
 }
 
-/// Four images of one size and a buffer; tests declare the passes.
+/// A graph with four images of equal size and a buffer. Each test adds its own passes.
 struct SmallGraph : ::testing::Test {
     Graph g;
     Image a = add("a"), b = add("b"), c = add("c"), d = add("d");
@@ -212,7 +217,7 @@ struct SmallGraph : ::testing::Test {
     }
 };
 
-TEST_F(SmallGraph, NothingWantedIsNothingDone) {
+TEST_F(SmallGraph, GraphWithoutOutputsHasNoPasses) {
     fill("a", a).record(nothing);
     const Plan plan = planned(g);
     EXPECT_THAT(plan.passes, IsEmpty());
@@ -220,7 +225,7 @@ TEST_F(SmallGraph, NothingWantedIsNothingDone) {
     EXPECT_FALSE(plan.images[a.id].used);
 }
 
-TEST_F(SmallGraph, CullsWhatNobodyWantsAndSaysWhy) {
+TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
     fill("c", c).reads(a, Use::sampled).record(nothing);
@@ -234,7 +239,7 @@ TEST_F(SmallGraph, CullsWhatNobodyWantsAndSaysWhy) {
     EXPECT_FALSE(plan.buffers[args.id].used);
 }
 
-TEST_F(SmallGraph, CullsWhatIsOverwrittenUnread) {
+TEST_F(SmallGraph, PassWhoseImageIsOverwrittenUnreadIsCulled) {
     fill("lost", a).record(nothing);
     fill("seen", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
@@ -244,7 +249,7 @@ TEST_F(SmallGraph, CullsWhatIsOverwrittenUnread) {
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("seen", "b", "wanted"));
 }
 
-TEST_F(SmallGraph, KeepsWhatIsLoadedOrOnlyPartlyOverwritten) {
+TEST_F(SmallGraph, PassWhoseImageIsLoadedOrPartlyOverwrittenIsKept) {
     fill("base", a).record(nothing);
     fill("part", a.layers(1, 2)).record(nothing);
     g.pass("load").writes(a.layers(0, 1), Use::colour).record(nothing);
@@ -252,7 +257,7 @@ TEST_F(SmallGraph, KeepsWhatIsLoadedOrOnlyPartlyOverwritten) {
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "part", "load"));
 }
 
-TEST_F(SmallGraph, CullsByLayer) {
+TEST_F(SmallGraph, PassWhoseLayersAreNotReadIsCulled) {
     fill("low", a.layers(0, 2)).record(nothing);
     fill("high", a.layers(2, 2)).record(nothing);
     fill("b", b).reads(a.layers(0, 2), Use::sampled).record(nothing);
@@ -260,24 +265,26 @@ TEST_F(SmallGraph, CullsByLayer) {
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("low", "b"));
 }
 
-TEST_F(SmallGraph, KeepsWhatTheNextFrameReads) {
+TEST_F(SmallGraph, PassWhoseImageTheNextFrameReadsIsKept) {
     fill("base", b).record(nothing);
-    fill("history", a).reads(b, Use::sampled).record(nothing); // after its reader, by way of `b`
+    // The next frame reads image `a`, so passes `history` and `base` are kept.
+    fill("history", a).reads(b, Use::sampled).record(nothing);
     fill("view", c).reads(g.previous(a), Use::sampled).record(nothing);
     g.mark_output(c);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "history", "view"));
 }
 
-TEST_F(SmallGraph, KeepsOnlyTheLastWriterForTheNextFrame) {
+TEST_F(SmallGraph, OnlyTheLastWriterIsKeptForTheNextFrame) {
     fill("view", c).reads(g.previous(a), Use::sampled).record(nothing);
     fill("lost", a).record(nothing);
     fill("history", a).reads(g.previous(b), Use::sampled).record(nothing);
-    fill("deeper", b).record(nothing); // needed only by what the next frame needs
+    // Only pass `history`, which the next frame needs, reads image `b`.
+    fill("deeper", b).record(nothing);
     g.mark_output(c);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("view", "history", "deeper"));
 }
 
-TEST_F(SmallGraph, AHistoryThatOnlyFeedsItselfIsCulled) {
+TEST_F(SmallGraph, HistoryThatFeedsOnlyItselfIsCulled) {
     fill("loop", a).reads(g.previous(a), Use::sampled).record(nothing);
     fill("view", c).record(nothing);
     g.mark_output(c);
@@ -287,7 +294,7 @@ TEST_F(SmallGraph, AHistoryThatOnlyFeedsItselfIsCulled) {
     EXPECT_EQ(plan.bytes, 4u * 64 * 8);
 }
 
-TEST_F(SmallGraph, LifetimesAreFirstAndLastUse) {
+TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
     fill("a", a).record(nothing);
     fill("culled", d).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
@@ -302,7 +309,7 @@ TEST_F(SmallGraph, LifetimesAreFirstAndLastUse) {
     EXPECT_TRUE(plan.images[c.id].alone);
 }
 
-TEST_F(SmallGraph, HeapsAreNotMixed) {
+TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     fill("c", c).reads(b, Use::sampled).record(nothing);
@@ -313,14 +320,15 @@ TEST_F(SmallGraph, HeapsAreNotMixed) {
         return Requirements{.bytes = 100, .alignment = 64, .heap = desc.name == "c" ? 3u : 1u};
     };
     const Plan plan = graph::plan(g, {}, sizer);
-    EXPECT_THAT(plan.heap_bytes, ElementsAre(0u, 356u, 0u, 100u)); // a at 0, b at 128, d at 256
+    EXPECT_THAT(plan.heap_bytes,
+                ElementsAre(0u, 356u, 0u, 100u)); // image a at 0, b at 128, d at 256
     EXPECT_EQ(plan.images[c.id].heap, 3u);
     EXPECT_EQ(plan.images[c.id].offset, 0u);
     EXPECT_EQ(plan.bytes, 456u);
     EXPECT_THAT(replay(g, plan, sizer), IsEmpty());
 }
 
-TEST_F(SmallGraph, ReadAfterWriteAndFirstTouch) {
+TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     g.mark_output(b);
@@ -331,7 +339,7 @@ TEST_F(SmallGraph, ReadAfterWriteAndFirstTouch) {
     EXPECT_THAT(last_barriers(plan), ElementsAre("image 1 [0,4] colour!/raster > copy_from"));
 }
 
-TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNone) {
+TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNoBarrier) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     fill("c", c).reads(a, Use::sampled).record(nothing);
@@ -340,7 +348,7 @@ TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNone) {
     EXPECT_THAT(barriers_of(planned(g), 2), ElementsAre("image 2 [0,4] nothing > colour!/raster"));
 }
 
-TEST_F(SmallGraph, ReadInAnotherStageChainsToTheReaderSoThatTheLayoutIsTrue) {
+TEST_F(SmallGraph, ReadInAnotherStageWaitsForTheFirstReader) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     g.pass("sum").reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
@@ -354,7 +362,7 @@ TEST_F(SmallGraph, ReadInAnotherStageChainsToTheReaderSoThatTheLayoutIsTrue) {
                 ElementsAre("image 0 [0,4] sampled/raster > colour!/raster +sampled"));
 }
 
-TEST_F(SmallGraph, ReadInAnotherLayoutNeedsOne) {
+TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     g.pass("copy").reads(a, Use::copy_from).writes(c, Use::copy_to).record(nothing);
@@ -369,7 +377,7 @@ TEST_F(SmallGraph, ReadInAnotherLayoutNeedsOne) {
                                                   "image 0 [0,4] copy_from > sampled/raster"));
 }
 
-TEST_F(SmallGraph, WriteAfterWrite) {
+TEST_F(SmallGraph, WriteAfterWriteNeedsABarrier) {
     fill("a", a).record(nothing);
     g.pass("blur").writes(a, Use::storage).record(nothing);
     g.pass("again").writes(a, Use::storage).record(nothing);
@@ -379,7 +387,7 @@ TEST_F(SmallGraph, WriteAfterWrite) {
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] storage! > storage!"));
 }
 
-TEST_F(SmallGraph, BarriersAreMergedOverLayersOfOneFate) {
+TEST_F(SmallGraph, BarriersMergeLayersOfEqualUse) {
     fill("low", a.layers(0, 2)).record(nothing);
     g.pass("high").writes(a.layers(2, 2), Use::storage_write).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
@@ -390,7 +398,7 @@ TEST_F(SmallGraph, BarriersAreMergedOverLayersOfOneFate) {
                                                   "image 0 [2,2] storage_write! > sampled/raster"));
 }
 
-TEST_F(SmallGraph, BarriersAreNotMergedOverDifferentUses) {
+TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentUses) {
     fill("a", a).record(nothing);
     g.pass("blur")
         .reads(a.layers(0, 2), Use::sampled)
@@ -402,7 +410,7 @@ TEST_F(SmallGraph, BarriersAreNotMergedOverDifferentUses) {
                             "image 0 [2,2] colour!/raster > storage_write!"));
 }
 
-TEST_F(SmallGraph, BarriersAreNotMergedOverFrames) {
+TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentFrames) {
     fill("a", a).record(nothing);
     g.pass("sum").reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
@@ -420,7 +428,7 @@ TEST_F(SmallGraph, BarriersAreNotMergedOverFrames) {
                             "image 2 [0,4] nothing > copy_to!"));
 }
 
-TEST_F(SmallGraph, BuffersHaveNoLayout) {
+TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
     g.pass("fill").writes(args, Use::storage_write).record(nothing);
     fill("a", a).reads(args, Use::indirect).record(nothing);
     g.pass("b").reads(args, Use::storage_read).writes(b, Use::storage_write).record(nothing);
@@ -440,21 +448,21 @@ TEST_F(SmallGraph, BuffersHaveNoLayout) {
     EXPECT_EQ(last_barriers(plan).back(), "buffer 0 [0,1] copy_to! > copy_from");
 }
 
-TEST_F(SmallGraph, WantedAndKeptIsLeftSampledInAllLayers) {
+TEST_F(SmallGraph, HistoryImageAsOutputIsLeftSampledInAllLayers) {
     fill("a", a.layers(0, 2)).reads(g.previous(a.layers(0, 2)), Use::sampled).record(nothing);
     g.mark_output(a.layers(0, 1));
     EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,2] colour!/raster > sampled",
                                                        "image 0 [2,2] nothing > sampled"));
 }
 
-TEST_F(SmallGraph, WantedTwiceIsLeftOnce) {
+TEST_F(SmallGraph, OverlappingOutputsGetOneFinalBarrier) {
     fill("a", a).record(nothing);
     g.mark_output(a.layers(0, 3));
     g.mark_output(a.layers(1, 2));
     EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,3] colour!/raster > copy_from"));
 }
 
-TEST_F(SmallGraph, LastFrameInAnotherLayoutNeedsABarrier) {
+TEST_F(SmallGraph, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
     g.pass("copy").reads(g.previous(a), Use::copy_from).writes(b, Use::copy_to).record(nothing);
     fill("a", a).record(nothing);
     g.mark_output(b);
@@ -463,10 +471,10 @@ TEST_F(SmallGraph, LastFrameInAnotherLayoutNeedsABarrier) {
                             "image 1 [0,4] nothing > copy_to!"));
 }
 
-TEST(PlainSizer, CountsTexelsAndPadsTo256Bytes) {
+TEST(PlainSizer, SizerCountsTexelsAndPadsTo256Bytes) {
     const Requirements image = plain_sizer().image(
         {.name = "x", .format = Format::rgba16f, .width = 5, .height = 3, .layers = 6});
-    EXPECT_EQ(image.bytes, 768u); // 720 padded
+    EXPECT_EQ(image.bytes, 768u); // 720 bytes, padded to a multiple of 256
     EXPECT_EQ(image.alignment, 256u);
     EXPECT_EQ(plain_sizer().buffer({.name = "y", .bytes = 256}).bytes, 256u);
 }

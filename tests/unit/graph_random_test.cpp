@@ -1,4 +1,5 @@
-// Plans of random graphs, replayed on paper; and broken plans, which the replay must find out.
+// Tests of the plans of random render graphs. A simulated replay checks each plan, and must find
+// the error in plans that were broken on purpose.
 #include "graph/dump.hpp"
 #include "replay.hpp"
 
@@ -12,7 +13,7 @@ using ::testing::Not;
 
 constexpr unsigned kGraphs = 500;
 
-/// Two heaps and alignments that do not divide the sizes.
+/// Returns a sizer with two heaps, and with alignments that do not divide the sizes.
 Sizer awkward_sizer() {
     return {.image =
                 [](const ImageDesc& desc) {
@@ -33,7 +34,7 @@ struct Sample {
         graph = random_graph(random);
         right = plan(graph, {}, sizer);
     }
-    /// Expects that the replay finds out what is wrong with `plan`.
+    /// Expects that the replay reports an error in the broken plan `wrong`.
     void expect_refused(const Plan& wrong, const std::string& mistake) const {
         EXPECT_THAT(replay(graph, wrong, sizer), Not(IsEmpty())) << mistake << "\n"
                                                                  << to_text(graph, right);
@@ -43,7 +44,7 @@ struct Sample {
     Plan right;
 };
 
-/// Calls `test` with every sample.
+/// Calls `test` with the random graph of every seed.
 template <typename Test>
 void for_each_sample(const Test& test) {
     for (unsigned seed = 0; seed < kGraphs; ++seed) {
@@ -52,7 +53,7 @@ void for_each_sample(const Test& test) {
     }
 }
 
-/// Calls `test` with every barrier of the plan and a copy of it to spoil.
+/// Calls `test` for every barrier of the plan, with a copy of the plan that `test` may break.
 template <typename Test>
 void for_each_barrier(const Plan& right, const Test& test) {
     for (std::size_t p = 0; p < right.passes.size(); ++p)
@@ -62,13 +63,13 @@ void for_each_barrier(const Plan& right, const Test& test) {
         }
 }
 
-TEST(RandomGraphs, HavePlansThatHold) {
+TEST(RandomGraphs, PlansOfRandomGraphsReplayWithoutErrors) {
     for_each_sample([](const Sample& sample) {
         EXPECT_THAT(replay(sample.graph, sample.right, sample.sizer), IsEmpty());
     });
 }
 
-TEST(RandomGraphs, NeedEachOfTheirBarriers) {
+TEST(RandomGraphs, ReplayDetectsAMissingBarrier) {
     for_each_sample([](const Sample& sample) {
         for_each_barrier(sample.right,
                          [&](Plan& wrong, std::vector<Barrier>& barriers, std::size_t b) {
@@ -78,12 +79,12 @@ TEST(RandomGraphs, NeedEachOfTheirBarriers) {
     });
 }
 
-TEST(RandomGraphs, NeedEachReaderThatABarrierWaitsFor) {
+TEST(RandomGraphs, ReplayDetectsAMissingReaderOfABarrier) {
     for_each_sample([](const Sample& sample) {
         for_each_barrier(sample.right, [&](Plan& wrong, std::vector<Barrier>& barriers,
                                            std::size_t b) {
-            // Who waits for the last user of memory has waited for earlier ones; and nobody
-            // writes to the last frame.
+            // Skips barriers with redundant readers. A wait for the last user of memory includes
+            // earlier users, and no pass writes to images of the previous frame.
             if (barriers[b].before.nothing || barriers[b].previous) return;
             if (barriers[b].shared.empty()) return;
             barriers[b].shared.pop_back();
@@ -92,7 +93,7 @@ TEST(RandomGraphs, NeedEachReaderThatABarrierWaitsFor) {
     });
 }
 
-TEST(RandomGraphs, NeedEachOfTheirPasses) {
+TEST(RandomGraphs, ReplayDetectsAMissingPass) {
     for_each_sample([](const Sample& sample) {
         for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
             Plan wrong = sample.right;
@@ -103,20 +104,21 @@ TEST(RandomGraphs, NeedEachOfTheirPasses) {
     });
 }
 
-TEST(RandomGraphs, NeedAllOfTheirMemory) {
+TEST(RandomGraphs, ReplayDetectsOverlappingMemory) {
     for_each_sample([](const Sample& sample) {
         for (std::size_t i = 0; i < sample.right.images.size(); ++i) {
             if (sample.right.images[i].offset == 0) continue;
             Plan wrong = sample.right;
-            wrong.images[i].offset = 0; // somebody who needed this place had it
+            wrong.images[i].offset = 0; // another image needs this memory at the same time
             wrong.images[i].heap = sample.right.images[i].heap;
             sample.expect_refused(wrong, "with image " + std::to_string(i) + " at 0");
         }
     });
 }
 
-// What is said to be unread is lost; each other attachment is needed.
-TEST(RandomGraphs, NeedEachAttachmentThatIsStored) {
+// The replay discards attachments that the plan marks as unread. Marking any other attachment as
+// unread must be an error.
+TEST(RandomGraphs, ReplayDetectsAnAttachmentThatIsNotStored) {
     int unread = 0;
     for_each_sample([&](const Sample& sample) {
         for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
@@ -138,8 +140,9 @@ TEST(RandomGraphs, NeedEachAttachmentThatIsStored) {
     EXPECT_GT(unread, 0);
 }
 
-// The random graphs are worth their name: together they do everything a plan can do.
-TEST(RandomGraphs, CoverWhatPlansDo) {
+// Together, the random graphs use every feature of plans, such as culling, shared memory and
+// history.
+TEST(RandomGraphs, RandomGraphsUseEveryFeatureOfPlans) {
     int culled = 0, aliased = 0, kept = 0, chained = 0, changed = 0, several = 0, empty = 0;
     for (unsigned seed = 0; seed < kGraphs; ++seed) {
         std::mt19937 random(seed);

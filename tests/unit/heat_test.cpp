@@ -12,7 +12,7 @@
 namespace catoptric::measure {
 namespace {
 
-/// CIE L* of a display colour, 0..100.
+/// Returns the CIE lightness L* of a display colour, 0 to 100.
 double lightness(const vec3& display) {
     const auto linear = [](float value) { return linear_from_srgb(static_cast<double>(value)); };
     const double y = 0.2126 * linear(display.x) + 0.7152 * linear(display.y) +
@@ -20,7 +20,7 @@ double lightness(const vec3& display) {
     return y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;
 }
 
-TEST(Heat, LightnessRisesEvenly) {
+TEST(Heat, LightnessOfHeatColoursRisesEvenly) {
     double before = -1;
     for (int i = 0; i <= 256; ++i) {
         const float value = static_cast<float>(i) / 256.0F;
@@ -31,7 +31,7 @@ TEST(Heat, LightnessRisesEvenly) {
     }
 }
 
-TEST(Heat, EndsAndOutside) {
+TEST(Heat, HeatColoursAreClampedAtTheEndsOfTheScale) {
     EXPECT_EQ(heat_colour(0), vec3(0));
     EXPECT_EQ(heat_colour(1), vec3(0.99F, 0.99F, 0.78F));
     EXPECT_EQ(heat_colour(-1), heat_colour(0));
@@ -39,11 +39,11 @@ TEST(Heat, EndsAndOutside) {
     EXPECT_EQ(heat_colour(std::numeric_limits<float>::infinity()), heat_colour(1));
 }
 
-TEST(Heat, NanIsNoErrorOfAnySize) {
+TEST(Heat, NanHasAColourOutsideTheScale) {
     EXPECT_EQ(heat_colour(std::numeric_limits<float>::quiet_NaN()), vec3(0, 1, 1));
 }
 
-TEST(Heat, MapKeepsItsPlacesAndScales) {
+TEST(Heat, HeatPictureKeepsPixelOrderAndScalesValues) {
     const Picture picture = heat(std::vector<float>{0, 0.5F, 1, 2}, 2, 2, 2);
     EXPECT_EQ(picture.at(0, 0), heat_colour(0));
     EXPECT_EQ(picture.at(1, 0), heat_colour(0.25F));
@@ -51,15 +51,15 @@ TEST(Heat, MapKeepsItsPlacesAndScales) {
     EXPECT_EQ(picture.at(1, 1), heat_colour(1));
 }
 
-std::string refusal(std::size_t size, float high) {
+std::string heat_refusal(std::size_t size, float high) {
     return test::refusal(catoptric::Failure::internal,
                          [&] { heat(std::vector<float>(size), 2, 2, high); });
 }
 
-TEST(Heat, RefusesAMapOfAnotherSizeAndAScaleWithoutATop) {
-    EXPECT_EQ(refusal(3, 1), "a heat picture of 2x2 wants as many values, found 3");
-    EXPECT_EQ(refusal(4, 0), "a heat picture wants a top above 0, found 0");
-    EXPECT_EQ(refusal(4, std::numeric_limits<float>::quiet_NaN()),
+TEST(Heat, WrongMapSizeOrScaleIsRefused) {
+    EXPECT_EQ(heat_refusal(3, 1), "a heat picture of 2x2 wants as many values, found 3");
+    EXPECT_EQ(heat_refusal(4, 0), "a heat picture wants a top above 0, found 0");
+    EXPECT_EQ(heat_refusal(4, std::numeric_limits<float>::quiet_NaN()),
               "a heat picture wants a top above 0, found nan");
 }
 

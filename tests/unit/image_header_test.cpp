@@ -1,4 +1,5 @@
-// What a TIFF file claims is compared with its size before anything is decoded.
+// Tests of TIFF headers. The number of pixels that a header claims is compared with the file's size
+// before decoding.
 #include "core/image_header.hpp"
 #include "support/refusal.hpp"
 
@@ -17,7 +18,7 @@ std::string number(std::uint32_t value, int size, bool is_big_endian) {
     return text;
 }
 
-/// A file of one strip of `bytes` bytes, three channels of 8 bits.
+/// Builds a TIFF file with three channels of 8 bits and one strip of `bytes` bytes.
 std::string tiff(std::uint32_t width, std::uint32_t height, std::uint32_t compression,
                  std::size_t bytes, bool is_big_endian = false) {
     const auto of = [&](std::uint32_t value, int size) {
@@ -30,7 +31,8 @@ std::string tiff(std::uint32_t width, std::uint32_t height, std::uint32_t compre
                    (is_short && count == 1 ? of(value, 2) + of(0, 2) : of(value, 4));
     };
     entry(256, false, 1, width), entry(257, false, 1, height);
-    entry(258, true, 3, 8); // three numbers of 16 bits: at byte 8
+    // The bits per sample of the three channels are stored at byte 8.
+    entry(258, true, 3, 8);
     entry(259, true, 1, compression), entry(277, true, 1, 3);
     const std::string text = (is_big_endian ? "MM" : "II") + of(42, 2) + of(14, 4) + of(8, 2) +
                              of(8, 2) + of(8, 2) + of(5, 2) + entries;
@@ -41,7 +43,7 @@ ImageShape shape_of(const std::string& file) {
     return header_of(MemoryBytes(file), "tiff", "a.tif").value();
 }
 
-TEST(TiffHeader, SaysSidesAndChannelsInEitherByteOrder) {
+TEST(TiffHeader, HeaderGivesSizeAndChannelsInEitherByteOrder) {
     for (const bool is_big_endian : {false, true}) {
         const ImageShape shape = shape_of(tiff(70000, 3, 1, 630000, is_big_endian));
         EXPECT_EQ(shape.size, uvec2(70000, 3)) << is_big_endian;
@@ -49,7 +51,7 @@ TEST(TiffHeader, SaysSidesAndChannelsInEitherByteOrder) {
     }
 }
 
-TEST(TiffHeader, RefusesMorePixelsThanTheFileCanHold) {
+TEST(TiffHeader, MorePixelsThanTheFileCanHoldAreRefused) {
     constexpr std::uint32_t kNone = 1, kLzw = 5, kPackBits = 32773, kFax = 4;
     const auto refusal = [](std::uint32_t compression, std::size_t bytes) {
         return test::refusal(Failure::bad_data,
@@ -63,7 +65,7 @@ TEST(TiffHeader, RefusesMorePixelsThanTheFileCanHold) {
     EXPECT_EQ(shape_of(tiff(8192, 8192, kFax, 10)).size, uvec2(8192)) << "any size may do";
 }
 
-TEST(TiffHeader, OfACutFileIsReadOrRefused) {
+TEST(TiffHeader, TruncatedFileIsReadOrRefused) {
     const std::string whole = tiff(4, 4, 1, 48);
     for (std::size_t size = 0; size < whole.size(); ++size) try {
             EXPECT_LE(shape_of(whole.substr(0, size)).channel_count, 3u) << size;

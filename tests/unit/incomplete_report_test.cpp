@@ -1,4 +1,5 @@
-// A run that goes on or was stopped says so in every file, and its pictures are written once.
+// Tests of incomplete reports. Every file of a running or stopped run says so, and each picture is
+// written once.
 #include "core/file.hpp"
 #include "report/report.hpp"
 #include "report/stress.hpp"
@@ -30,7 +31,7 @@ Comparison stopped() {
     return made;
 }
 
-TEST(IncompleteReport, SaysWhyAndHowManyRowsInEveryFile) {
+TEST(IncompleteReport, EveryFileSaysWhyTheRunStoppedAndHowManyRowsItHas) {
     const json document = json::parse(catoptric::report::to_json(stopped()));
     EXPECT_EQ(document["complete"], false);
     EXPECT_EQ(document["incomplete"], kWhy);
@@ -45,7 +46,7 @@ TEST(IncompleteReport, SaysWhyAndHowManyRowsInEveryFile) {
         csv, testing::EndsWith(",\"4 of 8 rows: Vulkan: cannot run frame 7: \"\"lost\"\"\"\r\n"));
 }
 
-TEST(IncompleteReport, SaysThatTheRunGoesOn) {
+TEST(IncompleteReport, ReportOfARunningRunSaysThatTheRunHasNotEnded) {
     Comparison made = stopped();
     made.stopped.reset();
     const std::string why = "4 of 8 rows: the run had not ended when this was written";
@@ -55,7 +56,7 @@ TEST(IncompleteReport, SaysThatTheRunGoesOn) {
               why + "; their lag was not measured to its end");
 }
 
-TEST(IncompleteReport, CompleteOnesSayNothing) {
+TEST(IncompleteReport, CompleteReportIsNotMarkedIncomplete) {
     const Comparison made = usual();
     EXPECT_FALSE(json::parse(catoptric::report::to_json(made)).contains("incomplete"));
     EXPECT_THAT(catoptric::report::to_markdown(made), Not(HasSubstr("ncomplete")));
@@ -63,7 +64,7 @@ TEST(IncompleteReport, CompleteOnesSayNothing) {
     EXPECT_THAT(catoptric::report::to_csv(made), testing::EndsWith(",\r\n"));
 }
 
-TEST(IncompleteReport, WithoutARowSaysItToo) {
+TEST(IncompleteReport, ReportWithoutRowsIsMarkedIncompleteToo) {
     Comparison made = stopped();
     made.rows.clear(), made.pareto.clear();
     const std::string csv = catoptric::report::to_csv(made);
@@ -87,8 +88,9 @@ protected:
     }
 };
 
-/// Row by row: all of the text each time, pictures only when their row comes.
-TEST_F(GrowingReport, WritesPicturesOnce) {
+/// The report is written after each row. Each time, all text files are written, but only the
+/// pictures of new rows.
+TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     Comparison whole = usual();
     Comparison made = whole;
     made.complete = false;
@@ -103,14 +105,14 @@ TEST_F(GrowingReport, WritesPicturesOnce) {
     std::vector<fs::path> missing = catoptric::report::files_of({"naive0"});
     EXPECT_EQ(missing.size(), 4 + images().size() + 1);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
-    EXPECT_EQ(missing, (std::vector<fs::path>{"images/worst-naive0.png"})); // no views were drawn
+    EXPECT_EQ(missing, (std::vector<fs::path>{"images/worst-naive0.png"})); // the run drew no views
     fs::remove_all(folder / "out/images");
     made.rows.push_back(whole.rows[1]);
     writer.write(made);
     const std::string second = whole.rows[1].image;
     EXPECT_EQ(images(),
               (std::vector<std::string>{second + "-error.png", second + ".exr", second + ".png"}));
-    // Causes may come when the row is there.
+    // The causes of a row's error may arrive after the row itself.
     made.rows[1].causes = whole.rows[1].causes = made.rows[0].causes;
     fs::remove_all(folder / "out/images");
     writer.write(made);
@@ -124,8 +126,9 @@ TEST_F(GrowingReport, WritesPicturesOnce) {
         EXPECT_TRUE(catoptric::read_file(folder / "out" / file) == text) << file;
 }
 
-/// A row's worst view may change with every view.
-TEST_F(GrowingReport, WritesPicturesOfWorstViewsWhenTheyChange) {
+/// The worst view of a row may change with every drawn view. The picture of a changed worst view is
+/// written again.
+TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
     Comparison made = usual();
     made.complete = false;
     made.rows.resize(2);
@@ -146,10 +149,11 @@ TEST_F(GrowingReport, WritesPicturesOfWorstViewsWhenTheyChange) {
     EXPECT_EQ(catoptric::read_file(folder / "out/report.html"), catoptric::report::to_html(made));
 }
 
-/// What could not be written is tried again with the next row.
-TEST_F(GrowingReport, TriesAgain) {
+/// A file that could not be written is written again with the next row.
+TEST_F(GrowingReport, FailedWriteIsRepeatedWithTheNextRow) {
     catoptric::report::Writer writer(folder / "out");
-    fs::create_directories(folder / "out/images/naive0.exr"); // where a file is to be
+    // A folder takes the name of a file that the writer will write.
+    fs::create_directories(folder / "out/images/naive0.exr");
     Comparison made = usual();
     made.rows.resize(1);
     EXPECT_THROW(writer.write(made), Error);
@@ -160,7 +164,7 @@ TEST_F(GrowingReport, TriesAgain) {
     EXPECT_TRUE(fs::exists(folder / "out/report.json"));
 }
 
-TEST_F(GrowingReport, OfPropertiesSaysItInEveryFileToo) {
+TEST_F(GrowingReport, IncompleteStressReportSaysSoInEveryFile) {
     using namespace catoptric::report;
     Stress stress;
     stress.complete = false;

@@ -1,4 +1,4 @@
-// How far a median can be believed.
+// Tests of confidence intervals of medians.
 #include "measure/interval.hpp"
 #include "measure/statistics.hpp"
 
@@ -16,16 +16,16 @@ namespace {
 std::vector<double> one_to(std::size_t n) {
     std::vector<double> values(n);
     std::iota(values.begin(), values.end(), 1.0);
-    std::ranges::reverse(values); // the order is nothing to it
+    std::ranges::reverse(values); // the order must not matter
     return values;
 }
 
-bool holds(const Interval& interval, double value) {
+bool interval_holds(const Interval& interval, double value) {
     return interval.low <= value && value <= interval.high;
 }
 
-/// Ranks as tables of the sign test have them (Dixon and Mood 1946; two-sided 5 %).
-TEST(MedianInterval, EndsAtTheRanksOfTheSignTest) {
+/// The expected ranks come from tables of the sign test (Dixon and Mood 1946, two-sided, 5 %).
+TEST(MedianInterval, IntervalEndsAtTheRanksOfTheSignTest) {
     const std::pair<std::size_t, double> ranks[] = {
         {6, 1}, {8, 1}, {9, 2}, {11, 2}, {12, 3}, {15, 4}, {20, 6}, {30, 10}, {50, 18}, {100, 40}};
     for (const auto& [n, rank] : ranks) {
@@ -35,31 +35,33 @@ TEST(MedianInterval, EndsAtTheRanksOfTheSignTest) {
     }
 }
 
-TEST(MedianInterval, IsUnknownForFewerThanSixAndForWhatIsNoNumber) {
+TEST(MedianInterval, IntervalOfFewerThanSixValuesOrNanIsUnknown) {
     for (std::size_t n = 0; n < kFewest; ++n) EXPECT_FALSE(median_interval(one_to(n)).is_known());
     std::vector<double> values = one_to(6);
     values[3] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(median_interval(values).is_known());
 }
 
-/// It holds the true median in 95 of 100 cases and more, however skewed what is drawn.
-TEST(MedianInterval, HoldsTheMedianAsOftenAsItSays) {
+/// The interval contains the true median in at least 95 % of cases, although the samples come from
+/// a skewed distribution.
+TEST(MedianInterval, IntervalContainsTheTrueMedianIn95PercentOfCases) {
     std::mt19937 random(5);
-    std::lognormal_distribution<double> value(0, 2); // median 1
+    std::lognormal_distribution<double> value(0, 2); // the true median is 1
     for (const std::size_t n : {6U, 9U, 30U}) {
         int held = 0;
         for (int k = 0; k < 4000; ++k) {
             std::vector<double> values(n);
             for (double& v : values) v = value(random);
-            held += holds(median_interval(values), 1);
+            held += interval_holds(median_interval(values), 1);
         }
         EXPECT_GE(held, 3800) << n;
         EXPECT_LT(held, 3960) << n << ": as wide as that it tells nobody apart";
     }
 }
 
-TEST(MedianInterval, OfPairsIsOfWhatTheySayTogether) {
-    // Rounds of very different length, each 5 % longer for b.
+TEST(MedianInterval, PairedIntervalUsesTheRatioOrDifferenceOfEachPair) {
+    // The rounds have very different lengths, but each round of b is 5 % longer than the same round
+    // of a.
     const std::vector<double> a{1, 10, 2, 20, 3, 30}, b{1.05, 10.5, 2.1, 21, 3.15, 31.5};
     const Interval ratio = ratio_interval(b, a);
     EXPECT_NEAR(ratio.low, 1.05, 1e-12);
@@ -70,7 +72,7 @@ TEST(MedianInterval, OfPairsIsOfWhatTheySayTogether) {
     EXPECT_FALSE(ratio_interval(a, std::vector<double>(5, 1.0)).is_known()) << "five pairs";
 }
 
-TEST(Summary, OfRoundsIsOfTheirMedians) {
+TEST(Summary, SummaryOfRoundsUsesTheMedianOfEachRound) {
     const std::vector<std::vector<double>> rounds{{1, 2, 90}, {3}, {5, 4}, {7, 6, 8}, {9}, {10}};
     const Summary summary = summarise(rounds);
     EXPECT_EQ(summary.rounds, (std::vector<double>{2, 3, 4.5, 7, 9, 10}));

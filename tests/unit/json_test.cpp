@@ -1,4 +1,4 @@
-// What is said of text that is no JSON: the same sentence for every file that is read as JSON.
+// Tests of error messages for invalid JSON. Every reader of JSON files gives the same message.
 #include "app/plan_file.hpp"
 #include "app/profile.hpp"
 #include "core/json.hpp"
@@ -24,7 +24,7 @@ std::string said_of(const std::string& text) {
     return test::refusal(Failure::bad_data, [&] { check_json("x.json", text); });
 }
 
-TEST(Json, AnErrorHasItsPlaceAndWhatWasWantedAndFound) {
+TEST(Json, JsonErrorNamesPlaceExpectedAndFound) {
     const std::pair<std::string, std::string> cases[] = {
         {"", "line 1, column 1: wanted a value, found the end"},
         {"{", "line 1, column 2: wanted a key in quotation marks, found the end"},
@@ -49,8 +49,9 @@ TEST(Json, AnErrorHasItsPlaceAndWhatWasWantedAndFound) {
     EXPECT_LT(said_of("[\"" + std::string(100000, 'x') + "\" 3").size(), 200U);
 }
 
-/// Damaged in one place or cut off, text is read or refused in our words.
-TEST(Json, NoWordOfTheParserIsShown) {
+/// JSON text with one damaged byte, or cut off, is either read or refused with a message that our
+/// code wrote.
+TEST(Json, JsonErrorContainsNoTextOfTheParser) {
     const std::string sound =
         R"({"a": [1, 2.5e3, true, null], "text": "b\u00e9\n", "c": {"d": -7}})";
     std::mt19937 random(1);
@@ -76,7 +77,7 @@ TEST(Json, NoWordOfTheParserIsShown) {
 
 using JsonFiles = test::InFolder;
 
-TEST_F(JsonFiles, AllReadersSayTheSame) {
+TEST_F(JsonFiles, AllReadersGiveTheSameJsonError) {
     const auto put = [&](const std::string& name, const std::string& text) {
         std::ofstream(folder / name, std::ios::binary) << text;
         return (folder / name).string();

@@ -1,4 +1,4 @@
-// What rows are worth beside each other.
+// Tests of ranking the rows of a comparison: faster rows, closer rows, ties and the front.
 #include "measure/judge.hpp"
 #include "unit/report_sample.hpp"
 
@@ -10,7 +10,7 @@ using namespace catoptric;
 using report::sample::row;
 using report::sample::times;
 
-TEST(Judge, RowsOfAMovingSceneAreRankedByTheirWholeFrame) {
+TEST(Judge, RowsOfAMovingSceneAreRankedByWholeFrameTime) {
     measure::Row a = row("a", 1, .1, .1), b = row("b", 2, .1, .2);
     a.frame_ms = times(9), b.frame_ms = times(3);
     EXPECT_TRUE(measure::is_faster(a, b));
@@ -23,7 +23,8 @@ TEST(Judge, RowsOfAMovingSceneAreRankedByTheirWholeFrame) {
 
 using Front = std::vector<std::size_t>;
 
-/// A row with a time known exactly, or to a tenth.
+/// exact() builds a row with the same time in all rounds. about() builds a row whose time varies by
+/// a tenth.
 measure::Row exact(double ms, double flip) { return row("row", ms, flip, flip); }
 measure::Row about(double ms, double flip) {
     measure::Row made = exact(ms, flip);
@@ -31,19 +32,20 @@ measure::Row about(double ms, double flip) {
     return made;
 }
 
-TEST(Judge, FrontsComputedByHand) {
+TEST(Judge, FrontEqualsHandComputedFronts) {
     EXPECT_EQ(
         measure::front_of({exact(3, 1), exact(1, 3), exact(2, 2), exact(3, 3), exact(2, 2.5)}),
         (Front{1, 2, 0}));
     EXPECT_EQ(measure::front_of({exact(5, 5)}), Front{0});
     EXPECT_EQ(measure::front_of({}), Front{});
-    EXPECT_EQ(measure::front_of({exact(1, 2), exact(1, 1)}), Front{1}); // same time: the closer one
+    // Of rows with equal times, the row with less error is on the front.
+    EXPECT_EQ(measure::front_of({exact(1, 2), exact(1, 1)}), Front{1});
     EXPECT_EQ(measure::front_of({exact(2, 1), exact(1, 1)}),
-              Front{1}); // same error: the faster one
+              Front{1}); // of equal errors, the faster row is on the front
     EXPECT_EQ(measure::front_of({exact(1, 1), exact(2, 2), exact(1, 1)}), (Front{0, 2}));
 }
 
-/// The rule of the fastest row holds for the front, too.
+/// A row with black mirrors cannot be the fastest row, and cannot be on the front either.
 TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     measure::Row black = exact(1, .5);
     EXPECT_EQ(measure::front_of({black, exact(2, .1), exact(3, .6)}), (Front{0, 1}));
@@ -60,13 +62,14 @@ TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     EXPECT_TRUE(measure::ranking_of(made).beaten_by_beaten.empty());
 }
 
-TEST(Judge, RowsAreApartWhereEachRoundSaysSo) {
+TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
     EXPECT_TRUE(measure::is_faster(exact(10, 1), about(12, 1))) << "10.8 at least";
     EXPECT_FALSE(measure::is_faster(exact(10, 1), about(11, 1))) << "9.9 in three rounds";
     EXPECT_FALSE(measure::is_faster(about(11, 1), exact(10, 1)));
     EXPECT_TRUE(measure::is_tie(exact(10, 1), about(11, 1)));
     EXPECT_TRUE(measure::is_tie(exact(10, 1), exact(10, 1)));
-    // The same rounds are slow for both: what slows the machine down tells nothing of rows.
+    // The same rounds are slow for both rows. Rows are compared round by round, so a slow moment of
+    // the machine does not hide the difference.
     EXPECT_TRUE(measure::is_faster(about(10, 1), about(10.5, 1)));
     EXPECT_NEAR(measure::time_ratio(about(10.5, 1), about(10, 1)).low, 1.05, 1e-12);
 
@@ -80,13 +83,14 @@ TEST(Judge, RowsAreApartWhereEachRoundSaysSo) {
     EXPECT_EQ(measure::front_of({exact(10, 1), about(11, .9), exact(12, .9)}), (Front{1, 2}));
 }
 
-TEST(Judge, CloserIsLessFlipOverTheMirrorsHereOrOverViews) {
+TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     measure::Row a = exact(1, .1), b = exact(1, .2);
-    a.error.rmse = a.error_all.flip = .5; // of which nothing is asked
+    // Other metrics do not decide which row is closer.
+    a.error.rmse = a.error_all.flip = .5;
     EXPECT_TRUE(measure::is_closer(a, b));
     EXPECT_FALSE(measure::is_closer(b, a));
     EXPECT_TRUE(measure::beats(a, b));
-    // Over views: b is closer in four of six, so neither is.
+    // With six drawn views, b is closer in only four, so neither row counts as closer.
     for (int view = 0; view < 6; ++view) {
         a.views.push_back(a), b.views.push_back(b);
         if (view < 4) std::swap(a.views.back().error.flip, b.views.back().error.flip);
@@ -99,7 +103,7 @@ TEST(Judge, CloserIsLessFlipOverTheMirrorsHereOrOverViews) {
     EXPECT_EQ(measure::front_of({a, b}), (Front{1}));
 }
 
-TEST(Judge, FewerThanSixRoundsTellNobodyApart) {
+TEST(Judge, RowsWithFewerThanSixRoundsTie) {
     measure::Row a = exact(1, 1), b = exact(9, 1);
     ASSERT_TRUE(measure::is_faster(a, b));
     b.gpu_ms.rounds.pop_back();
@@ -108,7 +112,7 @@ TEST(Judge, FewerThanSixRoundsTellNobodyApart) {
     EXPECT_EQ(measure::front_of({a, b}), (Front{0, 1}));
 }
 
-TEST(Judge, WhatFailedIsNeverOnTheFrontAndBeatsNobody) {
+TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
     measure::Row failed = exact(1, 0), no_time = exact(0, 0), no_error = exact(1, 0);
     failed.error.nonfinite = 1;
     no_error.error.rmse = no_error.error.flip = measure::Difference::kNone;
@@ -116,7 +120,7 @@ TEST(Judge, WhatFailedIsNeverOnTheFrontAndBeatsNobody) {
     EXPECT_FALSE(measure::beats(exact(1, 1), no_error));
 }
 
-TEST(Judge, PlacesAreSharedByRowsThatTie) {
+TEST(Judge, TiedRowsShareTheirPlaces) {
     const measure::Comparison made = report::sample::comparison(
         {exact(10, 1), about(11, 1), exact(5, 1), exact(30, 1)});
     const auto places = [&](std::size_t i) {

@@ -1,4 +1,4 @@
-// A knob's text to its value and back.
+// Tests of knobs: reading a knob's value from text, and writing the value as text.
 #include "core/knob.hpp"
 #include "support/refusal.hpp"
 
@@ -8,29 +8,29 @@ namespace {
 
 using namespace catoptric;
 
-constexpr Knob kKnobs[] = {
+constexpr Knob kKnobKnobs[] = {
     {.name = "steps", .help = "", .low = 0, .high = 8, .value = 2},
     {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
 
-std::string refusal(std::string_view knob, std::string_view text) {
-    Settings settings(kKnobs);
+std::string knob_refusal(std::string_view knob, std::string_view text) {
+    Settings settings(kKnobKnobs);
     return test::refusal(Failure::usage, [&] { settings.set("row", knob, text); });
 }
 
-TEST(Knob, ASpecialWordStandsInPlaceOfANumber) {
-    Settings settings(kKnobs);
+TEST(Knob, SpecialWordReplacesANumber) {
+    Settings settings(kKnobKnobs);
     EXPECT_FALSE(settings.is_special("face"));
     settings.set("row", "face", "auto");
     EXPECT_TRUE(settings.is_special("face"));
     EXPECT_EQ(settings.text("face"), "auto");
-    EXPECT_FALSE(settings == Settings(kKnobs));
+    EXPECT_FALSE(settings == Settings(kKnobKnobs));
     settings.set("row", "face", "16");
     EXPECT_EQ(settings.number("face"), 16);
-    EXPECT_TRUE(settings == Settings(kKnobs));
+    EXPECT_TRUE(settings == Settings(kKnobKnobs));
 }
 
-TEST(Knob, ASpecialWordIsNoNumber) {
-    Settings settings(kKnobs);
+TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
+    Settings settings(kKnobKnobs);
     settings.set("row", "face", "auto");
     try {
         settings.number("face");
@@ -42,7 +42,7 @@ TEST(Knob, ASpecialWordIsNoNumber) {
     }
 }
 
-TEST(Knob, NumbersAreWrittenOut) {
+TEST(Knob, LargeNumbersAreWrittenWithoutAnExponent) {
     const Knob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
     Settings settings(std::span(&range, 1));
     settings.set("row", "range", "100000");
@@ -55,15 +55,16 @@ TEST(Knob, NumbersAreWrittenOut) {
     }
 }
 
-TEST(Knob, EveryRefusalNamesWhatIsAllowed) {
+TEST(Knob, RefusalNamesTheAllowedValues) {
     for (const std::string_view text : {"0", "65", "2.5", "atuo", "", "automatic", "nan"})
-        EXPECT_THAT(refusal("face", text), testing::AllOf(testing::HasSubstr("'face' of 'row'"),
-                                                          testing::HasSubstr("1 to 64 or auto"),
-                                                          testing::HasSubstr(std::string(text))));
-    EXPECT_THAT(refusal("face", "atuo"), testing::HasSubstr("did you mean 'auto'?"));
-    EXPECT_THAT(refusal("steps", "a"), testing::Not(testing::HasSubstr("did you mean")));
-    for (const std::string_view text : {"9", "auto"}) // a knob without such a word
-        EXPECT_THAT(refusal("steps", text),
+        EXPECT_THAT(knob_refusal("face", text),
+                    testing::AllOf(testing::HasSubstr("'face' of 'row'"),
+                                   testing::HasSubstr("1 to 64 or auto"),
+                                   testing::HasSubstr(std::string(text))));
+    EXPECT_THAT(knob_refusal("face", "atuo"), testing::HasSubstr("did you mean 'auto'?"));
+    EXPECT_THAT(knob_refusal("steps", "a"), testing::Not(testing::HasSubstr("did you mean")));
+    for (const std::string_view text : {"9", "auto"}) // this knob has no special word
+        EXPECT_THAT(knob_refusal("steps", text),
                     testing::AllOf(testing::HasSubstr("0 to 8"),
                                    testing::Not(testing::HasSubstr("or auto"))))
             << text;

@@ -1,6 +1,8 @@
-// What the report says of a lag that nobody measured.
+// Tests of the report's section on lag (how far a moving picture is behind its still picture), with
+// made-up figures.
 #include "report/line_plot.hpp"
 #include "report_sample.hpp"
+#include "support/special_values.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -20,9 +22,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/// At two instants, of which the first is without lag.
+/// Returns lag figures for two instants. The first instant has no lag.
 LagAtSpeed at_speed(double speed, double flip) {
     return {speed,
             {error_of(0, 0), error_of(flip / 4, flip)},
@@ -51,13 +51,13 @@ Comparison with_lag() {
     return made;
 }
 
-TEST(LagReport, IsSilentWhereNobodyAsked) {
+TEST(LagReport, ReportWithoutLagMeasurementsHasNoLagSection) {
     EXPECT_THAT(said(usual()), Not(HasSubstr("Lag")));
     EXPECT_THAT(catoptric::report::to_html(usual()), Not(HasSubstr("Lag")));
     EXPECT_FALSE(json::parse(catoptric::report::to_json(usual())).contains("lag"));
 }
 
-TEST(LagReport, HasARowForEachSpeed) {
+TEST(LagReport, LagTableHasARowForEachSpeed) {
     const std::string text = said(with_lag());
     EXPECT_TRUE(std::regex_search(
         text,
@@ -70,7 +70,7 @@ TEST(LagReport, HasARowForEachSpeed) {
     EXPECT_THAT(text, Not(HasSubstr("still changed")));
 }
 
-TEST(LagReport, SaysWhereTheCapWasNotEnough) {
+TEST(LagReport, ReportSaysWhereTheFrameCapWasNotEnough) {
     Comparison made = with_lag();
     EXPECT_TRUE(
         std::regex_search(said(made), std::regex(R"(\| reuse +\| +2 \| +3 \| +1 \| +over 3 \|)")))
@@ -79,7 +79,7 @@ TEST(LagReport, SaysWhereTheCapWasNotEnough) {
     EXPECT_THAT(said(made), HasSubstr("parallax: 2 stills still changed after 3 frames."));
 }
 
-TEST(LagReport, PutsItInWords) {
+TEST(LagReport, ReportDescribesLagInSentences) {
     Comparison made = with_lag();
     EXPECT_THAT(
         said(made),
@@ -95,7 +95,7 @@ TEST(LagReport, PutsItInWords) {
     EXPECT_THAT(said(made), Not(HasSubstr("## Lag")));
 }
 
-TEST(LagReport, JsonHoldsEveryFigure) {
+TEST(LagReport, JsonContainsEveryLagFigure) {
     Comparison made = with_lag();
     made.lag->rows[0].speeds[0].errors[0] = {};
     const json lag = json::parse(catoptric::report::to_json(made))["lag"];
@@ -128,36 +128,36 @@ TEST(LagReport, JsonHoldsEveryFigure) {
     EXPECT_TRUE(row["speeds"][0]["rmse"][0].is_null());
 }
 
-/// How often the pattern is in the text.
-std::ptrdiff_t count(const std::string& text, const std::string& pattern) {
+/// Counts the matches of the regular expression `pattern` in `text`.
+std::ptrdiff_t lag_report_count(const std::string& text, const std::string& pattern) {
     const std::regex wanted(pattern);
     return std::distance(std::sregex_iterator(text.begin(), text.end(), wanted),
                          std::sregex_iterator());
 }
 
-TEST(LagReport, DrawsALineForEachSpeedAndEachRow) {
+TEST(LagReport, LagPlotsHaveALineForEachSpeedAndEachRow) {
     Comparison made = with_lag();
     made.lag->rows[1].label = "<b>";
     const std::string html = catoptric::report::to_html(made);
-    EXPECT_EQ(count(html, "class=\"line\""),
-              2 * 2 + 2 + 2); // along the path, against speed, after a jump
+    EXPECT_EQ(lag_report_count(html, "class=\"line\""),
+              2 * 2 + 2 + 2); // lines along the path, against speed, and after a jump
     EXPECT_THAT(html, Not(HasSubstr("<b>")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
     EXPECT_THAT(html, HasSubstr("<h2>Lag</h2>"));
     made.lag->rows.resize(1);
-    made.lag->rows[0].speeds.clear(); // stopped before the first
-    EXPECT_EQ(count(catoptric::report::to_html(made), "class=\"line\""), 1);
+    made.lag->rows[0].speeds.clear(); // stopped before the first speed
+    EXPECT_EQ(lag_report_count(catoptric::report::to_html(made), "class=\"line\""), 1);
 }
 
-TEST(LinePlot, PutsZeroInItsLaneAndLeavesGapsOut) {
+TEST(LinePlot, ZerosAreDrawnInTheirOwnLaneAndNanIsAGap) {
     catoptric::report::LinePlot plot{.x_name = "x", .y_name = "y", .says = "both", .x = {0, 1, 2}};
-    plot.lines = {{"a", {0, 0.1, 0}}, {"b", {kNaN, 0.01, 0.1}}};
+    plot.lines = {{"a", {0, 0.1, 0}}, {"b", {test::kDoubleNan, 0.01, 0.1}}};
     const std::string drawn = line_plot(plot);
     EXPECT_TRUE(
         std::regex_search(drawn, std::regex(R"(d="M66\.0 238\.0L203\.0 [0-9.]+L340\.0 238\.0")")))
         << drawn;
     EXPECT_TRUE(std::regex_search(drawn, std::regex(R"(d="M203\.0 [0-9.]+L340\.0 [0-9.]+")")));
-    plot.lines = {{"a", {kNaN}}};
+    plot.lines = {{"a", {test::kDoubleNan}}};
     EXPECT_EQ(line_plot(plot), "");
     plot.x = {1, 10, 100}, plot.log_x = true;
     plot.lines = {{"a", {0.1, 0.1, 0.1}}};

@@ -1,7 +1,8 @@
-// What lamps of any shape give, after they were read from files: beside closed forms.
+// Tests of the light from lamps of several shapes, read from files, against closed-form solutions.
 #include "load_fixture.hpp"
 #include "scene/shapes.hpp"
 #include "scene/topology.hpp"
+#include "support/special_values.hpp"
 
 #include <cmath>
 #include <functional>
@@ -12,14 +13,12 @@ namespace {
 
 using namespace test::loading;
 
-constexpr double kPi = std::numbers::pi;
-
-/// Rings of places at these (radius, height), the ends closed; every vertex is its own, also where
-/// a ring ends where it began.
+/// Builds a surface of revolution with rings at the given (radius, height). A ring of radius 0
+/// closes an end. Triangles share no vertices, not even where a ring begins and ends.
 Mesh turned(const std::vector<dvec2>& profile, int around) {
     Mesh mesh{.name = "lamp"};
     const auto place = [&](std::size_t ring, int k) {
-        const double turn = k == around ? 2 * kPi : 2 * kPi * k / around;
+        const double turn = k == around ? 2 * test::kPi : 2 * test::kPi * k / around;
         return dvec3(profile[ring].x * std::cos(turn), profile[ring].y,
                      profile[ring].x * std::sin(turn));
     };
@@ -40,12 +39,12 @@ Mesh turned(const std::vector<dvec2>& profile, int around) {
     return mesh;
 }
 
-/// Its rings gather towards the top.
+/// Builds a sphere whose rings are closer together towards the top.
 Mesh uneven_sphere(double radius) {
     std::vector<dvec2> profile;
     constexpr int kRings = 40;
     for (int i = 0; i <= kRings; ++i) {
-        const double angle = kPi * (1 - std::pow(double(kRings - i) / kRings, 1.6));
+        const double angle = test::kPi * (1 - std::pow(double(kRings - i) / kRings, 1.6));
         profile.emplace_back(i == 0 || i == kRings ? 0 : radius * std::sin(angle),
                              -radius * std::cos(angle));
     }
@@ -59,8 +58,8 @@ Mesh uneven_cylinder(double radius, double height) {
     return turned(profile, 64);
 }
 
-/// Its top is divided 8 by 8, without a vertex on its rim that its sides have not: a fan of its
-/// own.
+/// Builds a box whose top is finely divided around a fan in the centre. Along the rim of the top,
+/// the only vertices are the four corners.
 Mesh uneven_box(const dvec3& half) {
     Mesh mesh = scene::box("lamp", -half, half);
     std::erase_if(mesh.triangles, [&](const uvec3& t) { return mesh.normals[t.x].y > .5f; });
@@ -125,7 +124,7 @@ std::string glb_of(const Mesh& mesh, bool double_sided) {
     return gltf.glb();
 }
 
-/// What arrives from all lights on a surface that faces the origin at this place.
+/// Returns the irradiance from all lights on a surface at `place` that faces the origin.
 double irradiance(const Scene& scene, const dvec3& place) {
     double sum = 0;
     for (const PointLight& light : lights(scene)) {
@@ -148,7 +147,7 @@ double mean_of_six(const std::function<double(dvec3)>& towards) {
 
 class Lamps : public Load {
 protected:
-    /// The mesh's scenes by every way into the program.
+    /// Loads the mesh as a lamp from each kind of file: OBJ, one-sided GLB and two-sided GLB.
     std::vector<std::pair<std::string, Scene>> scenes(const Mesh& mesh) {
         write("lamp.mtl", "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n");
         return {{"obj", load(write("lamp.obj", obj_text(mesh)))},
@@ -157,15 +156,15 @@ protected:
     }
 };
 
-TEST_F(Lamps, ClosedOnesGiveAQuarterOfTheirSurface) {
+TEST_F(Lamps, ClosedLampsShineLikeAQuarterOfTheirSurface) {
     constexpr double kAway = 2;
     const struct {
         const char* name;
         Mesh mesh;
         double area;
-    } lamps[] = {{"sphere", uneven_sphere(.1), 4 * kPi * .01},
+    } lamps[] = {{"sphere", uneven_sphere(.1), 4 * test::kPi * .01},
                  {"box", uneven_box({.1, .05, .08}), 8 * (.005 + .008 + .004)},
-                 {"cylinder", uneven_cylinder(.06, .2), 2 * kPi * .06 * (.06 + .2)}};
+                 {"cylinder", uneven_cylinder(.06, .2), 2 * test::kPi * .06 * (.06 + .2)}};
     for (const auto& [name, mesh, area] : lamps)
         for (const auto& [how, scene] : scenes(mesh)) {
             ASSERT_EQ(lights(scene).size(), 1u) << name << ", " << how;
@@ -178,7 +177,7 @@ TEST_F(Lamps, ClosedOnesGiveAQuarterOfTheirSurface) {
         }
 }
 
-TEST_F(Lamps, AnOpenBoardOfTwoSidesShinesAsItIsSeen) {
+TEST_F(Lamps, OpenTwoSidedBoardShinesByItsVisibleArea) {
     const Mesh board = scene::quad("lamp", {-.1, .02, -.1}, {-.1, .02, .1}, {.1, .02, .1},
                                    {.1, .02, -.1});
     const Scene scene = load(write("two.glb", glb_of(board, true)));
@@ -193,32 +192,32 @@ TEST_F(Lamps, AnOpenBoardOfTwoSidesShinesAsItIsSeen) {
     EXPECT_EQ(share_towards(lights(one)[0], {.6, -.8, 0}), 0);
 }
 
-TEST_F(Lamps, AnOpenTubeOfTwoSidesHasTheMeanOfItsCosines) {
+TEST_F(Lamps, OpenTwoSidedTubeShinesByTheMeanCosineOfItsFacets) {
     const Scene scene = load(write("two.glb", glb_of(turned({{.05, -.1}, {.05, .1}}, 64), true)));
     ASSERT_EQ(lights(scene).size(), 1u);
-    // A facet at angle a is seen at |cos a| of the sine to the tube's axis; the mean of |cos| over
-    // a turn is 2 / pi.
-    for (const double angle : {0.0, .4, .9, kPi / 2})
+    // A facet at angle a around the tube appears |cos a| times the sine of the angle between view
+    // and axis. The mean of |cos a| over a turn is 2 / pi.
+    for (const double angle : {0.0, .4, .9, test::kPi / 2})
         EXPECT_NEAR(share_towards(lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
-                    2 / kPi * std::sin(angle), 1e-3);
+                    2 / test::kPi * std::sin(angle), 1e-3);
 }
 
-TEST_F(Lamps, ASphereWithAHoleIsOpen) {
+TEST_F(Lamps, SphereWithAHoleIsAnOpenLamp) {
     Mesh mesh = uneven_sphere(.1);
     mesh.triangles.pop_back();
     for (const auto& [how, scene] : scenes(mesh)) {
         ASSERT_EQ(lights(scene).size(), 1u) << how;
         EXPECT_FALSE(lights(scene)[0].closed) << how;
     }
-    // Nearly all directions are in it, so it shines nearly alike all around: half of its surface,
-    // whose inside shines too.
+    // The sphere with a hole shines almost equally in all directions. Its inside shines too, so
+    // half of its surface counts.
     const Scene two = load(write("two.glb", glb_of(mesh, true)));
     EXPECT_NEAR(
         mean_of_six([&](const dvec3& along) { return share_towards(lights(two)[0], along); }), .5,
         .01);
 }
 
-TEST(Topology, PlacesAreOneWithinRoundings) {
+TEST(Topology, PositionsWithinRoundingErrorsAreMerged) {
     const std::vector<dvec3> places{{1, 0, 0},     {1, 1e-17, -1e-17}, {1 + 2e-7, 0, 0},
                                     {1.01, 0, 0},  {1, 2e-6, 0},       {0, 0, 0},
                                     {0, -1e-9, 0}, {1, 0, 0}};
@@ -227,7 +226,7 @@ TEST(Topology, PlacesAreOneWithinRoundings) {
     EXPECT_THAT(first_at_place(std::vector(3, dvec3(0))), testing::ElementsAre(0, 0, 0));
 }
 
-TEST(Topology, ATriangleWithOneCornerTwiceHasNoSide) {
+TEST(Topology, TriangleWithARepeatedCornerHasNoSides) {
     const std::vector<Corners> triangles{{0, 1, 2}, {2, 1, 1}, {3, 1, 2}};
     const std::vector<Side> sides = sides_of(triangles);
     EXPECT_EQ(sides.size(), 6u);

@@ -1,4 +1,5 @@
-// An rmse in two parts: at the outlines of lights, and elsewhere.
+// Tests of splitting an rmse into two parts: pixels at the outlines of lights, and all other
+// pixels.
 #include "measure/light_edges.hpp"
 
 #include "measure/comparison.hpp"
@@ -19,7 +20,7 @@ using catoptric::vec3;
 constexpr int kWidth = 8, kHeight = 5;
 const std::vector<float> kNoFlip(kWidth* kHeight, 0.0F);
 
-Picture noise(std::uint32_t seed) {
+Picture light_edges_noise(std::uint32_t seed) {
     std::mt19937 random(seed);
     Picture picture(kWidth, kHeight);
     for (vec3& pixel : picture.pixels)
@@ -27,13 +28,14 @@ Picture noise(std::uint32_t seed) {
     return picture;
 }
 
-/// What a mask takes of the mirrors, and what it leaves.
+/// The rmse of mirror pixels split by a mask of light outlines, and the difference over all mirror
+/// pixels.
 struct Split {
     LightEdges edges;
     Difference all;
 };
 
-Split split(const Picture& a, const Picture& b, const Mask& mirrors, Mask there) {
+Split light_edges_split(const Picture& a, const Picture& b, const Mask& mirrors, Mask there) {
     Mask elsewhere = mirrors;
     for (std::size_t i = 0; i < there.size(); ++i) {
         if (mirrors[i] == 0) there[i] = 0;
@@ -43,7 +45,7 @@ Split split(const Picture& a, const Picture& b, const Mask& mirrors, Mask there)
             difference(a, b, mirrors, kNoFlip)};
 }
 
-TEST(LightEdges, SquaresAddUpToThatOfTheRmse) {
+TEST(LightEdges, SquaredPartsAddUpToTheSquaredRmse) {
     std::mt19937 random(7);
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         Mask mirrors(kWidth * kHeight), there(mirrors.size());
@@ -51,9 +53,10 @@ TEST(LightEdges, SquaresAddUpToThatOfTheRmse) {
             mirrors[i] = random() % 3 > 0 ? 255 : 0;
             there[i] = random() % 4 == 0 ? 255 : 0;
         }
-        Picture a = noise(seed);
-        a.pixels[seed].x = std::numeric_limits<float>::quiet_NaN(); // judged in neither part
-        const Split found = split(a, noise(seed + 100), mirrors, there);
+        Picture a = light_edges_noise(seed);
+        a.pixels[seed].x =
+            std::numeric_limits<float>::quiet_NaN(); // a NaN pixel counts in neither part
+        const Split found = light_edges_split(a, light_edges_noise(seed + 100), mirrors, there);
         const double whole = found.all.rmse * found.all.rmse;
         EXPECT_NEAR(found.edges.rmse * found.edges.rmse +
                         found.edges.rest_rmse * found.edges.rest_rmse,
@@ -62,35 +65,36 @@ TEST(LightEdges, SquaresAddUpToThatOfTheRmse) {
     }
 }
 
-/// Four mirror pixels; one is wrong by .3 in each channel, one of the others by .1.
-TEST(LightEdges, PutsTheErrorWhereItIs) {
+/// Four pixels show mirrors. The pixel at a light outline is wrong by .3 in each channel, another
+/// pixel by .1.
+TEST(LightEdges, ErrorsAreAssignedToLightOutlinesOrToTheRest) {
     Picture a(kWidth, kHeight);
     const Picture black(kWidth, kHeight);
     Mask mirrors(kWidth * kHeight), there(mirrors.size());
     for (const std::size_t i : {3U, 10U, 11U, 30U}) mirrors[i] = 255;
     a.pixels[10] = vec3(.3F), a.pixels[30] = vec3(.1F);
-    a.pixels[20] = vec3(1); // no mirror
+    a.pixels[20] = vec3(1); // this pixel shows no mirror
     there[10] = there[20] = 255;
-    const LightEdges found = split(a, black, mirrors, there).edges;
+    const LightEdges found = light_edges_split(a, black, mirrors, there).edges;
     EXPECT_NEAR(found.rmse, .3 / 2, 1e-7);
     EXPECT_NEAR(found.rest_rmse, .1 / 2, 1e-7);
     EXPECT_NEAR(found.share, .9, 1e-6);
     EXPECT_EQ(found.pixels, .25);
 }
 
-TEST(LightEdges, WithoutErrorOrPixels) {
+TEST(LightEdges, FiguresAreZeroWithoutErrorAndNanWithoutPixels) {
     const Picture black(kWidth, kHeight);
     const Mask some(kWidth * kHeight, 255), none(some.size());
-    EXPECT_EQ(split(black, black, some, some).edges.share, 0);
-    EXPECT_EQ(split(black, black, some, some).edges.rest_rmse, 0);
-    EXPECT_EQ(split(black, black, some, none).edges.pixels, 0);
-    const LightEdges nothing = split(black, black, none, some).edges;
+    EXPECT_EQ(light_edges_split(black, black, some, some).edges.share, 0);
+    EXPECT_EQ(light_edges_split(black, black, some, some).edges.rest_rmse, 0);
+    EXPECT_EQ(light_edges_split(black, black, some, none).edges.pixels, 0);
+    const LightEdges nothing = light_edges_split(black, black, none, some).edges;
     for (const double figure : {nothing.rmse, nothing.rest_rmse, nothing.share, nothing.pixels})
         EXPECT_TRUE(std::isnan(figure));
 }
 
-/// Rows that look into no capture have none.
-TEST(LightEdges, AreNullWhereNobodyLooked) {
+/// Rows without captures have no figures for light outlines, so the report contains null.
+TEST(LightEdges, UnmeasuredLightEdgesAreNullInTheReport) {
     using namespace catoptric::report;
     const auto rows = nlohmann::json::parse(to_json(sample::usual()))["rows"];
     EXPECT_TRUE(rows[0]["light_edges"].is_null());

@@ -1,4 +1,5 @@
-// What a device cannot hold is refused by its numbers, before anything is made of it.
+// Tests of device limits. A scene that exceeds a limit is refused by its counts, before anything is
+// allocated.
 #include "render/geometry.hpp"
 #include "render/limits.hpp"
 #include "render/material_parameters.hpp"
@@ -13,11 +14,11 @@ using namespace catoptric;
 
 constexpr render::Limits kRoomy{1u << 27, 1u << 27, 1u << 30, 1ull << 31};
 
-std::string refusal(const render::Amounts& amounts, const render::Limits& limits) {
+std::string limits_refusal(const render::Amounts& amounts, const render::Limits& limits) {
     return test::refusal(Failure::exhausted, [&] { render::check_limits("s", amounts, limits); });
 }
 
-TEST(Limits, CountWhatASceneShows) {
+TEST(Limits, AmountsCountTrianglesObjectsAndMirrors) {
     const scene::Scene room = test::room(2, 1);
     const render::Amounts amounts = render::amounts_of(room);
     EXPECT_EQ(amounts.triangles, scene::triangle_count(room));
@@ -26,7 +27,7 @@ TEST(Limits, CountWhatASceneShows) {
     EXPECT_NO_THROW(render::check_limits("s", amounts, kRoomy));
 }
 
-TEST(Limits, CountTheEnvironment) {
+TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
     scene::Scene room = test::room(0, 1);
     scene::Environment map;
     map.size = {8, 4};
@@ -40,11 +41,11 @@ TEST(Limits, CountTheEnvironment) {
     limits.texels = 31;
     render::Amounts few = amounts;
     few.triangles = 2;
-    EXPECT_EQ(refusal(few, limits),
+    EXPECT_EQ(limits_refusal(few, limits),
               "scene 's' wants 32 texels of the environment, the device allows 31");
 }
 
-TEST(Limits, CountTheTexelsOfImages) {
+TEST(Limits, MoreImageTexelsThanTheLimitAreRefused) {
     scene::Scene room = test::room(0, 1);
     const auto image = std::make_shared<const scene::Image>(
         scene::Image{"wood.png", {8, 4}, std::vector<std::uint32_t>(32)});
@@ -62,7 +63,7 @@ TEST(Limits, CountTheTexelsOfImages) {
                   "': its images up to 'wood.png' take 288 texels, the device allows 287");
 }
 
-/// Balls of 4096 triangles that are all one mesh, on top of a room.
+/// Builds a room with `count` balls that share one mesh of 4096 triangles.
 scene::Scene copies(int count) {
     scene::Scene scene = test::room(0, 1);
     scene.meshes.push_back(scene::ball("ball", 5));
@@ -71,7 +72,7 @@ scene::Scene copies(int count) {
     return scene;
 }
 
-TEST(Limits, CountCopiesOnceWhereTheyShare) {
+TEST(Limits, CopiesThatShareAMeshCountOnce) {
     const render::Amounts room = render::amounts_of(copies(0)),
                           few = render::amounts_of(copies(65)),
                           many = render::amounts_of(copies(66));
@@ -79,7 +80,8 @@ TEST(Limits, CountCopiesOnceWhereTheyShare) {
     EXPECT_EQ(many.triangles, room.triangles + 4096);
     EXPECT_EQ(many.vertices, room.vertices + 2050);
     EXPECT_EQ(many.objects, room.objects + 66);
-    scene::Scene flattened = copies(66); // no float turns a ray into the space of this one
+    // The last ball is so flat that floats cannot transform rays to its object space.
+    scene::Scene flattened = copies(66);
     flattened.objects.back().world_from_object = dmat4(1, 0, 0, 0, 1, 1e-3, 0, 0, 0, 0, 1, 0, 0, 0,
                                                        0, 1);
     EXPECT_EQ(render::amounts_of(flattened).triangles, room.triangles + 2 * 4096);
@@ -89,8 +91,8 @@ TEST(Limits, CountCopiesOnceWhereTheyShare) {
     EXPECT_THROW(render::check_limits("s", few, tight), Error);
 }
 
-/// What is counted is what is stored.
-TEST(Limits, CountWhatTheGeometryHolds) {
+/// The counts that are checked against limits equal the counts of the stored geometry.
+TEST(Limits, AmountsEqualTheStoredGeometry) {
     for (const int count : {0, 3, 65, 66, 80}) {
         const scene::Scene scene = copies(count);
         const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene),
@@ -101,31 +103,32 @@ TEST(Limits, CountWhatTheGeometryHolds) {
     }
 }
 
-TEST(Limits, NameWhatIsWantedAndWhatThereIs) {
+TEST(Limits, ErrorsNameWantedAndAllowedAmounts) {
     const render::Amounts one{.vertices = 100, .triangles = 100, .objects = 100, .mirrors = 100};
     render::Limits limits = kRoomy;
     limits.texels = 299;
-    EXPECT_EQ(refusal(one, limits),
+    EXPECT_EQ(limits_refusal(one, limits),
               "scene 's' wants 300 texels of triangles, the device allows 299");
     limits.texels = 399;
-    EXPECT_EQ(refusal(one, limits),
+    EXPECT_EQ(limits_refusal(one, limits),
               "scene 's' wants 400 texels of surfaces, the device allows 399");
     limits.texels = 499;
-    EXPECT_EQ(refusal(one, limits), "scene 's' wants 500 texels of mirrors, the device allows 499");
+    EXPECT_EQ(limits_refusal(one, limits),
+              "scene 's' wants 500 texels of mirrors, the device allows 499");
     limits = kRoomy, limits.storage_bytes = 50483;
-    EXPECT_EQ(refusal(one, limits),
+    EXPECT_EQ(limits_refusal(one, limits),
               "scene 's' wants 50484 bytes of views, the device allows 50483");
     limits = kRoomy, limits.piece_bytes = 2399;
-    EXPECT_EQ(refusal(one, limits),
+    EXPECT_EQ(limits_refusal(one, limits),
               "scene 's' wants 2400 bytes of vertices, the device allows 2399");
     limits.piece_bytes = 2400;
-    EXPECT_EQ(refusal({.vertices = 100, .triangles = 201}, limits),
+    EXPECT_EQ(limits_refusal({.vertices = 100, .triangles = 201}, limits),
               "scene 's' wants 2412 bytes of indices, the device allows 2400");
     limits = kRoomy, limits.memory_bytes = 14799;
-    EXPECT_EQ(refusal(one, limits), "scene 's' wants 14800 bytes, the device allows 14799");
-    EXPECT_EQ(refusal({.mirrors = 32768}, kRoomy),
+    EXPECT_EQ(limits_refusal(one, limits), "scene 's' wants 14800 bytes, the device allows 14799");
+    EXPECT_EQ(limits_refusal({.mirrors = 32768}, kRoomy),
               "scene 's' has 32768 mirrors, 32767 are allowed");
-    EXPECT_EQ(refusal({.vertices = 1ull << 32}, kRoomy),
+    EXPECT_EQ(limits_refusal({.vertices = 1ull << 32}, kRoomy),
               "scene 's' wants 4294967296 vertices, the device allows 4294967295");
 }
 

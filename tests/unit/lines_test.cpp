@@ -1,4 +1,4 @@
-// The longest line of wrong pixels, in pictures drawn by hand.
+// Tests of longest_line, which measures the longest line of wrong pixels, with masks drawn by hand.
 #include "measure/lines.hpp"
 
 #include "measure/difference.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using Drawing = std::vector<std::string>;
 
-/// '#' is off.
+/// Builds a mask from rows of text in which '#' marks a wrong pixel.
 Mask mask_of(const Drawing& rows) {
     Mask mask;
     for (const std::string& row : rows)
@@ -26,7 +26,7 @@ int line_in(const Drawing& rows) {
     return longest_line(mask_of(rows), static_cast<int>(rows.front().size()));
 }
 
-TEST(LongestLine, IsTheLongestSideOfItsBox) {
+TEST(LongestLine, LineLengthIsTheLongestSideOfItsBounds) {
     EXPECT_EQ(line_in({"......", "......"}), 0);
     EXPECT_EQ(line_in({"......", "..#..."}), 1);
     EXPECT_EQ(line_in({"######"}), 6);
@@ -36,7 +36,7 @@ TEST(LongestLine, IsTheLongestSideOfItsBox) {
     EXPECT_EQ(longest_line({}, 0), 0);
 }
 
-TEST(LongestLine, BridgesTwoPixelsAndNoMore) {
+TEST(LongestLine, LineBridgesGapsOfAtMostTwoPixels) {
     EXPECT_EQ(line_in({"#..#..#"}), 7);
     EXPECT_EQ(line_in({"#...#...#"}), 1);
     EXPECT_EQ(line_in({"#......", ".......", ".......", "...#..."}), 4)
@@ -46,7 +46,7 @@ TEST(LongestLine, BridgesTwoPixelsAndNoMore) {
         << "the end of a row does not touch the next one's start";
 }
 
-TEST(LongestLine, LeavesPatchesOut) {
+TEST(LongestLine, PatchesOfFourByFourPixelsAreNoLines) {
     EXPECT_EQ(line_in({"####", "####", "####", "####"}), 0);
     EXPECT_EQ(line_in({"########", "########", "########"}), 8) << "three rows are a line";
     EXPECT_EQ(line_in({"####.", "####.", ".####", ".####"}), 5) << "four rows without a square";
@@ -56,7 +56,7 @@ TEST(LongestLine, LeavesPatchesOut) {
         << "a line that leaves a patch belongs to it; another does not";
 }
 
-TEST(LongestLine, AgreesWithSetsJoinedOneByOne) {
+TEST(LongestLine, LongestLineAgreesWithABruteForceSearch) {
     constexpr int kWidth = 23, kHeight = 17;
     std::mt19937 random(1);
     int longest = 0;
@@ -64,7 +64,8 @@ TEST(LongestLine, AgreesWithSetsJoinedOneByOne) {
         std::bernoulli_distribution off(.01 + .006 * run);
         Mask mask(kWidth * kHeight);
         for (std::uint8_t& pixel : mask) pixel = off(random);
-        // Every pixel its own set; sets are renamed until none touches another.
+        // The expected length comes from sets of pixels. Each wrong pixel starts as its own set,
+        // and touching sets are joined until no two sets touch.
         std::vector<int> set(mask.size(), -1);
         for (int i = 0; i < kWidth * kHeight; ++i)
             if (mask[i] != 0) set[i] = i;
@@ -98,7 +99,7 @@ TEST(LongestLine, AgreesWithSetsJoinedOneByOne) {
     EXPECT_EQ(longest, kWidth);
 }
 
-/// A grey picture with one colour at some places of a row of ten.
+/// Builds a grey picture of 10 x 3 pixels with `colour` at the given pixels of the middle row.
 Picture marked(const vec3& colour, const std::vector<int>& places) {
     Picture picture(10, 3);
     std::ranges::fill(picture.pixels, vec3(.5F));
@@ -110,7 +111,7 @@ Difference apart(const Picture& a, const Picture& b, const Mask& mask = {}) {
     return difference(a, b, mask, std::vector<float>(a.pixels.size()));
 }
 
-TEST(Off, IsAChannelThatDiffersByMoreThanATwoHundredthOfTheDisplay) {
+TEST(Off, PixelIsOffIfAChannelDiffersByMoreThanTwoHundredths) {
     const Picture grey = marked(vec3(.5F), {});
     const Difference more = apart(grey, marked({.5F, .5F, .5203F}, {2, 5}));
     EXPECT_DOUBLE_EQ(more.off, 2. / 30);
@@ -122,7 +123,7 @@ TEST(Off, IsAChannelThatDiffersByMoreThanATwoHundredthOfTheDisplay) {
     EXPECT_EQ(above.off, 0) << "both clamped";
 }
 
-TEST(Off, IsAShareOfTheMaskAndALineInIt) {
+TEST(Off, OffShareAndLongestLineCountOnlyPixelsOfTheMask) {
     const Picture grey = marked(vec3(.5F), {}), wrong = marked(vec3(1), {0, 1, 2, 3, 8});
     Mask mask(30);
     mask[12] = mask[13] = mask[14] = mask[18] = 255;

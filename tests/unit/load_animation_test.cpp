@@ -1,4 +1,4 @@
-// How nodes of glTF move: each kind of track, each interpolation, parents that move.
+// Tests of glTF animations: each kind of track, each interpolation, and moving parents.
 #include "scene/transform.hpp"
 #include "unit/load_fixture.hpp"
 
@@ -10,7 +10,7 @@ using namespace test::loading;
 
 class LoadAnimation : public Load {
 protected:
-    /// Node 0 moves by a track of `path`: keys at 0, 1 and 3 seconds, or as given.
+    /// Builds a glTF file whose node 0 moves by a track of `path`, with keys at `times` in seconds.
     static Gltf moving(const std::string& path, const std::vector<float>& values,
                        const char* interpolation = "LINEAR",
                        const std::vector<float>& times = {0, 1, 3}) {
@@ -18,7 +18,7 @@ protected:
         add(gltf, 0, path, values, interpolation, times);
         return gltf;
     }
-    /// Adds a channel to the one animation.
+    /// Adds a channel to the file's only animation.
     static void add(Gltf& gltf, int node, const std::string& path, const std::vector<float>& values,
                     const char* interpolation = "LINEAR",
                     const std::vector<float>& times = {0, 1, 3}) {
@@ -44,7 +44,7 @@ protected:
 
 const float kHalf = std::sqrt(.5f);
 
-TEST_F(LoadAnimation, TranslationsByEachInterpolation) {
+TEST_F(LoadAnimation, TranslationsFollowEachInterpolation) {
     const std::vector<float> values = {0, 0, 0, 2, 4, 0, 0, 0, 8};
     const Scene linear = scene_of(moving("translation", values));
     expect_near(carried(linear, .25), {.5, 1, 0});
@@ -57,15 +57,16 @@ TEST_F(LoadAnimation, TranslationsByEachInterpolation) {
     expect_near(carried(step, .999), {0, 0, 0});
     expect_near(carried(step, 1), {2, 4, 0});
     expect_near(carried(step, 2.999), {2, 4, 0});
-    // x = 3 s^2 - 2 s^3 with flat tangents; a tangent of 1 adds s^3 - 2 s^2 + s
+    // A cubic spline with flat tangents gives x = 3 s^2 - 2 s^3. A tangent of 1 at the start adds
+    // s^3 - 2 s^2 + s.
     const std::vector<float> cubic = {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
     const Scene smooth = scene_of(moving("translation", cubic, "CUBICSPLINE", {0, 1}));
     expect_near(carried(smooth, .25), {3. / 16 - 2. / 64, 1. / 64 - 2. / 16 + .25, 0});
     expect_near(carried(smooth, 2), {1, 0, 0});
 }
 
-TEST_F(LoadAnimation, RotationsByEachInterpolation) {
-    // about z: nothing, a quarter turn, half a turn
+TEST_F(LoadAnimation, RotationsFollowEachInterpolation) {
+    // The three keys are rotations about z by 0, 90 and 180 degrees.
     const std::vector<float> values = {0, 0, 0, 1, 0, 0, kHalf, kHalf, 0, 0, 1, 0};
     const dvec3 x(1, 0, 0);
     const Scene linear = scene_of(moving("rotation", values));
@@ -77,19 +78,21 @@ TEST_F(LoadAnimation, RotationsByEachInterpolation) {
     const Scene step = scene_of(moving("rotation", values, "STEP"));
     expect_near(carried(step, .99, x), x);
     expect_near(carried(step, 2.99, x), {0, 1, 0});
-    // the shorter way: from nothing to minus nothing is nothing
+    // Quaternions q and -q are the same rotation. Interpolation takes the shorter way, so nothing
+    // turns.
     const Scene same = scene_of(moving("rotation", {0, 0, 0, 1, 0, 0, 0, -1}, "LINEAR", {0, 1}));
     expect_near(carried(same, .5, x), x);
-    // cubic with flat tangents: the halfway quaternion is the mean, made unit again
+    // In a cubic spline with flat tangents, the quaternion halfway is the normalised mean of both
+    // keys.
     std::vector<float> cubic(24);
-    cubic[7] = 1, cubic[18] = 1; // unit w, then unit z
+    cubic[7] = 1, cubic[18] = 1; // the quaternions of the two keys: unit w, unit z
     const Scene smooth = scene_of(moving("rotation", cubic, "CUBICSPLINE", {0, 1}));
     expect_near(carried(smooth, .5, x), {0, 1, 0});
     const double s = .25, b = 3 * s * s - 2 * s * s * s, a = 1 - b, n = a * a + b * b;
     expect_near(carried(smooth, s, x), {(a * a - b * b) / n, 2 * a * b / n, 0});
 }
 
-TEST_F(LoadAnimation, RotationsOfShortNumbers) {
+TEST_F(LoadAnimation, RotationsOfNormalisedShortsAreRead) {
     Gltf gltf = moving("rotation", {0, 0, 0, 1, 0, 0, kHalf, kHalf}, "LINEAR", {0, 1});
     const std::size_t shorts = gltf.add<std::int16_t>({0, 0, 0, 32767, 0, 0, 32767, 0}, "VEC4",
                                                       5122);
@@ -98,7 +101,7 @@ TEST_F(LoadAnimation, RotationsOfShortNumbers) {
     expect_near(carried(scene_of(gltf), 1, {1, 0, 0}), {-1, 0, 0});
 }
 
-TEST_F(LoadAnimation, ScalesKeepTheRest) {
+TEST_F(LoadAnimation, AnimatedScaleKeepsTranslationAndRotation) {
     Gltf gltf = moving("scale", {1, 1, 1, 2, 3, 4, 2, 3, 4});
     gltf.root["nodes"][0]["translation"] = {10, 0, 0};
     gltf.root["nodes"][0]["rotation"] = {0, 0, kHalf, kHalf};
@@ -107,7 +110,7 @@ TEST_F(LoadAnimation, ScalesKeepTheRest) {
     expect_near(carried(scene, .5, {0, 1, 0}), {8, 0, 0});
 }
 
-TEST_F(LoadAnimation, ParentsThatMoveCarryTheirChildren) {
+TEST_F(LoadAnimation, MovingParentsCarryTheirChildren) {
     Gltf gltf = moving("rotation", {0, 0, 0, 1, 0, 0, kHalf, kHalf}, "LINEAR", {0, 1});
     gltf.root["nodes"][0] = {{"children", {1}}, {"translation", {0, 0, 5}}};
     gltf.root["nodes"].push_back({{"children", {2}}, {"translation", {1, 0, 0}}});
@@ -120,14 +123,14 @@ TEST_F(LoadAnimation, ParentsThatMoveCarryTheirChildren) {
     EXPECT_TRUE(is_animated(scene));
     EXPECT_EQ(scene.meshes.size(), 1u);
     EXPECT_FALSE(is_animated(at(scene, .5)));
-    // two objects of one rig share it
+    // Two objects with the same moving parent share one rig.
     gltf.root["nodes"][1]["mesh"] = 0;
     const Scene two = scene_of(gltf);
     EXPECT_EQ(std::get<Follows>(two.objects[0].motion).rig,
               std::get<Follows>(two.objects[1].motion).rig);
 }
 
-TEST_F(LoadAnimation, CamerasAndLightsGoAlong) {
+TEST_F(LoadAnimation, CamerasAndLightsMoveWithTheirNodes) {
     Gltf gltf = moving("rotation", {0, 0, 0, 1, 0, kHalf, 0, kHalf}, "LINEAR", {0, 1});
     gltf.root["nodes"][0]["children"] = {1, 2};
     gltf.root["cameras"] = {
@@ -139,13 +142,13 @@ TEST_F(LoadAnimation, CamerasAndLightsGoAlong) {
     const Scene scene = scene_of(gltf);
     expect_near(scene.cameras.at(0).eye, {0, 0, 2});
     for (const Camera& camera : {camera_at(scene.cameras[0], 1), at(scene, 1).cameras.at(0)}) {
-        expect_near(camera.eye, {2, 0, 0}); // a quarter turn about y
+        expect_near(camera.eye, {2, 0, 0}); // after a quarter turn about y
         expect_near(camera.target, {1, 0, 0});
         expect_near(camera.up, {0, 1, 0});
     }
     expect_near(dvec3(at(scene, 1).punctual.at(0).world_from_light[3]), {1, 1, 0});
     EXPECT_EQ(camera_at(Camera(), 3), Camera());
-    // along one track
+    // A camera that moves along a single translation track.
     Gltf sliding = moving("translation", {1, 0, 0, 5, 0, 0}, "LINEAR", {0, 1});
     sliding.root["nodes"][0]["camera"] = 0;
     sliding.root["nodes"][0]["translation"] = {1, 0, 0};
@@ -155,7 +158,7 @@ TEST_F(LoadAnimation, CamerasAndLightsGoAlong) {
     expect_near(camera_at(slides.cameras.at(0), .5).target, {3, 0, -1});
 }
 
-TEST_F(LoadAnimation, OneAnimationIsShownAndTheOthersCounted) {
+TEST_F(LoadAnimation, OneAnimationIsPlayedAndTheOthersAreListed) {
     Gltf gltf = moving("translation", {0, 0, 0, 1, 0, 0}, "STEP", {0, 1});
     gltf.root["animations"][0]["name"] = "walk";
     Json other = gltf.root["animations"][0];

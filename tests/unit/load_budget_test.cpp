@@ -1,5 +1,5 @@
-// Files that ask for more than they are: each total, what is wanted and what was found, before
-// anything of that size is made.
+// Tests of loading budgets. A file that asks for more than a budget allows is refused before
+// anything of that size is allocated.
 #include "unit/load_fixture.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ protected:
         EXPECT_THAT(message, HasSubstr(", the budget of a scene, found "));
         return message;
     }
-    /// A glTF of `count` copies of an item in a list.
+    /// Builds a glTF file whose list `list` contains `count` copies of `item`.
     static Gltf many(const char* list, std::size_t count, const Json& item) {
         Gltf gltf = small();
         gltf.root[list] = Json::array();
@@ -24,16 +24,16 @@ protected:
     }
 };
 
-// ---- what a small file makes of itself
+// ---- small files that expand to large scenes
 
-TEST_F(LoadBudget, NodesThatShareAMesh) {
+TEST_F(LoadBudget, TooManyNodesThatShareAMeshAreRefused) {
     Gltf gltf = small(20'000);
     gltf.root["nodes"] = Json::array(), gltf.root["scenes"][0]["nodes"] = Json::array();
     for (int i = 0; i < 105; ++i) {
         gltf.root["nodes"].push_back({{"mesh", 0}});
         gltf.root["scenes"][0]["nodes"].push_back(i);
     }
-    // 60,000 vertices each: the normals are missing
+    // Each object has 60,000 vertices: without normals in the file, triangles share no vertices.
     const Budget shown{.shown = 2'000'000};
     EXPECT_THAT(over("x.glb", gltf.glb(), shown),
                 AllOf(HasSubstr("nodes[33]: wanted at most 2000000 vertices shown by objects"),
@@ -45,7 +45,7 @@ TEST_F(LoadBudget, NodesThatShareAMesh) {
                       HasSubstr("found 2020000")));
 }
 
-TEST_F(LoadBudget, PrimitivesThatShareTheirNumbers) {
+TEST_F(LoadBudget, TooManyPrimitivesThatShareAccessorsAreRefused) {
     Gltf gltf = small(20'000);
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     const Json one = primitives[0];
@@ -53,7 +53,7 @@ TEST_F(LoadBudget, PrimitivesThatShareTheirNumbers) {
     EXPECT_THAT(over("x.glb", gltf.glb()),
                 AllOf(HasSubstr("meshes[0] 'm': wanted at most 2000000 triangles in meshes"),
                       HasSubstr("found 2020000")));
-    // many views of the same bytes
+    // Many accessors read the same bytes.
     Gltf views = small();
     const std::size_t positions = views.add(std::vector<float>(3 * 99'999), "VEC3", 5126);
     for (int i = 0; i < 43; ++i) {
@@ -68,12 +68,13 @@ TEST_F(LoadBudget, PrimitivesMayShareALongListOfPositions) {
     Gltf gltf = small();
     const std::size_t positions = gltf.add(std::vector<float>(3 * 100'000, 1.0f), "VEC3", 5126);
     Json& primitives = gltf.root["meshes"][0]["primitives"];
-    for (int i = 0; i < 100; ++i) // 10 million, were each to take all
+    // If each primitive copied all positions, there would be 10 million.
+    for (int i = 0; i < 100; ++i)
         primitives.push_back({{"attributes", {{"POSITION", positions}}}, {"indices", 1}});
     EXPECT_EQ(triangle_count(load(write("x.glb", gltf.glb()))), 1u);
 }
 
-TEST_F(LoadBudget, KeysAreSharedAndCountedOnce) {
+TEST_F(LoadBudget, SharedAnimationKeysAreStoredAndCountedOnce) {
     constexpr std::size_t kKeys = 40'000, kNodes = 500;
     Gltf gltf = small();
     std::vector<float> times(kKeys);
@@ -107,7 +108,7 @@ TEST_F(LoadBudget, KeysAreSharedAndCountedOnce) {
                       HasSubstr("found 1040000")));
 }
 
-TEST_F(LoadBudget, AMovingParentsKeysAreSharedToo) {
+TEST_F(LoadBudget, KeysOfAMovingParentAreSharedByItsChildren) {
     Gltf gltf = small();
     const Json sampler = {{"input", gltf.add<float>({0, 1}, "SCALAR", 5126)},
                           {"output", gltf.add<float>({0, 0, 0, 0, 0, 8}, "VEC3", 5126)}};
@@ -122,7 +123,7 @@ TEST_F(LoadBudget, AMovingParentsKeysAreSharedToo) {
     EXPECT_EQ(at(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
 }
 
-TEST_F(LoadBudget, NamesThatAreRepeated) {
+TEST_F(LoadBudget, TooManyBytesOfNamesAreRefused) {
     Gltf gltf = many("nodes", 1000, {{"mesh", 0}});
     gltf.root["meshes"][0]["name"] = std::string(100'000, 'n');
     gltf.root.erase("scenes"), gltf.root.erase("scene");
@@ -140,7 +141,7 @@ TEST_F(LoadBudget, NamesThatAreRepeated) {
     EXPECT_THAT(over("x.obj", text), HasSubstr("bytes of names"));
 }
 
-TEST_F(LoadBudget, AMaterialLibraryIsReadOnce) {
+TEST_F(LoadBudget, MaterialLibraryNamedManyTimesIsReadOnce) {
     std::string materials;
     for (int i = 0; i < 1000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
     write("m.mtl", materials);
@@ -158,7 +159,7 @@ TEST_F(LoadBudget, AMaterialLibraryIsReadOnce) {
                 HasSubstr("wanted at most 4000 names of files"));
 }
 
-TEST_F(LoadBudget, PolygonsThatAreHardToCut) {
+TEST_F(LoadBudget, PolygonsThatNeedTooManyComparisonsAreRefused) {
     std::string text, face = "f";
     for (int i = 0; i < 20'000; ++i) {
         const double angle = i * 2 * M_PI / 20'000, radius = 1 + i % 2;
@@ -171,9 +172,9 @@ TEST_F(LoadBudget, PolygonsThatAreHardToCut) {
                           "polygons"));
 }
 
-TEST_F(LoadBudget, FilesLongerThanTheirBudget) {
+TEST_F(LoadBudget, FilesLongerThanTheBudgetAreRefused) {
     write("x.bin", "");
-    fs::resize_file(folder / "x.bin", 200ull << 30); // of holes
+    fs::resize_file(folder / "x.bin", 200ull << 30); // a sparse file without disk blocks
     Gltf gltf = small();
     gltf.root["buffers"] = {{{"byteLength", 36}, {"uri", "x.bin"}}};
     EXPECT_THAT(
@@ -187,9 +188,9 @@ TEST_F(LoadBudget, FilesLongerThanTheirBudget) {
     }
 }
 
-// ---- each total
+// ---- the limit of each budget
 
-TEST_F(LoadBudget, ListsOfGltf) {
+TEST_F(LoadBudget, TooLongGltfListsAreRefused) {
     EXPECT_THAT(
         over("x.glb", many("nodes", 125'001, Json::object()).glb()),
         AllOf(HasSubstr("nodes[125000]: wanted at most 125000 nodes"), HasSubstr("found 125001")));
@@ -209,7 +210,7 @@ TEST_F(LoadBudget, ListsOfGltf) {
                 HasSubstr("wanted at most 100 primitives"));
 }
 
-TEST_F(LoadBudget, EachCanBeSmaller) {
+TEST_F(LoadBudget, EachBudgetCanBeLowered) {
     const auto with = [](auto member, std::uint64_t value) {
         Budget budget;
         budget.*member = value;
@@ -238,9 +239,9 @@ TEST_F(LoadBudget, EachCanBeSmaller) {
                 HasSubstr("x.obj:4: wanted at most 1 keys"));
 }
 
-// ---- what is large and right
+// ---- large, valid files
 
-TEST_F(LoadBudget, AMillionTrianglesFit) {
+TEST_F(LoadBudget, MillionTrianglesFitTheBudget) {
     constexpr std::uint32_t kSide = 708;
     Gltf gltf = small();
     std::vector<float> positions;
@@ -261,7 +262,7 @@ TEST_F(LoadBudget, AMillionTrianglesFit) {
         << "each triangle has its normal";
 }
 
-TEST_F(LoadBudget, AHundredThousandNames) {
+TEST_F(LoadBudget, HundredThousandNamesFitTheBudget) {
     constexpr std::size_t kCount = 100'000;
     std::string text = "mtllib m.mtl\n" + kTriangle, materials;
     for (std::size_t i = 0; i < kCount; ++i) {

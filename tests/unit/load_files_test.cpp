@@ -1,4 +1,5 @@
-// Which files a scene may be made of, and that what was checked is what is opened.
+// Tests of the files that a scene may refer to. The file that is opened must be the file that
+// passed the checks.
 #include "unit/load_fixture.hpp"
 
 #include <sys/stat.h>
@@ -9,7 +10,7 @@ using namespace test::loading;
 
 class LoadFiles : public Load {
 protected:
-    /// The bytes of a triangle that is `size` wide.
+    /// Returns the position bytes of a triangle that is `size` wide.
     static std::string corners(float size) {
         const float numbers[] = {0, 0, 0, size, 0, 0, 0, size, 0};
         return {reinterpret_cast<const char*>(numbers), sizeof numbers};
@@ -31,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(LoadFiles, ANameIsDecodedOnceAndOpenedAsItIs) {
+TEST_F(LoadFiles, UriIsPercentDecodedOnlyOnce) {
     write("in/a+b.bin", corners(1)), write("in/a b.bin", corners(2));
     write("in/%41.bin", corners(3)), write("in/A.bin", corners(4));
     write("in/100%.bin", corners(5)), write("in/ü.bin", corners(6));
@@ -46,7 +47,7 @@ TEST_F(LoadFiles, ANameIsDecodedOnceAndOpenedAsItIs) {
     EXPECT_EQ(width("../in/./a+b.bin"), 1);
 }
 
-TEST_F(LoadFiles, AUriIsARelativePath) {
+TEST_F(LoadFiles, UriMustBeARelativePath) {
     EXPECT_THAT(refused_uri("/etc/passwd"),
                 AllOf(HasSubstr("buffers[0]: uri"), HasSubstr("absolute")));
     EXPECT_THAT(refused_uri("%2fetc/passwd"), HasSubstr("absolute"));
@@ -61,7 +62,7 @@ TEST_F(LoadFiles, AUriIsARelativePath) {
                 HasSubstr("'gone.bin' is not there"));
 }
 
-TEST_F(LoadFiles, NothingAboveTheFolder) {
+TEST_F(LoadFiles, FilesAboveTheSceneFolderAreRefused) {
     for (const char* uri : {"../out/secret.bin", "%2e%2e/out/secret.bin", "../gone.bin",
                             "sub/../../out/secret.bin", "../../../../../../../../etc/passwd"})
         EXPECT_THAT(refused_uri(uri), AllOf(HasSubstr("wanted a file below '"), HasSubstr("/in'"),
@@ -72,11 +73,12 @@ TEST_F(LoadFiles, NothingAboveTheFolder) {
     EXPECT_THAT(refused("in/x.gltf", with_uri("../out/secret.bin"), Failure::bad_data,
                         {.root = folder / "in"}),
                 HasSubstr("--root"));
-    write("inside.bin", corners(1)); // "in" begins its name, and is not its folder
+    // The file's path starts like folder "in", but the file is outside of that folder.
+    write("inside.bin", corners(1));
     EXPECT_THAT(refused_uri("../inside.bin"), HasSubstr("--root"));
 }
 
-TEST_F(LoadFiles, LinksAreFollowedBeforeTheyAreBelieved) {
+TEST_F(LoadFiles, LinksAreResolvedBeforeTheFolderIsChecked) {
     write("in/own.bin", corners(1));
     fs::create_symlink("own.bin", folder / "in/link.bin");
     fs::create_symlink("../out/secret.bin", folder / "in/secret.bin");
@@ -92,7 +94,7 @@ TEST_F(LoadFiles, LinksAreFollowedBeforeTheyAreBelieved) {
         << "nothing is told of what is there";
     EXPECT_THAT(refused_uri("loop.bin", Failure::missing_input),
                 HasSubstr("'loop.bin' cannot be reached: "));
-    // the scene itself was named by the user, however that leads there
+    // The user named the scene itself, so the path to the scene may contain links.
     fs::create_directory_symlink("in", folder / "door");
     width("link.bin");
     EXPECT_EQ(triangle_count(load((folder / "door/x.gltf").string())), 1u);
@@ -108,7 +110,7 @@ TEST_F(LoadFiles, OnlyRegularFilesAreRead) {
                 testing::ThrowsMessage<Error>(HasSubstr("a device or a pipe")));
 }
 
-TEST_F(LoadFiles, MaterialLibrariesAndMapsToo) {
+TEST_F(LoadFiles, MaterialLibrariesAndMapsAboveTheFolderAreRefused) {
     write("out/m.mtl", "newmtl a\n");
     write("in/m.mtl", "newmtl a\nmap_Kd -s 1 1 1 -clamp on wood and stone.png\n");
     fs::create_symlink("../out/m.mtl", folder / "in/link.mtl");
@@ -125,7 +127,7 @@ TEST_F(LoadFiles, MaterialLibrariesAndMapsToo) {
     EXPECT_EQ(load((folder / "in/x.obj").string(), {.root = folder}).objects.size(), 1u);
 }
 
-TEST_F(LoadFiles, ImagesToo) {
+TEST_F(LoadFiles, ImagesAboveTheFolderAreRefused) {
     const auto with_image = [](const std::string& uri) {
         return gltf_text("\"scene\":0", "\"scene\":0,\"images\":[{\"uri\":\"" + uri + "\"}]");
     };
@@ -136,7 +138,7 @@ TEST_F(LoadFiles, ImagesToo) {
     EXPECT_EQ(scene.files.size(), 1u) << "what is not there is no file of it";
 }
 
-TEST_F(LoadFiles, ASceneKnowsItsFiles) {
+TEST_F(LoadFiles, SceneListsItsFiles) {
     write("in/a.bin", corners(1)), write("in/wood.png", "not looked into");
     fs::create_symlink("a.bin", folder / "in/b.bin");
     const Scene scene = load(write("in/x.gltf", [&] {
@@ -150,7 +152,7 @@ TEST_F(LoadFiles, ASceneKnowsItsFiles) {
     EXPECT_THAT(load("cornell-mirrors").files, testing::IsEmpty());
 }
 
-TEST_F(LoadFiles, ManyBuffersInOneFileAreOneFile) {
+TEST_F(LoadFiles, FileOfManyBuffersCountsOnce) {
     write("in/a.bin", corners(1));
     std::string text = with_uri("a.bin");
     std::string more;
@@ -161,7 +163,7 @@ TEST_F(LoadFiles, ManyBuffersInOneFileAreOneFile) {
     EXPECT_EQ(load(write("in/x.gltf", text), {.budget = budget}).files.size(), 2u);
 }
 
-TEST_F(LoadFiles, ARootIsAFolder) {
+TEST_F(LoadFiles, RootMustBeAFolder) {
     const std::string path = write("in/x.gltf", gltf_text());
     for (const fs::path& root : {folder / "gone", fs::path(path)})
         EXPECT_THAT([&] { load(path, {.root = root}); },
@@ -169,7 +171,7 @@ TEST_F(LoadFiles, ARootIsAFolder) {
                         AllOf(HasSubstr("--root: wanted a folder"), HasSubstr(root.string()))));
 }
 
-TEST_F(LoadFiles, DataInUris) {
+TEST_F(LoadFiles, DataUrisMustBeValidBase64) {
     EXPECT_THAT(refused_uri("data:text/plain,abc"), HasSubstr("base64"));
     EXPECT_THAT(refused_uri("data:;base64"), HasSubstr("base64"));
     EXPECT_THAT(refused_uri("data:;base64,AA*A"), HasSubstr("'*'"));

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// Small scene files, right and wrong.
+/// Helpers of the loader tests, which write and load small valid and invalid scene files.
 namespace test::loading {
 
 using namespace catoptric;
@@ -28,7 +28,8 @@ protected:
         write_file(folder / name, text);
         return (folder / name).string();
     }
-    /// Loads a file with this text; the error must be `failure`, its message is returned.
+    /// Writes `text` to a file and loads the file. Expects an error of kind `failure` and returns
+    /// its message.
     std::string refused(const std::string& name, const std::string& text,
                         Failure failure = Failure::bad_data,
                         const LoadOptions& options = {}) const {
@@ -45,10 +46,10 @@ protected:
     }
 };
 
-/// Three positions; faces may follow.
+/// OBJ text of three positions, to which tests append faces.
 inline const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// A .gltf with one triangle of floats; `change` edits the text.
+/// Returns the text of a .gltf file with one triangle. In the text, `to` replaces the first `from`.
 inline std::string gltf_text(const std::string& from = "", const std::string& to = "") {
     std::string text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
 "nodes":[{"name":"n","mesh":0}],"meshes":[{"name":"m","primitives":[{"attributes":{"POSITION":0}}]}],
@@ -64,12 +65,13 @@ inline std::string gltf_text(const std::string& from = "", const std::string& to
 
 using Json = nlohmann::json;
 
-/// A .glb under construction.
+/// Builds a .glb file from JSON and binary data.
 struct Gltf {
     Json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
     std::string data;
 
-    /// Puts the values into the buffer, with a view and an accessor, whose number is returned.
+    /// Appends the values to the buffer, adds a buffer view and an accessor, and returns the index
+    /// of the accessor.
     template <typename Value>
     std::size_t add(const std::vector<Value>& values, const char* type, int component) {
         const std::size_t size = values.size() * sizeof(Value);
@@ -99,8 +101,8 @@ struct Gltf {
     }
 };
 
-/// One node with a mesh of `triangles` triangles over four corners: accessor 0 has the positions, 1
-/// the indices.
+/// Builds a glTF file of one node, whose mesh has `triangles` equal triangles. Accessor 0 has four
+/// positions, accessor 1 the indices.
 inline Gltf small(std::size_t triangles = 1) {
     Gltf gltf;
     gltf.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3", 5126);

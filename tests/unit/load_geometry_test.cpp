@@ -1,4 +1,4 @@
-// Geometry of glTF in every way in which it may be written.
+// Tests of loading glTF geometry in each form in which a file may store it.
 #include "scene/transform.hpp"
 #include "unit/load_fixture.hpp"
 
@@ -12,7 +12,7 @@ using testing::ElementsAre;
 class LoadGeometry : public Load {
 protected:
     Scene scene_of(const Gltf& gltf) const { return load(write("x.glb", gltf.glb())); }
-    /// Each triangle as its three corners in the world, in order.
+    /// Returns the three corners of each triangle in world space, in order.
     static std::vector<std::array<dvec3, 3>> triangles(const Scene& scene) {
         std::vector<std::array<dvec3, 3>> list;
         for (const Object& object : scene.objects)
@@ -29,7 +29,7 @@ protected:
 };
 
 const dvec3 kA(0, 0, 0), kB(1, 0, 0), kC(0, 1, 0), kD(1, 1, 0), kE(0, 2, 0);
-/// Five corners of a strip.
+/// Builds a glTF file whose primitive has five corners, for strips and fans.
 Gltf strip_like() {
     Gltf gltf = small();
     gltf.root["meshes"][0]["primitives"][0] = {
@@ -39,7 +39,7 @@ Gltf strip_like() {
     return gltf;
 }
 
-TEST_F(LoadGeometry, StripsTurnEverySecondTriangle) {
+TEST_F(LoadGeometry, StripsReverseEverySecondTriangle) {
     Gltf gltf = strip_like();
     primitive(gltf)["mode"] = 5;
     EXPECT_THAT(
@@ -50,7 +50,7 @@ TEST_F(LoadGeometry, StripsTurnEverySecondTriangle) {
                 ElementsAre(std::array{kB, kD, kA}, std::array{kD, kC, kA}));
 }
 
-TEST_F(LoadGeometry, FansBeginWithTheSecondAndThirdCorner) {
+TEST_F(LoadGeometry, FanTrianglesEndAtTheSharedCorner) {
     Gltf gltf = strip_like();
     primitive(gltf)["mode"] = 6;
     primitive(gltf)["indices"] = gltf.add<std::uint32_t>({0, 1, 3, 4}, "SCALAR", 5125);
@@ -58,7 +58,7 @@ TEST_F(LoadGeometry, FansBeginWithTheSecondAndThirdCorner) {
                 ElementsAre(std::array{kB, kD, kA}, std::array{kD, kE, kA}));
 }
 
-TEST_F(LoadGeometry, PointsAndLinesAreCountedAndTwoCornersAreNoStrip) {
+TEST_F(LoadGeometry, PointsAndLinesAreListedAndStripsOfTwoCornersIgnored) {
     Gltf gltf = strip_like();
     for (const int mode : {0, 1, 2, 3}) {
         gltf.root["meshes"][0]["primitives"].push_back(gltf.root["meshes"][0]["primitives"][0]);
@@ -76,7 +76,7 @@ TEST_F(LoadGeometry, PointsAndLinesAreCountedAndTwoCornersAreNoStrip) {
     EXPECT_EQ(scene.unsupported[0].first, "meshes[0] 'm': primitives[1]");
 }
 
-TEST_F(LoadGeometry, SparsePlacesStandInPlaceOfOthersOrOfZeros) {
+TEST_F(LoadGeometry, SparseValuesReplaceStoredValuesOrZeros) {
     Gltf gltf = small();
     const auto view_of = [&](std::size_t accessor) {
         return gltf.root["accessors"][accessor]["bufferView"];
@@ -98,9 +98,9 @@ TEST_F(LoadGeometry, SparsePlacesStandInPlaceOfOthersOrOfZeros) {
                   "a scene, found 48"));
 }
 
-TEST_F(LoadGeometry, StridedAndQuantised) {
+TEST_F(LoadGeometry, StridedAndQuantisedAttributesAreRead) {
     Gltf gltf = small();
-    // x y z of 16 bits and two bytes of padding for each corner, then normals of bytes
+    // Each corner has x, y and z of 16 bits and two bytes of padding. Normals are stored as bytes.
     std::vector<std::int16_t> corners = {0, 0, 0, 99, 100, 0, 0, 99, 0, -200, 0, 99};
     const std::size_t positions = gltf.add(corners, "SCALAR", 5122);
     gltf.root["bufferViews"].back()["byteStride"] = 8;
@@ -132,7 +132,7 @@ TEST_F(LoadGeometry, StridedAndQuantised) {
     EXPECT_EQ(mesh.uv[0][t.y], vec2(.2f, 0));
 }
 
-TEST_F(LoadGeometry, TextureCoordinatesAndColours) {
+TEST_F(LoadGeometry, TextureCoordinatesAndColoursAreRead) {
     Gltf gltf = small();
     primitive(gltf)["attributes"]["TEXCOORD_0"] = gltf.add<float>({0, 1, 2, 3, 4, 5, 6, 7}, "VEC2",
                                                                   5126);
@@ -141,7 +141,7 @@ TEST_F(LoadGeometry, TextureCoordinatesAndColours) {
     (void)bytes;
     primitive(gltf)["attributes"]["COLOR_0"] = gltf.add<float>(
         {1, 0, 0, .5, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 1}, "VEC4", 5126);
-    // a second primitive of the same material without either
+    // A second primitive of the same material has neither texture coordinates nor colours.
     gltf.root["meshes"][0]["primitives"].push_back(
         {{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
     const Scene scene = scene_of(gltf);
@@ -158,7 +158,7 @@ TEST_F(LoadGeometry, TextureCoordinatesAndColours) {
     EXPECT_EQ(mesh.colours[other.y], vec4(1));
 }
 
-TEST_F(LoadGeometry, ColoursOfThreeNormalisedBytes) {
+TEST_F(LoadGeometry, ColoursOfThreeNormalisedBytesAreRead) {
     Gltf gltf = small();
     const std::size_t colours = gltf.add<std::uint8_t>(
         {0, 51, 255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "SCALAR", 5121);
@@ -185,7 +185,7 @@ TEST_F(LoadGeometry, NodesShareTheirMesh) {
     EXPECT_EQ(triangles(scene)[999][1], dvec3(1000, 0, 0));
 }
 
-TEST_F(LoadGeometry, MorphTargetsAtTheirDefaultWeights) {
+TEST_F(LoadGeometry, MorphTargetsAreAppliedWithDefaultWeights) {
     Gltf gltf = small();
     const std::size_t by = gltf.add<float>({0, 0, 4, 0, 0, 4, 0, 0, 4, 0, 0, 4}, "VEC3", 5126);
     primitive(gltf)["targets"] = {{{"POSITION", by}}, {{"POSITION", by}}};
@@ -195,7 +195,7 @@ TEST_F(LoadGeometry, MorphTargetsAtTheirDefaultWeights) {
     const dvec3 up(0, 0, 3);
     EXPECT_THAT(triangles(scene), ElementsAre(std::array{kA + up, kB + up, kC + up}));
     EXPECT_EQ(scene.unsupported.at(0).id, "morph");
-    // A node's own weigh in place of the mesh's; nodes of the same weights share.
+    // Weights of a node replace the weights of its mesh. Nodes with equal weights share a mesh.
     gltf.root["nodes"] = {
         {{"mesh", 0}}, {{"mesh", 0}, {"weights", {0, 1}}}, {{"mesh", 0}, {"weights", {0, 1}}}};
     gltf.root["scenes"][0]["nodes"] = {0, 1, 2};
@@ -206,9 +206,10 @@ TEST_F(LoadGeometry, MorphTargetsAtTheirDefaultWeights) {
     EXPECT_THAT(triangles(nodes), ElementsAre(std::array{kA + up, kB + up, kC + up}, moved, moved));
 }
 
-TEST_F(LoadGeometry, SkinsStandAsTheirJointsDo) {
+TEST_F(LoadGeometry, SkinnedMeshesArePosedByTheirJoints) {
     Gltf gltf = small();
-    // a joint 2 above and turned by nothing, bound 1 above: carries by 1; another at the origin
+    // The first joint is at height 2 and was bound at height 1, so it lifts vertices by 1. The
+    // second joint is at the origin.
     std::vector<float> bound(32);
     for (const std::size_t i : {0, 5, 10, 15, 16, 21, 26, 31}) bound[i] = 1;
     bound[13] = -1;
@@ -230,7 +231,7 @@ TEST_F(LoadGeometry, SkinsStandAsTheirJointsDo) {
     EXPECT_EQ(scene.unsupported.at(0).id, "skin");
 }
 
-TEST_F(LoadGeometry, OrthographicCameras) {
+TEST_F(LoadGeometry, OrthographicCamerasAreRead) {
     Gltf gltf = small();
     gltf.root["cameras"] = {
         {{"type", "orthographic"},
@@ -248,7 +249,7 @@ TEST_F(LoadGeometry, OrthographicCameras) {
                 HasSubstr("cameras[0] 'plan': orthographic: ymag: wanted a number above 0"));
 }
 
-TEST_F(LoadGeometry, LightsWithoutALamp) {
+TEST_F(LoadGeometry, PunctualLightsAreRead) {
     Gltf gltf = small();
     gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"intensity", 8}, {"color", {1, .5, .25}}, {"range", 7}},
@@ -276,7 +277,8 @@ TEST_F(LoadGeometry, LightsWithoutALamp) {
     EXPECT_TRUE(std::isinf(spot.range));
     EXPECT_EQ(sun.kind, Punctual::Kind::directional);
     EXPECT_EQ(dvec3(sun.world_from_light[3]), dvec3(0, 2, 0));
-    const dvec3 along = -dvec3(sun.world_from_light[2]); // -z, turned by 90 degrees about y
+    const dvec3 along = -dvec3(
+        sun.world_from_light[2]); // the light's -z axis, turned by 90 degrees about y
     EXPECT_NEAR(along.x, -1, 1e-12);
     EXPECT_THAT(scene.warnings, testing::IsEmpty()) << "it is lit";
 }

@@ -1,4 +1,4 @@
-// Surfaces and texture coordinates of .obj and .mtl (scene.md, "Files").
+// Tests of loading surfaces and texture coordinates from .obj and .mtl files.
 #include "scene/image_file.hpp"
 #include "support/refusal.hpp"
 #include "unit/load_fixture.hpp"
@@ -10,11 +10,11 @@ namespace {
 using namespace test::loading;
 using testing::ElementsAre;
 
-const Image kPicture{.name = "p", .size = {2, 1}, .texels = {0xff0000ff, 0xff00ff00}};
+const Image kLoadObjPicture{.name = "p", .size = {2, 1}, .texels = {0xff0000ff, 0xff00ff00}};
 
 class LoadObj : public Load {
 protected:
-    /// The first material of a library, which a triangle uses.
+    /// Loads a triangle whose material has the given MTL statements, and returns the material.
     Material material_of(const std::string& statements) const {
         return scene_of(statements).materials.at(0);
     }
@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(LoadObj, TextureCoordinatesGoDownHereAndUpThere) {
+TEST_F(LoadObj, TextureCoordinatesAreFlippedVertically) {
     const Scene scene = load(write("x.obj", kTriangle + "vt 0 0\nvt 1 .25 9\nvt .5\nvn 0 0 1\n"
                                                         "f 1/1/1 2/2/1 3/-1/1\nf 1/3 2/2 3/1\n"
                                                         "f 1 2 3\n"));
@@ -47,7 +47,7 @@ TEST_F(LoadObj, TextureCoordinatesGoDownHereAndUpThere) {
     EXPECT_TRUE(load(write("y.obj", kTriangle + "vt 0 0\nf 1 2 3\n")).meshes[0].uv[0].empty());
 }
 
-TEST_F(LoadObj, ColoursAfterPositions) {
+TEST_F(LoadObj, ColoursAfterPositionsBecomeVertexColours) {
     const Scene scene = load(
         write("x.obj", "v 0 0 0\nv 1 0 0 1 .5 .25\nv 0 1 0 1 0 2 0\nv 0 0 1 9\nf 1 2 3\n"));
     const Mesh& mesh = scene.meshes.at(0);
@@ -57,13 +57,13 @@ TEST_F(LoadObj, ColoursAfterPositions) {
     EXPECT_EQ(mesh.colours[mesh.triangles[0].z], vec4(0, 1, 0, 1)) << "after a weight, within 0..1";
 }
 
-TEST_F(LoadObj, TexturesAndTheirOptions) {
-    write("wood and stone.png", png_of(kPicture));
+TEST_F(LoadObj, TextureMapsAndTheirOptionsAreRead) {
+    write("wood and stone.png", png_of(kLoadObjPicture));
     const Scene plain = scene_of("map_Kd wood and stone.png\n");
     const Material& material = plain.materials[0];
     ASSERT_TRUE(material.albedo_texture);
     EXPECT_EQ(material.albedo, vec3(1)) << "without a Kd the map is all of it";
-    EXPECT_EQ(material.albedo_texture->image->texels, kPicture.texels);
+    EXPECT_EQ(material.albedo_texture->image->texels, kLoadObjPicture.texels);
     EXPECT_TRUE(material.albedo_texture->srgb);
     EXPECT_EQ(material.albedo_texture->wrap_u, Texture::Wrap::repeat);
     EXPECT_EQ(material.albedo_texture->v_row, vec3(0, 1, 0));
@@ -72,11 +72,11 @@ TEST_F(LoadObj, TexturesAndTheirOptions) {
                                          "wood and stone.png\n")
                                  .albedo_texture;
     EXPECT_EQ(texture.wrap_v, Texture::Wrap::clamp);
-    // upwards (u, v) = (.25, .5) is (2 * .25 + .5, 4 * .5 + .25) there
+    // In MTL coordinates, where v points up, (.25, .5) becomes (2 * .25 + .5, 4 * .5 + .25).
     const vec3 downwards(.25f, .5f, 1);
     EXPECT_EQ(glm::dot(texture.u_row, downwards), 1);
     EXPECT_EQ(glm::dot(texture.v_row, downwards), 1 - 2.25f);
-    // another system's path, and one that leads nowhere here
+    // Paths in the style of Windows; the second path has a drive that does not exist here.
     for (const char* name : {".\\wood and stone.png", "C:\\maps\\wood and stone.png"})
         EXPECT_TRUE(material_of(std::string("map_Kd ") + name + "\n").albedo_texture) << name;
     const Scene missing = scene_of("Kd .5 0 0\nmap_Kd gone.png\n");
@@ -84,7 +84,7 @@ TEST_F(LoadObj, TexturesAndTheirOptions) {
     EXPECT_THAT(ids(missing), ElementsAre("missing-image"));
 }
 
-TEST_F(LoadObj, ColoursAndWhatIsNotSaid) {
+TEST_F(LoadObj, MaterialColoursAreReadAndHaveDefaults) {
     expect_near(material_of("").albedo, vec3(.8f));
     expect_near(material_of("Kd .25\n").albedo, vec3(.25f));
     expect_near(material_of("Kd 2 .5 -1\n").albedo, vec3(1, .5f, 0));
@@ -95,7 +95,7 @@ TEST_F(LoadObj, ColoursAndWhatIsNotSaid) {
     EXPECT_THAT(refused("x.obj", "mtllib m.mtl\n"), testing::Not(testing::IsEmpty()));
 }
 
-TEST_F(LoadObj, KindsOfReflection) {
+TEST_F(LoadObj, IlluminationModelDecidesTheKindOfReflection) {
     const Material constant = material_of("Kd .5 .5 .5\nKs .25 .5 1\nillum 3\n");
     EXPECT_TRUE(constant.mirror);
     EXPECT_EQ(constant.reflectance, vec3(.25f, .5f, 1));
@@ -125,7 +125,7 @@ TEST_F(LoadObj, KindsOfReflection) {
     }
 }
 
-TEST_F(LoadObj, ListsTheLobesThatItsMaterialsAskFor) {
+TEST_F(LoadObj, SpecularLobesThatAreNotDrawnAreListed) {
     const auto asks = [&](const std::string& material) {
         return std::ranges::count(ids(scene_of(material)), "specular-left-out");
     };
@@ -137,7 +137,7 @@ TEST_F(LoadObj, ListsTheLobesThatItsMaterialsAskFor) {
     EXPECT_EQ(asks("Kd .5 .5 .5\nPr .5\n"), 1);
 }
 
-TEST_F(LoadObj, GlassAndWhatIsCut) {
+TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
     for (const char* glass : {"illum 4\n", "illum 6\n", "illum 7\n", "illum 9\n", "d .25\nNi 1.5\n",
                               "Tr .75\nNi 1.5\n"}) {
         const Scene scene = scene_of(glass);
@@ -150,15 +150,15 @@ TEST_F(LoadObj, GlassAndWhatIsCut) {
     EXPECT_THAT(ids(thin), ElementsAre("blend-as-mask"));
     EXPECT_EQ(material_of("Tr .25\nNi 1\n").alpha, .75f);
     EXPECT_FALSE(is_masked(material_of("d 1\nNi 1.5\n")));
-    // A mask of its own is not read: nothing is cut.
-    write("p.png", png_of(kPicture)), write("q.png", png_of(kPicture));
+    // The loader does not read a separate mask (map_d), so nothing is cut out.
+    write("p.png", png_of(kLoadObjPicture)), write("q.png", png_of(kLoadObjPicture));
     const Scene other = scene_of("map_Kd p.png\nmap_d q.png\n");
     EXPECT_FALSE(is_masked(other.materials[0]));
     EXPECT_THAT(ids(other), testing::Contains("material-extension"));
     EXPECT_THAT(ids(other), testing::Not(testing::Contains("blend-as-mask")));
 }
 
-TEST_F(LoadObj, KindsAreWholeNumbers) {
+TEST_F(LoadObj, IlluminationModelMustBeAWholeNumberUpTo10) {
     write("m.mtl", "newmtl a\nillum 10\n");
     write("x.obj", "mtllib m.mtl\nusemtl a\n" + kTriangle + "f 1 2 3\n");
     EXPECT_NO_THROW(load((folder / "x.obj").string()));
@@ -189,14 +189,14 @@ TEST_F(LoadObj, MissingMaterialsAreGrey) {
                                     "uses of materials that no library has, drawn grey: 1")));
 }
 
-TEST_F(LoadObj, FewCornersPointsAndLinesAreCounted) {
+TEST_F(LoadObj, FacesOfFewCornersPointsAndLinesAreListed) {
     const Scene scene = load(write("x.obj", kTriangle + "f 1\nf 1 2\nf 1 2 3\np 1 2\nl 1 2 3\n"));
     EXPECT_EQ(triangle_count(scene), 1u);
     ASSERT_THAT(ids(scene), ElementsAre("points-lines"));
     EXPECT_EQ(scene.unsupported[0].count, 4u);
 }
 
-TEST_F(LoadObj, FilesOfOtherSystems) {
+TEST_F(LoadObj, FilesWithByteOrderMarksAndCrLfAreRead) {
     write("m n.mtl", "\xef\xbb\xbfnewmtl a b\r\nKd 1 0 0\r\n");
     const Scene scene = load(write("x.obj",
                                    "\xef\xbb\xbfmtllib m n.mtl\r\nv 0 0 0\r\nv 1 0 0\r\n"

@@ -1,4 +1,5 @@
-// What a .gltf, .glb or .obj must not say, one thing at a time: place, wanted, found.
+// Tests of invalid .gltf, .glb and .obj files, each with one error. The message names place,
+// expected and found value.
 #include "unit/load_fixture.hpp"
 
 #include <cmath>
@@ -18,17 +19,17 @@ protected:
         change(gltf);
         return refused("x.glb", gltf.glb());
     }
-    /// With the value at a JSON pointer in place of what is there.
+    /// Loads the small file with `value` put at the JSON pointer, and returns the error message.
     std::string broken(const char* pointer, const Json& value) const {
         return broken([&](Gltf& gltf) { gltf.root[Json::json_pointer(pointer)] = value; });
     }
 };
 
-TEST_F(LoadRefuses, TheSmallFileItselfLoads) {
+TEST_F(LoadRefuses, UnchangedSmallFileLoads) {
     EXPECT_EQ(triangle_count(load(write("x.glb", small().glb()))), 1u);
 }
 
-TEST_F(LoadRefuses, IndicesOutOfRange) {
+TEST_F(LoadRefuses, IndicesOutOfRangeAreRefused) {
     EXPECT_THAT(broken("/scene", 1), HasSubstr("scene: wanted an index below 1, found 1"));
     EXPECT_THAT(broken("/scenes/0/nodes/0", 7),
                 HasSubstr("scenes[0]: nodes: wanted an index below 1"));
@@ -52,7 +53,7 @@ TEST_F(LoadRefuses, IndicesOutOfRange) {
                 HasSubstr("materials[0]: normalTexture: index: wanted an index below 0"));
 }
 
-TEST_F(LoadRefuses, ValuesOfTheWrongKind) {
+TEST_F(LoadRefuses, ValuesOfTheWrongKindAreRefused) {
     EXPECT_THAT(broken("/nodes/0/mesh", "0"),
                 HasSubstr("wanted a whole number of at least 0, found \"0\""));
     EXPECT_THAT(broken("/nodes/0/mesh", -1), HasSubstr("found -1"));
@@ -76,7 +77,7 @@ TEST_F(LoadRefuses, ValuesOfTheWrongKind) {
     EXPECT_LT(endless.size(), 500u) << "a message, not the file";
 }
 
-TEST_F(LoadRefuses, NodesThatAreNoForest) {
+TEST_F(LoadRefuses, NodesThatFormNoForestAreRefused) {
     const auto nodes = [&](const Json& list, const Json& roots = {0}) {
         return broken([&](Gltf& gltf) {
             gltf.root["nodes"] = list, gltf.root["scenes"][0]["nodes"] = roots;
@@ -91,7 +92,7 @@ TEST_F(LoadRefuses, NodesThatAreNoForest) {
     EXPECT_THAT(nodes({above({1}), leaf}, {0, 1}), HasSubstr("second way"));
 }
 
-TEST_F(LoadRefuses, NodesTooDeep) {
+TEST_F(LoadRefuses, TooDeeplyNestedNodesAreRefused) {
     const auto chain = [&](std::size_t depth) {
         Gltf gltf = small();
         for (std::size_t i = 0; i + 1 < depth; ++i) gltf.root["nodes"][i] = {{"children", {i + 1}}};
@@ -104,14 +105,14 @@ TEST_F(LoadRefuses, NodesTooDeep) {
                     HasSubstr("nodes[4096]: wanted at most 4096 nodes one in another"));
 }
 
-TEST_F(LoadRefuses, Transforms) {
+TEST_F(LoadRefuses, RotationsWithoutAFiniteLengthAreRefused) {
     EXPECT_THAT(broken("/nodes/0/rotation", {0, 0, 0, 0}),
                 AllOf(HasSubstr("nodes[0] 'n': rotation: wanted a quaternion with a length"),
                       HasSubstr("found 0")));
     EXPECT_THAT(broken("/nodes/0/rotation", {1e308, 1e308, 1e308, 1e308}), HasSubstr("rotation"));
 }
 
-TEST_F(LoadRefuses, AccessorsAndViews) {
+TEST_F(LoadRefuses, InvalidAccessorsAndBufferViewsAreRefused) {
     EXPECT_THAT(broken("/accessors/0/count", 0), HasSubstr("count: wanted at least 1, found 0"));
     EXPECT_THAT(broken("/accessors/0/count", 5), HasSubstr("wanted 5 elements"));
     EXPECT_THAT(broken("/accessors/0/count", 1ull << 62), HasSubstr("holds 4"));
@@ -146,7 +147,7 @@ TEST_F(LoadRefuses, AccessorsAndViews) {
         << "though nothing uses it";
 }
 
-TEST_F(LoadRefuses, SparseAccessors) {
+TEST_F(LoadRefuses, InvalidSparseAccessorsAreRefused) {
     const auto sparse = [&](const Json& is) {
         return broken([&](Gltf& gltf) { gltf.root["accessors"][0]["sparse"] = is; });
     };
@@ -175,7 +176,7 @@ TEST_F(LoadRefuses, SparseAccessors) {
                 HasSubstr("accessors[0]: wanted at most 134217728 bytes of sparse accessors"));
 }
 
-TEST_F(LoadRefuses, Attributes) {
+TEST_F(LoadRefuses, AttributesOfTheWrongTypeOrCountAreRefused) {
     const auto attribute = [&](const char* name, std::size_t accessor) {
         return broken(("/meshes/0/primitives/0/attributes/" + std::string(name)).c_str(), accessor);
     };
@@ -191,10 +192,10 @@ TEST_F(LoadRefuses, Attributes) {
                 }),
                 HasSubstr("wanted 4 normals, one for each position, found 1"));
     EXPECT_THAT(broken("/meshes/0/primitives/0/attributes", Json::object()),
-                HasSubstr("found none")); // is left out, and nothing else is there
+                HasSubstr("found none")); // the only primitive is left out
 }
 
-TEST_F(LoadRefuses, IndexValues) {
+TEST_F(LoadRefuses, IndexValuesWithoutAVertexAreRefused) {
     const auto indices = [&](auto values, int component) {
         return broken([&](Gltf& gltf) {
             gltf.root["meshes"][0]["primitives"][0]["indices"] = gltf.add(values, "SCALAR",
@@ -207,7 +208,7 @@ TEST_F(LoadRefuses, IndexValues) {
                 HasSubstr("found 4294967295"));
     EXPECT_THAT(indices(std::vector<std::uint8_t>{0, 1, 255}, 5121), HasSubstr("found 255"));
     EXPECT_THAT(indices(std::vector<std::uint16_t>{0, 1}, 5123), HasSubstr("three corners"));
-    // the highest number means "begin anew", also where there is such a vertex
+    // The highest index of a type restarts the primitive, even if a vertex has that number.
     Gltf gltf = small();
     gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.add(
         std::vector<float>(3 * 256), "VEC3", 5126);
@@ -219,7 +220,7 @@ TEST_F(LoadRefuses, IndexValues) {
             "meshes[0] 'm': indices: wanted a vertex, found 255, which begins a new primitive"));
 }
 
-TEST_F(LoadRefuses, NumbersThatAreNotFinite) {
+TEST_F(LoadRefuses, NonFiniteNumbersAreRefused) {
     for (const float number : {std::numeric_limits<float>::quiet_NaN(), HUGE_VALF})
         for (const char* name : {"POSITION", "NORMAL"})
             EXPECT_THAT(
@@ -230,7 +231,7 @@ TEST_F(LoadRefuses, NumbersThatAreNotFinite) {
                 AllOf(HasSubstr(name), HasSubstr("element 3: wanted finite numbers")));
 }
 
-TEST_F(LoadRefuses, WhatNothingShows) {
+TEST_F(LoadRefuses, InvalidMeshesThatNoNodeShowsAreRefused) {
     EXPECT_THAT(
         broken([](Gltf& gltf) {
             const std::size_t wrong = gltf.add<std::uint16_t>({0, 1, 9}, "SCALAR", 5123);
@@ -240,7 +241,7 @@ TEST_F(LoadRefuses, WhatNothingShows) {
         HasSubstr("meshes[1]: indices: wanted indices below 4, found 9"));
 }
 
-TEST_F(LoadRefuses, Cameras) {
+TEST_F(LoadRefuses, InvalidCamerasAreRefused) {
     const auto camera = [&](const Json& is) {
         return broken([&](Gltf& gltf) { gltf.root["cameras"] = {is}; });
     };
@@ -263,7 +264,7 @@ TEST_F(LoadRefuses, Cameras) {
         HasSubstr("nodes[1] 'c': wanted a camera's node with three axes"));
 }
 
-TEST_F(LoadRefuses, Animations) {
+TEST_F(LoadRefuses, InvalidAnimationsAreRefused) {
     const auto animated = [&](const std::vector<float>& times, const std::vector<float>& values,
                               const Json& sampler = {}, const Json& channel = {}) {
         return broken([&](Gltf& gltf) {
@@ -307,7 +308,7 @@ TEST_F(LoadRefuses, Animations) {
                 HasSubstr("samplers[0]: output: wanted quaternions with a length, found 0"));
 }
 
-TEST_F(LoadRefuses, NamesOfNoAnimation) {
+TEST_F(LoadRefuses, UnknownAnimationNameIsRefused) {
     Gltf gltf = small();
     gltf.root["animations"] = {
         {{"name", "walk"}, {"samplers", Json::array()}, {"channels", Json::array()}}};
@@ -316,7 +317,7 @@ TEST_F(LoadRefuses, NamesOfNoAnimation) {
                       HasSubstr("did you mean 'walk'")));
 }
 
-TEST_F(LoadRefuses, ExtensionsThatSqueezeOrAreUnknown) {
+TEST_F(LoadRefuses, RequiredCompressionAndUnknownExtensionsAreRefused) {
     const auto required = [&](const char* name) {
         return broken("/extensionsRequired", Json::array({name}));
     };
@@ -339,7 +340,7 @@ TEST_F(LoadRefuses, ExtensionsThatSqueezeOrAreUnknown) {
     }
 }
 
-TEST_F(LoadRefuses, Lights) {
+TEST_F(LoadRefuses, InvalidLightsAreRefused) {
     const auto light = [&](const Json& is) {
         return broken(
             [&](Gltf& gltf) { gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {is}; });
@@ -357,7 +358,7 @@ TEST_F(LoadRefuses, Lights) {
                 HasSubstr("KHR_lights_punctual: light: wanted an index below 0, found 0"));
 }
 
-TEST_F(LoadRefuses, SurfacesAndPictures) {
+TEST_F(LoadRefuses, InvalidMaterialsAndImagesAreRefused) {
     const auto material = [&](const Json& is) {
         return broken([&](Gltf& gltf) {
             gltf.root["materials"] = {is};
@@ -383,14 +384,14 @@ TEST_F(LoadRefuses, SurfacesAndPictures) {
         HasSubstr("images[0]: cannot be decoded"));
 }
 
-TEST_F(LoadRefuses, ExposuresBeyondEveryPicture) {
+TEST_F(LoadRefuses, ExposuresOutOfRangeAreRefused) {
     EXPECT_THAT(broken("/scenes/0/extras", Json{{"catoptric", {{"exposure", 65}}}}),
                 HasSubstr("exposure: wanted -64 to 64, found 65"));
     EXPECT_THAT(refused("x.obj", "# catoptric exposure -1e9\n"),
                 HasSubstr("x.obj:1: exposure wants -64 to 64, found -1e+09"));
 }
 
-TEST_F(LoadRefuses, ContainersThatLie) {
+TEST_F(LoadRefuses, GlbHeadersThatContradictTheFileAreRefused) {
     const std::string whole = small().glb();
     const auto with = [&](std::size_t at, std::uint32_t word) {
         std::string bytes = whole;
@@ -411,7 +412,7 @@ TEST_F(LoadRefuses, ContainersThatLie) {
                                             "4")));
 }
 
-TEST_F(LoadRefuses, ObjNumbersAndFaces) {
+TEST_F(LoadRefuses, ObjFacesOfInvalidIndicesOrSizesAreRefused) {
     EXPECT_THAT(refused("a.obj", kTriangle + "f 1 2 4294967295\n"), HasSubstr("found 4294967295"));
     EXPECT_THAT(refused("b.obj", kTriangle + "f 1 2 4294967296\n"), HasSubstr("found 4294967296"));
     EXPECT_THAT(refused("c.obj", kTriangle + "f 1 2 9223372036854775807\n"),

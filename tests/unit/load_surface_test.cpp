@@ -1,4 +1,4 @@
-// Surfaces of glTF: what a material and its textures become, factor by factor.
+// Tests of loading glTF materials: the surface that each factor, texture and extension gives.
 #include "core/image_codec.hpp"
 #include "scene/image_file.hpp"
 #include "support/refusal.hpp"
@@ -24,20 +24,22 @@ std::string base64(const std::string& bytes) {
     return text.substr(0, text.size() - missing) + std::string(missing, '=');
 }
 
-/// 3 by 2 texels, each another.
-const Image kPicture{
+/// A picture of 3 x 2 texels, which are all different.
+const Image kLoadSurfacePicture{
     .name = "p",
     .size = {3, 2},
     .texels = {0xff0000ff, 0xff00ff00, 0xffff0000, 0x80402010, 0x00ffffff, 0xffffffff}};
 
 class LoadSurface : public Load {
 protected:
-    /// A triangle of this material, with a texture whose picture is `kPicture`.
+    /// Builds a glTF file with a triangle of the given material, and two textures that show
+    /// kLoadSurfacePicture.
     static Gltf with(const Json& material) {
         Gltf gltf = small();
         gltf.root["materials"] = {material};
         gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
-        gltf.root["images"] = {{{"uri", "data:image/png;base64," + base64(png_of(kPicture))}}};
+        gltf.root["images"] = {
+            {{"uri", "data:image/png;base64," + base64(png_of(kLoadSurfacePicture))}}};
         gltf.root["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
         gltf.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
         return gltf;
@@ -53,7 +55,7 @@ protected:
     }
 };
 
-TEST_F(LoadSurface, FactorsAndSides) {
+TEST_F(LoadSurface, MaterialFactorsAndSidesAreRead) {
     const Material plain = material_of(Json::object());
     EXPECT_EQ(plain.albedo, vec3(1));
     EXPECT_EQ(plain.metallic, 1);
@@ -81,7 +83,7 @@ TEST_F(LoadSurface, FactorsAndSides) {
     EXPECT_EQ(out_of_range.albedo, vec3(1, 0, 0));
 }
 
-TEST_F(LoadSurface, APerfectMetalKeepsTheColoursOfItsVertices) {
+TEST_F(LoadSurface, PerfectMetalKeepsVertexColours) {
     Gltf gltf = with({{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}});
     EXPECT_TRUE(scene_of(gltf).materials[0].mirror);
     const std::size_t colours = gltf.add<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, "VEC3", 5126);
@@ -92,7 +94,7 @@ TEST_F(LoadSurface, APerfectMetalKeepsTheColoursOfItsVertices) {
     EXPECT_EQ(scene.meshes[0].colours.size(), 3u);
 }
 
-TEST_F(LoadSurface, DielectricsByExtension) {
+TEST_F(LoadSurface, DielectricReflectanceFollowsExtensions) {
     const auto with_extension = [&](const char* name, const Json& is) {
         return material_of({{"extensions", {{name, is}}}});
     };
@@ -121,7 +123,7 @@ TEST_F(LoadSurface, DielectricsByExtension) {
     EXPECT_EQ(light_of(flat), vec3(0));
 }
 
-TEST_F(LoadSurface, EmissionAndWhatLights) {
+TEST_F(LoadSurface, OnlyEmissionWithoutATextureLightsTheScene) {
     const Json strong = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}};
     const Material lamp = material_of({{"emissiveFactor", {1, .5, 0}}, {"extensions", strong}});
     EXPECT_EQ(lamp.emission, vec3(4, 2, 0));
@@ -133,7 +135,7 @@ TEST_F(LoadSurface, EmissionAndWhatLights) {
     EXPECT_EQ(light_of(screen), vec3(0)) << "what a texture varies lights nothing";
 }
 
-TEST_F(LoadSurface, AlphaModes) {
+TEST_F(LoadSurface, AlphaModeDecidesTheCutoff) {
     EXPECT_EQ(material_of({{"alphaMode", "MASK"}}).alpha_cutoff, .5f);
     EXPECT_EQ(material_of({{"alphaMode", "MASK"}, {"alphaCutoff", .25}}).alpha_cutoff, .25f);
     EXPECT_EQ(material_of({{"alphaMode", "OPAQUE"}, {"alphaCutoff", .25}}).alpha_cutoff, 0);
@@ -144,7 +146,7 @@ TEST_F(LoadSurface, AlphaModes) {
     EXPECT_THAT(blended.unsupported[0].materials, ElementsAre(0));
 }
 
-TEST_F(LoadSurface, TexturesAndTheirSamplers) {
+TEST_F(LoadSurface, TexturesAndSamplersAreRead) {
     const Scene scene = scene_of(with({{"pbrMetallicRoughness",
                                         {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
                                          {"metallicRoughnessTexture", {{"index", 1}}}}}}));
@@ -153,7 +155,8 @@ TEST_F(LoadSurface, TexturesAndTheirSamplers) {
     const Texture &colour = *material.albedo_texture, &rough = *material.roughness_texture;
     EXPECT_EQ(colour.image, rough.image) << "decoded once";
     EXPECT_EQ(colour.image->size, uvec2(3, 2));
-    EXPECT_EQ(colour.image->texels, kPicture.texels) << "row by row from the top, alpha apart";
+    EXPECT_EQ(colour.image->texels, kLoadSurfacePicture.texels)
+        << "row by row from the top, alpha apart";
     EXPECT_TRUE(colour.nearest && colour.srgb);
     EXPECT_EQ(colour.wrap_u, Texture::Wrap::clamp);
     EXPECT_EQ(colour.wrap_v, Texture::Wrap::mirrored);
@@ -165,7 +168,7 @@ TEST_F(LoadSurface, TexturesAndTheirSamplers) {
     EXPECT_EQ(rough.v_row, vec3(0, 1, 0));
 }
 
-TEST_F(LoadSurface, TextureTransforms) {
+TEST_F(LoadSurface, TextureTransformsAreRead) {
     const auto transformed = [&](const Json& transform) {
         return *material_of({{"pbrMetallicRoughness",
                               {{"baseColorTexture",
@@ -180,7 +183,7 @@ TEST_F(LoadSurface, TextureTransforms) {
     };
     const Texture moved = transformed({{"offset", {.5, .25}}, {"scale", {2, 3}}});
     EXPECT_EQ(at(moved, 1, 1), std::pair(2.5f, 3.25f));
-    // u' = c u + s v, v' = -s u + c v: a quarter turn takes (1, 0) to (0, -1)
+    // A rotation maps (u, v) to (c u + s v, -s u + c v), so a quarter turn takes (1, 0) to (0, -1).
     const Texture turned = transformed(
         {{"rotation", M_PI / 2}, {"scale", {2, 1}}, {"offset", {0, 1}}, {"texCoord", 1}});
     EXPECT_NEAR(at(turned, 1, 0).first, 0, 1e-6);
@@ -189,24 +192,24 @@ TEST_F(LoadSurface, TextureTransforms) {
     EXPECT_EQ(turned.uv_set, 1u) << "the transform's own set wins";
 }
 
-TEST_F(LoadSurface, PicturesOfEveryOrigin) {
-    const std::string png = png_of(kPicture);
+TEST_F(LoadSurface, ImagesAreReadFromDataUrisFilesAndBufferViews) {
+    const std::string png = png_of(kLoadSurfacePicture);
     Gltf gltf = with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
     const auto texels = [&] { return scene_of(gltf).materials[0].albedo_texture->image->texels; };
-    EXPECT_EQ(texels(), kPicture.texels) << "a data URI";
+    EXPECT_EQ(texels(), kLoadSurfacePicture.texels) << "a data URI";
     write("a b.png", png);
     gltf.root["images"] = {{{"uri", "a%20b.png"}}};
-    EXPECT_EQ(texels(), kPicture.texels) << "a file";
+    EXPECT_EQ(texels(), kLoadSurfacePicture.texels) << "a file";
     EXPECT_EQ(scene_of(gltf).files.size(), 2u);
     gltf.root["images"] = {
         {{"bufferView", gltf.root["bufferViews"].size()}, {"mimeType", "image/png"}}};
     gltf.root["bufferViews"].push_back(
         {{"buffer", 0}, {"byteOffset", gltf.data.size()}, {"byteLength", png.size()}});
     gltf.data += png;
-    EXPECT_EQ(texels(), kPicture.texels) << "a buffer view";
+    EXPECT_EQ(texels(), kLoadSurfacePicture.texels) << "a buffer view";
 }
 
-TEST_F(LoadSurface, GreyPicturesAndSmallerOnes) {
+TEST_F(LoadSurface, GreyImagesWithAndWithoutAlphaAreDecoded) {
     const std::vector<std::uint8_t> grey = {0, 100, 255}, two = {10, 20, 30, 40};
     Account account({});
     const auto texels = [&](const ImageShape& shape, const std::vector<std::uint8_t>& values) {
@@ -217,7 +220,7 @@ TEST_F(LoadSurface, GreyPicturesAndSmallerOnes) {
     EXPECT_EQ(decode_image("neither", "x.txt", "x", account), nullptr);
 }
 
-TEST_F(LoadSurface, SidesOfPicturesFitSixteenBits) {
+TEST_F(LoadSurface, ImagesWithSidesOver65535TexelsAreRefused) {
     Account account({});
     const auto decode = [&](uvec2 size) {
         const Image image{.size = size, .texels = std::vector<std::uint32_t>(size.x * size.y)};
@@ -231,7 +234,7 @@ TEST_F(LoadSurface, SidesOfPicturesFitSixteenBits) {
                 HasSubstr("x: wanted sides of at most 65535 texels, found 1x65536"));
 }
 
-TEST_F(LoadSurface, MissingPicturesAreAGapAndTheFactorStays) {
+TEST_F(LoadSurface, MissingImageIsListedAndTheColourFactorStays) {
     Gltf gltf = with(
         {{"pbrMetallicRoughness",
           {{"baseColorFactor", {.5, .5, .5, 1}}, {"baseColorTexture", {{"index", 0}}}}},
@@ -245,9 +248,9 @@ TEST_F(LoadSurface, MissingPicturesAreAGapAndTheFactorStays) {
     EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("'gone.png' is not there")));
 }
 
-TEST_F(LoadSurface, TexelsHaveABudgetThatIsAskedBeforeDecoding) {
-    // a header of 60000 x 60000 and nothing behind it
-    const std::string png = png_of(kPicture);
+TEST_F(LoadSurface, TexelBudgetIsCheckedBeforeDecoding) {
+    // The PNG header claims 60000 x 60000 texels, for which the file has no data.
+    const std::string png = png_of(kLoadSurfacePicture);
     std::string huge = png;
     for (const std::size_t at : {16u, 20u}) huge.replace(at, 4, std::string("\0\0\xea\x60", 4));
     const auto crc = [](std::string_view bytes) {
@@ -272,7 +275,7 @@ TEST_F(LoadSurface, TexelsHaveABudgetThatIsAskedBeforeDecoding) {
         HasSubstr("wanted at most 5 texels in pictures"));
 }
 
-TEST_F(LoadSurface, WhatIsLeftOutIsListed) {
+TEST_F(LoadSurface, UnsupportedMaterialFeaturesAreListed) {
     const Scene scene = scene_of(
         with({{"name", "all"},
               {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
@@ -296,7 +299,7 @@ TEST_F(LoadSurface, WhatIsLeftOutIsListed) {
     }
 }
 
-TEST_F(LoadSurface, MetalIsNoGlassWhateverItsTransmission) {
+TEST_F(LoadSurface, MetalWithTransmissionIsNoGlass) {
     const auto is_glass = [&](const Json& pbr) {
         const Scene scene = scene_of(
             with({{"pbrMetallicRoughness", pbr},

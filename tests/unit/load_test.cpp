@@ -16,7 +16,7 @@ using namespace test::loading;
 
 const fs::path kSamples = test::source_folder() / "samples" / "scenes";
 
-void expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
+void load_expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << "component " << i;
 }
 
@@ -24,8 +24,8 @@ dvec3 world_position(const Scene& scene, const Object& object, std::size_t verte
     return dvec3(object.world_from_object * dvec4(scene.meshes[object.mesh].positions[vertex], 1));
 }
 
-/// Largest distance that `world_position` of equal vertices differs by; everything else is
-/// compared.
+/// Returns the largest distance between corresponding vertices in world space. Expects all other
+/// properties of the objects to be equal.
 double compare_objects(const Scene& found, const Scene& wanted) {
     double difference = 0;
     EXPECT_EQ(found.objects.size(), wanted.objects.size());
@@ -40,11 +40,12 @@ double compare_objects(const Scene& found, const Scene& wanted) {
         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
             difference = std::max(difference, glm::distance(world_position(found, a, v),
                                                             world_position(wanted, b, v)));
-            EXPECT_LT(glm::distance(mesh.normals[v], other.normals[v]), 3e-7f); // 2 float ulp
+            EXPECT_LT(glm::distance(mesh.normals[v], other.normals[v]),
+                      3e-7f); // tolerance: two float ulps
         }
         EXPECT_EQ(a.sphere.has_value(), b.sphere.has_value()) << a.name;
         if (!a.sphere || !b.sphere) continue;
-        expect_near(a.sphere->centre, b.sphere->centre, 1e-12);
+        load_expect_near(a.sphere->centre, b.sphere->centre, 1e-12);
         EXPECT_NEAR(a.sphere->radius, b.sphere->radius, 1e-12);
     }
     return difference;
@@ -68,16 +69,16 @@ void expect_same_cameras(const Scene& found, const Scene& wanted) {
     for (std::size_t i = 0; i < found.cameras.size(); ++i) {
         const Camera &a = found.cameras[i], &b = wanted.cameras[i];
         EXPECT_EQ(a.name, b.name);
-        expect_near(a.eye, b.eye, 1e-12);
-        expect_near(a.target, b.target, 1e-10);
-        expect_near(a.up, b.up, 1e-12);
+        load_expect_near(a.eye, b.eye, 1e-12);
+        load_expect_near(a.target, b.target, 1e-10);
+        load_expect_near(a.up, b.up, 1e-12);
         EXPECT_NEAR(a.vertical_fov_degrees, b.vertical_fov_degrees, 1e-12);
     }
 }
 
-// ---- names
+// ---- built-in scenes and missing files
 
-TEST_F(Load, BuiltInNamesAndUnknownOnes) {
+TEST_F(Load, BuiltInScenesLoadAndUnknownNamesAreRefused) {
     for (const BuiltIn& scene : built_in_scenes()) EXPECT_EQ(load(scene.name).name, scene.name);
     try {
         load("cornel-mirors");
@@ -89,7 +90,7 @@ TEST_F(Load, BuiltInNamesAndUnknownOnes) {
     }
 }
 
-TEST_F(Load, MissingFileIsMissingInput) {
+TEST_F(Load, LoadingAMissingFileIsAMissingInputError) {
     for (const char* name : {"gone.glb", "gone.gltf", "gone.obj", "gone.OBJ"}) {
         try {
             load((folder / name).string());
@@ -101,19 +102,20 @@ TEST_F(Load, MissingFileIsMissingInput) {
     }
 }
 
-// ---- the shipped files
+// ---- the scene files in samples/scenes
 
-TEST_F(Load, ShippedFilesAreWhatOurWritersWrite) {
+TEST_F(Load, ShippedFilesEqualTheOutputOfTheWriters) {
     save_glb(cornell_mirrors(), folder / "cornell-mirrors.glb");
     save_obj(cornell_mirrors(), folder / "cornell-mirrors.obj");
     for (const char* name : {"cornell-mirrors.glb", "cornell-mirrors.obj", "cornell-mirrors.mtl"})
         EXPECT_TRUE(read_file(folder / name) == read_file(kSamples / name)) << name;
 }
 
-TEST_F(Load, ShippedObjIsTheBuiltInScene) {
+TEST_F(Load, ShippedObjEqualsTheBuiltInScene) {
     const Scene scene = load((kSamples / "cornell-mirrors.obj").string());
     const Scene wanted = cornell_mirrors();
-    EXPECT_EQ(compare_objects(scene, wanted), 0); // shortest doubles read back exactly
+    EXPECT_EQ(compare_objects(scene, wanted),
+              0); // doubles written in shortest form read back exactly
     expect_same_materials(scene, wanted);
     expect_same_cameras(scene, wanted);
     EXPECT_EQ(scene.name, "cornell-mirrors");
@@ -125,10 +127,11 @@ TEST_F(Load, ShippedObjIsTheBuiltInScene) {
     EXPECT_EQ(motion->period, 4);
 }
 
-TEST_F(Load, ShippedGlbIsTheBuiltInSceneWithinFloats) {
+TEST_F(Load, ShippedGlbEqualsTheBuiltInSceneWithinFloatRounding) {
     const Scene scene = load((kSamples / "cornell-mirrors.glb").string());
     const Scene wanted = cornell_mirrors();
-    // half an ulp of a float below 1024 is 2^-15 a component; the box reaches 559.2
+    // Half an ulp of a float below 1024 is 2^-15 for each component. Coordinates of the Cornell box
+    // reach 559.2.
     EXPECT_LT(compare_objects(scene, wanted), std::sqrt(3.0) * std::ldexp(1.0, -15));
     expect_same_materials(scene, wanted);
     expect_same_cameras(scene, wanted);
@@ -137,12 +140,13 @@ TEST_F(Load, ShippedGlbIsTheBuiltInSceneWithinFloats) {
     EXPECT_THAT(scene.warnings, testing::IsEmpty());
     for (const double t : {0.0, 0.03125, 1.0, 1.7, 2.0, 3.99, 4.0, 9.3}) {
         const dvec3 found = at(scene, t).objects.back().sphere->centre;
-        // Hermite error 2.5e-7 of 50 and floats below 256
-        expect_near(found, at(wanted, t).objects.back().sphere->centre, 4e-5);
+        // The tolerance covers the Hermite error of 2.5e-7 times 50, and the rounding of floats
+        // below 256.
+        load_expect_near(found, at(wanted, t).objects.back().sphere->centre, 4e-5);
     }
 }
 
-TEST_F(Load, ALightsTwoSidesAreInBothFormats) {
+TEST_F(Load, TwoSidedLampsSurviveBothFormats) {
     Scene scene = cornell_mirrors();
     for (const bool two_sided : {false, true}) {
         scene.materials[3].two_sided = two_sided;
@@ -150,7 +154,8 @@ TEST_F(Load, ALightsTwoSidesAreInBothFormats) {
         expect_same_materials(load((folder / "x.glb").string()), scene);
         save_obj(scene, folder / "x.obj");
         expect_same_materials(load((folder / "x.obj").string()), scene);
-        // What is no light has two sides whatever the file says; ours says so to other programs.
+        // A surface that emits no light always has two sides. The written file says so for other
+        // programs.
         const std::string file = read_file(folder / "x.glb");
         std::size_t count = 0;
         for (std::size_t at = 0; (at = file.find("\"doubleSided\":true", at)) != file.npos; ++at)
@@ -159,7 +164,7 @@ TEST_F(Load, ALightsTwoSidesAreInBothFormats) {
     }
 }
 
-TEST_F(Load, ClosedSceneKeepsItsHiddenFront) {
+TEST_F(Load, HiddenFrontWallSurvivesBothFormats) {
     const Scene wanted = cornell_mirrors_closed();
     save_glb(wanted, folder / "x.glb");
     save_obj(wanted, folder / "x.obj");
@@ -167,21 +172,24 @@ TEST_F(Load, ClosedSceneKeepsItsHiddenFront) {
     EXPECT_EQ(compare_objects(load((folder / "x.obj").string()), wanted), 0);
 }
 
-/// Turned, squeezed, mirrored, moving by keys, names that clash: what the built-in scene has not.
-Scene awkward() {
+/// Builds a scene with features that the built-in scene lacks: rotated, scaled and mirrored
+/// objects, keyframes, and names that clash.
+Scene load_awkward() {
     Scene scene{.name = "awkward"};
     scene.materials = {{.name = "a b", .albedo = {0.1f, 0.2f, 0.3f}},
                        {.name = "a b", .mirror = true, .reflectance = {0.5f, 1, 0.25f}},
                        {.name = "", .emission = {0.5f, 0, 0.125f}}};
     scene.meshes = {ball("ball", 1), quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})};
-    dmat4 turned(1); // by 3-4-5 about y, and 3 along x
+    // A rotation about y with cosine .6, and a move by 3 along x.
+    dmat4 turned(1);
     turned[0] = dvec4(0.6, 0, -0.8, 0), turned[2] = dvec4(0.8, 0, 0.6, 0), turned[3].x = 3;
     dmat4 mirrored(1);
     mirrored[0].x = -2;
     scene.objects = {{.name = "x", .mesh = 0, .material = 1, .world_from_object = turned},
                      {.name = "x", .mesh = 1, .material = 0, .world_from_object = mirrored},
                      {.name = "light", .mesh = 1, .material = 2}};
-    for (uvec3& t : scene.meshes[1].triangles) std::swap(t.y, t.z); // as the mirrored one wants it
+    // Reverses the triangles, because the object that uses the mesh is mirrored.
+    for (uvec3& t : scene.meshes[1].triangles) std::swap(t.y, t.z);
     scene.objects[0].sphere = Sphere{{3, 0, 0}, 1};
     scene.objects[0].motion = Keyframes{std::make_shared<const Keys>(
         Keys{.times = {0, 1, 2}, .values = {{0, 0, 0}, {1, 2, 4}, {0, 0, 1}}})};
@@ -190,8 +198,8 @@ Scene awkward() {
     return scene;
 }
 
-TEST_F(Load, AwkwardSceneSurvivesBothFormats) {
-    const Scene wanted = awkward();
+TEST_F(Load, TransformsKeyframesAndClashingNamesSurviveBothFormats) {
+    const Scene wanted = load_awkward();
     save_glb(wanted, folder / "awkward.glb");
     save_obj(wanted, folder / "awkward.obj");
     for (const char* name : {"awkward.glb", "awkward.obj"}) {
@@ -206,16 +214,17 @@ TEST_F(Load, AwkwardSceneSurvivesBothFormats) {
             const Scene found = at(scene, t), still = at(wanted, t);
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto a = bounds(found, found.objects[i]), b = bounds(still, still.objects[i]);
-                expect_near(a.lo, b.lo, 1e-6);
-                expect_near(a.hi, b.hi, 1e-6);
+                load_expect_near(a.lo, b.lo, 1e-6);
+                load_expect_near(a.hi, b.hi, 1e-6);
             }
-            expect_near(found.objects[0].sphere->centre, still.objects[0].sphere->centre, 1e-6);
+            load_expect_near(found.objects[0].sphere->centre, still.objects[0].sphere->centre,
+                             1e-6);
         }
-        expect_near(scene.cameras.at(0).up, {1, 0, 0}, 1e-12);
-        expect_near(scene.cameras.at(0).target, {0, 1, 0}, 1e-12);
+        load_expect_near(scene.cameras.at(0).up, {1, 0, 0}, 1e-12);
+        load_expect_near(scene.cameras.at(0).target, {0, 1, 0}, 1e-12);
         const auto found = lights(scene), still = lights(wanted);
         ASSERT_EQ(found.size(), 1u);
-        expect_near(found[0].normal, still[0].normal, 1e-6);
+        load_expect_near(found[0].normal, still[0].normal, 1e-6);
         const Mesh& flipped = scene.meshes[scene.objects[1].mesh];
         const uvec3 t = flipped.triangles[0];
         const auto p = [&](unsigned i) { return world_position(scene, scene.objects[1], i); };
@@ -223,24 +232,24 @@ TEST_F(Load, AwkwardSceneSurvivesBothFormats) {
     }
 }
 
-TEST_F(Load, WritingTwiceGivesTheSameBytes) {
-    for (const char* name : {"1.glb", "2.glb"}) save_glb(awkward(), folder / name);
+TEST_F(Load, WritingASceneTwiceGivesTheSameBytes) {
+    for (const char* name : {"1.glb", "2.glb"}) save_glb(load_awkward(), folder / name);
     EXPECT_TRUE(read_file(folder / "1.glb") == read_file(folder / "2.glb"));
-    // a scene of floats comes back as itself, under the file's name
+    // A scene of floats is read back unchanged, but with the file's name.
     fs::create_directories(folder / "again");
     save_glb(load((folder / "1.glb").string()), folder / "again" / "1.glb");
     save_glb(load((folder / "again" / "1.glb").string()), folder / "2.glb");
     EXPECT_TRUE(read_file(folder / "again" / "1.glb") == read_file(folder / "2.glb"));
 }
 
-TEST_F(Load, UnwritableTargetsAreNamed) {
-    EXPECT_THROW(save_glb(awkward(), folder / "no" / "x.glb"), Error);
-    EXPECT_THROW(save_obj(awkward(), folder / "no" / "x.obj"), Error);
+TEST_F(Load, WritingASceneIntoAMissingFolderIsAnError) {
+    EXPECT_THROW(save_glb(load_awkward(), folder / "no" / "x.glb"), Error);
+    EXPECT_THROW(save_obj(load_awkward(), folder / "no" / "x.obj"), Error);
 }
 
-// ---- .obj rules
+// ---- rules of .obj files
 
-TEST_F(Load, ObjFlatTrianglesGoAndMissingNormalsAreGeometric) {
+TEST_F(Load, ObjTrianglesWithoutAreaAreDroppedAndNormalsAdded) {
     const Scene scene = load(
         write("x.obj", kTriangle + "v 0 0 1\no a\nf 1 2 3\nf 1 3 4\nf 1 1 2\n"));
     const Mesh& mesh = scene.meshes[scene.objects.at(0).mesh];
@@ -253,7 +262,7 @@ TEST_F(Load, ObjFlatTrianglesGoAndMissingNormalsAreGeometric) {
                 HasSubstr("triangles without area, left out: 1 (first: in 'a')"));
 }
 
-TEST_F(Load, ObjNormalOfNoLengthIsGeometric) {
+TEST_F(Load, ObjNormalWithoutLengthBecomesTheFacetNormal) {
     const Scene scene = load(write("x.obj", kTriangle + "vn 0 0 0\nvn 0 0 -5\nf 1//1 2//2 3//2\n"));
     const Mesh& mesh = scene.meshes[scene.objects.at(0).mesh];
     const uvec3 t = mesh.triangles[0];
@@ -278,7 +287,7 @@ TEST_F(Load, ObjMirrorsAreObjectsWithAMirrorMaterial) {
     EXPECT_EQ(scene.materials[0].albedo, vec3(1, 0.5f, 0));
 }
 
-TEST_F(Load, ObjErrorsNameLineWantedAndFound) {
+TEST_F(Load, ObjErrorsNameLineExpectedAndFound) {
     EXPECT_THAT(refused("a.obj", kTriangle + "f 1 2 4\n"),
                 AllOf(HasSubstr("a.obj:4"), HasSubstr("one of 3 positions"), HasSubstr("found 4")));
     EXPECT_THAT(refused("b.obj", kTriangle + "f 1 2 -4\n"), HasSubstr("found -4"));
@@ -297,7 +306,7 @@ TEST_F(Load, ObjErrorsNameLineWantedAndFound) {
     EXPECT_THAT(refused("n.obj", "mtllib ../x.mtl\n"), HasSubstr("'../x.mtl'"));
 }
 
-TEST_F(Load, ObjRemarksAreChecked) {
+TEST_F(Load, ObjCatoptricCommentsAreChecked) {
     const std::string head = kTriangle + "o ball\nf 1 2 3\n# catoptric ";
     EXPECT_THAT(refused("a.obj", head + "sphere bull 0 0 0 1"), HasSubstr("did you mean 'ball'"));
     EXPECT_THAT(refused("b.obj", head + "sphere ball 0 0 0 0"), HasSubstr("radius above 0"));
@@ -313,16 +322,16 @@ TEST_F(Load, ObjRemarksAreChecked) {
                 testing::ThrowsMessage<Error>(AllOf(HasSubstr("x.mtl:2"), HasSubstr("'x'"))));
 }
 
-TEST_F(Load, ObjPolygonsAndContinuedLines) {
+TEST_F(Load, ObjPolygonsAndContinuedLinesAreRead) {
     const Scene scene = load(write("x.obj",
                                    "v 0 0 0\r\nv 1 \\\n0 0\nv 1 1 0 # corner\nv 0 1 0\nvt 0 0\n"
                                    "f 1/1 2/1 3/1 4/1\ns 1\nl 1 2\nvp 1 2\n"));
     EXPECT_EQ(triangle_count(scene), 2u);
 }
 
-// ---- glTF rules
+// ---- rules of glTF files
 
-TEST_F(Load, GltfTriangleWithoutNormalsOrMaterial) {
+TEST_F(Load, GltfTriangleGetsDefaultNormalsAndMaterial) {
     const Scene scene = load(write("x.gltf", gltf_text()));
     ASSERT_EQ(scene.objects.size(), 1u);
     EXPECT_EQ(scene.objects[0].name, "n");
@@ -330,7 +339,7 @@ TEST_F(Load, GltfTriangleWithoutNormalsOrMaterial) {
     EXPECT_EQ(scene.materials[0].albedo, vec3(1));
 }
 
-TEST_F(Load, GltfErrorsNamePlaceWantedAndFound) {
+TEST_F(Load, GltfErrorsNamePlaceExpectedAndFound) {
     int n = 0;
     const auto broken = [&](const std::string& from, const std::string& to) {
         return refused(std::to_string(++n) + ".gltf", gltf_text(from, to));
@@ -347,7 +356,7 @@ TEST_F(Load, GltfErrorsNamePlaceWantedAndFound) {
     EXPECT_THAT(broken("5126", "5123"), HasSubstr("floats"));
     EXPECT_THAT(broken("5126", "5127"), testing::Not(testing::IsEmpty()));
     EXPECT_THAT(broken("\"byteOffset\":0", "\"byteOffset\":4"), HasSubstr("from 4 on"));
-    EXPECT_THAT(broken("AAAAAAAAAAAA", "AADAfwAAAAAA"), HasSubstr("finite")); // NaN
+    EXPECT_THAT(broken("AAAAAAAAAAAA", "AADAfwAAAAAA"), HasSubstr("finite")); // bytes of a NaN
     EXPECT_THAT(broken("\"mesh\":0", "\"mesh\":0,\"children\":[0]"), HasSubstr("within itself"));
     EXPECT_THAT(broken("\"nodes\":[0]", "\"nodes\":[0,0]"), HasSubstr("one parent"));
     EXPECT_THAT(broken("\"nodes\":[0]", "\"nodes\":[]"), HasSubstr("found none"));
@@ -361,7 +370,7 @@ TEST_F(Load, GltfErrorsNamePlaceWantedAndFound) {
                 HasSubstr("nesting"));
 }
 
-TEST_F(Load, GltfSphereMarkNeedsASphere) {
+TEST_F(Load, GltfSphereMarkOnAnotherShapeIsIgnored) {
     const std::string mark = "\"mesh\":0,\"extras\":{\"catoptric\":{\"sphere\":true}}";
     const Scene scene = load(write("x.gltf", gltf_text("\"mesh\":0", mark)));
     EXPECT_FALSE(scene.objects[0].sphere);
@@ -369,8 +378,9 @@ TEST_F(Load, GltfSphereMarkNeedsASphere) {
     EXPECT_THAT(scene.warnings[0], HasSubstr("marked as a sphere"));
 }
 
-TEST_F(Load, GltfParentsCarryAndTurnMotion) {
-    // a parent turned by 90 degrees about z and scaled by 2: the child's +x is the world's +y
+TEST_F(Load, GltfParentTransformsApplyToTheMotionOfChildren) {
+    // The parent is turned by 90 degrees about z and scaled by 2, so the child's +x is the world's
+    // +y.
     Scene inner{.name = "inner"};
     inner.materials.push_back({.name = "m"});
     inner.meshes.push_back(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
@@ -386,11 +396,11 @@ TEST_F(Load, GltfParentsCarryAndTurnMotion) {
                                    {"rotation", {0, 0, std::sqrt(.5), std::sqrt(.5)}}});
     const Scene scene = load(write("outer.glb", outer.glb()));
     const Scene moved = at(scene, 1);
-    expect_near(dvec3(moved.objects[0].world_from_object[3]), {0, 4, 0}, 1e-6);
-    expect_near(bounds(moved).lo, {-2, 4, 0}, 1e-6);
+    load_expect_near(dvec3(moved.objects[0].world_from_object[3]), {0, 4, 0}, 1e-6);
+    load_expect_near(bounds(moved).lo, {-2, 4, 0}, 1e-6);
 }
 
-// ---- damage: never a crash, never an exception of another kind
+// ---- damaged files cause no crash and no exception of another kind
 
 void try_to_load(const std::string& path) {
     try {
@@ -402,22 +412,22 @@ void try_to_load(const std::string& path) {
 }
 
 TEST_F(Load, TruncatedFilesAreRefused) {
-    save_glb(awkward(), folder / "x.glb");
+    save_glb(load_awkward(), folder / "x.glb");
     const std::string glb = read_file(folder / "x.glb");
     for (std::size_t size = 0; size < glb.size(); size += size < 64 ? 1 : 17)
         refused("y.glb", glb.substr(0, size));
     const std::string gltf = gltf_text();
     for (std::size_t size = 0; size + 1 < gltf.size(); size += 3)
         refused("y.gltf", gltf.substr(0, size));
-    save_obj(awkward(), folder / "x.obj");
+    save_obj(load_awkward(), folder / "x.obj");
     const std::string obj = read_file(folder / "x.obj");
     for (std::size_t size = 0; size < obj.size(); size += 7)
         try_to_load(write("y.obj", obj.substr(0, size)));
 }
 
-TEST_F(Load, DamagedFilesNeverCrash) {
-    save_glb(awkward(), folder / "x.glb");
-    save_obj(awkward(), folder / "x.obj");
+TEST_F(Load, LoadingDamagedFilesNeverCrashes) {
+    save_glb(load_awkward(), folder / "x.glb");
+    save_obj(load_awkward(), folder / "x.obj");
     std::mt19937 random(1);
     for (const char* name : {"x.glb", "x.obj", "x.mtl", "x.gltf"}) {
         const std::string whole = name == std::string("x.gltf") ? gltf_text()
@@ -438,9 +448,9 @@ TEST_F(Load, DamagedFilesNeverCrash) {
     }
 }
 
-// ---- numbers
+// ---- numbers as text
 
-TEST(Number, TextReadsBack) {
+TEST(Number, NumbersWrittenAsTextReadBackExactly) {
     for (const double x : {0.1, 1e-300, 548.8, -1.0 / 3, 1e22, 5e-324})
         EXPECT_EQ(parse_number(number_text(x)), x);
     EXPECT_EQ(number_text(-0.0), "0");

@@ -1,4 +1,5 @@
-// What a loader does not read it names, with a count; what it repairs too.
+// Tests of the loaders' warnings. A warning names and counts each part of a file that a loader does
+// not read, or repairs.
 #include "scene/transform.hpp"
 #include "unit/load_fixture.hpp"
 
@@ -14,7 +15,7 @@ using testing::EndsWith;
 
 class LoadUnread : public Load {
 protected:
-    /// What is said of the file, without its name.
+    /// Loads a file with `text` and returns its warnings without the file's path.
     std::vector<std::string> warnings(const std::string& name, const std::string& text) const {
         const std::string path = write(name, text);
         std::vector<std::string> list;
@@ -26,7 +27,7 @@ protected:
     }
 };
 
-TEST_F(LoadUnread, NothingToSay) {
+TEST_F(LoadUnread, FilesThatAreFullyReadGiveNoWarnings) {
     EXPECT_THAT(warnings("x.obj", kTriangle + "f 1 2 3\n"), testing::IsEmpty());
     EXPECT_THAT(warnings("x.glb", small().glb()), testing::IsEmpty());
     write("m.mtl", "newmtl a\nKe 1 0 0\nnewmtl b\n");
@@ -34,7 +35,7 @@ TEST_F(LoadUnread, NothingToSay) {
     EXPECT_THAT(warnings("x.obj", lit + "f 1 2 3\n"), testing::IsEmpty());
 }
 
-TEST_F(LoadUnread, LightsOfGltf) {
+TEST_F(LoadUnread, GltfLightsGiveNoWarnings) {
     Gltf gltf = small();
     gltf.root["extensionsUsed"] = {"KHR_lights_punctual"};
     gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -43,14 +44,14 @@ TEST_F(LoadUnread, LightsOfGltf) {
     EXPECT_THAT(warnings("x.glb", gltf.glb()), testing::IsEmpty());
 }
 
-TEST_F(LoadUnread, Materials) {
+TEST_F(LoadUnread, UnreadMaterialFeaturesGiveWarnings) {
     Gltf gltf = small();
     gltf.root["materials"] = {
         {{"name", "wood"},
          {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorTexture", {{"index", 0}}}}}},
         {{"name", "gold"},
          {"pbrMetallicRoughness", {{"roughnessFactor", .3}}},
-         {"extensions", // change nothing of a metal
+         {"extensions", // these extensions do not affect a metal
           {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
            {"KHR_materials_volume", Json::object()}}}},
         {{"name", "glass"},
@@ -74,7 +75,7 @@ TEST_F(LoadUnread, Materials) {
             "extension 'KHR_materials_volume', not read: 1 (first: materials[2] 'glass')"));
 }
 
-TEST_F(LoadUnread, TheRestOfGltf) {
+TEST_F(LoadUnread, UnreadPrimitivesSkinsAndExtensionsGiveWarnings) {
     Gltf gltf = small();
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     gltf.root["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
@@ -105,7 +106,7 @@ TEST_F(LoadUnread, TheRestOfGltf) {
             "extension 'EXT_instancing', not read: 1 (first: nodes[1])"));
 }
 
-TEST_F(LoadUnread, MotionThatIsNotShownAndNodesThatAreNotThere) {
+TEST_F(LoadUnread, NodesOutsideTheShownSceneGiveAWarning) {
     Gltf gltf = small();
     const std::size_t times = gltf.add<float>({0, 1}, "SCALAR", 5126),
                       here = gltf.add<float>({0, 0, 0, 1, 0, 0}, "VEC3", 5126),
@@ -130,7 +131,7 @@ TEST_F(LoadUnread, MotionThatIsNotShownAndNodesThatAreNotThere) {
     EXPECT_EQ(dvec3(moved.objects[0].world_from_object[3]), dvec3(1, 0, 0)) << "the first counts";
 }
 
-TEST_F(LoadUnread, StatementsBeforeTheFirstMaterial) {
+TEST_F(LoadUnread, StatementsBeforeTheFirstMaterialGiveAWarning) {
     write("m.mtl", "Kd 1 0 0\nKe 1 1 1\nnewmtl a\nKd 0 1 0\n");
     const std::string file = fs::canonical(folder).string() + "/m.mtl";
     EXPECT_THAT(warnings("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"),
@@ -138,7 +139,7 @@ TEST_F(LoadUnread, StatementsBeforeTheFirstMaterial) {
                     "statements before the first newmtl, left out: 2 (first: " + file + ":1)"));
 }
 
-TEST_F(LoadUnread, ALongNameOfAnAttributeIsRefusedInFewWords) {
+TEST_F(LoadUnread, LongAttributeNameIsRefusedWithAShortMessage) {
     Gltf gltf = small();
     gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION" + std::string(5000, 'x')] = 0;
     write("x.glb", gltf.glb());
@@ -151,7 +152,7 @@ TEST_F(LoadUnread, ALongNameOfAnAttributeIsRefusedInFewWords) {
     }
 }
 
-TEST_F(LoadUnread, ObjAndMtl) {
+TEST_F(LoadUnread, UnreadObjAndMtlStatementsGiveWarnings) {
     write("m.mtl", "newmtl a\nNs 10\nKa 0 0 0\nmap_Kd wood.png\nillum 2\n"
                    "newmtl b\nNs 10\nillum 4\nnewmtl c\nillum 2\nd .5\n");
     const std::string file = fs::canonical(folder).string() + "/m.mtl";
@@ -168,7 +169,7 @@ TEST_F(LoadUnread, ObjAndMtl) {
             "statements 'l', not read: 1 (first: " + (folder / "x.obj").string() + ":10)"));
 }
 
-TEST_F(LoadUnread, ManyOddThingsAreFewLines) {
+TEST_F(LoadUnread, NumberOfWarningsIsLimited) {
     Gltf gltf = small();
     for (int i = 0; i < 200; ++i)
         gltf.root["nodes"].push_back(
@@ -182,7 +183,7 @@ TEST_F(LoadUnread, ManyOddThingsAreFewLines) {
     EXPECT_THAT(warnings("x.obj", text), Contains(HasSubstr("other statements, not read: 160")));
 }
 
-TEST_F(LoadUnread, TextOfAFileIsShownNotObeyed) {
+TEST_F(LoadUnread, ControlCharactersOfAFileAreEscapedInMessages) {
     Gltf gltf = small();
     gltf.root["nodes"][0]["name"] = "\x1b[2J";
     gltf.root["nodes"][0]["skin"] = 0;
@@ -198,10 +199,10 @@ TEST_F(LoadUnread, TextOfAFileIsShownNotObeyed) {
     EXPECT_THAT(refused("x.gltf", "{\"\x1b"), testing::Not(HasSubstr("\x1b")));
 }
 
-// ---- repaired
+// ---- repairs of loaded files
 
-/// A closed box without normals, as it stands in the world.
-Gltf box(const Json& node) {
+/// Builds a glTF file of a closed box without normals. `node` gives the transform of the box.
+Gltf load_unread_box(const Json& node) {
     Gltf gltf = small();
     gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.add<float>(
         {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1}, "VEC3", 5126);
@@ -213,11 +214,11 @@ Gltf box(const Json& node) {
     return gltf;
 }
 
-TEST_F(LoadUnread, AMirroredNodesFacetNormalsPointOut) {
+TEST_F(LoadUnread, FacetNormalsOfMirroredNodesPointOutwards) {
     for (const Json& node : {Json{{"scale", {1, 1, 1}}}, Json{{"scale", {-1, 1, 1}}},
                              Json{{"scale", {-2, -1, -3}}}, Json{{"scale", {1, -1, -1}}},
                              Json{{"matrix", {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}}) {
-        const Scene scene = load(write("x.glb", box(node).glb()));
+        const Scene scene = load(write("x.glb", load_unread_box(node).glb()));
         const Object& object = scene.objects.at(0);
         const Mesh& mesh = scene.meshes[object.mesh];
         const dvec3 centre = bounds(scene).centre();
@@ -237,7 +238,7 @@ TEST_F(LoadUnread, AMirroredNodesFacetNormalsPointOut) {
     }
 }
 
-// ---- polygons
+// ---- polygons are cut into triangles
 
 double area(const Scene& scene) {
     double sum = 0;
@@ -249,7 +250,7 @@ double area(const Scene& scene) {
     return sum;
 }
 
-TEST_F(LoadUnread, PolygonsAreCutIntoWhatTheyCover) {
+TEST_F(LoadUnread, TrianglesOfAPolygonCoverItsArea) {
     const auto cut = [&](const std::vector<dvec2>& corners) {
         std::string text, face = "f";
         for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -260,7 +261,8 @@ TEST_F(LoadUnread, PolygonsAreCutIntoWhatTheyCover) {
         return load(write("x.obj", text + face + "\n"));
     };
     EXPECT_EQ(area(cut({{0, 0}, {2, 0}, {2, 1}, {0, 1}})), 2);
-    const Scene kite = cut({{0, 0}, {1, -3}, {2, 0}, {1, 3}}); // along the shorter diagonal
+    // The kite must be cut along its shorter diagonal.
+    const Scene kite = cut({{0, 0}, {1, -3}, {2, 0}, {1, 3}});
     EXPECT_EQ(area(kite), 6);
     EXPECT_EQ(kite.meshes[0].triangles[0], uvec3(0, 1, 2));
     EXPECT_EQ(area(cut({{0, 0}, {4, 0}, {4, 4}, {3, 1}})), 4) << "a notch in a quad";
@@ -275,7 +277,8 @@ TEST_F(LoadUnread, PolygonsAreCutIntoWhatTheyCover) {
     }
     EXPECT_NEAR(area(cut(round)), 50 * std::sin(M_PI / 50), 1e-4);
     EXPECT_NEAR(area(cut(star)), 100 * std::sin(M_PI / 50), 1e-4);
-    cut({{0, 0}, {2, 2}, {2, 0}, {0, 2}, {-3, 1}}); // crosses itself: anything, but an end
+    // The loader must end for a polygon that crosses itself, whatever the triangles.
+    cut({{0, 0}, {2, 2}, {2, 0}, {0, 2}, {-3, 1}});
 }
 
 } // namespace

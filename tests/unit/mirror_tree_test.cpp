@@ -1,4 +1,5 @@
-// The tree in which shaders look for the next mirror, read as they read it.
+// Tests of the tree in which shaders search for the next mirror on a ray. The test decodes the
+// nodes in the same way as the shaders.
 #include "render/mirror_tree.hpp"
 
 #include "bvh/words.hpp"
@@ -22,7 +23,8 @@ struct Node {
     std::uint32_t mirror, past;
 };
 
-/// Spheres, and boxes in front of them by which nothing is tested.
+/// Returns random mirrors. Two of three are exact spheres, the others are boxes. The `lowest` and
+/// `highest` of a sphere lie elsewhere, because the tree must not use them for spheres.
 std::vector<shared::Probe> probes(std::size_t count) {
     test::Numbers numbers(3);
     std::vector<shared::Probe> probes(count);
@@ -35,7 +37,7 @@ std::vector<shared::Probe> probes(std::size_t count) {
     return probes;
 }
 
-TEST(MirrorTree, HasEachMirrorOnceInTheBoxesAboveIt) {
+TEST(MirrorTree, TreeHoldsEachMirrorOnceWithinTheBoxesOfItsNodes) {
     for (const std::size_t count : {1, 2, 3, 9, 64, 500}) {
         const std::vector<shared::Probe> mirrors = probes(count);
         const std::vector<vec4> tree = render::mirror_tree(mirrors);

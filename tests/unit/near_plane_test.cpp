@@ -1,5 +1,5 @@
-// Nothing that is as far away as the nearest thing lies in front of a near plane, in whatever
-// corner of a picture or of a cube's face.
+// Tests that the near planes of cameras and cube faces clip no geometry. A point at the distance of
+// the nearest surface must lie beyond the near plane, even in the corners of a picture or face.
 #include "core/shader_math.hpp"
 #include "render/views.hpp"
 #include "support/numbers.hpp"
@@ -14,17 +14,17 @@ using namespace catoptric;
 
 constexpr vec3 kEye{.3f, -.2f, .1f};
 
-/// The view, of six, that a direction falls into, in coordinates of the views' own axes.
+/// Returns the view of the cube face, of six, that shows `direction`.
 const shared::View& view_of(const std::vector<shared::View>& views, const vec3& direction) {
     return *std::ranges::max_element(
         views, {}, [&](const shared::View& view) { return dot(view.forward, direction); });
 }
 
-TEST(NearPlane, OfCubeFacesKeepsWhatIsInTheirCorners) {
+TEST(NearPlane, NearPlaneOfCubeFacesClipsNothingInTheCorners) {
     test::Numbers numbers(1);
     for (const float gap : {.001f, .1f, 3.f})
         for (int k = 0; k < 20; ++k) {
-            // Not turned at first, then any way.
+            // The axes of the first cube are the world axes. The other cubes are turned at random.
             const vec3 forward = k == 0 ? vec3(0) : numbers.direction();
             const auto views = render::turned_cube_views(kEye, forward, gap);
             ASSERT_EQ(views.size(), 6u);
@@ -42,7 +42,7 @@ TEST(NearPlane, OfCubeFacesKeepsWhatIsInTheirCorners) {
         }
 }
 
-TEST(NearPlane, OfTheCameraKeepsWhatIsInThePicturesCorners) {
+TEST(NearPlane, NearPlaneOfTheCameraClipsNothingInTheCorners) {
     for (const float gap : {.001f, .1f, 3.f})
         for (const double fov : {10.0, 45.0, 120.0})
             for (const uvec2 size : {uvec2(64, 64), uvec2(128, 32), uvec2(32, 128)}) {

@@ -1,4 +1,5 @@
-// The nearest triangle through trees against looking at all of them.
+// Compares render::Nearest, which searches trees for the nearest triangle, with a search of all
+// triangles.
 #include "render/nearest.hpp"
 #include "support/numbers.hpp"
 #include "support/scenes.hpp"
@@ -27,9 +28,10 @@ float by_looking_at_all(const render::Geometry& geometry, const vec3& point, con
     return std::sqrt(squared);
 }
 
-/// Random points, and the middle of every object without that object.
-void expect_same(render::Nearest& nearest, const render::Geometry& geometry,
-                 test::Numbers& numbers) {
+/// Expects the same distance from `nearest` and from a search of all triangles. Asks for random
+/// points, and for the centre of each object without the triangles of that object.
+void nearest_expect_same(render::Nearest& nearest, const render::Geometry& geometry,
+                         test::Numbers& numbers) {
     for (int k = 0; k < 100; ++k) {
         const vec3 point = numbers.in_cube();
         const Skip none = [](std::size_t, const render::DrawRange&) { return false; };
@@ -44,7 +46,7 @@ void expect_same(render::Nearest& nearest, const render::Geometry& geometry,
     }
 }
 
-TEST(Nearest, IsWhatLookingAtAllFindsAlsoAfterMoves) {
+TEST(Nearest, NearestDistanceEqualsThatOfAFullSearchAlsoAfterMoves) {
     for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(3, 2)}) {
         const render::Space space = render::space_of(scene);
         scene::Scene now = scene::at(scene, 0);
@@ -52,21 +54,22 @@ TEST(Nearest, IsWhatLookingAtAllFindsAlsoAfterMoves) {
         render::Nearest nearest;
         nearest.lay_out(geometry);
         test::Numbers numbers(1);
-        expect_same(nearest, geometry, numbers);
+        nearest_expect_same(nearest, geometry, numbers);
         for (int k = 0; k < 4; ++k) {
             const std::size_t object = numbers.below(now.objects.size());
             now.objects[object].world_from_object[3] += dvec4(
                 dvec3(numbers.in_cube()) * (.1 / space.scale), 0);
             render::move_object(geometry, now, space, object);
             nearest.move(object);
-            expect_same(nearest, geometry, numbers);
+            nearest_expect_same(nearest, geometry, numbers);
         }
     }
 }
 
-/// Small balls in spaces of their own, each asked alone: what is known of one takes nothing from
-/// the next.
-TEST(Nearest, OfThingsInTheirOwnSpacesIsThatOfTheNearest) {
+/// The distance from a point to many small balls in object space must equal the least distance to
+/// any single ball. A bound that was found for one ball must not end the search in the next ball
+/// too early.
+TEST(Nearest, DistanceInObjectSpacesIsThatOfTheNearestObject) {
     test::Numbers numbers(7);
     scene::Scene scene = test::room(0, 1);
     for (int i = 0; i < 40; ++i)
@@ -95,7 +98,7 @@ TEST(Nearest, OfThingsInTheirOwnSpacesIsThatOfTheNearest) {
     EXPECT_GT(in_object_spaces, 100u);
 }
 
-TEST(Nearest, OfNothingIsInfinity) {
+TEST(Nearest, DistanceToAnEmptyGeometryIsInfinity) {
     const render::Geometry geometry;
     render::Nearest nearest;
     nearest.lay_out(geometry);

@@ -9,7 +9,7 @@
 namespace catoptric {
 namespace {
 
-TEST(Parallel, CallsEachNumberOnceOnAnyNumberOfThreads) {
+TEST(Parallel, InParallelCallsEachNumberOnceOnAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 3U, 8U})
         for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
             std::vector<std::atomic<int>> calls(count);
@@ -18,13 +18,13 @@ TEST(Parallel, CallsEachNumberOnceOnAnyNumberOfThreads) {
         }
 }
 
-TEST(Parallel, IsOnNoOtherThreadWhereOneIsEnough) {
+TEST(Parallel, SingleCallOrThreadRunsOnTheCallingThread) {
     const std::thread::id here = std::this_thread::get_id();
     in_parallel(1, 8, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
     in_parallel(100, 1, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
 }
 
-TEST(Parallel, WhatAnotherThreadThrowsComesOutHere) {
+TEST(Parallel, CallerReceivesTheExceptionOfAnotherThread) {
     const std::thread::id here = std::this_thread::get_id();
     std::atomic<bool> thrown = false;
     const auto work = [&](std::size_t) {
@@ -36,8 +36,9 @@ TEST(Parallel, WhatAnotherThreadThrowsComesOutHere) {
     EXPECT_THROW(in_parallel(1000, 2, work), std::runtime_error);
 }
 
-/// The first to throw is not the one with the lowest number: that waits for it.
-TEST(Parallel, WhatTheLowestNumberThrowsComesOutHere) {
+/// Call 0 waits until another call has thrown. The caller must still receive the exception of call
+/// 0, because 0 is the lowest number.
+TEST(Parallel, CallerReceivesTheExceptionOfTheLowestNumber) {
     for (int round = 0; round < 20; ++round) {
         std::atomic<int> thrown{0}, begun{0};
         try {

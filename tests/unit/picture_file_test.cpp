@@ -33,25 +33,27 @@ std::string from_hex(const std::string& hex) {
     return bytes;
 }
 
-// PNG files made by another hand (Python's zlib and struct).
-// 2x2: (255 188 0)(1 2 3), (0 0 0)(128 64 32).
+// The PNG files below were written by a Python script with zlib and struct, not by this engine.
+// kRgb8 has 2x2 pixels with 8 bits per channel: (255 188 0)(1 2 3), then (0 0 0)(128 64 32).
 const std::string kRgb8 = from_hex(
     "89504e470d0a1a0a0000000d4948445200000002000000020802000000fdd49a73000000144944415478da63f8bf"
     "878191899901081a1c1400182502a223acfc8a0000000049454e44ae426082");
-// 188 188 188 with a gamma chunk that claims linear values.
+// A PNG of one pixel, (188 188 188). Its gAMA chunk claims that the values are linear.
 const std::string kGamma1 = from_hex(
     "89504e470d0a1a0a0000000d4948445200000001000000010802000000907753de0000000467414d41000186a031"
     "e8965f0000000c4944415478da63d8b3670f00046c02355d11ef200000000049454e44ae426082");
-// 65535, 32768
+// A PNG of two grey pixels with 16 bits each: 65535 and 32768.
 const std::string kGrey16 = from_hex(
     "89504e470d0a1a0a0000000d494844520000000200000001100000000081d9fc150000000d4944415478da63f8ff"
     "bf81010007fe027fad8392250000000049454e44ae426082");
-// (255 128 0 | 0)(0 0 0 | 255)(0 0 1 | 128): red-orange behind no alpha at all, opaque black, blue.
+// A PNG of three RGBA pixels: transparent (255 128 0 | 0), opaque black (0 0 0 | 255) and half
+// transparent (0 0 1 | 128).
 const std::string kRgba8 = from_hex(
     "89504e470d0a1a0a0000000d49484452000000030000000108060000001be014b4000000124944415478da63f8df"
     "c00002ff1918181b0016fe030063c4645b0000000049454e44ae426082");
 
-/// A 2x1 OpenEXR of 16-bit halves, (1 0.5 -2)(inf NaN 65504), spelled out from the file layout.
+/// Returns a 2x1 OpenEXR file of 16-bit floats, (1 0.5 -2)(inf NaN 65504). The bytes follow the
+/// documented file layout and are written here without a library.
 std::string half_exr() {
     std::string bytes("\x76\x2f\x31\x01\x02\0\0\0", 8);
     const auto number = [](std::uint32_t value, int size) {
@@ -78,14 +80,15 @@ std::string half_exr() {
     attribute("screenWindowCenter", "v2f", std::string(8, '\0'));
     attribute("screenWindowWidth", "float", one);
     bytes += '\0';
-    bytes += number(static_cast<std::uint32_t>(bytes.size()) + 8, 4) + number(0, 4); // line offset
+    // The offset of the first scan line in the file.
+    bytes += number(static_cast<std::uint32_t>(bytes.size()) + 8, 4) + number(0, 4);
     bytes += number(0, 4) + number(12, 4);
     for (const std::uint32_t half : {0xC000U, 0x7BFFU, 0x3800U, 0x7E00U, 0x3C00U, 0x7C00U})
         bytes += number(half, 2);
     return bytes;
 }
 
-Picture awkward() {
+Picture picture_file_awkward() {
     Picture picture(3, 2);
     picture.at(0, 0) = vec3(0, -0.0F, 1);
     picture.at(1, 0) = vec3(std::numeric_limits<float>::infinity(), -3.5F, 1e30F);
@@ -96,8 +99,8 @@ Picture awkward() {
     return picture;
 }
 
-TEST_F(PictureFile, ExrKeepsEveryBit) {
-    const Picture picture = awkward();
+TEST_F(PictureFile, ExrFileKeepsEveryBitOfAPicture) {
+    const Picture picture = picture_file_awkward();
     write_exr(picture, folder / "a.exr");
     const Picture back = read_picture(folder / "a.exr");
     ASSERT_EQ(back.width, 3);
@@ -106,29 +109,29 @@ TEST_F(PictureFile, ExrKeepsEveryBit) {
         EXPECT_EQ(std::memcmp(&picture.pixels[i], &back.pixels[i], sizeof(vec3)), 0) << i;
 }
 
-TEST_F(PictureFile, TheSamePictureGivesTheSameBytes) {
-    const std::string exr = exr_bytes(awkward());
-    EXPECT_THAT(exr, HasSubstr("2000:01:01 00:00:00")); // so the clock is not in it
-    EXPECT_EQ(exr, exr_bytes(awkward()));
-    EXPECT_EQ(png_bytes(awkward()), png_bytes(awkward()));
-    write_png(awkward(), folder / "a.png");
-    EXPECT_EQ(read_file(folder / "a.png"), png_bytes(awkward()));
+TEST_F(PictureFile, EqualPicturesGiveFilesOfEqualBytes) {
+    const std::string exr = exr_bytes(picture_file_awkward());
+    EXPECT_THAT(exr, HasSubstr("2000:01:01 00:00:00")); // the date in files is constant
+    EXPECT_EQ(exr, exr_bytes(picture_file_awkward()));
+    EXPECT_EQ(png_bytes(picture_file_awkward()), png_bytes(picture_file_awkward()));
+    write_png(picture_file_awkward(), folder / "a.png");
+    EXPECT_EQ(read_file(folder / "a.png"), png_bytes(picture_file_awkward()));
 }
 
-TEST_F(PictureFile, PngIsEightBitRgbAndRoundsAndClamps) {
+TEST_F(PictureFile, WrittenPngIsEightBitRgbRoundedAndClamped) {
     Picture display(2, 1);
     display.at(0, 0) = vec3(-1, 0.5F, std::numeric_limits<float>::quiet_NaN());
     display.at(1, 0) = vec3(2, 187.4F / 255, 187.6F / 255);
     const std::string png = png_bytes(display);
-    EXPECT_EQ(png[24], 8); // IHDR: bits
-    EXPECT_EQ(png[25], 2); // RGB
+    EXPECT_EQ(png[24], 8); // bits per channel, in the IHDR chunk
+    EXPECT_EQ(png[25], 2); // colour type RGB, in the IHDR chunk
     write_png(display, folder / "a.png");
     const Picture shown = to_display(read_picture(folder / "a.png"));
     EXPECT_EQ(shown.at(0, 0), vec3(0, 128.0F / 255, 0));
     EXPECT_EQ(shown.at(1, 0), vec3(1, 187.0F / 255, 188.0F / 255));
 }
 
-TEST_F(PictureFile, PngIsDecodedFromSrgb) {
+TEST_F(PictureFile, ReadPngIsDecodedFromSrgb) {
     const Picture picture = read_picture(file("a.png", kRgb8));
     EXPECT_EQ(picture.at(0, 0).x, 1.0F);
     EXPECT_NEAR(picture.at(0, 0).y, 0.502886, 1e-6); // ((188/255 + 0.055) / 1.055)^2.4
@@ -138,21 +141,21 @@ TEST_F(PictureFile, PngIsDecodedFromSrgb) {
     EXPECT_NEAR(read_picture(file("gamma.png", kGamma1)).at(0, 0).x, 0.502886, 1e-6);
 }
 
-TEST_F(PictureFile, SixteenBitGreyBecomesRgb) {
+TEST_F(PictureFile, SixteenBitGreyPngIsReadAsRgb) {
     const Picture picture = read_picture(file("a.png", kGrey16));
     EXPECT_EQ(picture.at(0, 0), vec3(1));
-    EXPECT_NEAR(picture.at(1, 0).x, 0.214053, 1e-5); // 32768 / 65535
+    EXPECT_NEAR(picture.at(1, 0).x, 0.214053, 1e-5); // 32768 / 65535, decoded from sRGB
     EXPECT_EQ(picture.at(1, 0).x, picture.at(1, 0).z);
 }
 
-TEST_F(PictureFile, AlphaIsLeftOut) {
+TEST_F(PictureFile, AlphaOfAPngIsIgnored) {
     const Picture picture = read_picture(file("a.png", kRgba8));
     EXPECT_EQ(picture.at(0, 0).x, 1.0F);
     EXPECT_NEAR(picture.at(0, 0).y, 0.215861, 1e-6);
     EXPECT_EQ(picture.at(1, 0), vec3(0));
 }
 
-TEST_F(PictureFile, HalfExrOfAnotherHand) {
+TEST_F(PictureFile, HalfFloatExrOfAnotherWriterIsRead) {
     const Picture picture = read_picture(file("a.exr", half_exr()));
     EXPECT_EQ(picture.at(0, 0), vec3(1, 0.5F, -2));
     EXPECT_TRUE(std::isinf(picture.at(1, 0).x));
@@ -160,11 +163,11 @@ TEST_F(PictureFile, HalfExrOfAnotherHand) {
     EXPECT_EQ(picture.at(1, 0).z, 65504.0F);
 }
 
-TEST_F(PictureFile, TheNameDoesNotDecide) {
+TEST_F(PictureFile, FileFormatIsFoundByContentNotByName) {
     EXPECT_EQ(read_picture(file("a.exr", kRgb8)).at(0, 0).x, 1.0F);
 }
 
-TEST_F(PictureFile, MaskIsWhatIsNotZero) {
+TEST_F(PictureFile, MaskSelectsPixelsThatAreNotZero) {
     EXPECT_EQ(read_mask(file("a.png", kRgb8), 2, 2), (Mask{255, 255, 0, 255}));
     EXPECT_EQ(read_mask(file("b.png", kRgba8), 3, 1), (Mask{255, 0, 255}));
     EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
@@ -174,7 +177,7 @@ TEST_F(PictureFile, MaskIsWhatIsNotZero) {
         HasSubstr("c.exr: wanted a PNG as mask, found OpenEXR"));
 }
 
-TEST_F(PictureFile, MissingAndUndecodableInput) {
+TEST_F(PictureFile, MissingAndUndecodableFilesAreRefused) {
     EXPECT_THAT(test::refusal(Failure::missing_input, [&] { read_picture(folder / "no.png"); }),
                 HasSubstr("no.png"));
     EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_picture(file("t.png", "Hello")); }),
@@ -183,7 +186,7 @@ TEST_F(PictureFile, MissingAndUndecodableInput) {
                 HasSubstr("found 0 bytes"));
 }
 
-TEST_F(PictureFile, CutFilesAreRefusedWhereverTheyEnd) {
+TEST_F(PictureFile, TruncatedFilesAreRefusedAtEveryLength) {
     const auto refuses = [&](const std::string& name, const std::string& whole, std::size_t size) {
         const fs::path path = file(name, whole.substr(0, size));
         const std::string text = test::refusal(Failure::bad_data, [&] { read_picture(path); });
@@ -196,14 +199,14 @@ TEST_F(PictureFile, CutFilesAreRefusedWhereverTheyEnd) {
     for (std::size_t size = 0; size < 60; size += 3) refuses("cut.png", kRgb8, size);
 }
 
-TEST_F(PictureFile, AFailureKeepsTheOldFile) {
+TEST_F(PictureFile, FailedWriteKeepsTheOldFile) {
     const fs::path old = file("old.png", "old");
     EXPECT_THAT(test::refusal(Failure::internal, [&] { write_png(Picture(), old); }),
                 HasSubstr("a picture of 0x0 cannot be written"));
     EXPECT_EQ(read_file(old), "old");
 }
 
-TEST_F(PictureFile, PlacesThatCannotBeWritten) {
+TEST_F(PictureFile, PathsThatCannotBeWrittenAreRefused) {
     const Picture picture(2, 2);
     EXPECT_THAT(test::refusal(Failure::cannot_create, [&] { write_png(picture, folder); }),
                 HasSubstr(folder.string()));
@@ -211,7 +214,7 @@ TEST_F(PictureFile, PlacesThatCannotBeWritten) {
                               [&] { write_exr(picture, folder / "none" / "a.exr"); }),
                 HasSubstr("none/a.exr"));
     EXPECT_THAT(test::refusal(Failure::io, [&] { write_png(picture, "/dev/full"); }),
-                HasSubstr("/dev/full")); // a disk without room
+                HasSubstr("/dev/full")); // writing to /dev/full fails as on a full disk
 }
 
 } // namespace

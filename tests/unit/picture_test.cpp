@@ -1,6 +1,7 @@
 #include "measure/picture.hpp"
 
 #include "measure/srgb.hpp"
+#include "support/special_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,45 +11,42 @@
 namespace catoptric::measure {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-float shown(float linear, double stops = 0) {
+float picture_shown(float linear, double stops = 0) {
     Picture picture(1, 1);
     picture.at(0, 0) = vec3(linear);
     return to_display(picture, stops).at(0, 0).x;
 }
 
-TEST(ToDisplay, KnownValues) {
-    EXPECT_EQ(shown(0), 0.0F);
-    EXPECT_EQ(shown(1), 1.0F);
-    EXPECT_EQ(shown(0.5F), 188.0F / 255);  // 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354
-    EXPECT_EQ(shown(0.18F), 118.0F / 255); // 0.4614
-    EXPECT_EQ(shown(0.002F), 7.0F / 255);  // 12.92 * 0.002 = 0.0258
+TEST(ToDisplay, DisplayValuesFollowTheSrgbCurve) {
+    EXPECT_EQ(picture_shown(0), 0.0F);
+    EXPECT_EQ(picture_shown(1), 1.0F);
+    EXPECT_EQ(picture_shown(0.5F), 188.0F / 255);  // sRGB: 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354
+    EXPECT_EQ(picture_shown(0.18F), 118.0F / 255); // sRGB: 1.055 * 0.18^(1/2.4) - 0.055 = 0.4614
+    EXPECT_EQ(picture_shown(0.002F), 7.0F / 255);  // sRGB: 12.92 * 0.002 = 0.0258
 }
 
-TEST(ToDisplay, WhatIsOutOfRangeIsClampedAndNanIsBlack) {
-    EXPECT_EQ(shown(-3), 0.0F);
-    EXPECT_EQ(shown(17), 1.0F);
-    EXPECT_EQ(shown(kInfinity), 1.0F);
-    EXPECT_EQ(shown(-kInfinity), 0.0F);
-    EXPECT_EQ(shown(kNan), 0.0F);
+TEST(ToDisplay, ValuesOutOfRangeAreClampedAndNanBecomesBlack) {
+    EXPECT_EQ(picture_shown(-3), 0.0F);
+    EXPECT_EQ(picture_shown(17), 1.0F);
+    EXPECT_EQ(picture_shown(test::kInfinity), 1.0F);
+    EXPECT_EQ(picture_shown(-test::kInfinity), 0.0F);
+    EXPECT_EQ(picture_shown(test::kNan), 0.0F);
 }
 
-TEST(ToDisplay, OneStopDoubles) {
-    EXPECT_EQ(shown(0.25F, 1), shown(0.5F));
-    EXPECT_EQ(shown(0.5F, -1), shown(0.25F));
-    EXPECT_EQ(shown(0.25F, 3), 1.0F);
+TEST(ToDisplay, ExposureOfOneStopDoublesTheLight) {
+    EXPECT_EQ(picture_shown(0.25F, 1), picture_shown(0.5F));
+    EXPECT_EQ(picture_shown(0.5F, -1), picture_shown(0.25F));
+    EXPECT_EQ(picture_shown(0.25F, 3), 1.0F);
 }
 
-TEST(ToDisplay, EveryByteSurvivesDecodingAndEncoding) {
+TEST(ToDisplay, EveryByteSurvivesSrgbDecodingAndEncoding) {
     for (int byte = 0; byte < 256; ++byte) {
         const auto linear = static_cast<float>(linear_from_srgb(byte / 255.0));
-        EXPECT_EQ(shown(linear), static_cast<float>(byte) / 255.0F);
+        EXPECT_EQ(picture_shown(linear), static_cast<float>(byte) / 255.0F);
     }
 }
 
-TEST(ToDisplay, ChannelsAndPlacesStayApart) {
+TEST(ToDisplay, EachChannelAndPixelIsConvertedSeparately) {
     Picture picture(2, 1);
     picture.at(0, 0) = vec3(1, 0, 0.5F);
     picture.at(1, 0) = vec3(0, 1, 0);
@@ -59,7 +57,7 @@ TEST(ToDisplay, ChannelsAndPlacesStayApart) {
     EXPECT_EQ(display.at(1, 0), vec3(0, 1, 0));
 }
 
-TEST(Srgb, TheTwoPiecesMeet) {
+TEST(Srgb, LinearAndPowerPartsOfTheSrgbCurveMeet) {
     EXPECT_NEAR(srgb_from_linear(0.0031308), srgb_from_linear(0.0031309), 2e-6);
     EXPECT_NEAR(linear_from_srgb(0.04045), linear_from_srgb(0.0404501), 2e-7);
 }

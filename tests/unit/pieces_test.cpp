@@ -1,4 +1,5 @@
-// Parts of faces: rectangles that hold what moves.
+// Tests of require::part_with, which returns a rectangle of a capture's face that holds a moving
+// object.
 #include "core/shader_math.hpp"
 #include "require/pieces.hpp"
 #include "support/numbers.hpp"
@@ -10,41 +11,44 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::require;
 
-/// Where a face shows a place that is ahead of it.
-dvec2 shown(int face, const dvec3& place) {
+/// Returns the coordinates at which a face shows a point in front of the face: right and down, from
+/// -1 to 1.
+dvec2 pieces_shown(int face, const dvec3& place) {
     const dvec3 coordinates = f64::cube_coordinates(face, place);
     return dvec2(coordinates) / coordinates.z;
 }
 
-bool holds(const FacePart& part, const dvec2& at) {
+bool pieces_holds(const FacePart& part, const dvec2& at) {
     return all(lessThanEqual(part.low, at + 1e-12)) && all(lessThanEqual(at, part.high + 1e-12));
 }
 
-TEST(Pieces, OfABoxAheadReachFromCornerToCorner) {
-    // +X sees -Z on its right and -Y below; (2, 4) ahead: the near side is the wider one.
+TEST(Pieces, FacePartOfABoxInFrontSpansItsCorners) {
+    // Face +X has -Z on its right and -Y below. The box lies 2 to 4 in front of the centre, and its
+    // near side looks larger than its far side.
     const FacePart part = part_with(0, {{2, -.5, .2}, {4, .5, 1}});
     EXPECT_EQ(part.low, dvec2(-.5, -.25));
     EXPECT_EQ(part.high, dvec2(-.05, .25));
-    // What goes on beyond the edge ends there.
+    // A box that reaches beyond the edge of the face gives a rectangle that ends at the edge.
     EXPECT_EQ(part_with(0, {{2, -.5, .2}, {4, .5, 3}}).low, dvec2(-1, -.25));
-    // Of the hull of two, what lies between them as well.
+    // The rectangle of two boxes holds their hull, so also the space between the boxes.
     const FacePart both = part_with(0, {{2, -.5, .2}, {4, .5, 1}}, {{2, 1, -1}, {2, 1, -1}});
     EXPECT_EQ(both.low, dvec2(-.5, -.5));
     EXPECT_EQ(both.high, dvec2(.5, .25));
 }
 
-TEST(Pieces, AreNoneBehindOrBesideAndAllAround) {
+TEST(Pieces, FacePartIsEmptyForABoxElsewhereAndWholeForABoxAround) {
     const Bounds<double> right{{2, -.5, -.5}, {4, .5, .5}};
     for (int face = 1; face < 6; ++face) EXPECT_TRUE(part_with(face, right).empty()) << face;
     for (int face = 0; face < 6; ++face)
         EXPECT_TRUE(part_with(face, {dvec3(-1), dvec3(2)}).is_whole()) << face;
-    // A floor that begins behind the centre: to the horizon's lower half, its whole width.
+    // A floor that passes below the centre covers the whole width of the face, from below the
+    // horizon to the lower edge.
     const FacePart floor = part_with(0, {{-3, -1.5, -9}, {6, -1, 9}});
     EXPECT_EQ(floor.low, dvec2(-1, 1 / 6.));
     EXPECT_EQ(floor.high, dvec2(1));
 }
 
-TEST(Pieces, HoldEveryPlaceOfABoxAndOfAHull) {
+TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
     test::Numbers numbers(7);
     const auto place = [&](double size) {
         return size * dvec3(numbers.between(-1, 1), numbers.between(-1, 1), numbers.between(-1, 1));
@@ -68,7 +72,8 @@ TEST(Pieces, HoldEveryPlaceOfABoxAndOfAHull) {
                 for (const auto& [where, part] : {std::pair(at[0], one), {between, both}}) {
                     if (f64::cube_face(where) != face) continue;
                     ++inside;
-                    EXPECT_TRUE(holds(part, shown(face, where))) << k << ", face " << face;
+                    EXPECT_TRUE(pieces_holds(part, pieces_shown(face, where)))
+                        << k << ", face " << face;
                 }
             }
         }
@@ -77,7 +82,7 @@ TEST(Pieces, HoldEveryPlaceOfABoxAndOfAHull) {
     EXPECT_GT(partly, 400);
 }
 
-TEST(Pieces, DifferByWhatOneOfTwoStatesHas) {
+TEST(Pieces, DifferingPartHoldsPiecesOfOnlyOneState) {
     const FacePart a{dvec2(-1), dvec2(-.5)}, b{dvec2(0), dvec2(.25)}, c{dvec2(.5), dvec2(.75)};
     const auto states = [](std::vector<Piece> before, std::vector<Piece> after) {
         Pieces old, now;

@@ -1,4 +1,5 @@
-// Plans as text: which rule takes which mirror, and what is refused. Nothing is rendered.
+// Tests of plans as text and as files: which rule applies to which mirror, and which plans are
+// refused. Nothing is rendered.
 #include "app/plan_file.hpp"
 #include "reflect/plan.hpp"
 #include "support/folder.hpp"
@@ -16,7 +17,7 @@ using testing::ElementsAre;
 
 const std::vector<std::string> kMirrors{"left ball", "front", "back", "far ball"};
 
-/// The technique of each mirror, as it was asked for.
+/// Returns the technique that a plan assigns to each mirror, as written in the plan.
 std::vector<std::string> labels(const std::string& text,
                                 const std::vector<std::string>& names = kMirrors) {
     const reflect::Assignment assignment = reflect::assign(reflect::parse_plan(text), names);
@@ -26,41 +27,43 @@ std::vector<std::string> labels(const std::string& text,
     return result;
 }
 
-TEST(PlanText, OneTechniqueIsForAllMirrorsAndForNone) {
+TEST(PlanText, SingleTechniqueAppliesToAnyNumberOfMirrors) {
     EXPECT_THAT(labels("secant:face=64"), ElementsAre("secant:face=64", "secant:face=64",
                                                       "secant:face=64", "secant:face=64"));
     EXPECT_EQ(reflect::assign(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
 }
 
-TEST(PlanText, ANumberGoesBeforeANameThatBeforeTheRest) {
+TEST(PlanText, NumberWinsOverNameAndNameOverStar) {
     EXPECT_THAT(labels("*=reuse *ball=secant 4=march"),
                 ElementsAre("secant", "reuse", "reuse", "march"));
     EXPECT_THAT(labels("4=march *ball=secant *=reuse"),
                 ElementsAre("secant", "reuse", "reuse", "march"));
-    // A wildcard that matches all is still a name, which `*` alone is not.
+    // A pattern with a wildcard, such as `?*`, ranks as a name even if it matches all mirrors. Only
+    // `*` alone ranks below names.
     EXPECT_THAT(labels("*=reuse ?*=secant"), ElementsAre("secant", "secant", "secant", "secant"));
 }
 
-TEST(PlanText, OfEqualsTheFirstWins) {
+TEST(PlanText, FirstRuleWinsBetweenRulesOfEqualRank) {
     EXPECT_THAT(labels("2=march 2=secant *=reuse *=parallax"),
                 ElementsAre("reuse", "march", "reuse", "reuse"));
     EXPECT_THAT(labels("b*=march *k=secant *=reuse"),
                 ElementsAre("reuse", "reuse", "march", "reuse"));
 }
 
-TEST(PlanText, ListsMixNumbersAndNames) {
+TEST(PlanText, RuleListsMixNumbersAndNames) {
     EXPECT_THAT(labels("3,front=secant:steps=1 *=reuse"),
                 ElementsAre("reuse", "secant:steps=1", "secant:steps=1", "reuse"));
-    // Each item counts for itself: 2 as a number beats the name, far* does not beat 4.
+    // Each item of a list is ranked separately: number 2 wins over the name `front`, but number 4
+    // wins over the name `far*`.
     EXPECT_THAT(labels("front=march 2,far*=secant 4=layered *=reuse"),
                 ElementsAre("reuse", "secant", "reuse", "layered"));
 }
 
-TEST(PlanText, ANumberIsAPlaceNotAName) {
+TEST(PlanText, NumberSelectsAMirrorByPositionNotByName) {
     EXPECT_THAT(labels("2=march *=reuse", {"2", "1"}), ElementsAre("reuse", "march"));
 }
 
-TEST(PlanText, RulesThatSayTheSameShareAChoice) {
+TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
     const reflect::Assignment assignment = reflect::assign(
         reflect::parse_plan("1=reuse:face=256 2=march *=reuse"), kMirrors);
     EXPECT_EQ(assignment.choices.size(), 2u);
@@ -73,7 +76,7 @@ void expect_refused(const std::string& text, const std::vector<std::string>& wor
     test::expect_refused([&] { reflect::assign(app::read_plan(text), kMirrors); }, failure, words);
 }
 
-TEST(PlanText, WhatIsWrongIsNamed) {
+TEST(PlanText, InvalidPlansAreRefusedWithTheReason) {
     expect_refused("9=reuse *=march", {"pattern '9'", "matches no mirror", "4 mirrors",
                                        "1 'left ball'", "4 'far ball'"});
     expect_refused("0=reuse *=march", {"pattern '0'"});
@@ -88,7 +91,7 @@ TEST(PlanText, WhatIsWrongIsNamed) {
     expect_refused("1= *=march", {"no technique ''"});
 }
 
-TEST(PlanText, NamesAFile) {
+TEST(PlanText, PlanHasAShortUniqueFileName) {
     EXPECT_EQ(reflect::parse_plan("secant:face=64").file_name(), "secant-face64");
     EXPECT_EQ(reflect::parse_plan("1=reuse 2,3=secant:face=64 *=march").file_name(),
               "plan-1reuse-2-3secant-face64--march");
@@ -108,13 +111,13 @@ protected:
     }
 };
 
-TEST_F(PlanFile, SaysWhatTheTextSays) {
+TEST_F(PlanFile, PlanFileMeansTheSameAsThePlanText) {
     const reflect::Plan text = reflect::parse_plan("1=reuse:face=64 2,back=hybrid *=march");
     EXPECT_TRUE(app::read_plan(file(R"([{"mirror": 1, "technique": "reuse:face=64"},
                                         {"mirror": "2,back", "technique": "hybrid"},
                                         {"mirror": "*", "technique": "march"}])"))
                     .same_as(text));
-    // As a report's row has it.
+    // A row of a report stores the same plan as an object with more fields.
     const reflect::Plan row = app::read_plan(
         file(R"({"plan": [{"mirror": 1, "name": "left ball", "technique": "reuse",
                            "settings": {"face": 64, "colour": "half"}, "why": "rule '1'"},
@@ -127,7 +130,7 @@ TEST_F(PlanFile, SaysWhatTheTextSays) {
                     .same_as(reflect::parse_plan("*=reuse:face=auto")));
 }
 
-TEST_F(PlanFile, WhatIsWrongIsNamedWithItsPlace) {
+TEST_F(PlanFile, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {
     const auto bad = [&](const std::string& content, const std::vector<std::string>& words,
                          Failure failure = Failure::bad_data) {
         expect_refused(file(content), words, failure);

@@ -1,4 +1,5 @@
-// PNG as libpng writes it here, beside what OpenImageIO makes of the same values.
+// Compares PNG files that png_bytes writes (with libpng) with those that OpenImageIO writes for the
+// same values.
 #include "core/error.hpp"
 #include "core/image_codec.hpp"
 #include "core/image_module.hpp"
@@ -10,7 +11,8 @@
 namespace catoptric {
 namespace {
 
-/// Runs of equal values and others, so that each of PNG's filters is taken somewhere.
+/// Returns the values of a picture with runs of equal values between varying values, so that each
+/// of PNG's filters is used somewhere.
 std::vector<std::uint8_t> values_of(uvec2 size, std::size_t channel_count) {
     std::vector<std::uint8_t> values(std::size_t(size.x) * size.y * channel_count);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -18,7 +20,7 @@ std::vector<std::uint8_t> values_of(uvec2 size, std::size_t channel_count) {
     return values;
 }
 
-TEST(Png, IsByteForByteWhatOpenImageIOWrites) {
+TEST(Png, PngBytesEqualThoseOfOpenImageIO) {
     for (const uvec2 size : {uvec2(1, 1), uvec2(7, 3), uvec2(300, 200)})
         for (std::size_t channel_count = 1; channel_count <= 4; ++channel_count) {
             const std::vector<std::uint8_t> values = values_of(size, channel_count);
@@ -32,7 +34,7 @@ TEST(Png, IsByteForByteWhatOpenImageIOWrites) {
         }
 }
 
-TEST(Png, SaysWhatItCannotWrite) {
+TEST(Png, UnwritablePicturesAreRefusedWithTheReason) {
     const std::vector<std::uint8_t> values(10);
     EXPECT_THAT(test::refusal(Failure::internal,
                               [&] {

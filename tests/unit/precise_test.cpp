@@ -1,6 +1,8 @@
-// A compiler may fuse a product and a sum into one rounding, and then two devices disagree about an
-// edge, unless the instruction says that it must not. Software drivers do not fuse, so pictures
-// cannot show what is missing; the shaders' code can.
+// Tests that shaders do not allow fused multiply-adds in the triangle test. A compiler may fuse a
+// product and a sum into one rounding unless the SPIR-V instruction is decorated with
+// NoContraction. Two devices could then disagree about a triangle's edge. Software drivers never
+// fuse, so a missing decoration does not show in their pictures. Therefore the test reads the
+// shaders' code.
 #include "gpu/shader.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +16,7 @@
 namespace catoptric::gpu {
 namespace {
 
-// Of SPIR-V 1.6, sections 3.20 and 3.49.
+// Instruction and decoration numbers from the SPIR-V 1.6 specification, sections 3.20 and 3.49.
 enum Op : std::uint32_t {
     kName = 5,
     kExtInst = 12,
@@ -27,7 +29,7 @@ enum Op : std::uint32_t {
     kVectorTimesScalar = 142,
     kDot = 148
 };
-constexpr std::uint32_t kNoContraction = 42, kFma = 50; // the latter of GLSL.std.450
+constexpr std::uint32_t kNoContraction = 42, kFma = 50; // kFma: number in GLSL.std.450
 constexpr std::array kFusible{kFNegate, kFAdd, kFSub, kFMul, kVectorTimesScalar, kDot};
 
 /// Functions whose results are compared bit for bit between devices.
@@ -35,12 +37,12 @@ constexpr std::array<std::string_view, 6> kExact{"ray_shear(",   "product_error(
                                                  "short_edges(", "triangle_test(", "barycentric("};
 
 struct Count {
-    int fixed = 0;   ///< instructions that must be rounded as they stand
-    int fusible = 0; ///< instructions that may be fused
+    int fixed = 0;   ///< number of instructions that must not be fused
+    int fusible = 0; ///< number of instructions that may be fused
 };
 
-/// By function, those of kExact only.
-std::map<std::string_view, Count> count(std::span<const std::uint32_t> words) {
+/// Counts the fusible instructions of a SPIR-V module, for each function of kExact.
+std::map<std::string_view, Count> precise_count(std::span<const std::uint32_t> words) {
     std::map<std::uint32_t, std::string_view> names;
     std::set<std::uint32_t> fixed;
     std::map<std::string_view, Count> result;
@@ -61,10 +63,10 @@ std::map<std::string_view, Count> count(std::span<const std::uint32_t> words) {
     return result;
 }
 
-TEST(Precise, NothingInTheTriangleTestMayBeFused) {
+TEST(Precise, TriangleTestAllowsNoFusedInstructions) {
     int shaders = 0;
     for (const EmbeddedShader& shader : embedded_shaders()) {
-        const std::map<std::string_view, Count> functions = count(shader.words);
+        const std::map<std::string_view, Count> functions = precise_count(shader.words);
         if (!functions.contains("triangle_test(")) continue;
         ++shaders;
         for (const std::string_view name : kExact) {

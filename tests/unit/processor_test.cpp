@@ -1,4 +1,4 @@
-// What the machine's processors were doing.
+// Tests of app/processor.hpp: processor time, waiting for processors, and noise.
 #include "app/processor.hpp"
 
 #include <gtest/gtest.h>
@@ -23,14 +23,14 @@ void work_for(double seconds) {
     for (const double end = process_seconds() + seconds; process_seconds() < end;) ++sink;
 }
 
-TEST(Processor, TimeIsThatOfAllThreads) {
+TEST(Processor, ProcessSecondsCountAllThreads) {
     const double before = process_seconds();
     std::jthread beside([] { work_for(.05); });
     beside.join();
     EXPECT_GE(process_seconds() - before, .05);
 }
 
-TEST(Processor, ThreadsTellHowLongTheyRanAndWaited) {
+TEST(Processor, ProcessorUseReportsHowLongThreadsRan) {
     const auto before = processor_use();
     ASSERT_TRUE(before) << "Linux tells";
     work_for(.05);
@@ -41,9 +41,9 @@ TEST(Processor, ThreadsTellHowLongTheyRanAndWaited) {
     EXPECT_GE(after->busy, before->busy);
 }
 
-/// Three threads for each processor: two of them wait. Whether others had to do with it, the
-/// machine knows.
-TEST(Processor, WaitingIsSeen) {
+/// Runs three busy threads per processor, so that on average two of three wait. The measured
+/// waiting time must then exceed the running time.
+TEST(Processor, OverloadedProcessorsShowAsWaiting) {
     std::atomic<bool> stop{false};
     std::vector<std::jthread> crowd;
     for (unsigned i = 0; i < 3 * std::max(1U, std::thread::hardware_concurrency()); ++i)
@@ -60,7 +60,7 @@ TEST(Processor, WaitingIsSeen) {
     EXPECT_GT(waiting.waited, waiting.ran);
 }
 
-TEST(Processor, ThreadsThatCameAndWent) {
+TEST(Processor, WaitingCountsNewThreadsButNotEndedOnes) {
     const ProcessorUse before{{{1, {10, 1}}, {2, {20, 2}}}, 100},
         after{{{1, {11, 1.25}}, {3, {.5, .125}}}, 104};
     Waiting waiting = waiting_between(before, after);
@@ -73,7 +73,7 @@ TEST(Processor, ThreadsThatCameAndWent) {
     EXPECT_EQ(waiting.others, 5);
 }
 
-TEST(Processor, WaitingForOnesOwnThreadsIsNoNoise) {
+TEST(Processor, WaitingForOwnThreadsIsNoNoise) {
     EXPECT_EQ(waited_share({0, 0, 0}), 0);
     EXPECT_EQ(waited_share({6, 2, 0}), 0) << "nobody else was there";
     EXPECT_EQ(waited_share({6, 2, -.01}), 0) << "the system counts in hundredths";
@@ -82,24 +82,25 @@ TEST(Processor, WaitingForOnesOwnThreadsIsNoNoise) {
     EXPECT_EQ(waited_share({0, 2, 1}), 1);
 }
 
-TEST(Processor, NoisyIsMoreThanATwentiethOfTheTime) {
+TEST(Processor, NoisyMeansWaitingForMoreThanFivePercent) {
     EXPECT_FALSE(is_noisy(.05));
     EXPECT_TRUE(is_noisy(.0501));
     EXPECT_FALSE(is_noisy(std::nan("")));
 }
 
-TEST(Processor, WithoutASayOfWaitingTheLoadOfOthersJudges) {
+TEST(Processor, LoadOfOtherProcessesDecidesIfWaitingIsUnknown) {
     EXPECT_FALSE(is_noisy(.25, 0, 600));
     EXPECT_TRUE(is_noisy(.26, 0, 600));
     EXPECT_FALSE(is_noisy(2.25, 2 * 6000, 6000)) << "two processors of its own, for a long time";
     EXPECT_TRUE(is_noisy(2.3, 2 * 6000, 6000));
-    // After ten seconds a load has seen 15 % of what this process does.
+    // The load is a mean over about a minute, so after ten seconds it contains only 15 % of this
+    // process's time.
     EXPECT_FALSE(is_noisy(.54, 20, 10));
     EXPECT_TRUE(is_noisy(.57, 20, 10));
     EXPECT_FALSE(is_noisy(std::numeric_limits<double>::quiet_NaN(), 0, 600)) << "nobody tells";
 }
 
-/// Where a thread of this process may run.
+/// Returns the number of processors on which a thread of this process may run.
 int processors_of(int thread) {
     cpu_set_t allowed;
     CPU_ZERO(&allowed);
@@ -107,8 +108,9 @@ int processors_of(int thread) {
     return CPU_COUNT(&allowed);
 }
 
-/// Threads named as the driver names its own stay on one processor each, and are free again.
-TEST(Processor, ThreadsThatDrawAreHeld) {
+/// HeldThreads finds a driver's drawing threads by their names. Threads with such names must be
+/// bound to one processor each while the object exists, and to none afterwards.
+TEST(Processor, HeldThreadsBindsDrawingThreadsToOneProcessorEach) {
     const int all = processors_of(0);
     if (all < 2) GTEST_SKIP() << "one processor: nothing to be held from";
     std::atomic<int> numbers[2] = {0, 0};

@@ -1,4 +1,5 @@
-// Device profiles: what becomes one, and which of them is believed.
+// Tests of device profiles: which measured choices a profile stores, and which profiles are
+// accepted.
 #include "app/profile.hpp"
 #include "render/tracing.hpp"
 #include "support/folder.hpp"
@@ -24,7 +25,8 @@ app::DeviceInfo device_of(const std::string& driver = "driver 1.2 (build 3)") {
     return device;
 }
 
-/// The second choice of a variant, `ratio` times as long as the default in each of the rounds.
+/// Returns a measurement of a variant's second choice. In round i this choice takes `ratios[i]`
+/// times as long as the default.
 measure::Tried tried(std::size_t variant, const std::vector<double>& ratios) {
     const gpu::Variant& row = gpu::variants()[variant];
     measure::Tried one{.variant = std::string(row.name),
@@ -38,7 +40,7 @@ measure::Tried tried(std::size_t variant, const std::vector<double>& ratios) {
 const std::vector<double> kFaster{.9, .91, .92, .93, .94, .95},
     kSlower{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kBoth{.5, .6, .7, .8, .9, 1.01};
 
-TEST(Profile, KeepsWhatIsFasterForCertain) {
+TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
     const std::string text = app::profile_text(
         device_of(), {tried(0, kFaster), tried(1, kSlower), tried(2, kBoth)});
     EXPECT_EQ(app::read_profile(text, "p.json", device_of()), (gpu::Choices{1, 0, 0}));
@@ -53,7 +55,7 @@ TEST(Profile, KeepsWhatIsFasterForCertain) {
     EXPECT_FALSE(tried(0, {1, 1, 1, 1, 1, 1}).is_taken());
 }
 
-TEST(Profile, IsOfOneDeviceAndDriver) {
+TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
     const std::string text = app::profile_text(device_of(), {tried(0, kFaster)});
     const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
@@ -69,7 +71,7 @@ TEST(Profile, IsOfOneDeviceAndDriver) {
     refuses(other, "id", "10de-2331", "10de-2330");
 }
 
-TEST(Profile, SaysWhatIsNoProfile) {
+TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     json good = json::parse(app::profile_text(device_of(), {tried(0, kFaster)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
         test::expect_refused([&] { app::read_profile(text, "p.json", device_of()); },
@@ -86,11 +88,11 @@ TEST(Profile, SaysWhatIsNoProfile) {
     refuses(bad.dump(), "variants: wanted one of groups, hierarchy, pixels, found 'colour'");
     bad = good, bad["variants"]["pixels"] = "storage";
     refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
-    good["variants"] = json::object(); // what it leaves out is as by default
+    good["variants"] = json::object(); // variants that are left out have their defaults
     EXPECT_EQ(app::read_profile(good.dump(), "p.json", device_of()), gpu::Choices{});
 }
 
-TEST(Profile, HasANameThatEveryFolderTakes) {
+TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
     EXPECT_EQ(app::profile_name(device_of("../a b:c\\d\n")), "10de-2330-.._a_b_c_d_.json");
 }
 
@@ -102,7 +104,7 @@ protected:
     std::string good() const { return app::profile_text(device_of(), {tried(0, kFaster)}); }
 };
 
-TEST_F(ProfilePlace, TheUsersOwnIsUsedOrWarnedOf) {
+TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
     app::EngineOptions options;
     options.profiles = folder;
     app::DeviceInfo device = device_of();
@@ -127,7 +129,7 @@ TEST_F(ProfilePlace, TheUsersOwnIsUsedOrWarnedOf) {
     }
 }
 
-TEST_F(ProfilePlace, OneThatIsNamedMustDo) {
+TEST_F(ProfilePlace, ProfileNamedByAnOptionMustBeUsable) {
     app::DeviceInfo device = device_of();
     const auto choose = [&](const std::string& name) {
         return app::choose({.profile = folder / name, .profiles = folder}, device);
@@ -148,8 +150,9 @@ TEST_F(ProfilePlace, OneThatIsNamedMustDo) {
         Failure::usage, {"variants.pixels: wanted 'blocks' or 'rows'"});
 }
 
-/// Only a software driver gives each of its threads one contiguous run of work groups.
-TEST(Variants, GroupsAreInOrderButOnAProcessor) {
+/// Work groups are scattered only on a software driver, because each of its threads gets one
+/// contiguous run of work groups.
+TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
     for (const auto& [type, groups] :
          {std::pair("cpu", "scattered"), std::pair("discrete", "in order"),
           std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
@@ -164,7 +167,7 @@ TEST(Variants, GroupsAreInOrderButOnAProcessor) {
     }
 }
 
-TEST(Variants, AreConstantsButForDefaults) {
+TEST(Variants, ChoicesOtherThanDefaultsBecomeShaderConstants) {
     EXPECT_TRUE(render::constants_of({}, 16, 128).empty());
     const gpu::Constants all = render::constants_of({1, 1, 1}, 128, 128);
     EXPECT_THAT(

@@ -6,7 +6,8 @@ namespace catoptric::graph {
 
 namespace {
 
-/// Declares random passes, each of which only reads what is written by then.
+/// Declares random passes. Each pass reads only contents that an earlier pass has written, or
+/// contents of the previous frame.
 class Author {
 public:
     explicit Author(std::mt19937& random) : random_(random) {}
@@ -89,7 +90,7 @@ private:
         if (!is_written(target) || chance(60)) clear = Clear{};
         pass.writes(target, use, clear).layers(target.layer_count);
         if (use == Use::depth || chance(50)) return;
-        for (const Image& image : images_) { // test against a depth image
+        for (const Image& image : images_) { // attaches a depth image for the depth test
             if (!is_depth(image) || image.layer_count < target.layer_count) continue;
             const Image depth = image.layers(0, target.layer_count);
             if (!is_written(depth)) continue;
@@ -118,7 +119,8 @@ private:
         }
     }
 
-    /// Other layers of the target.
+    /// Adds a read of the target image: of layers that the pass does not write, or of the previous
+    /// frame.
     void add_disjoint_read(PassBuilder& pass, const Image& target, bool copy) {
         if (target.first_layer == 0) return;
         const Image rest = images_[target.id].layers(0, target.first_layer);
@@ -143,7 +145,8 @@ private:
         }
     }
 
-    /// So that nobody reads a last frame that never was.
+    /// Adds a pass that writes all layers of an image whose previous contents are read. Otherwise
+    /// the next frame would read contents that were never written.
     void write_all(std::uint32_t id) {
         if (is_written(images_[id])) return;
         graph_.pass("all" + std::to_string(id))
@@ -158,7 +161,7 @@ private:
             const Image part = part_of(image);
             if (is_written(part) && chance(15)) graph_.mark_output(part);
         }
-        for (const Image& image : images_) // seldom nothing
+        for (const Image& image : images_) // so that most graphs have an output
             if (graph_.output_images().empty() && is_written(image.layers(0, 1)))
                 graph_.mark_output(image.layers(0, 1));
         for (std::uint32_t b = 0; b < buffers_.size(); ++b)
@@ -171,7 +174,7 @@ private:
     std::vector<Buffer> buffers_;
     std::vector<std::vector<bool>> written_;
     std::vector<bool> buffer_written_;
-    std::vector<bool> touched_; // images that the pass at hand uses
+    std::vector<bool> touched_; // images that the current pass uses
 };
 
 } // namespace

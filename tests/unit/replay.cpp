@@ -9,15 +9,17 @@ namespace catoptric::graph {
 
 namespace {
 
-/// Something that was done to a cell, and which touches have since been made to wait for it.
+/// A past access to a cell (an image layer or a buffer), with the later accesses that barriers have
+/// ordered after it.
 struct Event {
     Cell cell;
     Touch touch;
-    bool is_write = false; // a write, or a change of layout
+    bool is_write = false; // true for a write or a layout change
     bool is_layout = false;
-    std::vector<std::pair<Cell, Touch>> ordered; // the cell whose barrier did it
+    std::vector<std::pair<Cell, Touch>> ordered; // later accesses, by the barrier's cell
 
-    /// A barrier counts for its own cell, and for all when it is on the cell of the event.
+    /// Returns whether a barrier orders the access `t` to cell `by` after this access. A barrier on
+    /// this access's own cell counts for every cell.
     bool is_before(const Cell& by, const Touch& t) const {
         return std::ranges::count(ordered, std::pair(by, t)) > 0 ||
                std::ranges::count(ordered, std::pair(cell, t)) > 0;
@@ -155,7 +157,8 @@ private:
         expect(p.alone == must_be_alone(cell), cell, "wrong `alone`");
     }
 
-    /// All at once: none of them is ordered by another.
+    /// Applies all barriers of one pass at once, because barriers of the same command do not order
+    /// each other.
     void pass_barriers(const std::vector<Barrier>& barriers) {
         std::vector<std::tuple<Event*, Cell, Touch>> ordered;
         std::map<Cell, Touch> transitions;
@@ -210,7 +213,7 @@ private:
         }
     }
 
-    /// What a pass does not store.
+    /// Marks the contents of an attachment that a pass does not store as lost.
     void lose(const ImageUse& use) {
         for (std::uint32_t l = 0; l < use.image.layer_count; ++l) {
             const Cell cell{Kind::image, use.image.id, use.image.first_layer + l};

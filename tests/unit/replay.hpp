@@ -6,13 +6,16 @@
 
 namespace catoptric::graph {
 
-/// Runs a plan on paper, without any code of the planner: memory that is overwritten loses its
-/// contents, a touch that no barrier orders is a race, a read in another layout is a fault, and in
-/// the end everything wanted must hold what it would hold if every pass had run with memory of its
-/// own. Returns each broken promise; empty when the plan is right.
+/// Simulates a plan without using code of the planner. Returns a text for each error; empty if the
+/// plan is correct.
+///
+/// Memory that another resource overwrites loses its contents. A touch that no barrier orders is a
+/// race. A read in another layout is an error. In the end, all outputs must hold the same contents
+/// as if each resource had its own memory and all passes had run.
 std::vector<std::string> replay(const Graph& graph, const Plan& plan, const Sizer& sizer);
 
-/// A valid graph of up to 16 passes that uses everything that passes may use.
+/// Returns a random valid graph. Over many graphs, passes use resources in every way that a graph
+/// allows.
 Graph random_graph(std::mt19937& random);
 
 } // namespace catoptric::graph

@@ -5,12 +5,14 @@
 
 #include <map>
 
-// What images and buffers hold, on paper: a number that tells who wrote it from what.
+// Simulated contents of images and buffers: a number computed from the pass that wrote the contents
+// and from everything that this pass read.
 namespace catoptric::graph {
 
 enum class Kind { image, previous, buffer };
 
-/// One layer of an image, of its contents of the last frame, or a buffer.
+/// A unit of contents: one layer of an image, one layer of the image's contents in the last frame,
+/// or a whole buffer.
 struct Cell {
     Kind kind = Kind::image;
     std::uint32_t id = 0;
@@ -62,7 +64,8 @@ public:
         for (auto& [cell, value] : values_)
             if (cell.kind == kind && cell.id == id) value = kGarbage;
     }
-    /// What a pass writes is made of its number and of all it reads.
+    /// Executes a pass. The value of each written cell is a hash of the pass's number and of all
+    /// values that the pass reads.
     void execute(const Pass& pass, std::uint32_t index) {
         const std::vector<CellUse> uses = uses_of(pass);
         Value inputs = index + 1;
@@ -76,7 +79,8 @@ private:
     std::map<Cell, Value> values_;
 };
 
-/// ResolvedScene cells, and those that passes of the plan read of the last frame.
+/// Returns the cells (image layers and buffers) whose contents matter after a frame: all outputs,
+/// and the images whose contents of the last frame the plan's passes read.
 inline std::vector<Cell> outcome_cells(const Graph& graph, const Plan& plan) {
     std::vector<Cell> cells;
     for (const Image& image : graph.output_images())
@@ -91,7 +95,7 @@ inline std::vector<Cell> outcome_cells(const Graph& graph, const Plan& plan) {
     return cells;
 }
 
-/// The outcome when each of `passes` has memory of its own.
+/// Returns the values of `cells` after the passes have run, if each resource has its own memory.
 inline std::vector<Value> ideal_outcome(const Graph& graph,
                                         const std::vector<std::uint32_t>& passes,
                                         const std::vector<Cell>& cells) {

@@ -1,5 +1,5 @@
-// Every figure of a report stands where its name says: a row in which no two figures are equal is
-// written, read back by name and compared.
+// Tests that a report stores every figure under the figure's own name. The test writes a row in
+// which no two figures are equal, reads each figure by its name and compares.
 #include "report/report.hpp"
 
 #include "report/tables.hpp"
@@ -22,14 +22,14 @@ using catoptric::measure::Mean;
 using catoptric::measure::Summary;
 using nlohmann::json;
 
-/// A figure, where in the row's JSON it is wanted and in which column of the CSV, "name#2" for the
-/// third number of a list there.
+/// A figure of the test row, with its JSON pointer and its CSV column. The column "name#2" means
+/// the third number of the list in column "name".
 struct Field {
     std::string pointer, column;
     double value;
 };
 
-/// Gives every figure of a row a value that no other has.
+/// Builds a row in which every figure has a different value.
 class Filler {
 public:
     Row row;
@@ -90,7 +90,8 @@ public:
     }
 
 private:
-    /// Whole numbers stay whole; all others are exact in binary and four decimals tell them apart.
+    /// Sets a figure to the next value. Integers count up. Other figures are multiples of 1/1024:
+    /// exact in binary, and distinct when printed with four decimals.
     template <typename Number>
     void set(Number& figure, const std::string& pointer, const std::string& column) {
         ++count_;
@@ -153,7 +154,7 @@ private:
     void fill_causes(Causes& causes) {
         set(causes.squared_error, "/causes/squared_error", "causes_squared_error");
         set(causes.rest_rmse, "/causes/rest_rmse", "causes_rest_rmse");
-        // The share that stands among the row's own figures, too.
+        // This share is also a figure of the row itself, in `light_edges`.
         fields.push_back(
             {"/causes/at_light_edges", "causes_at_light_edges", row.light_edges.value().share});
         set(causes.squared_error_per_mirror.emplace_back(), "/causes/squared_error_per_mirror/0",
@@ -187,7 +188,7 @@ Comparison distinct(const Filler& filler) {
     return made;
 }
 
-/// What tells the rows of `distinct` from those of other runs, by column.
+/// Returns the CSV cells that identify the run of `distinct`, by column.
 std::map<std::string, std::string> identity() {
     return {{"plan", "parallax:face=64"},
             {"scene", "cornell-mirrors"},
@@ -228,7 +229,7 @@ std::map<std::string, std::string> identity() {
             {"date", "2026-11-24T03:05:10Z"}};
 }
 
-TEST(ReportFields, JsonHoldsTheCamera) {
+TEST(ReportFields, JsonReportHoldsTheCamera) {
     const json document = json::parse(to_json(distinct(Filler())));
     EXPECT_EQ(document["scene"]["camera"],
               json::parse(R"({"name": "eye level", "eye": [1, 2, 3], "target": [4, 5, 6],
@@ -236,7 +237,7 @@ TEST(ReportFields, JsonHoldsTheCamera) {
                               "orthographic_height": null})"));
 }
 
-TEST(ReportFields, JsonHoldsRoundsAndLoad) {
+TEST(ReportFields, JsonReportHoldsRoundsAndLoad) {
     const json document = json::parse(to_json(distinct(Filler())));
     EXPECT_EQ(document["rounds"], 6);
     EXPECT_EQ(document["load"], json::parse("[0.25, 1.5]"));
@@ -250,7 +251,7 @@ TEST(ReportFields, JsonHoldsRoundsAndLoad) {
     EXPECT_EQ(without["rows"][0]["gpu_ms"]["rounds"], json::array());
 }
 
-TEST(ReportFields, WhatWasNeededOnceStandsInJsonAndAboveTheRows) {
+TEST(ReportFields, SetupTimesAreInJsonAndAboveTheRows) {
     Comparison made = distinct(Filler());
     made.setup = {1.5, 2.25, 33.5, 444.5, 6, "used"};
     EXPECT_EQ(json::parse(to_json(made))["setup"],
@@ -271,7 +272,7 @@ TEST(ReportFields, WhatWasNeededOnceStandsInJsonAndAboveTheRows) {
     EXPECT_THAT(setup_text(made.setup), testing::EndsWith("444 ms, no cache on disk"));
 }
 
-/// The pointers of all numbers in a document.
+/// Collects the JSON pointers of all numbers in a document.
 void collect_numbers(const json& document, const std::string& at, std::vector<std::string>& found) {
     if (document.is_number()) found.push_back(at);
     if (document.is_object())
@@ -282,7 +283,7 @@ void collect_numbers(const json& document, const std::string& at, std::vector<st
             collect_numbers(document[i], at + "/" + std::to_string(i), found);
 }
 
-TEST(ReportFields, JsonHoldsEachFigureUnderItsName) {
+TEST(ReportFields, JsonReportHoldsEachFigureUnderItsName) {
     const Filler filler;
     const json row = json::parse(to_json(distinct(filler)))["rows"][0];
     std::vector<std::string> wanted{"/error_per_mirror/0/mirror", "/error_per_mirror/1/mirror"};
@@ -296,8 +297,8 @@ TEST(ReportFields, JsonHoldsEachFigureUnderItsName) {
     EXPECT_THAT(found, testing::UnorderedElementsAreArray(wanted)) << "a figure nobody looks at";
 }
 
-/// Fields of a line without quotes.
-std::vector<std::string> split(const std::string& line) {
+/// Returns the fields of the first line of a CSV text that has no quotes.
+std::vector<std::string> report_fields_split(const std::string& line) {
     std::vector<std::string> fields(1);
     for (const char c : line) {
         if (c == '\r') break;
@@ -309,7 +310,7 @@ std::vector<std::string> split(const std::string& line) {
     return fields;
 }
 
-/// A field of the line by its column, or of a list in it.
+/// Returns the number in a CSV column. "name#i" means entry i of the list in column "name".
 double number_in(const std::map<std::string, std::string>& line, const std::string& column) {
     const std::size_t hash = column.find('#');
     std::istringstream list(line.at(column.substr(0, hash)));
@@ -320,16 +321,16 @@ double number_in(const std::map<std::string, std::string>& line, const std::stri
     return number;
 }
 
-/// What the tests of this program add to the table.
+/// Returns whether a test of this program has registered this metric.
 bool is_of_a_test(const std::string& name) {
     return name.find("test_only") != name.npos || name.starts_with("(test)");
 }
 
-TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
+TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
     const Filler filler;
     const std::string csv = to_csv(distinct(filler), CsvColumns::all);
-    const std::vector<std::string> names = split(csv),
-                                   cells = split(csv.substr(csv.find('\n') + 1));
+    const std::vector<std::string> names = report_fields_split(csv),
+                                   cells = report_fields_split(csv.substr(csv.find('\n') + 1));
     ASSERT_EQ(names.size(), cells.size());
     std::map<std::string, std::string> found;
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -351,14 +352,14 @@ TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
     std::set<std::string> there;
     for (const auto& [name, field] : found) there.insert(name);
     EXPECT_EQ(there, wanted);
-    EXPECT_EQ(found["failed"], "1"); // it has pixels that are no numbers
+    EXPECT_EQ(found["failed"], "1"); // because the row has pixels that are not finite
     EXPECT_EQ(found["on_front"], "0");
     EXPECT_EQ(found["moves"], "0");
     EXPECT_EQ(found["noisy"], "0");
 }
 
-/// The table's cells by the names of its columns.
-std::map<std::string, std::string> cells_of(const Table& table, std::size_t row) {
+/// Returns the cells of a table's row, by column name.
+std::map<std::string, std::string> report_fields_cells_of(const Table& table, std::size_t row) {
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
         cells[table.columns[i].name] = table.rows.at(row).at(i);
@@ -371,7 +372,7 @@ std::string with_decimals(double value, int decimals) {
     return text;
 }
 
-TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
+TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
     Filler filler;
     filler.row.memory_bytes = 5 << 20;
     const Row& row = filler.row;
@@ -380,7 +381,8 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
     const auto degrees = [](double value) { return with_decimals(value, 2); };
     const auto percent = [](double share) { return with_decimals(100 * share, 2); };
 
-    std::map<std::string, std::string> cells = cells_of(rows_table(distinct(filler)), 0);
+    std::map<std::string, std::string> cells = report_fields_cells_of(rows_table(distinct(filler)),
+                                                                      0);
     const std::map<std::string, std::string> wanted{
         {"Row", row.label},
         {"R", std::to_string(row.scene_passes)},
@@ -422,13 +424,13 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
     EXPECT_EQ(cells, wanted);
 
     EXPECT_EQ(
-        cells_of(mirror_table(distinct(filler)), 0),
+        report_fields_cells_of(mirror_table(distinct(filler)), 0),
         (std::map<std::string, std::string>{{"Row", row.label},
                                             {"Mirror 1", error(row.error_per_mirror[0].flip)},
                                             {"Mirror 2", error(row.error_per_mirror[1].flip)}}));
 
     const LookupError& lookup = *row.lookup;
-    EXPECT_EQ(cells_of(lookup_table(distinct(filler)), 0),
+    EXPECT_EQ(report_fields_cells_of(lookup_table(distinct(filler)), 0),
               (std::map<std::string, std::string>{
                   {"Row", row.label},
                   {"Pixels", std::to_string(lookup.pixels)},
@@ -441,8 +443,8 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
                   {"Traced, %", percent(*row.traced_fraction)}}));
 }
 
-/// First what ranks rows, in the order of what it is worth, wherever errors stand.
-TEST(ReportFields, HeadlineErrorsStandFirst) {
+/// The errors by which rows are ranked come first, in the same order in tables and in JSON.
+TEST(ReportFields, ErrorsThatRankRowsComeFirst) {
     const Comparison made = distinct(Filler());
     std::vector<std::string> titles;
     for (const Column& column : rows_table(made).columns) titles.push_back(column.name);
@@ -460,8 +462,9 @@ TEST(ReportFields, HeadlineErrorsStandFirst) {
                                             "longest_line"));
 }
 
-/// What draws each mirror stands in JSON for every row, and in a table for rows that are plans.
-TEST(ReportFields, APlanIsReadMirrorByMirror) {
+/// JSON names the technique of each mirror for every row. The table of plans has only rows that are
+/// plans.
+TEST(ReportFields, ReportNamesTheTechniqueOfEachMirrorOfAPlan) {
     using namespace catoptric::report::sample;
     Row one = row("reuse", 5, .1, .2), plan = row("1=reuse 2=secant:face=64", 7, .1, .1);
     plan.technique = "plan";

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-// A comparison that nobody made, for the tests of what is written about one.
+// A made-up comparison, for tests of reports.
 namespace catoptric::report::sample {
 
 using measure::Difference;
 using measure::Picture;
 using measure::Summary;
 
-/// Six rounds, half of them longer by the share `jitter` and half shorter. Two without are apart
-/// unless they are equal.
+/// Returns the times of six rounds: half are `ms` times 1 + jitter, half are `ms` times 1 - jitter.
+/// Without jitter, two summaries tie only if they are equal.
 inline Summary times(double ms, double jitter = 0) {
     const double more = ms * (1 + jitter), less = ms * (1 - jitter);
     Summary made{ms, ms * 0.9, ms * 1.1, ms * 0.05, 3, {ms * 0.9, ms, ms * 1.1}};
@@ -97,7 +97,8 @@ inline Comparison comparison(std::vector<Row> rows) {
     return made;
 }
 
-/// Four rows; reuse is beaten by parallax, the reference is there itself.
+/// Returns a comparison of four rows. `parallax` beats `reuse`, and the last row is the reference
+/// itself.
 inline Comparison usual() {
     Row exact = row("raytrace:depth=16", 12, 0, 0,
                     {number("depth", 16, true), choice("sphere", "mesh")});
@@ -110,7 +111,7 @@ inline Comparison usual() {
     return made;
 }
 
-/// What report.md says.
+/// Returns the text of report.md.
 inline std::string said(const Comparison& made) { return to_markdown(made); }
 
 } // namespace catoptric::report::sample

@@ -5,6 +5,7 @@
 #include "measure/picture_file.hpp"
 #include "report_sample.hpp"
 #include "support/folder.hpp"
+#include "support/special_values.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -24,9 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
+TEST(ReportJson, JsonReportHasTheDocumentedFieldsInOrder) {
     const std::string text = catoptric::report::to_json(usual());
     const auto document = nlohmann::ordered_json::parse(text);
     std::vector<std::string> names;
@@ -44,7 +43,7 @@ TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
     EXPECT_EQ(document["warnings"], json::array());
 }
 
-TEST(ReportJson, SaysOfARowWhatTheContractAsks) {
+TEST(ReportJson, JsonRowHasTheDocumentedFields) {
     const json document = json::parse(catoptric::report::to_json(usual()));
     const json& first = document["rows"][0];
     for (const char* name : {"technique",
@@ -84,9 +83,9 @@ TEST(ReportJson, SaysOfARowWhatTheContractAsks) {
               json::parse(R"({"primary": 12, "mirror": 6, "shadow": 18})"));
 }
 
-TEST(ReportJson, WritesNullWhereThereIsNoNumber) {
+TEST(ReportJson, JsonReportWritesNullForMissingNumbers) {
     Comparison made = usual();
-    made.rows[0].error.rmse = kNaN;
+    made.rows[0].error.rmse = test::kDoubleNan;
     made.rows[0].gpu_ms.p95 = std::numeric_limits<double>::infinity();
     made.reference_gpu_ms = {};
     const json document = json::parse(catoptric::report::to_json(made));
@@ -105,7 +104,7 @@ TEST(ReportJson, WritesNullWhereThereIsNoNumber) {
     EXPECT_TRUE(document["reference"]["gpu_ms"].is_null());
 }
 
-TEST(ReportJson, SaysWhatAnAutomaticFaceStoodFor) {
+TEST(ReportJson, JsonReportStoresTheEdgeThatAnAutomaticFaceChose) {
     Comparison made = usual();
     made.rows[1].settings = {choice("face", "auto", true)};
     made.rows[1].auto_face = {.edge = 64, .needs = {39.5, 0}};
@@ -115,7 +114,7 @@ TEST(ReportJson, SaysWhatAnAutomaticFaceStoodFor) {
     EXPECT_TRUE(document["rows"][0]["auto_face"].is_null());
 }
 
-TEST(ReportJson, MarksRowsThatFailedAndKeepsItsManners) {
+TEST(ReportJson, JsonReportMarksFailedRowsAndAcceptsInvalidUtf8) {
     Comparison made = usual();
     made.rows[1].error.nonfinite = 2;
     made.clear_ms = times(0.5);
@@ -126,7 +125,7 @@ TEST(ReportJson, MarksRowsThatFailedAndKeepsItsManners) {
     EXPECT_EQ(document["clear_ms"]["median"], 0.5);
 }
 
-TEST(ReportJson, HoldsARunWithoutRows) {
+TEST(ReportJson, ReportOfARunWithoutRowsIsValid) {
     const Comparison nothing;
     const json document = json::parse(catoptric::report::to_json(nothing));
     EXPECT_EQ(document["rows"], json::array());
@@ -136,7 +135,7 @@ TEST(ReportJson, HoldsARunWithoutRows) {
     EXPECT_THAT(catoptric::report::to_html(nothing), HasSubstr("</html>"));
 }
 
-TEST(ReportCsv, QuotesFieldsAndEndsLinesAsTheStandardSays) {
+TEST(ReportCsv, CsvReportQuotesFieldsAndEndsLinesByTheStandard) {
     Comparison made = usual();
     made.rows[0].label = "naive:bounces=0,face=512";
     made.rows[1].model = "say \"everything\"\nor not";
@@ -149,7 +148,7 @@ TEST(ReportCsv, QuotesFieldsAndEndsLinesAsTheStandardSays) {
     EXPECT_THAT(csv, Not(HasSubstr("nan")));
 }
 
-TEST(ReportCsv, GivesEveryLineTheSameNumberOfFields) {
+TEST(ReportCsv, EveryCsvLineHasTheSameNumberOfFields) {
     Comparison made = usual();
     made.rows[2].error_per_mirror.clear();
     const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumns::all);
@@ -161,11 +160,11 @@ TEST(ReportCsv, GivesEveryLineTheSameNumberOfFields) {
         if (c == ',' && !quoted) ++commas.back();
         if (c == '\n' && !quoted) commas.push_back(0);
     }
-    ASSERT_EQ(commas.size(), 6U); // the header, four rows, nothing
+    ASSERT_EQ(commas.size(), 6U); // the header, four rows and an empty rest
     for (int line = 1; line < 5; ++line) EXPECT_EQ(commas[line], commas[0]);
 }
 
-TEST(ReportHtml, EscapesAndNeedsNothingFromOutside) {
+TEST(ReportHtml, HtmlReportEscapesTextAndLoadsNothingFromOutside) {
     Comparison made = usual();
     made.scene.name = "<script>alert('x')</script>\" onload=\"&";
     made.warnings = {"<img src=x>"};
@@ -181,7 +180,7 @@ TEST(ReportHtml, EscapesAndNeedsNothingFromOutside) {
         EXPECT_THAT(html, Not(HasSubstr(outside)));
 }
 
-TEST(ReportHtml, HoldsThePlotAndEveryPicture) {
+TEST(ReportHtml, HtmlReportEmbedsThePlotAndEveryPicture) {
     const std::string html = catoptric::report::to_html(usual());
     const std::regex pictures(
         "<img [^>]*alt=\"[^\"]+\" src=\"data:image/png;base64,iVBORw0KGgo[A-Za-z0-9+/]*=*\">");
@@ -194,8 +193,9 @@ TEST(ReportHtml, HoldsThePlotAndEveryPicture) {
     EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
-/// A bar of the plot is as long as the time's interval, and there is none where that is not known.
-TEST(ReportHtml, DrawsIntervalsOfTimes) {
+/// A bar in the plot is as long as the 95 % interval of the row's time. A row without an interval
+/// has no bar.
+TEST(ReportHtml, HtmlPlotDrawsIntervalsOfTimes) {
     using catoptric::report::to_html;
     Comparison made = usual();
     made.rows[1].gpu_ms = times(7, .2);
@@ -223,7 +223,7 @@ protected:
     }
 };
 
-TEST_F(ReportWrite, PutsEveryFileThereAndReplacesOldOnesWhole) {
+TEST_F(ReportWrite, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
     const fs::path out = folder / "out";
     fs::create_directories(out / "images");
     catoptric::write_file(out / "report.json", std::string(1 << 20, 'x'));
@@ -241,13 +241,13 @@ TEST_F(ReportWrite, PutsEveryFileThereAndReplacesOldOnesWhole) {
     EXPECT_EQ(std::distance(fs::directory_iterator(out / "images"), fs::directory_iterator()), 13);
 }
 
-TEST_F(ReportWrite, MakesTheFolderWithItsParents) {
+TEST_F(ReportWrite, WritingAReportCreatesTheFolderAndItsParents) {
     const fs::path out = folder / "missing" / "too" / "out";
     catoptric::report::write(usual(), out);
     EXPECT_EQ(catoptric::read_file(out / "report.json"), catoptric::report::to_json(usual()));
 }
 
-TEST_F(ReportWrite, RefusesAFileWhereTheFolderShouldBe) {
+TEST_F(ReportWrite, WritingAReportFailsIfTheFolderIsAFile) {
     catoptric::write_file(folder / "out", "a file");
     const Error error = error_of_writing_to(folder / "out");
     EXPECT_EQ(error.failure, Failure::cannot_create);

@@ -15,7 +15,7 @@ using namespace catoptric::report::sample;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(ReportMarkdown, SetsTheSeedTableBesideOurs) {
+TEST(ReportMarkdown, MarkdownShowsTheSeedTableBesideMeasuredRows) {
     const std::string text = said(usual());
     EXPECT_TRUE(std::regex_search(
         text,
@@ -30,7 +30,7 @@ TEST(ReportMarkdown, SetsTheSeedTableBesideOurs) {
     EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
-TEST(ReportMarkdown, TakesForTheReportsRowsOnlyThoseWithDefaultKnobs) {
+TEST(ReportMarkdown, MarkdownMatchesSeedRowsOnlyWithDefaultKnobs) {
     Comparison made = usual();
     const std::regex traced(R"(93\.0 \| raytrace:depth=8 +\|)"), reused(R"(7\.4 \| reuse +\|)");
     EXPECT_FALSE(std::regex_search(said(made), traced));
@@ -46,7 +46,7 @@ TEST(ReportMarkdown, TakesForTheReportsRowsOnlyThoseWithDefaultKnobs) {
             "here raytrace:depth=8 takes 1.67 times as long (95 %: 1.67 to 1.67) as parallax"));
 }
 
-TEST(ReportMarkdown, SaysWhatAProcessorsTimesAre) {
+TEST(ReportMarkdown, MarkdownExplainsTimesOfASoftwareDriver) {
     Comparison made = usual();
     EXPECT_THAT(said(made), Not(HasSubstr("processor time")));
     made.device.type = "cpu";
@@ -57,7 +57,7 @@ TEST(ReportMarkdown, SaysWhatAProcessorsTimesAre) {
     EXPECT_THAT(said(made), HasSubstr("no light: ambient only"));
 }
 
-TEST(ReportMarkdown, PutsTheFrontInWords) {
+TEST(ReportMarkdown, MarkdownDescribesTheFrontInWords) {
     const std::string text = said(usual());
     EXPECT_THAT(
         text, HasSubstr("naive:bounces=0 (2.00 ms, FLIP 0.5000); parallax (6.00 ms, FLIP 0.1000); "
@@ -66,7 +66,7 @@ TEST(ReportMarkdown, PutsTheFrontInWords) {
     EXPECT_THAT(text, HasSubstr("no ray-traced row beats"));
 }
 
-TEST(ReportMarkdown, SaysSoWhereRayTracingWins) {
+TEST(ReportMarkdown, MarkdownSaysWhichRowsRayTracingBeats) {
     Comparison made = usual();
     made.rows[3].gpu_ms = times(5);
     made.pareto = {0, 3};
@@ -76,26 +76,26 @@ TEST(ReportMarkdown, SaysSoWhereRayTracingWins) {
     made.rows[3].gpu_ms = times(1);
     made.pareto = {3};
     EXPECT_THAT(said(made), HasSubstr("ray tracing beats every other row, 3 of 3."));
-    made.rows[3].error.nonfinite = 1; // what failed beats nobody
+    made.rows[3].error.nonfinite = 1; // a failed row beats no row
     EXPECT_THAT(said(made), HasSubstr("no ray-traced row beats"));
     EXPECT_THAT(said(made), HasSubstr("raytrace:depth=16 failed"));
 }
 
-/// The reader's first question: on which device, and which way wins.
-TEST(ReportWords, VerdictAndDeviceComeFirst) {
+/// The device and the winning technique come first, because readers ask for them first.
+TEST(ReportWords, VerdictAndDeviceComeFirstInReports) {
     using catoptric::report::to_html;
     Comparison made = usual();
     const std::string verdict = "On this device, Card, no ray-traced row beats any other row.";
     EXPECT_LT(said(made).find(verdict), said(made).find("**Scene**"));
     EXPECT_LT(to_html(made).find(verdict), to_html(made).find("Fastest"));
-    made.rows.pop_back(); // the ray-traced one
+    made.rows.pop_back(); // removes the ray-traced row
     EXPECT_THAT(said(made),
                 HasSubstr("On this device, Card, fastest is naive:bounces=0, closest is "
                           "parallax (6.00 ms, FLIP 0.1000)."));
 }
 
-/// A time without its device says nothing.
-TEST(ReportMarkdown, NamesTheDeviceBesideTimes) {
+/// A time means little without its device, so the report names the device beside times.
+TEST(ReportMarkdown, MarkdownNamesTheDeviceBesideTimes) {
     Comparison made = usual();
     made.device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
     EXPECT_THAT(said(made), HasSubstr("| ms, GTX 770 |"));
@@ -103,8 +103,9 @@ TEST(ReportMarkdown, NamesTheDeviceBesideTimes) {
     EXPECT_THAT(said(made), HasSubstr("Every row, times on llvmpipe (LLVM 15.0.6, 256 bits)"));
 }
 
-/// Rows that win some rounds each are not put one before the other, in any sentence.
-TEST(ReportMarkdown, NamesFirstWhatNoRowDraws) {
+/// Smooth dielectrics whose reflections no row draws are the first remark of the report. Without
+/// such pixels, the report does not mention them.
+TEST(ReportMarkdown, MarkdownFirstNamesSurfacesThatNoRowDraws) {
     Comparison made = usual();
     EXPECT_THAT(said(made), Not(HasSubstr("smooth dielectrics"))) << "no column without a pixel";
     EXPECT_THAT(to_csv(made), Not(HasSubstr("dielectrics_flip")));
@@ -127,16 +128,16 @@ TEST(ReportMarkdown, NamesFirstWhatNoRowDraws) {
                                       "these pixels the other rows' FLIP is 0.1250"));
 }
 
-TEST(ReportMarkdown, CallsATieWhereNeitherWinsEveryRound) {
+TEST(ReportMarkdown, MarkdownCallsATieIfNeitherRowWinsEveryRound) {
     Comparison made = usual();
     made.rows[1].gpu_ms = times(6.5, .1);
-    made.rows[1].error.flip = made.rows[2].error.flip; // reuse as close as parallax, slower by 8 %
+    made.rows[1].error.flip = made.rows[2].error.flip; // `reuse`: FLIP of `parallax`, 8 % slower
     made.pareto = {0, 2, 1, 3};
     std::string text = said(made);
     EXPECT_THAT(text, Not(HasSubstr("beats reuse")));
     EXPECT_THAT(text, HasSubstr("takes as long as part two (6.00 against 6.50 ms: round by round "
                                 "neither is the faster, they are not told apart"));
-    made.rows[1].gpu_ms = times(7.5, .1); // 6.75 and more against 6
+    made.rows[1].gpu_ms = times(7.5, .1); // rounds of 6.75 ms or more; `parallax`: 6 ms
     made.pareto = {0, 2, 3};
     text = said(made);
     EXPECT_THAT(text, HasSubstr("parallax beats reuse"));
@@ -155,20 +156,22 @@ TEST(ReportMarkdown, CallsATieWhereNeitherWinsEveryRound) {
                                       "to 1.65) as parallax"));
 }
 
-TEST(ReportMarkdown, NamesRowsThatOnlyBeatenRowsBeat) {
-    // b is closer than c and not told apart from it, a closer than b likewise; but a is slower than
-    // c.
+TEST(ReportMarkdown, MarkdownNamesRowsThatOnlyBeatenRowsBeat) {
+    // `parallax` ties with `reuse` in time and has less error, so `parallax` beats `reuse`. In the
+    // same way `secant` beats `parallax`. But `secant` is slower than `reuse` and does not beat
+    // `reuse`.
     Comparison made = comparison(
         {row("reuse", 10, .1, .3), row("parallax", 12, .1, .2), row("secant", 14, .1, .1)});
-    made.rows[1].gpu_ms = times(12, .2); // from 9.6 to 14.4
+    made.rows[1].gpu_ms = times(12, .2); // rounds from 9.6 to 14.4 ms
     made.pareto = {2};
     EXPECT_THAT(said(made), HasSubstr("secant beats parallax (12.0 ms, FLIP 0.2000)."));
     EXPECT_THAT(said(made),
                 HasSubstr("Beaten only by rows that are beaten themselves: reuse (10.0 ms"));
 }
 
-/// A row that draws nothing in its mirrors is no technique, however fast.
-TEST(ReportHtml, NeverCallsBlackMirrorsFastest) {
+/// A row that leaves its mirrors black draws no reflections, so the report never calls it the
+/// fastest.
+TEST(ReportHtml, HtmlReportNeverCallsBlackMirrorsFastest) {
     using catoptric::report::to_html;
     Comparison made = usual();
     EXPECT_THAT(to_html(made), HasSubstr("Fastest</dt><dd>2.00 ms <small>naive:bounces=0"));
@@ -182,7 +185,7 @@ TEST(ReportHtml, NeverCallsBlackMirrorsFastest) {
                           "0.5000)."));
 }
 
-TEST(ReportMarkdown, SpeaksOfTheSeedReportBesideItsOwnSceneOnly) {
+TEST(ReportMarkdown, ReportMentionsTheSeedReportOnlyForTheSeedScene) {
     using catoptric::report::to_html;
     Comparison made = usual();
     made.rows.push_back(naive(1, 7, 0.0880, 0.2));
@@ -198,8 +201,8 @@ TEST(ReportMarkdown, SpeaksOfTheSeedReportBesideItsOwnSceneOnly) {
     EXPECT_THAT(said(made), HasSubstr("Inter-reflections: with i = 1 to 2"));
 }
 
-TEST(ReportMarkdown, JudgesTheGuessAboutClears) {
-    Comparison made = usual(); // 2 ms against 7 ms
+TEST(ReportMarkdown, MarkdownSaysWhetherClearsExplainTheSeedTimes) {
+    Comparison made = usual(); // `naive:bounces=0` takes 2 ms, `reuse` takes 7 ms
     EXPECT_THAT(
         said(made),
         HasSubstr("is not slower than part two (2.00 against 7.00 ms); what a clear costs"));
@@ -219,7 +222,7 @@ TEST(ReportMarkdown, JudgesTheGuessAboutClears) {
     EXPECT_THAT(said(made), Not(HasSubstr("Clears:")));
 }
 
-TEST(ReportMarkdown, SetsStoredDistancesSideBySide) {
+TEST(ReportMarkdown, MarkdownComparesFormatsOfStoredDistances) {
     Comparison made = usual();
     EXPECT_THAT(said(made), Not(HasSubstr("Stored distance")));
     made.rows.push_back(unorm8(1000, 0.035));
@@ -237,7 +240,7 @@ TEST(ReportMarkdown, SetsStoredDistancesSideBySide) {
     EXPECT_THAT(said(made), Not(HasSubstr("cannot have been made")));
 }
 
-TEST(ReportMarkdown, SaysWhetherInterReflectionsHelp) {
+TEST(ReportMarkdown, MarkdownSaysWhetherInterReflectionsHelp) {
     Comparison made = usual();
     EXPECT_THAT(said(made), Not(HasSubstr("Inter-reflections:")));
     made.rows.push_back(naive(1, 7, 0.0880, 0.2));
@@ -254,14 +257,15 @@ TEST(ReportMarkdown, SaysWhetherInterReflectionsHelp) {
     EXPECT_THAT(said(made), HasSubstr("bring it closer to the reference, by 0.0380 in all"));
 }
 
-TEST(ReportMarkdown, KeepsHostileNamesInTheirCells) {
+TEST(ReportMarkdown, MarkdownEscapesNamesInTableCells) {
     Comparison made = usual();
     made.scene.name = "a|b\n# <b>c</b>";
     EXPECT_THAT(said(made), HasSubstr("a\\|b \\# \\<b\\>c\\</b\\>"));
 }
 
-/// What was measured while others were at work is not to be believed in silence.
-TEST(ReportMarkdown, SaysOnTopWhichRowsAreNoisy) {
+/// Times measured while other programs used the processors are not reliable. The report must name
+/// such rows at its top.
+TEST(ReportMarkdown, ReportNamesNoisyRowsAtTheTop) {
     using catoptric::report::to_html;
     Comparison made = usual();
     EXPECT_THAT(said(made), Not(HasSubstr("oisy")));
@@ -274,9 +278,9 @@ TEST(ReportMarkdown, SaysOnTopWhichRowsAreNoisy) {
     EXPECT_THAT(to_html(made), HasSubstr("<span class=\"badge\">noisy</span>"));
 }
 
-/// Rows that tie share a place, wherever places stand.
-TEST(ReportMarkdown, GivesRowsThatTieOnePlace) {
-    Comparison made = usual(); // 2, 7, 6 and 12 ms
+/// Rows that tie in time share a place in the table.
+TEST(ReportMarkdown, MarkdownGivesTiedRowsTheSamePlace) {
+    Comparison made = usual(); // the four rows take 2, 7, 6 and 12 ms
     EXPECT_TRUE(std::regex_search(
         said(made), std::regex(R"(\| reuse +\| +3 \| +6 \| +26 \| +7\.00 \| +7\.00–7\.00 \|)")))
         << said(made);

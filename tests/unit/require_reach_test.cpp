@@ -1,4 +1,5 @@
-// Faces that nobody asks for, lights that reach nothing seen, and what is said of them.
+// Tests of culled capture faces and culled shadow maps, of the text about culled work, and of
+// suggested plans.
 #include "app/seeded_camera.hpp"
 #include "require/culled_work.hpp"
 #include "require/reach.hpp"
@@ -16,25 +17,25 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-TEST(RequireFaces, OfAFlatMirrorAreThoseBeforeIt) {
+TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
     scene::Scene scene = scene::flat();
     const Model model = required({scene, scene.cameras[0]});
-    EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4)); // the mirror looks to -z
+    EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4)); // the mirror faces -z
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "face +Z of the capture of mirror 1 'mirror'");
     EXPECT_EQ(model.left_out[0].saves, "1 of six faces, each time that they would be made anew");
 }
 
-TEST(RequireFaces, AreAllOfAMirrorThatIsSeenFromBothSides) {
+TEST(RequireFaces, FlatMirrorSeenFromBothSidesNeedsAllFaces) {
     scene::Scene scene = scene::flat();
-    // A ball behind the mirror's plane sees its back; the wall is out of the way.
+    // A ball behind the mirror's plane sees the mirror's back. The wall between them is moved away.
     const std::size_t mirror = scene.objects[6].material;
     scene.objects[4].world_from_object[3].z = 5;
     test::add_ball(scene, "ball", mirror, {1.7, 1, 4}, .2, 2);
     EXPECT_EQ(required({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
 }
 
-TEST(RequireFaces, OfPanelsOnOneWallAreThoseBeforeIt) {
+TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
     scene::Scene scene = scene::flat();
     const std::size_t mirror = scene.objects[6].material;
     test::add_quad(scene, "beside", mirror, {1.9, .5, 2.98}, {1.5, .5, 2.98}, {1.5, 2.1, 2.98},
@@ -46,7 +47,7 @@ TEST(RequireFaces, OfPanelsOnOneWallAreThoseBeforeIt) {
     EXPECT_EQ(model.left_out[0].what, "face +Z of the captures of mirrors 1-2");
 }
 
-TEST(RequireFaces, AreAllOfAMirrorThatIsNotFlatOrThatTheOrthographicEyeMayPass) {
+TEST(RequireFaces, CurvedMirrorsAndOrthographicCamerasNeedAllFaces) {
     scene::Scene scene = scene::flat();
     scene.cameras[0].orthographic_height = 3;
     EXPECT_EQ(required({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
@@ -55,7 +56,7 @@ TEST(RequireFaces, AreAllOfAMirrorThatIsNotFlatOrThatTheOrthographicEyeMayPass) 
     EXPECT_EQ(flat_normal(scene.meshes[scene.objects[6].mesh]), dvec3(0, 0, -1));
 }
 
-TEST(RequireLights, ThatReachNothingHaveNoMap) {
+TEST(RequireLights, LightThatReachesNothingVisibleNeedsNoShadowMap) {
     scene::Scene scene = test::room(1, 1);
     const auto bare = [&](const char* name, dvec3 at, double range) {
         scene.punctual.push_back({.name = name, .intensity = vec3(4), .range = range});
@@ -65,7 +66,7 @@ TEST(RequireLights, ThatReachNothingHaveNoMap) {
     const Model model = required({scene, scene.cameras[0]});
     ASSERT_EQ(model.lights.size(), 3u);
     EXPECT_TRUE(model.lights[0].has_map);
-    EXPECT_FALSE(model.lights[1].has_map); // the ceiling is 3 away
+    EXPECT_FALSE(model.lights[1].has_map); // the ceiling is 3 away, the range is 2.9
     EXPECT_TRUE(model.lights[2].has_map);
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "the shadow map of light 2 'near'");
@@ -73,10 +74,11 @@ TEST(RequireLights, ThatReachNothingHaveNoMap) {
               "nothing that is seen lies within its range and in front of it");
 }
 
-TEST(RequireLights, ThatShineAwayFromEverythingSeenHaveNoMap) {
+TEST(RequireLights, LightShiningAwayFromVisibleSurfacesNeedsNoShadowMap) {
     scene::Scene scene = test::room(0, 0);
     const std::size_t lamp = add_material(scene, {.emission = vec3(9)});
-    // Above the ceiling, upwards; the other way round it shines at the ceiling's back.
+    // Both lamps are above the ceiling. The first shines upwards, the second down at the ceiling's
+    // back.
     test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {0, 3, 1}, {1, 3, 1}, {1, 3, 0});
     test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {1, 3, 0}, {1, 3, 1}, {0, 3, 1});
     const Model model = required({scene, scene.cameras[0]});
@@ -86,7 +88,7 @@ TEST(RequireLights, ThatShineAwayFromEverythingSeenHaveNoMap) {
     EXPECT_TRUE(model.lights[1].has_map);
 }
 
-TEST(RequireLeftOut, SaysTheSameOfManyOnce) {
+TEST(RequireLeftOut, CulledWorkOfManyMirrorsIsListedOnce) {
     EXPECT_EQ(ranges({1}), "1");
     EXPECT_EQ(ranges({1, 2, 3, 7, 9, 10}), "1-3, 7, 9-10");
     EXPECT_EQ(names_of(1 | 8 | 32), "+X -Y -Z");
@@ -109,7 +111,7 @@ TEST(RequireLeftOut, SaysTheSameOfManyOnce) {
                 HasSubstr("kept: 24 faces of captures, 1 shadow map\n    why: "));
 }
 
-TEST(RequireSuggest, APlanForEachBuiltInScene) {
+TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
     const auto plan = [](const scene::Scene& rest) {
         const scene::Scene now = scene::at(rest, 0);
         return suggest({now, now.cameras[0], {96, 96}}).plan;
@@ -122,8 +124,8 @@ TEST(RequireSuggest, APlanForEachBuiltInScene) {
     EXPECT_EQ(plan(scene::courtyard()), "hybrid");
 }
 
-/// A mirror stands behind a screen: its bounds are in the camera's view, no pixel shows it.
-TEST(RequireSuggest, CountsThePixelsThatShowAMirror) {
+/// One mirror is behind a screen. Its bounds are in the camera's picture, but no pixel shows it.
+TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
     scene::Scene scene = test::hall();
     const std::size_t mirror = scene.objects.back().material;
     const std::size_t grey = test::add_material(scene, {.name = "screen", .albedo = vec3(.5f)});
@@ -147,9 +149,10 @@ TEST(RequireSuggest, CountsThePixelsThatShowAMirror) {
     EXPECT_LT(open.hidden[0], open.first[0] / 4);
 }
 
-/// A flat mirror shows a ball whose centre is walled in, so the ball's capture shows none of what
-/// the ball reflects. Views in mirrors trace nothing, so planes would show that wrongly.
-TEST(RequireSuggest, PlanesAreNotTakenForMirrorsWhoseCapturesTheyWouldTrust) {
+/// A flat mirror reflects a mirror ball. If a box around the ball's centre encloses it, the ball's
+/// capture shows nothing that the ball reflects. `planar` traces no rays in mirrored views, so it
+/// would draw the ball wrongly.
+TEST(RequireSuggest, PlanarIsNotSuggestedIfMirroredViewsShowWrongCaptures) {
     for (const bool is_walled_in : {false, true}) {
         scene::Scene scene = scene::flat();
         const std::size_t mirror = scene.objects[6].material;
@@ -170,7 +173,7 @@ TEST(RequireSuggest, PlanesAreNotTakenForMirrorsWhoseCapturesTheyWouldTrust) {
     }
 }
 
-TEST(RequireSuggest, SaysWhy) {
+TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     scene::Scene scene = test::hall();
     const std::size_t mirror = scene.objects.back().material;
     scene::Mesh bent = scene::quad("bent", {-1, -1, -1}, {-.4, -1, -1}, {-.4, -.4, -.999},
@@ -190,9 +193,9 @@ TEST(RequireSuggest, SaysWhy) {
     EXPECT_EQ(suggest({test::room(0, 1), scene.cameras[0]}).plan, "hybrid");
 }
 
-/// In drawn views of the four balls, whose centres see all that the balls reflect, nearly all, or
-/// less.
-TEST(RequireSuggest, TracesAMirrorOnlyIfThatTakesATenthOffItsError) {
+/// Tests drawn views of the four balls of the built-in scene. In some views, the capture of a ball
+/// shows all that the ball reflects, in others nearly all or less.
+TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
     const ErrorTable errors;
     const double most = .1 * errors.search / (errors.unknown - errors.search);
     bool is_traced = false, is_searched = false;
@@ -216,8 +219,8 @@ TEST(RequireSuggest, TracesAMirrorOnlyIfThatTakesATenthOffItsError) {
     EXPECT_TRUE(is_searched) << "some mirror hides a little and is not traced";
 }
 
-/// Where all that is seen is flat no capture is looked up with care.
-TEST(RequireSuggest, PlanesNeedNoLargeCaptures) {
+/// If all visible mirrors are flat, `planar` draws them, and small captures suffice.
+TEST(RequireSuggest, PlanarPlansUseSmallCaptures) {
     scene::Scene scene = test::hall();
     EXPECT_EQ(suggest({scene, scene.cameras[0], {96, 96}}).plan, "1=march 2,3=planar");
     scene.objects.erase(scene.objects.begin() +

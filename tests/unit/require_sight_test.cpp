@@ -1,4 +1,5 @@
-// Which mirrors a picture requires: answers that are known, and rays that must find no other.
+// Tests which mirrors a picture requires. Some cases have known answers; in others, random rays
+// must meet no mirror that was called unseen.
 #include "require/frustum.hpp"
 #include "require/sight.hpp"
 #include "scene/load.hpp"
@@ -18,26 +19,33 @@ Wall square() { return wall_of({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}
 
 Bounds<double> around(dvec3 middle, double half) { return {middle - half, middle + half}; }
 
-TEST(RequireWall, HidesWhatLiesInItsShadow) {
+TEST(RequireWall, WallHidesBoxesThatItCoversFromTheEye) {
     const Bounds<double> eye = around({0, 0, 2}, 0);
-    // 3.9 from the eye the wall's shadow is [-1.95, 1.95], of what is 2 from it.
+    // The wall is 2 in front of the eye. At 3.9 in front of the eye, it hides everything from -1.95
+    // to 1.95.
     EXPECT_TRUE(hides(square(), eye, around({0, 0, -2}, 1.3), 0));
     EXPECT_TRUE(hides(square(), eye, around({1.84, 0, -2}, .1), 0));
     EXPECT_FALSE(hides(square(), eye, around({1.86, 0, -2}, .1), 0));
-    EXPECT_FALSE(hides(square(), eye, around({1.84, 0, -2}, .1), .01)); // .995 from the middle
-    EXPECT_FALSE(hides(square(), eye, around({0, 0, -2}, 2.1), 0));     // reaches through the wall
-    EXPECT_FALSE(hides(square(), eye, around({0, 0, 1}, .1), 0));       // before it
+    // The line of sight passes .005 from the wall's edge.
+    EXPECT_FALSE(hides(square(), eye, around({1.84, 0, -2}, .1), .01));
+    // The box reaches through the wall.
+    EXPECT_FALSE(hides(square(), eye, around({0, 0, -2}, 2.1), 0));
+    // The box is in front of the wall.
+    EXPECT_FALSE(hides(square(), eye, around({0, 0, 1}, .1), 0));
 }
 
-TEST(RequireWall, HidesFromARegionWhatItHidesFromEachOfItsPlaces) {
+TEST(RequireWall, WallHidesABoxFromARegionIfHiddenFromEveryPoint) {
     const Bounds<double> target = around({0, 0, -2}, .5);
-    EXPECT_TRUE(hides(square(), around({0, 0, 2}, 1), target, 0)); // crossings up to .8
+    // Lines of sight cross the wall up to .8 from its middle.
+    EXPECT_TRUE(hides(square(), around({0, 0, 2}, 1), target, 0));
     EXPECT_FALSE(hides(square(), around({2.2, 0, 2}, .1), target, 0));
-    EXPECT_FALSE(hides(square(), around({1, 0, 2}, 1), target, 0));  // its far corner looks past
-    EXPECT_FALSE(hides(square(), around({0, 0, .5}, 1), target, 0)); // stands in the wall
+    // The region's far corner sees past the wall.
+    EXPECT_FALSE(hides(square(), around({1, 0, 2}, 1), target, 0));
+    // The region reaches through the wall.
+    EXPECT_FALSE(hides(square(), around({0, 0, .5}, 1), target, 0));
 }
 
-TEST(RequireWall, HasASideWhereItIsThereFromTheFrontAlone) {
+TEST(RequireWall, OneSidedWallHidesOnlyFromTheFront) {
     Wall wall = square();
     wall.front_only = true;
     const Bounds<double> front = around({0, 0, 2}, 0), behind = around({0, 0, -2}, 0);
@@ -47,38 +55,39 @@ TEST(RequireWall, HasASideWhereItIsThereFromTheFrontAlone) {
     EXPECT_FALSE(hides_along(wall, {0, 0, -2}, {0, 0, 1}, around({0, 0, 1}, .9), 0));
 }
 
-TEST(RequireWall, HidesAlongADirection) {
+TEST(RequireWall, WallHidesBoxesAlongParallelLinesOfSight) {
     const dvec3 eye(0, 0, 5), down(0, 0, -1);
     EXPECT_TRUE(hides_along(square(), eye, down, around({0, 0, -3}, .99), 0));
     EXPECT_FALSE(hides_along(square(), eye, down, around({0, 0, -3}, 1.01), 0));
-    EXPECT_FALSE(hides_along(square(), {0, 0, -.5}, down, around({0, 0, -3}, .5), 0)); // behind
-    // Seen at 45 degrees the wall stands over what is as much to the side as it is deep.
+    // The eye is behind the wall.
+    EXPECT_FALSE(hides_along(square(), {0, 0, -.5}, down, around({0, 0, -3}, .5), 0));
+    // At 45 degrees, the wall hides a box that is as far to the side as it is behind the wall.
     const dvec3 slanting = glm::normalize(dvec3(1, 0, -1));
     EXPECT_TRUE(hides_along(square(), eye, slanting, around({3, 0, -3}, .4), 0));
     EXPECT_FALSE(hides_along(square(), eye, slanting, around({0, 0, -3}, .4), 0));
 }
 
-TEST(RequireWall, IsTwoTrianglesThatMakeAConvexQuadrilateral) {
+TEST(RequireWall, WallsAreMadeOfFlatConvexQuadrilaterals) {
     EXPECT_EQ(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})).size(), 1u);
     EXPECT_EQ(quads_of(scene::box("", dvec3(0), dvec3(1))).size(), 6u);
     EXPECT_THAT(quads_of(scene::ball("", 2)), IsEmpty());
-    // Bent along the diagonal; not convex.
+    // The first quadrilateral is bent along its diagonal, the second is not convex.
     EXPECT_THAT(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, .001}, {0, 1, 0})),
                 IsEmpty());
     EXPECT_THAT(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {.2, .2, 0}, {0, 1, 0})), IsEmpty());
 }
 
-TEST(RequireFrustum, TellsFacesByTheirPlanes) {
-    EXPECT_EQ(faces_with(around({3, 0, 0}, 1)), 1);             // +X alone
-    EXPECT_EQ(faces_with(around({0, -3, 0}, 1)), 1 << 3);       // -Y
-    EXPECT_EQ(faces_with(around({3, 3, 0}, .5)), 1 | 1 << 2);   // over the edge of +X and +Y
-    EXPECT_EQ(faces_with(around({-2, 2, -2}, .1)), 2 | 4 | 32); // a corner: -X +Y -Z
+TEST(RequireFrustum, CaptureFacesThatMayShowABoxAreFound) {
+    EXPECT_EQ(faces_with(around({3, 0, 0}, 1)), 1);             // only face +X shows the box
+    EXPECT_EQ(faces_with(around({0, -3, 0}, 1)), 1 << 3);       // only face -Y shows the box
+    EXPECT_EQ(faces_with(around({3, 3, 0}, .5)), 1 | 1 << 2);   // faces +X and +Y show the box
+    EXPECT_EQ(faces_with(around({-2, 2, -2}, .1)), 2 | 4 | 32); // faces -X, +Y and -Z show the box
     EXPECT_EQ(faces_with(around({0, 0, 0}, .1)), kAllFaces);
-    EXPECT_EQ(faces_before({0, 0, 1}, .1), kAllFaces & ~(1 << 5)); // all but -Z
+    EXPECT_EQ(faces_before({0, 0, 1}, .1), kAllFaces & ~(1 << 5)); // all faces except -Z
     EXPECT_EQ(faces_before(glm::normalize(dvec3(1, 0, 1)), .1), kAllFaces);
 }
 
-TEST(RequireFrustum, HoldsWhatIsInThePicture) {
+TEST(RequireFrustum, FrustumHoldsBoxesInThePicture) {
     scene::Camera camera{.eye = {0, 0, 0}, .target = {0, 0, 1}, .vertical_fov_degrees = 90};
     const Picture wide(camera, {200, 100});
     EXPECT_TRUE(wide.may_hold(around({0, 9, 10}, .1)));
@@ -94,7 +103,7 @@ TEST(RequireFrustum, HoldsWhatIsInThePicture) {
     EXPECT_FALSE(parallel.may_hold(around({4.2, 0, 100}, .1)));
 }
 
-/// A hall with three mirrors before a partition and one behind it.
+/// Returns a hall with three mirrors in front of a partition and one mirror behind the partition.
 scene::Scene parted() {
     scene::Scene scene{.name = "parted"};
     const std::size_t white = add_material(scene, {.albedo = vec3(.7f)}),
@@ -108,7 +117,7 @@ scene::Scene parted() {
     return scene;
 }
 
-TEST(RequireSight, WhatNobodySeesIsNotCaptured) {
+TEST(RequireSight, MirrorThatIsNotSeenIsNotCaptured) {
     const scene::Scene scene = parted();
     const Model model = required({scene, scene.cameras[0]});
     ASSERT_EQ(model.mirrors.size(), 4u);
@@ -116,7 +125,7 @@ TEST(RequireSight, WhatNobodySeesIsNotCaptured) {
     EXPECT_FALSE(model.mirrors[3].is_seen);
     EXPECT_FALSE(model.mirrors[3].is_captured);
     EXPECT_FALSE(model.mirrors[0].seen_in);
-    EXPECT_EQ(model.mirrors[2].seen_in, MirrorId(1)); // behind the camera
+    EXPECT_EQ(model.mirrors[2].seen_in, MirrorId(1)); // mirror 3 is behind the camera
     EXPECT_THAT(model.mirrors[0].sees, ElementsAre(1, 2));
     EXPECT_THAT(model.mirrors[3].sees, IsEmpty());
     ASSERT_EQ(model.left_out.size(), 1u);
@@ -126,7 +135,7 @@ TEST(RequireSight, WhatNobodySeesIsNotCaptured) {
     EXPECT_EQ(model.left_out[0].error, 0);
 }
 
-TEST(RequireSight, FollowsAWallThatMoves) {
+TEST(RequireSight, SightFollowsAMovingWall) {
     scene::Scene scene = parted();
     Requirements requirements(scene);
     EXPECT_FALSE(requirements.of({scene, scene.cameras[0]}).mirrors[3].is_captured);
@@ -137,7 +146,7 @@ TEST(RequireSight, FollowsAWallThatMoves) {
     EXPECT_THAT(model.left_out, IsEmpty());
 }
 
-TEST(RequireSight, SeesThroughWhatIsCutOutOrPassedBy) {
+TEST(RequireSight, MaskedAndCameraHiddenWallsHideNoMirror) {
     for (const bool is_masked : {true, false}) {
         scene::Scene scene = parted();
         if (is_masked) {
@@ -147,14 +156,14 @@ TEST(RequireSight, SeesThroughWhatIsCutOutOrPassedBy) {
         }
         const Model model = required({scene, scene.cameras[0]});
         EXPECT_TRUE(model.mirrors[3].is_captured);
-        // Captures are no cameras: what these pass by, stands in their way.
+        // An object that is hidden from cameras still shows in captures, so it blocks their view.
         EXPECT_EQ(model.mirrors[0].sees.size(), is_masked ? 3u : 2u);
     }
 }
 
-TEST(RequireSight, WithoutASeenMirrorNothingIsCaptured) {
+TEST(RequireSight, NoMirrorIsCapturedIfNoneIsSeen) {
     scene::Scene scene = parted();
-    scene.cameras[0].target = {0, -1, -2.01}; // at the floor
+    scene.cameras[0].target = {0, -1, -2.01}; // the camera looks at the floor
     scene.cameras[0].vertical_fov_degrees = 10;
     const Model model = required({scene, scene.cameras[0]});
     for (const MirrorNeeds& needs : model.mirrors) EXPECT_FALSE(needs.is_captured);
@@ -164,25 +173,27 @@ TEST(RequireSight, WithoutASeenMirrorNothingIsCaptured) {
                                      "in which they could show");
 }
 
-TEST(RequireFrustum, HoldsTheTriangleItself) {
+TEST(RequireFrustum, FrustumTestsATriangleAndNotItsBounds) {
     const scene::Camera camera{.target = {0, 0, 1}, .vertical_fov_degrees = 90};
     const Picture square(camera, {100, 100});
-    // Across the upper right corner of the picture, 10 from the eye: bounds reach in, it does not.
+    // A triangle 10 in front of the eye, near a corner of the picture. Its bounds reach into the
+    // picture, the triangle does not.
     const std::array<dvec3, 3> aslant{{{-14, 9, 10}, {-9, 15, 10}, {-14, 16, 10}}};
     Bounds<double> box;
     for (const dvec3& corner : aslant) box.add(corner);
     EXPECT_TRUE(square.may_hold(box));
     EXPECT_FALSE(square.may_hold_triangle(aslant, 0));
     EXPECT_TRUE(square.may_hold_triangle(aslant, 2));
-    // Around the whole picture: no corner of it is inside.
+    // A triangle around the whole picture, so that none of its corners is inside.
     EXPECT_TRUE(square.may_hold_triangle({{{-99, -50, 10}, {99, -50, 10}, {0, 99, 10}}}, 0));
     EXPECT_FALSE(square.may_hold_triangle({{{-99, -50, -10}, {99, -50, -10}, {0, 99, -10}}}, 0));
-    EXPECT_TRUE(square.may_hold_ball({0, 11, 10}, .8)); // .707 beyond the plane
+    EXPECT_TRUE(square.may_hold_ball({0, 11, 10}, .8)); // the centre is .707 outside the plane
     EXPECT_FALSE(square.may_hold_ball({0, 11, 10}, .7));
 }
 
-/// The bounds of the gallery's first ring reach into the first camera's picture, the ring does not.
-TEST(RequireSight, AMirrorIsSeenByItsSurfaceNotByItsBounds) {
+/// The bounds of mirror 1 of the gallery reach into the first camera's picture, but the mirror's
+/// surface does not.
+TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
     const scene::Scene gallery = scene::load("gallery", {});
     const scene::Scene now = scene::at(gallery, 0);
     const Model model = required({now, scene::camera_at(gallery.cameras[0], 0)});
@@ -193,12 +204,14 @@ TEST(RequireSight, AMirrorIsSeenByItsSurfaceNotByItsBounds) {
     EXPECT_TRUE(picture.may_hold(scene::bounds(now, ball)));
 }
 
-/// Counts of what was found and of what was not to be.
+/// Number of mirrors called unseen, of mirrors that a capture was said not to show, and of traced
+/// rays.
 struct Found {
     int unseen = 0, not_shown = 0, rays = 0;
 };
 
-/// Rays of the camera to all mirrors.
+/// Traces rays from the camera to random points of all mirrors. The model must call every mirror
+/// that such a ray meets seen, captured and directly seen.
 void look_from_camera(const test::Tree& tree, const scene::Scene& scene, const Model& model,
                       test::Numbers& numbers, Found& found) {
     const Picture picture(scene.cameras[0], {64, 64});
@@ -222,7 +235,9 @@ void look_from_camera(const test::Tree& tree, const scene::Scene& scene, const M
         }
 }
 
-/// Rays from the centre and from the surface of a mirror to all others.
+/// Traces rays from the centre and the surface of mirror `viewer` to all other mirrors. The model
+/// must capture every mirror that such a ray meets. If the ray starts at the centre, the model must
+/// also say that the capture of `viewer` shows the mirror.
 void look_from_mirror(const test::Tree& tree, const scene::Scene& scene, const Model& model,
                       std::size_t viewer, test::Numbers& numbers, Found& found) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
@@ -244,7 +259,7 @@ void look_from_mirror(const test::Tree& tree, const scene::Scene& scene, const M
         }
 }
 
-TEST(RequireSight, RaysFindNoMirrorThatWasCalledUnseen) {
+TEST(RequireSight, RandomRaysMeetNoMirrorThatIsCalledUnseen) {
     Found found;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
         const scene::Scene scene = test::drawn_hall(seed, 6);
@@ -264,7 +279,7 @@ TEST(RequireSight, RaysFindNoMirrorThatWasCalledUnseen) {
         }
         if (testing::Test::HasFailure()) break;
     }
-    EXPECT_GT(found.unseen, 150); // of 900
+    EXPECT_GT(found.unseen, 150); // of 900 mirrors
     EXPECT_GT(found.not_shown, 200);
     EXPECT_GT(found.rays, 100'000);
     RecordProperty("unseen", found.unseen), RecordProperty("not_shown", found.not_shown);

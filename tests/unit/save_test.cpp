@@ -1,4 +1,5 @@
-// What a .glb of ours holds comes back as it was: textures, colours, lights, rigs.
+// Tests that a scene which is saved as .glb and loaded again stays the same: textures, colours,
+// lights and rigs.
 #include "unit/load_fixture.hpp"
 
 #include "scene/shapes.hpp"
@@ -15,7 +16,7 @@ protected:
         save_glb(scene, folder / "x.glb");
         return load((folder / "x.glb").string());
     }
-    /// A square, lit by nothing.
+    /// Returns a scene of one square without lights.
     static Scene square() {
         Scene scene{.name = "x"};
         scene.materials.push_back({.name = "m", .albedo = vec3(.5f), .front_only = true});
@@ -25,7 +26,7 @@ protected:
     }
 };
 
-TEST_F(Save, SurfacesComeBack) {
+TEST_F(Save, SavedMaterialsLoadUnchanged) {
     Scene scene = square();
     const auto image = std::make_shared<const Image>(
         Image{.name = "p", .size = {2, 2}, .texels = {0xff0000ff, 0x8000ff00, 0, 0x12345678}});
@@ -75,7 +76,7 @@ TEST_F(Save, SurfacesComeBack) {
         << "written once";
 }
 
-TEST_F(Save, CoordinatesAndColoursComeBack) {
+TEST_F(Save, SavedTextureCoordinatesAndColoursLoadUnchanged) {
     Scene scene = square();
     Mesh& mesh = scene.meshes[0];
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -87,7 +88,7 @@ TEST_F(Save, CoordinatesAndColoursComeBack) {
     EXPECT_EQ(found.meshes[0].colours, mesh.colours);
 }
 
-TEST_F(Save, LightsAndCamerasComeBack) {
+TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
     using enum Punctual::Kind;
     Scene scene = square();
     dmat4 turned(1);
@@ -125,7 +126,7 @@ TEST_F(Save, LightsAndCamerasComeBack) {
     EXPECT_FALSE(again(square()).exposure);
 }
 
-TEST_F(Save, RigsComeBack) {
+TEST_F(Save, SavedRigsLoadUnchanged) {
     Scene scene = square();
     const auto turns = std::make_shared<const Turns>(
         Turns{.times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}});

@@ -32,11 +32,11 @@ const Mesh& mesh_named(const Scene& scene, const std::string& name) {
     return scene.meshes[object_named(scene, name).mesh];
 }
 
-void expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
+void scene_expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << "component " << i;
 }
 
-/// One object of white light with this mesh.
+/// Returns a scene of one lamp with this mesh, which emits white light.
 Scene glowing(Mesh mesh, const dmat4& world_from_object = dmat4(1)) {
     Scene scene{.name = "glow"};
     scene.materials.push_back({.name = "light", .emission = vec3(1)});
@@ -47,7 +47,7 @@ Scene glowing(Mesh mesh, const dmat4& world_from_object = dmat4(1)) {
 
 // ---- shapes
 
-TEST(Ball, HasTheContractsCounts) {
+TEST(Ball, BallHasTheDocumentedNumbersOfTrianglesAndVertices) {
     for (int level = 0; level <= 5; ++level) {
         const Mesh mesh = ball("ball", level);
         const auto four = std::size_t(1) << (2 * level);
@@ -59,13 +59,13 @@ TEST(Ball, HasTheContractsCounts) {
     EXPECT_EQ(ball("ball", 5).positions.size(), 2050u);
 }
 
-TEST(Ball, IsAClosedUnitSphereSeenFromOutside) {
+TEST(Ball, BallIsAClosedUnitSphereFacingOutwards) {
     const Mesh mesh = ball("ball", 5);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         EXPECT_NEAR(glm::length(mesh.positions[i]), 1, 4e-16); // 2 ulp
         EXPECT_EQ(mesh.normals[i], vec3(mesh.positions[i]));
     }
-    std::map<std::pair<unsigned, unsigned>, int> edges; // each directed edge once, its reverse once
+    std::map<std::pair<unsigned, unsigned>, int> edges; // count of each directed edge
     for (const uvec3& t : mesh.triangles) {
         EXPECT_GT(glm::dot(face_normal(mesh, t), mesh.positions[t.x]), 0);
         for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
@@ -76,7 +76,7 @@ TEST(Ball, IsAClosedUnitSphereSeenFromOutside) {
     }
 }
 
-TEST(Ball, StartsFromTheContractsTetrahedron) {
+TEST(Ball, BallStartsFromTheDocumentedTetrahedron) {
     const Mesh mesh = ball("ball", 0);
     const double s = std::sqrt(2.0), q = std::sqrt(6.0);
     EXPECT_EQ(mesh.positions[0], dvec3(0, 0, -1));
@@ -87,7 +87,7 @@ TEST(Ball, StartsFromTheContractsTetrahedron) {
 
 // ---- the built-in scene
 
-TEST(CornellMirrors, HasTheContractsObjectsAndMaterials) {
+TEST(CornellMirrors, SceneHasTheDocumentedObjectsAndMaterials) {
     const Scene scene = cornell_mirrors();
     std::vector<std::string> objects, materials;
     for (const Object& object : scene.objects) objects.push_back(object.name);
@@ -117,16 +117,16 @@ TEST(CornellMirrors, EveryWallFacesIntoTheBox) {
     }
 }
 
-TEST(CornellMirrors, LightLooksDown) {
+TEST(CornellMirrors, LampShinesDown) {
     const std::vector<PointLight> found = lights(cornell_mirrors());
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].normal, dvec3(0, -1, 0));
-    expect_near(found[0].position, {278, 548.7, 279.5}, 1e-12);
+    scene_expect_near(found[0].position, {278, 548.7, 279.5}, 1e-12);
     EXPECT_NEAR(found[0].area, 130 * 105, 1e-9);
     EXPECT_EQ(found[0].emission, vec3(17, 12, 4));
 }
 
-TEST(CornellMirrors, BallsStandWhereTheReportHasThem) {
+TEST(CornellMirrors, BallsHaveThePlacesOfTheSeedReport) {
     const Scene scene = cornell_mirrors();
     const std::map<std::string, Sphere> wanted = {{"ball1", {{445, 73, 320}, 72}},
                                                   {"ball2", {{90, 100, 110}, 72}},
@@ -136,11 +136,11 @@ TEST(CornellMirrors, BallsStandWhereTheReportHasThem) {
         const Object& object = object_named(scene, name);
         EXPECT_EQ(object.sphere->centre, sphere.centre);
         EXPECT_EQ(object.sphere->radius, sphere.radius);
-        expect_near(bounds(scene, object).centre(), sphere.centre, 0.01 * sphere.radius);
+        scene_expect_near(bounds(scene, object).centre(), sphere.centre, 0.01 * sphere.radius);
     }
 }
 
-TEST(CornellMirrors, ClosedHasAFrontThatOnlyTheCameraIgnores) {
+TEST(CornellMirrors, ClosedSceneHasAFrontWallThatOnlyTheCameraIgnores) {
     const Scene scene = cornell_mirrors_closed();
     const Object& front = object_named(scene, "front");
     EXPECT_FALSE(front.seen_by_camera);
@@ -152,7 +152,7 @@ TEST(CornellMirrors, ClosedHasAFrontThatOnlyTheCameraIgnores) {
 
 // ---- motion
 
-TEST(Motion, BallFourGoesUpAndDown) {
+TEST(Motion, BallFourMovesUpAndDown) {
     const Scene scene = cornell_mirrors();
     EXPECT_TRUE(is_animated(scene));
     for (const double t : {0.0, 0.3, 1.0, 2.0, 3.7, 4.0, 1e6, -0.25}) {
@@ -169,7 +169,7 @@ TEST(Motion, BallFourGoesUpAndDown) {
     EXPECT_EQ(object_named(at(scene, 2), "ball4").sphere->centre, dvec3(500, 180, 210));
 }
 
-TEST(Motion, PeriodIsTheLongest) {
+TEST(Motion, PeriodOfASceneIsThatOfItsLongestMotion) {
     Scene scene = cornell_mirrors();
     EXPECT_EQ(period(scene), 4);
     const Keys keys{.times = {1, 5.5}, .values = {{0, 0, 0}, {1, 0, 0}}};
@@ -186,20 +186,20 @@ dvec3 moved(const Keys& keys, double seconds) {
     return dvec3(at(scene, seconds).objects[0].world_from_object[3]);
 }
 
-TEST(Motion, KeyframesStepLinearAndRepeat) {
+TEST(Motion, KeyframesInterpolateByStepsOrLinearlyAndRepeat) {
     Keys keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
     EXPECT_EQ(moved(keys, 0.5), dvec3(0)); // before the first key
     EXPECT_EQ(moved(keys, 1.5), dvec3(1, 0, 0));
     EXPECT_EQ(moved(keys, 3), dvec3(4, 0.5, 0));
-    EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0));   // the end itself
-    EXPECT_EQ(moved(keys, 5.5), dvec3(1, 0, 0)); // 4 s later, again
+    EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0));   // at the time of the last key
+    EXPECT_EQ(moved(keys, 5.5), dvec3(1, 0, 0)); // 4 s after t = 1.5, so the same place
     keys.interpolation = Keys::Interpolation::step;
     EXPECT_EQ(moved(keys, 1.99), dvec3(0));
     EXPECT_EQ(moved(keys, 2), dvec3(2, 0, 0));
 }
 
 TEST(Motion, CubicKeysReproduceACubic) {
-    // p(t) = t^3 - 2 t has tangents 3 t^2 - 2; a Hermite spline is exact for it
+    // p(t) = t^3 - 2 t has the tangent 3 t^2 - 2. A cubic Hermite spline reproduces p exactly.
     const auto p = [](double t) { return dvec3(t * t * t - 2 * t, 0, 0); };
     Keys keys{.interpolation = Keys::Interpolation::cubic};
     for (const double t : {0.0, 0.5, 2.0}) {
@@ -208,7 +208,7 @@ TEST(Motion, CubicKeysReproduceACubic) {
         keys.in_tangents.emplace_back(3 * t * t - 2, 0, 0);
     }
     keys.out_tangents = keys.in_tangents;
-    for (const double t : {0.1, 0.5, 0.9, 1.7}) expect_near(moved(keys, t), p(t), 1e-14);
+    for (const double t : {0.1, 0.5, 0.9, 1.7}) scene_expect_near(moved(keys, t), p(t), 1e-14);
 }
 
 TEST(Motion, LightsWithoutASurfaceMoveToo) {
@@ -224,11 +224,11 @@ TEST(Motion, LightsWithoutASurfaceMoveToo) {
     EXPECT_EQ(at(scene, 2).punctual[0].world_from_light, scene.punctual[0].world_from_light);
 }
 
-TEST(Motion, TimeMustBeFinite) { EXPECT_THROW(at(cornell_mirrors(), std::nan("")), Error); }
+TEST(Motion, SceneTimeMustBeFinite) { EXPECT_THROW(at(cornell_mirrors(), std::nan("")), Error); }
 
 // ---- lights
 
-TEST(Lights, EachConnectedPieceIsOne) {
+TEST(Lights, EachConnectedPieceOfALampIsOneLight) {
     Mesh two = quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
     const Mesh other = quad("b", {5, 0, 0}, {5, 0, 2}, {7, 0, 2}, {7, 0, 0});
     two.positions.insert(two.positions.end(), other.positions.begin(), other.positions.end());
@@ -242,7 +242,7 @@ TEST(Lights, EachConnectedPieceIsOne) {
     EXPECT_EQ(found[1].area, 4);
 }
 
-TEST(Lights, IdenticalPositionsConnectAndCountOnce) {
+TEST(Lights, LampTrianglesWithEqualPositionsAreConnected) {
     Mesh unshared{.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, {1, 0, 1}, {1, 0, 0}},
                   .normals = std::vector<vec3>(6, vec3(0, 1, 0)),
                   .triangles = {{0, 1, 2}, {3, 4, 5}}};
@@ -252,19 +252,19 @@ TEST(Lights, IdenticalPositionsConnectAndCountOnce) {
     EXPECT_EQ(found[0].area, 1);
 }
 
-TEST(Lights, ClosedBallHasNoDirection) {
+TEST(Lights, LightOfAClosedLampHasNoDirection) {
     dmat4 world(3);
     world[3] = dvec4(1, 2, 3, 1);
     const auto found = lights(glowing(ball("ball", 4), world));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].normal, dvec3(0));
-    expect_near(found[0].position, {1, 2, 3}, 1e-12);
+    scene_expect_near(found[0].position, {1, 2, 3}, 1e-12);
     EXPECT_NEAR(found[0].area, 4 * M_PI * 9, 1);
     EXPECT_TRUE(found[0].closed);
     EXPECT_EQ(share_towards(found[0], {0, 1, 0}), .25);
 }
 
-TEST(Lights, OneOfTwoSidesShinesBothWays) {
+TEST(Lights, TwoSidedLampShinesBothWays) {
     Scene scene = glowing(quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}));
     EXPECT_TRUE(is_one_sided(scene.materials[0]));
     EXPECT_EQ(lights(scene).at(0).normal, dvec3(0, 1, 0));
@@ -277,13 +277,13 @@ TEST(Lights, OneOfTwoSidesShinesBothWays) {
     EXPECT_NE(hash(scene), before);
 }
 
-TEST(Lights, OnlyALightHasOneSide) {
+TEST(Lights, OnlyLampMaterialsAreOneSided) {
     const Scene scene = cornell_mirrors();
     for (const Material& material : scene.materials)
         EXPECT_EQ(is_one_sided(material), material.name == "light") << material.name;
 }
 
-TEST(Lights, TrianglesWithoutAreaContributeNothing) {
+TEST(Lights, LampTrianglesWithoutAreaContributeNothing) {
     Mesh mesh = quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
     mesh.positions.insert(mesh.positions.end(), {{9, 9, 9}, {8, 8, 8}});
     mesh.normals.resize(6, vec3(1, 0, 0));
@@ -295,23 +295,25 @@ TEST(Lights, TrianglesWithoutAreaContributeNothing) {
     EXPECT_EQ(found[0].normal, dvec3(0, 1, 0));
 }
 
-TEST(Lights, NormalAndAreaFollowTheTransform) {
-    dmat4 world(1); // squeezed along x+z would tilt a wrongly carried normal
+TEST(Lights, LampNormalAndAreaFollowTheTransform) {
+    // Rotates and scales by axis, so that a normal transformed like a position would be wrong.
+    dmat4 world(1);
     world[0] = dvec4(2, 0, 0, 0);
     world[1] = dvec4(0, 0, 3, 0);
     world[2] = dvec4(0, -1, 0, 0);
     const auto found = lights(
         glowing(quad("a", {0, 0, 0}, {1, 1, 0}, {1, 1, 1}, {0, 0, 1}), world));
     ASSERT_EQ(found.size(), 1u);
-    // edges become (2,0,3) and (0,-1,0): normal along their cross (b-a) x (c-a)
+    // The edges of the square become (2,0,3) and (0,-1,0). The normal is along (b-a) x (c-a).
     const dvec3 normal = glm::normalize(glm::cross(dvec3(2, 0, 3), dvec3(2, -1, 3)));
-    expect_near(found[0].normal, normal, 1e-6);
+    scene_expect_near(found[0].normal, normal, 1e-6);
     EXPECT_NEAR(found[0].area, std::sqrt(13.0), 1e-12);
 }
 
-// ---- the rest
+// ---- default camera and scene hash
 
-/// How far out of the middle of the picture the bounds' corners lie, at most: 1 is its edge.
+/// Returns the largest distance of a corner of the scene's bounds from the middle of the picture. 1
+/// is the distance of the picture's edge.
 double reach_of(const Scene& scene, const Camera& camera, double aspect) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
@@ -331,27 +333,29 @@ double reach_of(const Scene& scene, const Camera& camera, double aspect) {
     return most;
 }
 
-/// 30 degrees to the right, 20 above, as near as 90 % of width and height allow.
-TEST(DefaultCamera, IsAThreeQuarterViewThatJustHoldsTheBounds) {
+/// The default camera is 30 degrees to the right and 20 degrees above. It is as near as possible
+/// while the scene's bounds stay within 90 % of the picture's width and height.
+TEST(DefaultCamera, DefaultCameraIsAThreeQuarterViewOfTheBounds) {
     const Scene scene = at(cornell_mirrors(), 0);
     const dvec3 to_eye(std::sin(M_PI / 6) * std::cos(M_PI / 9), std::sin(M_PI / 9),
                        std::cos(M_PI / 6) * std::cos(M_PI / 9));
     for (const double aspect : {.25, 1.0, 16.0 / 9}) {
         const Camera camera = default_camera(scene, aspect);
-        expect_near(camera.target, bounds(scene).centre(), 1e-3);
+        scene_expect_near(camera.target, bounds(scene).centre(), 1e-3);
         EXPECT_EQ(camera.vertical_fov_degrees, 40);
         EXPECT_EQ(camera.up, dvec3(0, 1, 0));
-        expect_near(glm::normalize(camera.eye - camera.target), to_eye, 1e-5);
+        scene_expect_near(glm::normalize(camera.eye - camera.target), to_eye, 1e-5);
         EXPECT_NEAR(reach_of(scene, camera, aspect), .9, 1e-5) << aspect;
     }
 }
 
-TEST(DefaultCamera, ExistsForAnEmptyScene) {
+TEST(DefaultCamera, DefaultCameraExistsForAnEmptyScene) {
     const Camera camera = default_camera(Scene());
     EXPECT_GT(glm::distance(camera.eye, camera.target), 0);
 }
 
-/// A scene with something in every field, and every change of one thing in it.
+/// Holds a scene with data in every field. Tests change one field at a time and expect another
+/// hash.
 class HashOf : public testing::Test {
 protected:
     HashOf() {
@@ -367,14 +371,14 @@ protected:
 
     static Keyframes& motion(Scene& scene) { return std::get<Keyframes>(scene.objects[7].motion); }
 
-    /// No scene before had the hash of this one.
+    /// Changes a copy of the scene with `change`. Expects a hash that no earlier scene had.
     template <typename Change>
     void changed(const char* what, Change&& change) {
         Scene other = scene_;
         change(other);
         EXPECT_TRUE(hashes_.insert(hash(other)).second) << what;
     }
-    /// The same of each component.
+    /// Changes each component of the vector that `get` returns, one at a time.
     template <typename Get>
     void changed_vector(const char* what, Get&& get) {
         for (int i = 0; i < 3; ++i) changed(what, [&](Scene& scene) { get(scene)[i] += .125f; });
@@ -392,7 +396,7 @@ protected:
     std::set<std::string> hashes_;
 };
 
-TEST_F(HashOf, MeshesChangesWithThem) {
+TEST_F(HashOf, SceneHashChangesWithMeshes) {
     changed("a bit", [](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
     changed_vector(
         "position", [](Scene & s) -> auto& { return s.meshes.back().positions.back(); });
@@ -409,7 +413,7 @@ TEST_F(HashOf, MeshesChangesWithThem) {
     });
 }
 
-TEST_F(HashOf, MaterialsChangesWithThem) {
+TEST_F(HashOf, SceneHashChangesWithMaterials) {
     changed_vector(
         "albedo", [](Scene & s) -> auto& { return s.materials.back().albedo; });
     changed_vector(
@@ -421,7 +425,7 @@ TEST_F(HashOf, MaterialsChangesWithThem) {
     changed("name", [](Scene& s) { s.materials.back().name += "'"; });
 }
 
-TEST_F(HashOf, ObjectsChangesWithThem) {
+TEST_F(HashOf, SceneHashChangesWithObjects) {
     changed("name", [](Scene& s) { s.objects[6].name = "other"; });
     changed("mesh", [](Scene& s) { s.objects[6].mesh = 0; });
     changed("material", [](Scene& s) { s.objects[6].material = 0; });
@@ -437,7 +441,7 @@ TEST_F(HashOf, ObjectsChangesWithThem) {
     EXPECT_TRUE(hashes_.insert(hash(cornell_mirrors_closed())).second);
 }
 
-TEST_F(HashOf, MotionChangesWithIt) {
+TEST_F(HashOf, SceneHashChangesWithMotions) {
     changed("none", [](Scene& s) { s.objects[7].motion = {}; });
     changed("harmonic", [](Scene& s) { s.objects[7].motion = Harmonic{{0, 50, 0}, 5}; });
     changed("period", [](Scene& s) { s.objects[7].motion = Harmonic{{0, 50, 0}, 6}; });
@@ -459,7 +463,7 @@ TEST_F(HashOf, MotionChangesWithIt) {
             "turn", [&](Scene & s) -> auto& { return motion(s).world_from_keys[column]; });
 }
 
-TEST_F(HashOf, CamerasChangesWithThem) {
+TEST_F(HashOf, SceneHashChangesWithCameras) {
     changed_vector(
         "eye", [](Scene & s) -> auto& { return s.cameras[0].eye; });
     changed_vector(
@@ -471,8 +475,9 @@ TEST_F(HashOf, CamerasChangesWithThem) {
     changed("another", [](Scene& s) { s.cameras.push_back(s.cameras[0]); });
 }
 
-/// A copied file has the same hash: keys count by what they say, not by where they lie.
-TEST_F(HashOf, WhatIsNotSeenChangesNothing) {
+/// The hash uses the values of animation keys, not their address, so a copied file has the same
+/// hash.
+TEST_F(HashOf, SceneHashIgnoresNameFilesAndWarnings) {
     const std::string whole = hash(scene_);
     EXPECT_EQ(whole.size(), 16u);
     Scene copy = scene_;

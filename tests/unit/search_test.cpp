@@ -1,5 +1,5 @@
-// Techniques that a program adds (app/technique.hpp), without a device; tests/install draws with
-// one.
+// Tests of techniques that a program adds (app/technique.hpp), without a device. tests/install
+// draws with such a technique.
 #include "app/compare.hpp"
 #include "app/engine.hpp"
 #include "app/technique.hpp"
@@ -40,7 +40,7 @@ std::string refused_text(const std::string& technique) {
     return "nothing was thrown";
 }
 
-TEST(Search, IsAtHomeInTheTable) {
+TEST(Search, AddedSearchIsInTheTableOfTechniques) {
     const app::TechniqueChoice choice = app::parse_technique("test_search:much=1.5,face=64");
     EXPECT_EQ(choice.settings.front().number, 1.5);
     EXPECT_EQ(choice.settings.size(), app::parse_technique("secant").settings.size());
@@ -55,7 +55,7 @@ TEST(Search, IsAtHomeInTheTable) {
     }
 }
 
-TEST(Search, HasNoKnobThatWouldDoNothing) {
+TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
     app::add_search({.name = "test_short", .shader = "test_short.frag"});
     for (const char* knob : {"continue=0", "captures=own", "mirrors=captured"})
         EXPECT_THAT(refused_text("test_short:" + std::string(knob)),
@@ -64,7 +64,7 @@ TEST(Search, HasNoKnobThatWouldDoNothing) {
     EXPECT_EQ(choice.settings.size() + 3, app::parse_technique("test_search").settings.size() - 1);
 }
 
-TEST(Search, WhatIsWrongWithOneIsSaid) {
+TEST(Search, InvalidSearchIsRefusedWithTheReason) {
     EXPECT_THAT(refused({.name = "Two words"}),
                 HasSubstr("'Two words': wanted a name of small letters, digits and '_'"));
     EXPECT_THAT(refused({.name = "secant"}), HasSubstr("there is a technique 'secant' already"));
@@ -86,7 +86,7 @@ TEST(Search, WhatIsWrongWithOneIsSaid) {
     EXPECT_THROW(app::parse_technique("twice"), UsageError) << "refused ones are not added";
 }
 
-TEST(Search, ShadersHaveOneOwnerEach) {
+TEST(Search, ShaderThatExistsAlreadyIsRefused) {
     const std::uint32_t words[] = {1};
     const app::Shader taken[] = {{"reflect/secant.frag", words}};
     try {
@@ -97,7 +97,7 @@ TEST(Search, ShadersHaveOneOwnerEach) {
     }
 }
 
-TEST(Errors, HaveATypeForEachKind) {
+TEST(Errors, EachKindOfFailureThrowsItsOwnType) {
     EXPECT_THROW(fail(Failure::bad_data, "x"), BadData);
     EXPECT_THROW(fail(Failure::missing_input, "x"), MissingInput);
     EXPECT_THROW(fail(Failure::no_device, "x"), NoDevice);

@@ -1,4 +1,5 @@
-// Cameras drawn from a seed: the same again, and always with a mirror in the picture.
+// Tests of cameras drawn from a seed: equal seeds give equal cameras, and each camera sees a
+// mirror.
 #include "app/seeded_camera.hpp"
 
 #include "core/error.hpp"
@@ -15,8 +16,8 @@ using namespace catoptric;
 
 constexpr std::uint64_t kSeeds = 25;
 
-/// The share of black pixels where mirrors send nothing on: in a closed room with ambient light all
-/// else is lit.
+/// Returns the share of pixels that show a mirror. Mirrors are drawn black, and in a closed room
+/// with ambient light everything else is lit.
 double mirror_share(const scene::Scene& scene, const scene::Camera& camera) {
     constexpr uvec2 kSize{64, 64};
     const stress::DoubleTracer tracer(scene, 1);
@@ -27,7 +28,7 @@ double mirror_share(const scene::Scene& scene, const scene::Camera& camera) {
     return static_cast<double>(black) / (kSize.x * kSize.y);
 }
 
-/// The room somewhere else and of another size.
+/// Returns test::room, scaled by `scale` and moved by `by`.
 scene::Scene moved_room(int mirrors, double scale, dvec3 by) {
     scene::Scene scene = test::room(mirrors, 1);
     dmat4 moved(scale);
@@ -41,7 +42,7 @@ scene::Scene moved_room(int mirrors, double scale, dvec3 by) {
     return scene;
 }
 
-TEST(SeededCamera, SeesTheFrontOfAMirrorWhereverTheSceneIs) {
+TEST(SeededCamera, SeededCameraSeesTheFrontOfAMirrorAtAnySceneScale) {
     for (const auto& [mirrors, scale, by] : {std::tuple{1, 1.0, dvec3(0)},
                                              {3, 1.0, dvec3(0)},
                                              {2, 1e4, dvec3(3e6, -2e6, 1e6)},
@@ -51,8 +52,8 @@ TEST(SeededCamera, SeesTheFrontOfAMirrorWhereverTheSceneIs) {
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
             const scene::Camera camera = app::seeded_camera(scene, 0, seed);
             drawn.insert(camera.name);
-            // 11 of 1024 rays, of which the grid's step may have caught a few more than their
-            // share.
+            // A seeded camera sees a mirror with at least 11 of its 1024 rays, a share of .011. The
+            // grid of rays can overestimate the share, so the bound is lower.
             EXPECT_GE(mirror_share(scene, camera), .005) << camera.name;
             for (const std::size_t mirror : scene::mirrors(scene)) {
                 const scene::Sphere& sphere = *scene.objects[mirror].sphere;
@@ -65,7 +66,7 @@ TEST(SeededCamera, SeesTheFrontOfAMirrorWhereverTheSceneIs) {
     }
 }
 
-TEST(SeededCamera, IsTheSameForTheSameSeedAndInstant) {
+TEST(SeededCamera, EqualSeedsAndInstantsGiveEqualCameras) {
     const scene::Scene scene = scene::cornell_mirrors();
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
         const scene::Camera a = app::seeded_camera(scene, 1.5, seed),
@@ -76,21 +77,21 @@ TEST(SeededCamera, IsTheSameForTheSameSeedAndInstant) {
     }
 }
 
-TEST(SeededCamera, StandsInFrontOfAFlatMirror) {
+TEST(SeededCamera, SeededCameraIsInFrontOfAFlatMirror) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     test::add_quad(scene, "pane", mirror, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0},
-                   {-.5, .5, 0}); // looks along +z
+                   {-.5, .5, 0}); // the mirror faces +z
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed)
         EXPECT_GT(app::seeded_camera(scene, 0, seed).eye.z, 0) << seed;
 }
 
-TEST(SeededCamera, SceneWithoutMirrorsIsLookedAt) {
+TEST(SeededCamera, SceneWithoutMirrorsGetsSeededCameras) {
     EXPECT_NE(app::seeded_camera(test::room(0, 1), 0, 1).name,
               app::seeded_camera(test::room(0, 1), 0, 2).name);
 }
 
-TEST(SeededCamera, MirrorThatNobodyCanSeeIsSaid) {
+TEST(SeededCamera, SeedingFailsIfNoMirrorCanBeSeen) {
     scene::Scene hidden{.name = "hidden"};
     const std::size_t mirror = test::add_material(hidden, {.name = "mirror", .mirror = true});
     const std::size_t white = test::add_material(hidden, {.name = "white", .albedo = vec3(.7f)});

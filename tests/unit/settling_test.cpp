@@ -10,14 +10,14 @@ namespace {
 
 std::optional<int> settled(const std::vector<double>& errors) { return settled_from(errors, 0.5); }
 
-TEST(Settling, IsTheFirstOfAllThatStayWithin) {
+TEST(Settling, SettledFrameIsTheFirstAfterWhichErrorsStayInBounds) {
     EXPECT_EQ(settled({3, 2, 0.4, 0.1}), 3);
     EXPECT_EQ(settled({0, 0, 0}), 1);
     EXPECT_EQ(settled({2, 0.5}), 2) << "at the bound is within";
     EXPECT_EQ(settled({2, 0.1, 0.6, 0.1}), 4) << "once within is not enough";
 }
 
-TEST(Settling, IsNotSaidWhereTheEndIsNotWithin) {
+TEST(Settling, SettledFrameIsUnknownIfTheLastErrorIsOutOfBounds) {
     EXPECT_EQ(settled({0.1, 0.1, 2}), std::nullopt);
     EXPECT_EQ(settled({}), std::nullopt);
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

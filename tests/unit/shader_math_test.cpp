@@ -1,5 +1,6 @@
 #include "core/shader_math.hpp"
 #include "support/numbers.hpp"
+#include "support/special_values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +9,6 @@
 
 namespace catoptric {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 ::testing::AssertionResult near(const vec3& a, const vec3& b, float tolerance) {
     if (glm::length(a - b) <= tolerance) return ::testing::AssertionSuccess();
@@ -33,8 +31,9 @@ TriangleHit hit_triangle(vec3 a, vec3 b, vec3 c, vec3 origin, vec3 direction) {
 
 // ---- Light
 
-TEST(Light, HandComputedPoint) {
-    // Light at height 2 facing down, point 45 degrees off below: t^2 = 8, both cosines sqrt(1/2).
+TEST(Light, LightTermMatchesAHandComputedPoint) {
+    // The light is at height 2 and faces down. The direction to the point is at 45 degrees: the
+    // squared distance is 8 and both cosines are sqrt(1/2).
     vec3 direction;
     float distance, factor;
     ASSERT_TRUE(f32::light_term(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0), vec3(0, -1, 0), direction,
@@ -42,7 +41,7 @@ TEST(Light, HandComputedPoint) {
     EXPECT_FLOAT_EQ(distance, std::sqrt(8.0f));
     EXPECT_FLOAT_EQ(factor, 1.0f / 16);
     EXPECT_TRUE(near(direction, vec3(std::sqrt(0.5f), std::sqrt(0.5f), 0), 1e-7f));
-    // Ke + kd/pi * intensity / 16 + kd * ambient
+    // Radiance: emission + albedo / pi * intensity / 16 + albedo * ambient.
     const vec3 direct = vec3(32) * factor;
     const vec3 radiance = f32::lambert(vec3(1, 0, 0), vec3(0.5f, 0.25f, 0), direct, 0.05f);
     EXPECT_FLOAT_EQ(radiance.x, 1 + 1 / f32::kPi + 0.025f);
@@ -50,7 +49,7 @@ TEST(Light, HandComputedPoint) {
     EXPECT_EQ(radiance.z, 0);
 }
 
-TEST(Light, WithoutNormalHasNoCosineAtTheLight) {
+TEST(Light, LightWithoutNormalHasNoCosineAtTheLight) {
     vec3 direction;
     float distance, factor;
     ASSERT_TRUE(f32::light_term(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0), vec3(0), direction, distance,
@@ -58,7 +57,7 @@ TEST(Light, WithoutNormalHasNoCosineAtTheLight) {
     EXPECT_FLOAT_EQ(factor, std::sqrt(0.5f) / 8);
 }
 
-TEST(Light, NeedsNoShadowRayWhereACosineIsNotPositive) {
+TEST(Light, LightNeedsNoShadowRayIfACosineIsNotPositive) {
     vec3 direction;
     float distance, factor;
     const auto lit = [&](vec3 normal, vec3 light, vec3 light_normal) {
@@ -71,12 +70,12 @@ TEST(Light, NeedsNoShadowRayWhereACosineIsNotPositive) {
     EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(0, 2, 0), vec3(0, 1, 0))) << "light faces away";
     EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(2, 0, 0), vec3(-1, 0, 0))) << "grazing, cosine 0";
     EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(0), vec3(0))) << "light at the point";
-    EXPECT_FALSE(lit(vec3(kNan), vec3(0, 2, 0), vec3(0)));
-    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(kNan), vec3(0)));
-    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(kInfinity), vec3(0)));
+    EXPECT_FALSE(lit(vec3(test::kNan), vec3(0, 2, 0), vec3(0)));
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(test::kNan), vec3(0)));
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(test::kInfinity), vec3(0)));
 }
 
-TEST(Light, MeanCosineIsTheSameBothWays) {
+TEST(Light, MeanCosineIsTheSameForOppositeDirections) {
     const vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const vec3 direction = glm::normalize(vec3(.3f, -.5f, .2f));
     EXPECT_FLOAT_EQ(f32::mean_cosine(direction, x, y, z, vec3(0, 0, 1)), direction.z);
@@ -84,7 +83,7 @@ TEST(Light, MeanCosineIsTheSameBothWays) {
     EXPECT_FLOAT_EQ(f32::mean_cosine(direction, x, y, z, vec3(.5f)), .5f);
 }
 
-TEST(Light, AFacetTakesNothingFromBelowItsPlane) {
+TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
     const vec3 normal = glm::normalize(vec3(1, 1, 0));
     for (const float size : {1.0f, -1.0f, 1e-6f, 1e6f}) {
         const auto share = [&](double degrees) {
@@ -97,20 +96,20 @@ TEST(Light, AFacetTakesNothingFromBelowItsPlane) {
         EXPECT_NEAR(share(3), .5, .01);
         EXPECT_EQ(share(6.001), 1);
         EXPECT_EQ(share(90), 1);
-        // Where normal and facet agree nothing fades.
+        // If the shading normal equals the facet's normal, the share is 1 even at grazing angles.
         const vec3 up(0, 1, 0), grazing = glm::normalize(vec3(1, .01f, 0));
         EXPECT_NEAR(f32::facet_share(grazing, up, size * up), 1, 1e-5);
     }
 }
 
-TEST(Mirror, ReflectsAboutTheNormalFromEitherSide) {
+TEST(Mirror, MirrorDirectionIgnoresTheSignOfTheNormal) {
     const vec3 d = glm::normalize(vec3(1, -1, 0));
     const vec3 expected = glm::normalize(vec3(1, 1, 0));
     EXPECT_TRUE(near(f32::mirror_direction(d, vec3(0, 1, 0), vec3(0, 1, 0)), expected, 1e-6f));
     EXPECT_TRUE(near(f32::mirror_direction(d, vec3(0, -1, 0), vec3(0, -1, 0)), expected, 1e-6f));
 }
 
-TEST(Mirror, NeverPointsBelowTheFacet) {
+TEST(Mirror, MirrorDirectionNeverPointsBelowTheFacet) {
     test::Numbers random(1);
     for (int i = 0; i < 10000; ++i) {
         const vec3 d = random.direction(), n_geometric = random.direction();
@@ -123,7 +122,7 @@ TEST(Mirror, NeverPointsBelowTheFacet) {
 
 // ---- Triangles
 
-TEST(TriangleTest, KnownHit) {
+TEST(TriangleTest, TriangleTestMatchesAKnownHit) {
     const auto [hit, t, weights] = hit_triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}, {1, 2, 0},
                                                 {0, 0, 0.5f});
     ASSERT_TRUE(hit);
@@ -131,7 +130,7 @@ TEST(TriangleTest, KnownHit) {
     EXPECT_TRUE(near(f32::barycentric(weights), vec3(0.25f, 0.25f, 0.5f), 1e-7f));
 }
 
-TEST(TriangleTest, MissesBehindBesideAndDegenerate) {
+TEST(TriangleTest, TriangleTestMissesTrianglesBehindBesideOrWithoutArea) {
     const vec3 a(0, 0, 2), b(4, 0, 2), c(0, 4, 2);
     EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, {0, 0, -1}).hit) << "behind";
     EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 2}, {0, 0, 1}).hit) << "starts on it";
@@ -141,11 +140,11 @@ TEST(TriangleTest, MissesBehindBesideAndDegenerate) {
     EXPECT_FALSE(hit_triangle(a, a, a, {0, 0, 0}, {0, 0, 1}).hit) << "a point";
 }
 
-TEST(TriangleTest, NanIsAMiss) {
+TEST(TriangleTest, TriangleTestMissesIfACoordinateIsNan) {
     const vec3 a(0, 0, 2), b(4, 0, 2), c(0, 4, 2);
     for (int i = 0; i < 3; ++i) {
         vec3 bad(0.5f);
-        bad[i] = kNan;
+        bad[i] = test::kNan;
         EXPECT_FALSE(hit_triangle(bad, b, c, {1, 1, 0}, {0, 0, 1}).hit);
         EXPECT_FALSE(hit_triangle(a, b, bad, {1, 1, 0}, {0, 0, 1}).hit);
         EXPECT_FALSE(hit_triangle(a, b, c, bad, {0, 0, 1}).hit);
@@ -154,7 +153,7 @@ TEST(TriangleTest, NanIsAMiss) {
     EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, vec3(0)).hit);
 }
 
-TEST(TriangleTest, AgreesWithDouble) {
+TEST(TriangleTest, FloatTriangleTestAgreesWithDouble) {
     test::Numbers random(2);
     int hits = 0, disagreements = 0;
     for (int i = 0; i < 100000; ++i) {
@@ -167,14 +166,15 @@ TEST(TriangleTest, AgreesWithDouble) {
         const bool hit = f64::triangle_test(dvec3(a), dvec3(b), dvec3(c), dvec3(origin),
                                             f64::ray_shear(dvec3(direction)), t, weights);
         if (hit != single.hit) {
-            // Only ever within roundings of an edge.
+            // Float and double may disagree only where the ray passes within rounding errors of an
+            // edge.
             const dvec3 size = glm::abs(f64::barycentric(weights));
             EXPECT_LT(std::min({size.x, size.y, size.z}), 1e-3);
             ++disagreements;
         } else if (hit) {
             ++hits;
-            // Roundings of the sheared corners move the hit across the ray by about 8 u * 4, and by
-            // that over the cosine along it.
+            // Rounding the sheared corners moves the hit by about 8 u * 4 across the ray, where u =
+            // 6e-8 is the unit roundoff. Along the ray, this error is divided by the cosine.
             const vec3 n = f32::facet_normal(a, b, c);
             const double slack = 32 * 6e-8 / std::abs(double{glm::dot(n, direction)});
             ASSERT_NEAR(single.t, t, slack);
@@ -185,7 +185,7 @@ TEST(TriangleTest, AgreesWithDouble) {
 }
 
 TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
-    // Long double has 64 bits: the products of 24-bit floats are exact in it.
+    // A long double has 64 mantissa bits, so the product of two 24-bit floats is exact.
     test::Numbers random(3);
     int fallbacks = 0;
     for (int i = 0; i < 200000; ++i) {
@@ -203,7 +203,7 @@ TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
     EXPECT_GT(fallbacks, 10000) << "the seed must reach the case that is tested";
 }
 
-TEST(TriangleTest, PowersOfTwoChangeNothing) {
+TEST(TriangleTest, TriangleTestIsUnchangedByScalingWithPowersOfTwo) {
     test::Numbers random(4);
     for (int i = 0; i < 2000; ++i) {
         const vec3 a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
@@ -220,13 +220,13 @@ TEST(TriangleTest, PowersOfTwoChangeNothing) {
 
 // ---- Boxes and spheres
 
-bool hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction, float t_max = kInfinity) {
+bool hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction, float t_max = test::kInfinity) {
     float t;
     const f32::BoxRay ray = f32::box_ray({origin, direction}, vec3(-1), vec3(1), 1);
     return f32::slab_test(lo, hi, ray, t_max, t);
 }
 
-TEST(SlabTest, HitsAndMisses) {
+TEST(SlabTest, SlabTestHitsAndMissesKnownBoxes) {
     const vec3 lo(-1), hi(1);
     EXPECT_TRUE(hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}));
     EXPECT_TRUE(hit_box(lo, hi, {0, 0, 0}, {0, -1, 0})) << "from inside";
@@ -236,15 +236,16 @@ TEST(SlabTest, HitsAndMisses) {
     EXPECT_FALSE(hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}, 3.9f)) << "beyond t_max";
     EXPECT_TRUE(hit_box(lo, hi, {-5, 1, -1}, {1, 0, -0.0f})) << "along an edge: 0 * inf";
     EXPECT_TRUE(hit_box({-1, 0, -1}, {1, 0, 1}, {0, 5, 0}, {0, -1, 0})) << "flat box";
-    EXPECT_FALSE(hit_box(vec3(kInfinity), vec3(-kInfinity), vec3(0), {1, 0, 0})) << "empty box";
+    EXPECT_FALSE(hit_box(vec3(test::kInfinity), vec3(-test::kInfinity), vec3(0), {1, 0, 0}))
+        << "empty box";
 }
 
-TEST(SlabTest, SmallBoxFarAwayIsHit) {
+TEST(SlabTest, SlabTestHitsASmallBoxFarAway) {
     for (float distance : {10.0f, 100.0f, 1000.0f})
         EXPECT_TRUE(hit_box(vec3(-5e-4f), vec3(5e-4f), {-distance, 0, 0}, {1, 0, 0}));
 }
 
-TEST(SphereTest, FromOutsideInsideAndBehind) {
+TEST(SphereTest, SphereTestWorksFromOutsideInsideAndBehind) {
     float t;
     EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 10, t));
     EXPECT_FLOAT_EQ(t, 2);
@@ -257,28 +258,30 @@ TEST(SphereTest, FromOutsideInsideAndBehind) {
     EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{3, 0, 0}, {1, 0, 0}}, 10, t));
     EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 2, t)) << "t_max excluded";
     EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{-3, 1.001f, 0}, {1, 0, 0}}, 10, t));
-    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(kNan), {1, 0, 0}}, 10, t));
-    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(0), vec3(kNan)}, 10, t));
+    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(test::kNan), {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(0), vec3(test::kNan)}, 10, t));
 }
 
-TEST(SphereTest, KeepsItsDigitsFarAway) {
+TEST(SphereTest, SphereTestStaysPreciseFarAway) {
     test::Numbers random(5);
     for (int i = 0; i < 10000; ++i) {
         const vec3 origin = 1e4f * random.direction();
         const vec3 direction = glm::normalize(0.5f * random.direction() - origin);
         float t;
         double exact;
-        ASSERT_TRUE(f32::sphere_test(vec3(0), 1, {origin, direction}, kInfinity, t));
+        ASSERT_TRUE(f32::sphere_test(vec3(0), 1, {origin, direction}, test::kInfinity, t));
         ASSERT_TRUE(f64::sphere_test(dvec3(0), 1, {dvec3(origin), dvec3(direction)}, 1e30, exact));
-        // The textbook form is off by about 1 here. The ray itself is known to u * 1e4 = 6e-4.
+        // The textbook formula for spheres is off by about 1 here. The ray's origin is known only
+        // to u * 1e4 = 6e-4, where u is the unit roundoff.
         ASSERT_NEAR(t, exact, 4e-3);
     }
 }
 
 // ---- Spawned rays
 
-// Well-shaped or not, corners of 0.1 to 10; what is left are slivers (Ray::leaves).
-TEST(Spawn, NeverMeetsItsOwnTriangle) {
+// Tests triangles of any shape whose coordinates have sizes of .1 to 10. Rays from thinner
+// triangles rely on Ray::leaves, the number of the triangle that a ray must not hit.
+TEST(Spawn, SpawnedRayNeverMeetsItsOwnTriangle) {
     test::Numbers random(6);
     for (int i = 0; i < 1000; ++i) {
         const auto corner = [&] {
@@ -296,7 +299,7 @@ TEST(Spawn, NeverMeetsItsOwnTriangle) {
     }
 }
 
-TEST(Spawn, StaysWithinTheScaleOfTheRoundings) {
+TEST(Spawn, SpawnOffsetStaysWithinRoundingErrors) {
     const vec3 a(10, 10, 10), b(11, 10, 10), c(10, 11, 10);
     vec3 error;
     const vec3 p = f32::triangle_point(a, b, c, vec3(1.0f / 3), error);
@@ -305,7 +308,7 @@ TEST(Spawn, StaysWithinTheScaleOfTheRoundings) {
     EXPECT_LT(origin.z, 10 + 16 * 9.6e-7f) << "16 floats at 10";
 }
 
-TEST(Spawn, NeverMeetsItsOwnSphereFromOutside) {
+TEST(Spawn, SpawnedRayNeverMeetsItsOwnSphereFromOutside) {
     test::Numbers random(7);
     for (int i = 0; i < 50000; ++i) {
         const vec3 centre = 10.0f * random.in_cube();
@@ -314,14 +317,14 @@ TEST(Spawn, NeverMeetsItsOwnSphereFromOutside) {
         const f32::Ray aimed{ray.origin,
                              centre + 0.99f * radius * random.in_cube() * 0.57f - ray.origin};
         float t;
-        ASSERT_TRUE(f32::sphere_test(centre, radius, aimed, kInfinity, t));
+        ASSERT_TRUE(f32::sphere_test(centre, radius, aimed, test::kInfinity, t));
         vec3 error;
         const vec3 p = f32::sphere_point(centre, radius, aimed, t, error);
         const vec3 n = glm::normalize(p - centre);
         vec3 out = ray.direction;
         if (glm::dot(out, n) < 0) out = -out;
         const vec3 origin = f32::spawn_origin(p, error, n, out);
-        ASSERT_FALSE(f32::sphere_test(centre, radius, {origin, out}, kInfinity, t)) << i;
+        ASSERT_FALSE(f32::sphere_test(centre, radius, {origin, out}, test::kInfinity, t)) << i;
     }
 }
 
@@ -329,11 +332,11 @@ TEST(Spawn, ShadowRaysEndShortOfTheLight) { EXPECT_EQ(f32::kShadowRayEnd, 1 - 0x
 
 // ---- Captures and picture
 
-TEST(Parallax, FindsThePointThatHasThatDistance) {
+TEST(Parallax, ParallaxFindsThePointAtTheCapturedDistance) {
     test::Numbers random(8);
     for (int i = 0; i < 10000; ++i) {
-        // Exact where the surface is a plane across the ray: what the ray meets is at
-        // distance = dot(offset, dir) + way, as the one step assumes.
+        // Parallax correction is exact if the captured distance is `way + dot(offset, dir)`, where
+        // `way` is the distance along the ray. This holds for a plane perpendicular to the ray.
         const vec3 offset = 0.3f * random.in_cube(), dir = random.direction();
         const float way = random.between(0.5f, 5);
         const vec3 expected = glm::normalize(offset + way * dir);
@@ -344,29 +347,29 @@ TEST(Parallax, FindsThePointThatHasThatDistance) {
     }
 }
 
-TEST(Parallax, LeavesTheDirectionWhereThereIsNothingToCorrect) {
+TEST(Parallax, ParallaxKeepsTheDirectionWithoutAUsableDistance) {
     const vec3 dir(0, 0, 1);
-    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, kInfinity), dir);
-    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, kNan), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, test::kInfinity), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, test::kNan), dir);
     EXPECT_EQ(f32::parallax_direction(vec3(0), dir, 0), dir) << "|p| = 0";
     EXPECT_EQ(f32::parallax_direction(vec3(0, 0, 2), dir, 0), dir) << "|p| = 0";
-    EXPECT_EQ(f32::parallax_direction(vec3(kNan), dir, 1), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(test::kNan), dir, 1), dir);
     EXPECT_EQ(f32::parallax_direction(vec3(0, 0, 3e38f), -dir, 3e38f), -dir) << "overflow";
 }
 
-TEST(CubeFace, CentresInTheApisOrder) {
+TEST(CubeFace, CubeFaceCentresAreInVulkansOrder) {
     const vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (int face = 0; face < 6; ++face) {
         EXPECT_EQ(f32::cube_face(axes[face]), face);
         EXPECT_EQ(f32::cube_direction(face, vec3(0, 0, 1)), axes[face]);
     }
-    // Right of +Z's centre lies +X, below it -Y.
+    // Face +Z has +X on its right and -Y below.
     EXPECT_EQ(f32::cube_coordinates(4, vec3(0.5f, -0.25f, 1)), vec3(0.5f, 0.25f, 1));
     EXPECT_EQ(f32::cube_face(vec3(1)), 4);
     EXPECT_EQ(f32::cube_face(vec3(1, 1, 0)), 2);
 }
 
-TEST(CubeFace, RoundTrip) {
+TEST(CubeFace, CubeCoordinatesConvertBackToTheSameDirection) {
     test::Numbers random(9);
     for (int i = 0; i < 10000; ++i) {
         const vec3 dir = random.direction();
@@ -379,17 +382,17 @@ TEST(CubeFace, RoundTrip) {
     }
 }
 
-TEST(Srgb, KnownValues) {
+TEST(Srgb, SrgbEncodingMatchesKnownValues) {
     EXPECT_EQ(f32::srgb_encoded(0), 0);
     EXPECT_EQ(f32::srgb_encoded(1), 1);
     EXPECT_EQ(f32::srgb_encoded(7), 1);
     EXPECT_EQ(f32::srgb_encoded(-1), 0);
-    EXPECT_EQ(f32::srgb_encoded(kNan), 0);
+    EXPECT_EQ(f32::srgb_encoded(test::kNan), 0);
     EXPECT_NEAR(f32::srgb_encoded(0.214041f), 0.5f, 1e-5f);
     EXPECT_FLOAT_EQ(f32::srgb_encoded(0.002f), 0.02584f);
 }
 
-TEST(NextFloat, StepsOverZero) {
+TEST(NextFloat, NextFloatStepsOverZero) {
     EXPECT_GT(f32::next_up(0), 0);
     EXPECT_LT(f32::next_down(0), 0);
     EXPECT_EQ(f32::next_up(1), 1 + 0x1p-23f);

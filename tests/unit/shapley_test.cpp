@@ -1,4 +1,4 @@
-// Shares of what several make together, in games whose answers are known.
+// Tests of Shapley values in games whose answers are known.
 #include "measure/shapley.hpp"
 
 #include "support/refusal.hpp"
@@ -21,7 +21,7 @@ using catoptric::measure::Shapley;
 constexpr std::size_t kPlayers = 5;
 constexpr std::uint32_t kAll = 31;
 
-/// What each player is worth where coalition c is worth `value(c)`.
+/// Returns the worth of each player in a game in which coalition c has the value `value(c)`.
 std::vector<double> worths(const std::function<double(std::uint32_t)>& value) {
     Shapley shapley(kPlayers, 1);
     for (std::uint32_t c = kAll + 1; c-- > 0;) shapley.add(c, std::vector{value(c)});
@@ -30,14 +30,14 @@ std::vector<double> worths(const std::function<double(std::uint32_t)>& value) {
     return worths;
 }
 
-/// A bonus that the members of a coalition get when all of them are there.
+/// An amount that a coalition's value gains if the coalition holds all `members`.
 struct Bonus {
     std::uint32_t members;
     double amount;
 };
 
-// Every game is a sum of bonuses, and a bonus belongs to its members alike: pairs, a triple with
-// one that loses, all five, and player 4 (bit 3) who is in none but the last.
+// Every game is a sum of such bonuses, and each bonus is shared equally by its members. Here are
+// single players, pairs, a triple with a loss, and all five players. Player 3 is only in the last.
 const std::vector<Bonus> kBonuses = {{0b00000, 7}, {0b00001, 1},   {0b00010, 2},
                                      {0b00011, 4}, {0b10110, -6},  {0b10001, .5},
                                      {0b00100, 3}, {0b11111, 2.5}, {0b00111, .75}};
@@ -49,7 +49,7 @@ double with_bonuses(std::uint32_t coalition) {
     return value;
 }
 
-TEST(Shapley, SharesEachBonusAmongThoseItNeeds) {
+TEST(Shapley, ShapleySharesEachBonusEquallyAmongItsMembers) {
     const std::vector<double> found = worths(with_bonuses);
     for (std::size_t i = 0; i < kPlayers; ++i) {
         double wanted = 0;
@@ -58,7 +58,7 @@ TEST(Shapley, SharesEachBonusAmongThoseItNeeds) {
                 wanted += bonus.amount / std::popcount(bonus.members);
         EXPECT_NEAR(found[i], wanted, 1e-14) << "player " << i;
     }
-    // By hand: 1 + 4/2 + .5/2 + 2.5/5 + .75/3.
+    // Worth of player 0 by hand: 1 + 4/2 + .5/2 + 2.5/5 + .75/3 = 4.
     EXPECT_NEAR(found[0], 4, 1e-14);
     EXPECT_NEAR(found[3], .5, 1e-14);
     EXPECT_NEAR(std::accumulate(found.begin(), found.end(), 0.0),
@@ -66,12 +66,12 @@ TEST(Shapley, SharesEachBonusAmongThoseItNeeds) {
         << "efficient";
 }
 
-TEST(Shapley, WhoNeverChangesAValueIsWorthNothing) {
+TEST(Shapley, PlayerWithoutEffectIsWorthNothing) {
     const auto without_two = [](std::uint32_t c) { return std::sqrt(with_bonuses(c & ~4U) + 20); };
     EXPECT_NEAR(worths(without_two)[2], 0, 1e-14);
 }
 
-TEST(Shapley, WhoChangeAllAlikeAreWorthTheSame) {
+TEST(Shapley, PlayersWithEqualEffectAreWorthTheSame) {
     const std::vector<double> found = worths(
         [](std::uint32_t c) { return std::exp(.3 * std::popcount(c & 0b01011)) * ((c & 4U) + 1); });
     EXPECT_NEAR(found[0], found[1], 1e-13);
@@ -80,8 +80,9 @@ TEST(Shapley, WhoChangeAllAlikeAreWorthTheSame) {
     EXPECT_NEAR(found[4], 0, 1e-13);
 }
 
-// The glove market: two left gloves, one right; a pair is worth 1. Known: 1/6, 1/6, 2/3.
-TEST(Shapley, OfTheGloveMarket) {
+// The glove market is a known game: two players have a left glove, one has a right glove, and a
+// pair is worth 1. The players are worth 1/6, 1/6 and 2/3.
+TEST(Shapley, ShapleyValuesOfTheGloveMarketAreTheKnownOnes) {
     Shapley market(3, 1);
     for (std::uint32_t c = 0; c < 8; ++c)
         market.add(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
@@ -90,7 +91,7 @@ TEST(Shapley, OfTheGloveMarket) {
     EXPECT_NEAR(market.worth(2)[0], 2.0 / 3, 1e-15);
 }
 
-TEST(Shapley, GamesAreKeptApart) {
+TEST(Shapley, ShapleyKeepsSeveralGamesApart) {
     Shapley games(2, 2);
     games.add(0b11, std::vector{5.0, 1.0});
     games.add(0b00, std::vector{0.0, 1.0});
@@ -100,7 +101,7 @@ TEST(Shapley, GamesAreKeptApart) {
     EXPECT_EQ(games.worth(1), (std::vector{2.0, -1.0}));
 }
 
-TEST(Shapley, RefusesWhatIsNoGame) {
+TEST(Shapley, InvalidCoalitionsAndPlayerCountsAreRefused) {
     Shapley shapley(2, 1);
     const std::vector<double> value{1};
     shapley.add(0, value), shapley.add(1, value), shapley.add(3, value);

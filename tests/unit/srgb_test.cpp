@@ -1,4 +1,4 @@
-// Tables of the sRGB curve: they return what the formula does.
+// Tests that the tables of the sRGB curve return the same values as the formula.
 #include "measure/srgb.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ float by_formula(double linear) {
     return static_cast<float>(std::round(srgb_from_linear(linear) * 255) / 255);
 }
 
-TEST(Srgb, EightBitsAreThoseOfTheFormula) {
+TEST(Srgb, EightBitTableAgreesWithTheFormula) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> even(0, 1), exponent(-40, 0);
     for (int i = 0; i < 200'000; ++i)
@@ -24,8 +24,8 @@ TEST(Srgb, EightBitsAreThoseOfTheFormula) {
     EXPECT_EQ(srgb_in_8_bits(1), 1.F);
 }
 
-// Where the code changes, and the doubles before and after.
-TEST(Srgb, EightBitsChangeWhereTheFormulaDoes) {
+// Tests the values at which the 8-bit code changes, and the doubles just below and above.
+TEST(Srgb, EightBitTableChangesCodeWhereTheFormulaDoes) {
     for (int code = 0; code < 255; ++code) {
         const double middle = linear_from_srgb((code + .5) / 255);
         for (double linear : {middle, std::nextafter(middle, 0.0), std::nextafter(middle, 1.0),
@@ -34,7 +34,7 @@ TEST(Srgb, EightBitsChangeWhereTheFormulaDoes) {
     }
 }
 
-TEST(Srgb, LightOfStoredValuesIsThatOfTheFormula) {
+TEST(Srgb, LinearTableAgreesWithTheFormula) {
     constexpr LinearTable kLinear;
     for (int code = 0; code < 256; ++code)
         for (const float srgb : {static_cast<float>(code / 255.0),

@@ -1,4 +1,4 @@
-// Time stamps: 64 bits, of which a device may fill fewer.
+// Tests of GPU timestamps, 64-bit words of which a device may fill only the low bits.
 #include "graph/stamps.hpp"
 
 #include <gtest/gtest.h>
@@ -7,24 +7,24 @@ namespace {
 
 using catoptric::graph::milliseconds_since_first;
 
-TEST(ContentHashes, CountFromTheFirst) {
+TEST(ContentHashes, TimestampsCountFromTheFirst) {
     const std::uint64_t stamps[] = {1'000'000, 1'000'000, 3'500'000};
     EXPECT_EQ(milliseconds_since_first(stamps, 64, 1), (std::vector<double>{0, 0, 2.5}));
     EXPECT_EQ(milliseconds_since_first(stamps, 64, 10), (std::vector<double>{0, 0, 25}));
     EXPECT_TRUE(milliseconds_since_first({}, 64, 1).empty());
 }
 
-// A frame of a slow device is longer than 2^32 ns, 4.3 s.
-TEST(ContentHashes, AreNotCutToThirtyTwoBits) {
+// A frame on a slow device can take longer than 2^32 ns = 4.3 s.
+TEST(ContentHashes, TimestampsAreNotCutToThirtyTwoBits) {
     const std::uint64_t stamps[] = {5, 5 + (std::uint64_t{10} << 32)};
     EXPECT_EQ(milliseconds_since_first(stamps, 64, 1)[1], 10 * 4294.967296);
     EXPECT_EQ(milliseconds_since_first(stamps, 48, 1)[1], 10 * 4294.967296);
 }
 
-TEST(ContentHashes, SurviveTheWrapOfTheirValidBits) {
+TEST(ContentHashes, TimestampsSurviveAWrapOfTheirValidBits) {
     const std::uint64_t stamps[] = {(std::uint64_t{1} << 36) - 1'000'000, 2'000'000};
     EXPECT_EQ(milliseconds_since_first(stamps, 36, 1), (std::vector<double>{0, 3}));
-    // What lies above the valid bits is no time.
+    // Bits above the valid ones are not part of the time.
     const std::uint64_t noisy[] = {std::uint64_t{7} << 40, (std::uint64_t{3} << 40) + 1'000'000};
     EXPECT_EQ(milliseconds_since_first(noisy, 36, 1)[1], 1);
     const std::uint64_t full[] = {~std::uint64_t{0} - 999'999, 0};

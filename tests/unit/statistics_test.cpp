@@ -11,20 +11,20 @@
 namespace catoptric::measure {
 namespace {
 
-TEST(Summary, HandComputed) {
+TEST(Summary, SummaryMatchesHandComputedValues) {
     const Summary s = summarise(std::vector<double>{4, 1, 3, 2, 10});
     EXPECT_DOUBLE_EQ(s.median, 3);
-    EXPECT_DOUBLE_EQ(s.p05, 1.2); // rank 0.2
-    EXPECT_DOUBLE_EQ(s.p95, 8.8); // rank 3.8
-    EXPECT_DOUBLE_EQ(s.mad, 1);   // of 1 2 0 1 7
+    EXPECT_DOUBLE_EQ(s.p05, 1.2); // at rank 0.2 of the sorted samples
+    EXPECT_DOUBLE_EQ(s.p95, 8.8); // at rank 3.8 of the sorted samples
+    EXPECT_DOUBLE_EQ(s.mad, 1);   // median of the deviations 1 2 0 1 7
     EXPECT_EQ(s.n, 5U);
-    EXPECT_EQ(s.samples, (std::vector<double>{4, 1, 3, 2, 10})); // in the order they came
+    EXPECT_EQ(s.samples, (std::vector<double>{4, 1, 3, 2, 10})); // samples stay in their order
 }
 
-TEST(Summary, EvenNumberAndOneOnly) {
+TEST(Summary, SummaryHandlesAnEvenCountAndASingleSample) {
     const Summary even = summarise(std::vector<double>{4, 1, 2, 3});
     EXPECT_DOUBLE_EQ(even.median, 2.5);
-    EXPECT_DOUBLE_EQ(even.mad, 1); // of 1.5 1.5 0.5 0.5
+    EXPECT_DOUBLE_EQ(even.mad, 1); // median of the deviations 1.5 1.5 0.5 0.5
     const Summary one = summarise(std::vector<double>{7});
     EXPECT_EQ(one.median, 7);
     EXPECT_EQ(one.p05, 7);
@@ -32,7 +32,7 @@ TEST(Summary, EvenNumberAndOneOnly) {
     EXPECT_EQ(one.mad, 0);
 }
 
-TEST(Percentile, EveryRankOfAShuffledList) {
+TEST(Percentile, PercentileFindsEveryRankOfAShuffledList) {
     std::vector<double> values;
     for (int i = 0; i <= 100; ++i) values.push_back(i);
     std::shuffle(values.begin(), values.end(), std::mt19937(1));
@@ -40,7 +40,7 @@ TEST(Percentile, EveryRankOfAShuffledList) {
     EXPECT_NEAR(percentile(values, 0.123), 12.3, 1e-12);
 }
 
-TEST(Summary, OrderDoesNotMatterAndScaleScales) {
+TEST(Summary, SummaryIgnoresOrderAndScalesWithTheSamples) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> value(1, 5);
     std::vector<double> samples(21);
@@ -56,15 +56,15 @@ TEST(Summary, OrderDoesNotMatterAndScaleScales) {
     EXPECT_EQ(t.mad, 2 * s.mad);
 }
 
-std::string refusal(const std::vector<double>& samples) {
+std::string statistics_refusal(const std::vector<double>& samples) {
     return test::refusal(catoptric::Failure::internal, [&] { summarise(samples); });
 }
 
-TEST(Summary, RefusesWhatHasNoAnswer) {
-    EXPECT_EQ(refusal({}), "a summary wants at least one sample, found none");
-    EXPECT_EQ(refusal({1, std::numeric_limits<double>::quiet_NaN()}),
+TEST(Summary, SummaryRefusesEmptyAndNonfiniteSamples) {
+    EXPECT_EQ(statistics_refusal({}), "a summary wants at least one sample, found none");
+    EXPECT_EQ(statistics_refusal({1, std::numeric_limits<double>::quiet_NaN()}),
               "a summary wants finite samples, found nan at index 1");
-    EXPECT_EQ(refusal({std::numeric_limits<double>::infinity()}),
+    EXPECT_EQ(statistics_refusal({std::numeric_limits<double>::infinity()}),
               "a summary wants finite samples, found inf at index 0");
     EXPECT_THROW(percentile({}, 0.5), Error);
     EXPECT_THROW(percentile({1}, 1.5), Error);

@@ -1,4 +1,5 @@
-// What is written about properties at the extremes.
+// Tests of the report of `catoptric stress`, which checks properties of the engine with extreme
+// inputs.
 #include "report/stress.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +15,7 @@ StressRow row(std::vector<StressCase> cases) {
     return {"N1", "a <stimulus>", "a property", Verdict::pass, "", std::move(cases), {}, 1};
 }
 
-TEST(StressRow, TheWorstCaseIsTheOneFurthestBeyondItsLimit) {
+TEST(StressRow, WorstCaseIsTheOneFurthestBeyondItsLimit) {
     EXPECT_EQ(row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}}).worst()->what, "all");
     EXPECT_EQ(row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}}).worst()->what, "over nothing");
     EXPECT_EQ(row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst()->what, "no number");
@@ -24,13 +25,13 @@ TEST(StressRow, TheWorstCaseIsTheOneFurthestBeyondItsLimit) {
     EXPECT_EQ(row({}).worst(), nullptr);
 }
 
-TEST(StressCase, NoNumberDoesNotHold) {
+TEST(StressCase, StressCaseThatMeasuresNanFails) {
     EXPECT_FALSE((StressCase{"", std::nan(""), 1}).holds());
     EXPECT_TRUE((StressCase{"", 0, 0}).holds());
     EXPECT_FALSE((StressCase{"", 1e-300, 0}).holds());
 }
 
-TEST(Stress, FailsByItsRows) {
+TEST(Stress, StressFailsIfOneOfItsRowsFails) {
     Stress stress;
     stress.rows = {row({}), row({})};
     EXPECT_FALSE(stress.failed());
@@ -43,8 +44,8 @@ TEST(Stress, FailsByItsRows) {
     EXPECT_TRUE(stress.failed());
 }
 
-/// What a device does not allow is no figure, and no pass.
-TEST(Stress, WhatCouldNotRunSaysWhyWithoutAFigure) {
+/// A case that the device's limits do not allow has no figure and does not count as passed.
+TEST(Stress, CaseThatCouldNotRunHasAReasonAndNoFigure) {
     Stress stress;
     stress.rows = {row({}), row({{"the rest", .5, 1}})};
     stress.rows[0].verdict = Verdict::unsupported;
@@ -65,7 +66,7 @@ TEST(Stress, WhatCouldNotRunSaysWhyWithoutAFigure) {
     }
 }
 
-TEST(Stress, NamesTheWrongCodeThatTurnsARowRed) {
+TEST(Stress, StressReportNamesTheMutationThatARowDetects) {
     Stress stress;
     stress.rows = {row({{"a", 0, 1}})};
     stress.rows[0].turned_red_by = "upside-down";
@@ -74,7 +75,7 @@ TEST(Stress, NamesTheWrongCodeThatTurnsARowRed) {
     EXPECT_THAT(to_markdown(stress), testing::HasSubstr("upside-down"));
 }
 
-TEST(Stress, JsonHasEveryCaseAndHtmlNoMarkupOfItsTexts) {
+TEST(Stress, StressJsonHasEveryCaseAndHtmlEscapesTexts) {
     Stress stress;
     stress.rows = {row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};
     const nlohmann::json json = nlohmann::json::parse(to_json(stress));

@@ -1,4 +1,5 @@
-// Each row of stress has one rule for wrong code in tests/mutations/rules.toml, and names it.
+// Tests that each row of `catoptric stress` names its mutation: the one rule of
+// tests/mutations/rules.toml whose wrong code the row must detect.
 #include "places.hpp"
 #include "stress/property.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 using namespace catoptric;
 
-/// Names of the rules by the stress row that must notice them.
+/// Returns the names of the mutation rules, by the stress row that must detect each.
 std::multimap<std::string, std::string> rules_by_row() {
     std::multimap<std::string, std::string> rules;
     std::ifstream file(test::source_folder() / "tests/mutations/rules.toml");
@@ -29,7 +30,7 @@ std::multimap<std::string, std::string> rules_by_row() {
     return rules;
 }
 
-TEST(StressRows, EachNamesTheOneRuleThatItMustNotice) {
+TEST(StressRows, EachStressRowNamesTheMutationThatItDetects) {
     std::multimap<std::string, std::string> named;
     for (const stress::Property* row : stress::properties())
         named.emplace(row->id, row->turned_red_by);

@@ -1,4 +1,5 @@
-// Causes of a row's error, summed up from what each pixel has of them.
+// Tests of measure::sum_up, which sums the causes of each pixel's error to the causes of a row's
+// error.
 #include "measure/causes.hpp"
 
 #include "report/causes.hpp"
@@ -16,20 +17,22 @@ using namespace catoptric;
 using measure::Causes;
 using measure::PixelCause;
 
-constexpr std::uint32_t hit(std::uint32_t first, std::uint32_t second) {
+constexpr std::uint32_t sum_up_hit(std::uint32_t first, std::uint32_t second) {
     return first | second << 16;
 }
 
-// A wall; mirror 1; mirror 2 in which mirror 1 is seen; mirror 3 twice, which sees itself once.
-const std::array<std::uint32_t, 5> kHits{hit(0, 0), hit(1, 0), hit(2, 1), hit(3, 0), hit(3, 3)};
+// The hits of five pixels: a wall; mirror 1; mirror 2 that reflects mirror 1; mirror 3; mirror 3
+// that reflects itself.
+const std::array<std::uint32_t, 5> kSumUpHits{sum_up_hit(0, 0), sum_up_hit(1, 0), sum_up_hit(2, 1),
+                                              sum_up_hit(3, 0), sum_up_hit(3, 3)};
 const std::vector<double> kWhole{.5, .25, 0, .25};
 const std::vector<PixelCause> kCauses{{"one", {.75, 0, .25, .125}, {.5, .25, 0, .25}},
                                       {"other", {-.25, .25, -.25, 0}, {0, 0, 0, -1}},
                                       {"rest", {0, 0, 0, .125}, {}}};
 const measure::Mask kOff{1, 1, 1, 0, 1};
 
-TEST(SumUp, ClassesAndMirrorsAddUpToTheWhole) {
-    const Causes causes = measure::sum_up(kHits, kOff, kWhole, kCauses);
+TEST(SumUp, SharesOfClassesAndMirrorsAddUpToTheWhole) {
+    const Causes causes = measure::sum_up(kSumUpHits, kOff, kWhole, kCauses);
     EXPECT_EQ(causes.squared_error, .25);
     EXPECT_EQ(causes.squared_error_per_mirror, (std::vector{.5, .25, .125}));
     ASSERT_EQ(causes.list.size(), 3U);
@@ -49,41 +52,42 @@ TEST(SumUp, ClassesAndMirrorsAddUpToTheWhole) {
     EXPECT_EQ(causes.rest_rmse, std::sqrt(.125 / 4));
 }
 
-TEST(SumUp, NamesTheLargestPartOfPixelsThatAreOff) {
-    // No mirror; one; other; not off; one before rest, which is as large.
-    EXPECT_EQ(measure::sum_up(kHits, kOff, kWhole, kCauses).largest,
+TEST(SumUp, LargestCauseIsNamedForPixelsThatAreOff) {
+    // The pixels in order: no mirror; cause `one`; cause `other`; a pixel that is not off; cause
+    // `one`, which is as large as `rest` but comes first.
+    EXPECT_EQ(measure::sum_up(kSumUpHits, kOff, kWhole, kCauses).largest,
               (std::vector<std::uint8_t>{0, 1, 2, 0, 1}));
 }
 
-TEST(SumUp, LeavesOutWhatIsNotFinite) {
+TEST(SumUp, PixelsThatAreNotFiniteAreLeftOut) {
     std::vector<PixelCause> causes = kCauses;
     causes[1].alone[0] = INFINITY;
-    const Causes found = measure::sum_up(kHits, kOff, kWhole, causes);
+    const Causes found = measure::sum_up(kSumUpHits, kOff, kWhole, causes);
     EXPECT_EQ(found.squared_error, .5 / 3);
     EXPECT_EQ(found.squared_error_per_mirror, (std::vector{0.0, .25, .125}));
     EXPECT_EQ(found.list[0].squared_error, .375 / 3);
     EXPECT_EQ(found.largest[1], 0);
 }
 
-TEST(SumUp, OfARowWithoutErrorThereAreNoShares) {
+TEST(SumUp, RowWithoutErrorHasNoShares) {
     const std::vector<double> none(4);
-    const Causes found = measure::sum_up(kHits, measure::Mask(5), none, {{"rest", none, {}}});
+    const Causes found = measure::sum_up(kSumUpHits, measure::Mask(5), none, {{"rest", none, {}}});
     EXPECT_EQ(found.squared_error, 0);
     EXPECT_TRUE(std::isnan(found.list[0].share));
     EXPECT_EQ(found.rest_rmse, 0);
     EXPECT_TRUE(measure::sum_up({}, {}, {}, {{"rest", {}, {}}}).list.empty());
 }
 
-TEST(SumUp, RefusesValuesOfOtherPixels) {
+TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
     for (const auto& [causes, words] :
          {std::pair(std::vector<PixelCause>{{"one", {1, 2}, {}}},
                     "one: wanted values of 4 mirror pixels, found 2"),
           {{{"one", {1, 2, 3, 4}, {1}}}, "one alone: wanted values of 4 mirror pixels, found 1"}})
-        test::expect_refused([&] { measure::sum_up(kHits, kOff, kWhole, causes); },
+        test::expect_refused([&] { measure::sum_up(kSumUpHits, kOff, kWhole, causes); },
                              Failure::internal, {words});
 }
 
-/// Causes as they come, of which the first has all.
+/// Returns one cause for each of cause_colours(). The first cause has the whole error.
 Causes some_causes() {
     Causes causes{.squared_error = .25, .squared_error_per_mirror = {.25}};
     for (const report::CauseColour& colour : report::cause_colours()) {
@@ -99,7 +103,7 @@ Causes some_causes() {
     return causes;
 }
 
-TEST(CauseTable, SaysSharesSumsAndBounds) {
+TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
     report::Row row = report::sample::row("parallax", 6, .5, .1);
     row.causes = some_causes();
     row.light_edges.emplace().share = .5;
@@ -119,7 +123,7 @@ TEST(CauseTable, SaysSharesSumsAndBounds) {
                                     "50.0", "50.0", "–", "", ""}));
 }
 
-TEST(CausePicture, PaintsEachPixelByItsLargestCause) {
+TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     report::Row row = report::sample::row("parallax", 6, .5, .1);
     row.display.pixels[0] = vec3(1);
     row.causes = some_causes();

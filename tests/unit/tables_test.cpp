@@ -1,5 +1,5 @@
-// Figures, scenes and techniques register themselves: those of this file are listed nowhere else,
-// and are wherever such things are.
+// Tests that metrics, scenes and techniques register themselves. Those of this file are in no
+// central list, but must appear in every report and table.
 #include "app/compare.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
@@ -47,16 +47,18 @@ scene::Scene make_nothing() { return {.name = "test-only"}; }
 const scene::RegisteredScene kScene{{"test-only", "nothing at all", make_nothing}};
 
 constexpr std::string_view kRows[] = {"testonly", "testonly:much=2"};
-constexpr Knob kKnobs[] = {{.name = "much", .help = "how much", .low = 1, .high = 3, .value = 1}};
+constexpr Knob kTablesKnobs[] = {
+    {.name = "much", .help = "how much", .low = 1, .high = 3, .value = 1}};
 constexpr reflect::Technique kTechnique{.name = "testonly",
                                         .summary = "For a test.",
                                         .order = 1000,
-                                        .knobs = kKnobs,
+                                        .knobs = kTablesKnobs,
                                         .compared = kRows};
 const reflect::Registered kTestOnly{kTechnique};
 
-/// A row whose picture is `colour` all over, and its difference from black.
-measure::Row row_of(const vec3& colour) {
+/// Returns a row whose picture has the same colour everywhere, with its difference from a black
+/// picture.
+measure::Row tables_row_of(const vec3& colour) {
     measure::Row row = report::sample::row("reuse", 7, .1, .2);
     std::ranges::fill(row.hdr.pixels, colour);
     const measure::Picture black(row.hdr.width, row.hdr.height);
@@ -64,8 +66,8 @@ measure::Row row_of(const vec3& colour) {
     return row;
 }
 
-TEST(Tables, AFigureThatNobodyListsIsInEveryFile) {
-    const measure::Comparison made = report::sample::comparison({row_of({.25F, .5F, 0})});
+TEST(Tables, RegisteredMetricIsInEveryReportFile) {
+    const measure::Comparison made = report::sample::comparison({tables_row_of({.25F, .5F, 0})});
     const json row = json::parse(report::to_json(made))["rows"][0];
     EXPECT_EQ(row["test_only"]["redness"], .25);
     EXPECT_EQ(row["error"]["test_only_greener"], 12);
@@ -83,7 +85,7 @@ TEST(Tables, AFigureThatNobodyListsIsInEveryFile) {
     EXPECT_THAT(page, HasSubstr("<td>12</td>"));
 }
 
-TEST(Tables, FiguresOfDifferencesAreOverTheirMask) {
+TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {
     const measure::Picture black(2, 1);
     measure::Picture green(2, 1);
     green.at(1, 0) = {0, 1, 0};
@@ -99,7 +101,7 @@ TEST(Tables, FiguresOfDifferencesAreOverTheirMask) {
     EXPECT_EQ(greener({0, 255}), 1);
 }
 
-TEST(Tables, QuantitiesAreInOrderAndKnowWhatTheyAreOf) {
+TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
     const auto& table = measure::metrics();
     EXPECT_TRUE(std::ranges::is_sorted(table, {}, &measure::Metric::order));
     const auto find = [&](std::string_view name) {
@@ -120,7 +122,7 @@ TEST(Tables, QuantitiesAreInOrderAndKnowWhatTheyAreOf) {
                 HasSubstr("'gpu_ms' is no figure of a difference"));
 }
 
-TEST(Tables, ASceneThatNobodyListsIsFoundByName) {
+TEST(Tables, RegisteredSceneIsFoundByName) {
     EXPECT_EQ(scene::load("test-only").name, "test-only");
     std::vector<std::string> names;
     for (const scene::BuiltIn& scene : scene::built_in_scenes()) names.push_back(scene.name);
@@ -128,7 +130,7 @@ TEST(Tables, ASceneThatNobodyListsIsFoundByName) {
                                             "room", "gallery", "courtyard", "test-only"));
 }
 
-TEST(Tables, ATechniqueThatNobodyListsIsFoundAndCompared) {
+TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {
     EXPECT_EQ(app::parse_technique("testonly:much=3").settings[0].number, 3.0);
     EXPECT_EQ(app::techniques().back().name, "testonly");
     const std::vector<std::string> rows = app::default_techniques(

@@ -1,4 +1,4 @@
-// Text from outside on its way to a terminal, a message or a report.
+// Tests of text from users and files that is printed to a terminal, a message or a report.
 #include "core/knob.hpp"
 #include "core/text.hpp"
 
@@ -11,46 +11,46 @@ namespace {
 
 using namespace catoptric;
 
-TEST(Text, WhatATerminalObeysIsWrittenOut) {
+TEST(Text, ControlCharactersAreEscaped) {
     EXPECT_EQ(printable("a\x1b[2Jb"), "a\\x1b[2Jb");
     EXPECT_EQ(printable(std::string("a\0b\x7f\r\n\t", 7)), "a\\x00b\\x7f\\x0d\\x0a\\x09");
     EXPECT_EQ(printable("\xc2\x9b"
                         "31m"),
-              "\\u{9b}31m"); // CSI as one character
+              "\\u{9b}31m"); // the control character U+009B (CSI)
     EXPECT_EQ(printable("\xe2\x80\xae"
                         "gpj\xe2\x81\xa6"),
               "\\u{202e}gpj\\u{2066}");
     EXPECT_EQ(printable("one\ntwo\r", "\n"), "one\ntwo\\x0d");
 }
 
-TEST(Text, BytesThatAreNotUtf8AreWrittenOut) {
+TEST(Text, BytesThatAreNotUtf8AreEscaped) {
     EXPECT_EQ(printable("\x9b"
                         "31m"),
               "\\x9b31m");
-    EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");          // longer than it need be
-    EXPECT_EQ(printable("\xe0\x80\x9b"), "\\xe0\\x80\\x9b"); // the same
-    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80"); // half a pair
+    EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");          // overlong UTF-8 encoding
+    EXPECT_EQ(printable("\xe0\x80\x9b"), "\\xe0\\x80\\x9b"); // overlong UTF-8 encoding
+    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80"); // half of a surrogate pair
     EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
-    EXPECT_EQ(printable("x\xe2\x82"), "x\\xe2\\x82"); // cut off
+    EXPECT_EQ(printable("x\xe2\x82"), "x\\xe2\\x82"); // truncated UTF-8 character
 }
 
-TEST(Text, WhatIsPrintableStays) {
+TEST(Text, PrintableTextIsUnchanged) {
     for (const std::string text : {"plain 'text' \\x1b", "Küche – 台所 🪞", ""})
         EXPECT_EQ(printable(text), text);
     EXPECT_EQ(printable(printable("\x1b\xff")), printable("\x1b\xff"));
 }
 
-TEST(Text, QuotesAreShort) {
+TEST(Text, QuotesOfLongTextsAreCut) {
     EXPECT_EQ(in_quotes("a\x1b"), "'a\\x1b'");
     EXPECT_EQ(in_quotes(std::string(80, 'x')), "'" + std::string(80, 'x') + "'");
     EXPECT_EQ(in_quotes(std::string(20'000, 'x')),
               "'" + std::string(80, 'x') + "...' (20000 bytes)");
-    // never half a character
+    // A quote never ends in the middle of a character.
     EXPECT_EQ(in_quotes(std::string(79, 'x') + "üüü"),
               "'" + std::string(79, 'x') + "...' (85 bytes)");
 }
 
-TEST(Suggestion, IsForASlipOfTheFinger) {
+TEST(Suggestion, NearestNameFindsTyposWithinItsLimits) {
     std::vector<std::string> names(200'000, "material");
     names[7] = "materiel";
     EXPECT_EQ(nearest_name("materiell", names), "materiel");
@@ -58,7 +58,7 @@ TEST(Suggestion, IsForASlipOfTheFinger) {
     EXPECT_EQ(nearest_name("abc", std::vector{std::string(1 << 20, 'a'), std::string("abd")}),
               "abd");
     names.assign(200'000, "zzzzzzzz");
-    names.back() = "material"; // beyond those that are looked at
+    names.back() = "material"; // after the last name that is searched
     EXPECT_EQ(nearest_name("materia", names), "");
     EXPECT_EQ(did_you_mean("a\x1b"
                            "b",

@@ -1,4 +1,5 @@
-// Whose captures a frame draws that may not draw all: nobody waits longer than a round.
+// Tests of the capture budget: which captures a frame draws if it may not draw all, and how long
+// the others wait.
 #include "app/capture_budget.hpp"
 #include "app/capture_cost.hpp"
 #include "render/turns.hpp"
@@ -13,16 +14,16 @@ namespace {
 using namespace catoptric;
 using Mirrors = std::vector<std::uint32_t>;
 
-TEST(Turns, AreOfThoseWhoWaitedLongest) {
+TEST(Turns, CapturesThatWaitedLongestAreDrawnFirst) {
     EXPECT_EQ(render::put_off({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2), (Mirrors{1, 4}));
     EXPECT_EQ(render::put_off({{4, 2}, {2, 2}, {3, 2}}, 1), (Mirrors{3, 4})) << "of equals";
     EXPECT_EQ(render::put_off({{4, 2}, {2, 2}}, 2), Mirrors());
     EXPECT_EQ(render::put_off({}, 1), Mirrors());
 }
 
-// Mirrors begin and cease to ask at random: of those that do until they are drawn nobody waits for
-// more than a round of all.
-TEST(Turns, ComeWithinARound) {
+// Mirrors request a new capture at random and keep requesting until it is drawn. No mirror may wait
+// longer than one round of all mirrors.
+TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
     for (const std::uint32_t most : {1u, 2u, 3u, 5u}) {
         constexpr std::uint32_t kMirrors = 13;
         test::Numbers numbers(most);
@@ -31,7 +32,8 @@ TEST(Turns, ComeWithinARound) {
         for (int frame = 0; frame < 2000; ++frame) {
             std::vector<render::Asking> asking;
             for (std::uint32_t i = 0; i < kMirrors; ++i) {
-                // All of them for a while, then few, so that the one or the other is tight.
+                // The share of requesting mirrors changes from none to all, so that each of them is
+                // tested.
                 const bool asks = waited[i] > 0 || numbers.between(0, 1) < (frame % 200) / 150.;
                 if (asks) asking.push_back({i, waited[i]});
             }
@@ -45,12 +47,12 @@ TEST(Turns, ComeWithinARound) {
     }
 }
 
-TEST(CaptureCost, SaysHowManyMirrorsFit) {
+TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
     app::CaptureCost pace;
     EXPECT_EQ(pace.fitting(1, 16), 16u) << "nothing was measured";
     pace.add(100, 0);
     EXPECT_EQ(pace.fitting(1, 16), 16u) << "no mirror was drawn";
-    pace.add(16, 8); // 2 ms each
+    pace.add(16, 8); // 16 ms for 8 mirrors: 2 ms each
     EXPECT_EQ(pace.fitting(7.9, 16), 3u);
     EXPECT_EQ(pace.fitting(.1, 16), 1u) << "one at least";
     EXPECT_EQ(pace.fitting(1000, 16), 16u);
@@ -62,7 +64,7 @@ TEST(CaptureCost, SaysHowManyMirrorsFit) {
     EXPECT_EQ(at_once.fitting(1, 16), 16u);
 }
 
-TEST(CaptureBudget, SayHowOldPicturesCanBe) {
+TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
     EXPECT_EQ(app::to_text({.mirrors = 16, .most = 3}),
               "captures: at most 3 of 16 mirrors a frame; none shows what is older than 5 frames, "
               "and 6 more for each further mirror that it is seen by");

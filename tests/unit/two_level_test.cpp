@@ -1,9 +1,10 @@
-// Trees in spaces of their own: what holds in a flat tree holds through their transforms.
+// Tests of two-level trees: properties of a flat tree must also hold for instances in object space.
 #include "bvh/closest_hit.hpp"
 #include "bvh/tlas.hpp"
 #include "scene/shapes.hpp"
 #include "support/crowd.hpp"
 #include "support/numbers.hpp"
+#include "support/special_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,15 +13,14 @@
 namespace catoptric::bvh {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-std::vector<Triangle> ball(int levels) {
+std::vector<Triangle> two_level_ball(int levels) {
     return *test::placed(scene::ball("ball", levels), .5, dvec3(0));
 }
 
-/// One thing, anywhere in a unit cube, of a size from 1e-8 to 1, turned, squeezed and mirrored.
-struct Alone {
-    explicit Alone(const Bvh& tree, test::Numbers& numbers)
+/// A tree with one instance at a random place. The instance has a size of 1e-8 to 1 and is rotated,
+/// squeezed and mirrored.
+struct TwoLevelAlone {
+    explicit TwoLevelAlone(const Bvh& tree, test::Numbers& numbers)
         : instance{.tree = &tree,
                    .scene_from_own = test::turned_to(numbers, std::pow(10., numbers.between(-8, 0)),
                                                      numbers.between(.1f, 1)),
@@ -36,13 +36,14 @@ struct Alone {
     f32::Place place;
 };
 
-/// N15: a ray from strictly inside a closed mesh that hits nothing is a leak.
-TEST(TwoLevel, ClosedMeshesDoNotLeak) {
-    const std::vector<Triangle> triangles = ball(3);
+/// Row N15 of the stress test: a ray from strictly inside a closed mesh must hit the mesh. A ray
+/// that hits nothing is a leak.
+TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
+    const std::vector<Triangle> triangles = two_level_ball(3);
     const Bvh tree = build(triangles);
     test::Numbers numbers(31);
     for (int k = 0; k < 200; ++k) {
-        const Alone alone(tree, numbers);
+        const TwoLevelAlone alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
             const Triangle& aim = triangles[numbers.below(triangles.size())];
             const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.unit() : aim.a;
@@ -50,20 +51,21 @@ TEST(TwoLevel, ClosedMeshesDoNotLeak) {
             vec3 low;
             const vec3 origin = f32::scene_point(alone.place, f32::arm_of(alone.place, from), low);
             const f32::Ray ray{origin, f32::arm_of(alone.place, at - from), 0};
-            ASSERT_TRUE(closest_hit<float>(alone.whole, ray, kInfinity, 0, nullptr, low))
+            ASSERT_TRUE(closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr, low))
                 << "thing " << k << ", ray " << i;
         }
     }
 }
 
-/// N17: a ray that leaves a ball meets nothing that its exact ray does not.
-TEST(TwoLevel, NoRayMeetsWhatItLeaves) {
+/// Row N17 of the stress test: a ray that leaves a ball must not meet the surface that it leaves.
+/// Each hit must also be a hit of the exact ray, which is traced in double precision.
+TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
     std::size_t met = 0;
-    const std::vector<Triangle> triangles = ball(3);
+    const std::vector<Triangle> triangles = two_level_ball(3);
     const Bvh tree = build(triangles);
     test::Numbers numbers(32);
     for (int k = 0; k < 200; ++k) {
-        const Alone alone(tree, numbers);
+        const TwoLevelAlone alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
             const auto number = static_cast<std::uint32_t>(numbers.below(triangles.size()));
             const Triangle& t = triangles[number];
@@ -82,10 +84,10 @@ TEST(TwoLevel, NoRayMeetsWhatItLeaves) {
                 f32::spawn_origin(arm, f32::arm_error(alone.place, own, error), facet, direction),
                 low);
             const f32::Ray ray{origin, direction, 100 + number + 1};
-            const auto hit = closest_hit<float>(alone.whole, ray, kInfinity, 0, nullptr, low);
+            const auto hit = closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr, low);
             if (!hit) continue;
-            // A ball of four subdivided triangles is not convex everywhere: does doubles' ray meet
-            // that, too?
+            // The ball is a subdivided tetrahedron and not convex everywhere, so the ray may meet
+            // it again. The ray in double precision must then meet it, too.
             const f64::Ray exact{dvec3(own), dvec3(f32::to_own(alone.place, direction)),
                                  number + 1};
             const auto wanted = closest_hit<double>(tree, exact, 1e300);
@@ -97,10 +99,11 @@ TEST(TwoLevel, NoRayMeetsWhatItLeaves) {
     EXPECT_LT(met, 6000u) << "a tenth";
 }
 
-/// Things as large as a float tells apart anyway: the walk meets what it meets in one tree.
-TEST(TwoLevel, RaysMeetWhatTheyMeetInOneTree) {
+/// The instances are so large that floats in scene units are precise enough. Rays must meet the
+/// same triangles in a two-level tree and in one flat tree.
+TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
     test::Numbers numbers(33);
-    const std::vector<Triangle> shape = ball(2);
+    const std::vector<Triangle> shape = two_level_ball(2);
     const Bvh tree = build(shape);
     std::vector<Triangle> room, all;
     for (int i = 0; i < 40; ++i) {
@@ -128,11 +131,11 @@ TEST(TwoLevel, RaysMeetWhatTheyMeetInOneTree) {
     for (int i = 0; i < 20000; ++i) {
         const f32::Ray ray{3.0f * numbers.in_cube(), numbers.direction(), 0};
         const std::uint32_t skipped = i % 2 ? kHidden : 0;
-        const auto wanted = closest_hit<float>(one, ray, kInfinity, skipped),
-                   hit = closest_hit<float>(two, ray, kInfinity, skipped),
-                   again = closest_hit<float>(other, ray, kInfinity, skipped);
+        const auto wanted = closest_hit<float>(one, ray, test::kInfinity, skipped),
+                   hit = closest_hit<float>(two, ray, test::kInfinity, skipped),
+                   again = closest_hit<float>(other, ray, test::kInfinity, skipped);
         ASSERT_EQ(hit.has_value(), again.has_value());
-        ASSERT_EQ(hit.has_value(), any_hit<float>(two, ray, kInfinity, skipped));
+        ASSERT_EQ(hit.has_value(), any_hit<float>(two, ray, test::kInfinity, skipped));
         if (hit) {
             ASSERT_EQ(hit->t, again->t);
             ASSERT_EQ(hit->triangle, again->triangle);
@@ -149,8 +152,9 @@ TEST(TwoLevel, RaysMeetWhatTheyMeetInOneTree) {
     EXPECT_LE(apart, 10u) << "at edges, where either is right";
 }
 
-/// N2b: powers of two, of the scene or of the things' own spaces, change no bit but those of t.
-TEST(TwoLevel, PowersOfTwoChangeNoBit) {
+/// Row N2b of the stress test: scaling the scene or the object spaces by a power of two changes no
+/// bit of a hit except in t.
+TEST(TwoLevel, ScalingByPowersOfTwoChangesNoHit) {
     test::Crowd crowd(35);
     const std::vector<test::CrowdRay> rays = crowd.rays(1000);
     const Bvh whole = crowd.hierarchy();
@@ -175,13 +179,13 @@ TEST(TwoLevel, PowersOfTwoChangeNoBit) {
     EXPECT_GT(found, 41 * rays.size());
 }
 
-TEST(TwoLevel, WithoutThingsOfTheirOwnTheTreeStays) {
-    const Bvh flat = build(ball(1)), same = assemble(flat, {});
+TEST(TwoLevel, TreeWithoutInstancesStaysFlat) {
+    const Bvh flat = build(two_level_ball(1)), same = assemble(flat, {});
     EXPECT_EQ(same.nodes.size(), flat.nodes.size());
     EXPECT_EQ(same.triangles, flat.triangles);
 }
 
-TEST(TwoLevel, LowPartsAreWhatFloatsLack) {
+TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
     test::Numbers numbers(34);
     for (int i = 0; i < 1000; ++i) {
         const dvec3 v = dvec3(numbers.in_cube()) + 1e-8 * dvec3(numbers.in_cube());
@@ -193,7 +197,7 @@ TEST(TwoLevel, LowPartsAreWhatFloatsLack) {
     }
 }
 
-TEST(TwoLevel, StretchIsThatOfTheMatrix) {
+TEST(TwoLevel, StretchOfKnownMatricesIsInBounds) {
     EXPECT_EQ(stretch(dmat3(.25)), 1);
     EXPECT_LE(stretch(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
     EXPECT_GT(stretch(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);

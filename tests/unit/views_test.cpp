@@ -1,4 +1,4 @@
-// What errors over several views say: medians, what is apart and what ties, and how it is written.
+// Tests of errors over several drawn views: medians, ties, and how reports show them.
 #include "measure/views.hpp"
 
 #include "app/views.hpp"
@@ -6,6 +6,7 @@
 #include "report_sample.hpp"
 #include "support/refusal.hpp"
 #include "support/scenes.hpp"
+#include "support/special_values.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -25,9 +26,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/// A row whose FLIP over the mirrors is this, view by view.
+/// Returns a row whose FLIP over the mirrors in view i is `flips[i]`. NaN stands for a view without
+/// mirror pixels.
 Row over(const std::string& label, const std::vector<double>& flips) {
     Row row = sample::row(label, 5, .1, .2);
     for (const double flip : flips) {
@@ -60,14 +60,14 @@ Comparison with_views(std::vector<Row> rows) {
     return made;
 }
 
-TEST(Views, EqualRowsTie) {
+TEST(Views, EqualRowsTieOverViews) {
     const Row row = over("a", kFlips);
     for (const char* figure : {"flip", "off", "mae", "rmse"})
         EXPECT_FALSE(measure::apart(row, row, figure)) << figure;
 }
 
-/// Far less than rows differ from view to view.
-TEST(Views, ARowThatIsWorseByLittleInEachViewIsApart) {
+/// The two rows differ by 1e-6 in each view. The views differ from each other by far more.
+TEST(Views, RowThatIsSlightlyWorseInEachViewDoesNotTie) {
     const Row a = over("a", kFlips), b = over("b", plus(kFlips, 1e-6));
     EXPECT_TRUE(measure::apart(a, b, "flip"));
     EXPECT_TRUE(measure::apart(b, a, "flip"));
@@ -75,28 +75,28 @@ TEST(Views, ARowThatIsWorseByLittleInEachViewIsApart) {
     EXPECT_GT(measure::difference_over_views(b, a, "flip").low, 0);
 }
 
-TEST(Views, OneOutlierMakesNothingApart) {
+TEST(Views, OneOutlierDoesNotBreakATie) {
     std::vector<double> flips = kFlips;
     flips[4] = .99;
     EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", flips), "flip"));
-    // Nor does it hide what all other views of many say.
+    // With many views, one outlier does not hide a difference that all other views show.
     std::vector<double> many(30, .1), more(30, .11);
     more[7] = 0;
     EXPECT_TRUE(measure::apart(over("a", many), over("b", more), "flip"));
 }
 
-TEST(Views, FewerThanBoundAMedianTellNothingApart) {
+TEST(Views, TooFewViewsAlwaysTie) {
     const std::vector<double> five(kFlips.begin(), kFlips.begin() + 5);
     EXPECT_FALSE(measure::apart(over("a", five), over("b", plus(five, .1)), "flip"));
     EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", {}), "flip")) << "of a run cut short";
 }
 
-/// A view without a mirror pixel in one of them judges neither.
-TEST(Views, ThatSayNothingOfOneRowAreLeftOutOfBoth) {
+/// A view that shows no mirror pixel in one row is left out of the comparison of both rows.
+TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
     std::vector<double> holed = plus(kFlips, 1e-3);
-    holed[0] = kNaN;
+    holed[0] = test::kDoubleNan;
     EXPECT_TRUE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
-    holed[1] = holed[2] = kNaN; // five are left
+    holed[1] = holed[2] = test::kDoubleNan; // five views are left, too few
     EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
     const measure::Metric& flip = *std::ranges::find(measure::difference_metrics(), "flip",
                                                      &measure::Metric::name);
@@ -107,7 +107,7 @@ TEST(Views, ThatSayNothingOfOneRowAreLeftOutOfBoth) {
     EXPECT_FALSE(found.ci95.is_known());
 }
 
-TEST(Views, WhereNoneWereDrawnAnyDifferenceCounts) {
+TEST(Views, WithoutDrawnViewsAnyDifferenceCounts) {
     const Row a = sample::row("a", 5, .1, .2), b = sample::row("b", 5, .1, .2000001);
     EXPECT_TRUE(measure::apart(a, b, "flip"));
     EXPECT_FALSE(measure::apart(a, b, "rmse"));
@@ -116,7 +116,7 @@ TEST(Views, WhereNoneWereDrawnAnyDifferenceCounts) {
     EXPECT_FALSE(measure::apart(a, unknown, "flip"));
 }
 
-TEST(Views, RefuseWhatIsNoNumberOfADifference) {
+TEST(Views, MetricsThatAreNoNumberOfADifferenceAreRefused) {
     const Row row = over("a", kFlips);
     for (const char* name : {"max_at", "gpu_ms", "flop"})
         EXPECT_THAT(test::refusal(Failure::internal, [&] { measure::apart(row, row, name); }),
@@ -124,10 +124,10 @@ TEST(Views, RefuseWhatIsNoNumberOfADifference) {
                               "': wanted a figure of a difference that is a number"));
 }
 
-TEST(Views, AreASentenceForEachFigure) {
+TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
     Row exact = over("exact", std::vector<double>(8, 0.0));
     exact.is_reference = true;
-    std::vector<double> other = kFlips; // larger and smaller than kFlips, as often
+    std::vector<double> other = kFlips; // larger than kFlips in half of the views
     for (std::size_t i = 0; i < other.size(); ++i) other[i] += i % 2 == 0 ? -.01 : .01;
     const Comparison made = with_views(
         {over("worst", plus(kFlips, .4)), over("good", kFlips), over("fair", other), exact});
@@ -147,12 +147,12 @@ TEST(Views, AreASentenceForEachFigure) {
                 HasSubstr("Every two of them are apart."));
 }
 
-/// A row that is less in nearly every view may have the larger median.
-TEST(Views, OrderRowsByTheirDifferencesNotTheirMedians) {
+/// A row with less error in nearly every view can still have the larger median.
+TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
     const std::vector<double> low{.10, .11, .12, .13, .30, .31, .32, .33, .34};
     std::vector<double> less(low.size());
     for (std::size_t i = 0; i < low.size(); ++i) less[i] = low[i] - .001;
-    less[0] = .99; // one view in nine
+    less[0] = .99; // an outlier in one of nine views
     Comparison made = with_views({over("low", low), over("less", less)});
     made.views.resize(low.size());
     const measure::Order order = measure::orders_over_views(made).front();
@@ -164,13 +164,14 @@ TEST(Views, OrderRowsByTheirDifferencesNotTheirMedians) {
     EXPECT_TRUE(order.reversed.empty());
 }
 
-TEST(Views, AreATableWithTheWorstOne) {
+TEST(Views, ViewsTableHasMediansAndTheWorstView) {
     const Table table = views_table(with_views({over("a", kFlips)}));
     EXPECT_EQ(table.title, "Over 8 views");
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
         cells[table.columns[i].name] = table.rows.at(0).at(i);
-    EXPECT_EQ(cells["FLIP"], "0.1900 [0.1000–0.3000]"); // of 8, the range is the interval
+    // With 8 views, the 95 % interval is the whole range.
+    EXPECT_EQ(cells["FLIP"], "0.1900 [0.1000–0.3000]");
     EXPECT_EQ(cells["off, %"], "4.75 [2.50–7.50]");
     EXPECT_EQ(cells["MAE"], "0.0475 [0.0250–0.0750]");
     EXPECT_EQ(cells["Longest line"], "7 [4–11]");
@@ -178,7 +179,7 @@ TEST(Views, AreATableWithTheWorstOne) {
     EXPECT_EQ(cells["Worst view"], "view 3 of 8: --camera 1,2,2:4,5,6:40 --time 1");
 }
 
-TEST(Views, JsonHoldsEachFigureOverEachMask) {
+TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
     const json document = json::parse(to_json(with_views({over("a", kFlips)})));
     ASSERT_EQ(document["views"].size(), 8u);
     EXPECT_EQ(document["views"][2]["camera"]["eye"], json({1, 2, 2}));
@@ -199,7 +200,7 @@ TEST(Views, JsonHoldsEachFigureOverEachMask) {
     EXPECT_FALSE(views["error"].contains("max_at"));
 }
 
-TEST(Views, CsvHoldsTheirMedianAndInterval) {
+TEST(Views, CsvReportHoldsTheMedianAndIntervalOverViews) {
     std::istringstream csv(to_csv(with_views({over("a", kFlips)})));
     std::string header, line;
     std::getline(csv, header), std::getline(csv, line);
@@ -207,7 +208,7 @@ TEST(Views, CsvHoldsTheirMedianAndInterval) {
     for (std::istringstream names(header), cells(line); names && cells;) {
         std::string name, cell;
         std::getline(names, name, ',');
-        if (cells.peek() == '"') { // a camera's text
+        if (cells.peek() == '"') { // the text of a camera, in quotes
             cells.get();
             std::getline(cells, cell, '"');
             cells.get();
@@ -226,7 +227,7 @@ TEST(Views, CsvHoldsTheirMedianAndInterval) {
     EXPECT_EQ(found["worst_view_time"], "1");
 }
 
-TEST(Views, LeaveNoTraceWhereNoneWereDrawn) {
+TEST(Views, ReportsWithoutDrawnViewsDoNotMentionViews) {
     const Comparison made = sample::usual();
     EXPECT_EQ(json::parse(to_json(made))["views"], json::array());
     EXPECT_TRUE(json::parse(to_json(made))["rows"][0]["views"].is_null());
@@ -236,7 +237,7 @@ TEST(Views, LeaveNoTraceWhereNoneWereDrawn) {
     }
 }
 
-TEST(Views, SayWhenTheyWereCutShort) {
+TEST(Views, ReportSaysIfErrorsOverViewsAreIncomplete) {
     Comparison made = with_views({over("a", kFlips)});
     made.complete = false, made.asked = 1;
     EXPECT_THAT(to_markdown(made), Not(HasSubstr("errors over views")));
@@ -260,7 +261,7 @@ std::vector<std::string> cameras(const std::vector<measure::View>& views) {
     return names;
 }
 
-TEST(DrawnViews, AreThoseOfTheirSeed) {
+TEST(DrawnViews, DrawnViewsAreDeterminedByTheirSeed) {
     const scene::Scene scene = test::room(2, 1);
     const std::vector<measure::View> views = app::drawn_views(request_of(scene, 1), 12);
     ASSERT_EQ(views.size(), 12u);
@@ -270,14 +271,15 @@ TEST(DrawnViews, AreThoseOfTheirSeed) {
         EXPECT_EQ(view.time, .5) << "nothing moves";
     }
     EXPECT_EQ(cameras(app::drawn_views(request_of(scene, 1), 12)), cameras(views));
-    // Seeds beside each other share no view, and fewer views are the first ones.
+    // Neighbouring seeds share no view. If fewer views are drawn, they are the first ones of the
+    // longer list.
     for (const std::string& name : cameras(app::drawn_views(request_of(scene, 2), 12)))
         all.insert(name);
     EXPECT_EQ(all.size(), 24u);
     EXPECT_EQ(app::drawn_views(request_of(scene, 1), 6).back().camera.name, views[5].camera.name);
 }
 
-TEST(DrawnViews, AreAtInstantsOfOnePeriod) {
+TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
     scene::Scene scene = test::room(2, 1);
     scene.objects.back().motion = scene::Harmonic{.amplitude = {.1, 0, 0}, .period = 1.6};
     std::set<double> times;
@@ -292,7 +294,7 @@ TEST(DrawnViews, AreAtInstantsOfOnePeriod) {
     EXPECT_GT(*times.rbegin(), 1.7);
 }
 
-TEST(DrawnViews, AreNoneOrEnough) {
+TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
     const app::Request request = request_of(test::room(1, 1), 1);
     EXPECT_TRUE(app::drawn_views(request, 1).empty());
     for (const int count : {-1, 0, 2, 5})

@@ -1,4 +1,5 @@
-// What a user says of a scene.
+// Tests of scene overrides, of lights that are left out, of cameras given as text, and of automatic
+// exposure.
 #include "app/candidates.hpp"
 #include "app/exposure.hpp"
 #include "scene/build.hpp"
@@ -17,8 +18,8 @@ using namespace catoptric::scene;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Three objects, two of which share a material, and a lamp.
-Scene room() {
+/// Returns a scene of three objects, two of which share a material, and a lamp.
+Scene wishes_room() {
     Scene scene{.name = "room"};
     const std::size_t wood = add_material(
         scene, {.name = "wood", .albedo = vec3(.5f), .emission = vec3(.25f), .roughness = .5f});
@@ -35,7 +36,7 @@ const Material& of(const Scene& scene, std::size_t object) {
     return scene.materials[scene.objects[object].material];
 }
 
-TEST(MirrorOverride, IsReadAsPatternAndReflectance) {
+TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
     const auto read = [](const std::string& text) {
         return read_mirror_override("--mirror", text);
     };
@@ -52,18 +53,18 @@ TEST(MirrorOverride, IsReadAsPatternAndReflectance) {
     EXPECT_THAT(test::refusal(Failure::usage, [&] { read("=1"); }), HasSubstr("wanted a name"));
 }
 
-TEST(MirrorOverride, MakesAMirrorOfOneObjectAlone) {
-    Scene scene = room();
+TEST(MirrorOverride, MirrorOverrideChangesOnlyTheNamedObject) {
+    Scene scene = wishes_room();
     apply(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
     const Material mirror{.name = "wood", .mirror = true, .reflectance = {1, .5f, .25f}};
     EXPECT_EQ(of(scene, 0), mirror) << "the rest of the surface is dropped";
-    EXPECT_EQ(of(scene, 1), room().materials[0]) << "who shares the material keeps it";
+    EXPECT_EQ(of(scene, 1), wishes_room().materials[0]) << "who shares the material keeps it";
 }
 
-TEST(MirrorOverride, NamesObjectsNodesAndMaterials) {
+TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
     const auto made = [](const std::string& pattern) {
-        Scene scene = room();
+        Scene scene = wishes_room();
         apply(scene, {.mirrors = {{pattern, vec3(1)}}});
         return mirrors(scene);
     };
@@ -83,13 +84,13 @@ TEST(MirrorOverride, NamesObjectsNodesAndMaterials) {
                 HasSubstr("(did you mean 'table top'?)"));
 }
 
-TEST(MirrorOverride, ALaterOneWins) {
-    Scene scene = room();
+TEST(MirrorOverride, LaterMirrorOverrideWins) {
+    Scene scene = wishes_room();
     apply(scene, over({.mirrors = {{"wood", vec3(.5f)}}}, {.mirrors = {{"table*", vec3(.1f)}}}));
     EXPECT_EQ(of(scene, 0).reflectance, vec3(.5f));
 }
 
-TEST(Over, SaysEachPatternOnce) {
+TEST(Over, CombinedOverridesHoldEachPatternOnce) {
     const SceneOverrides both = over(
         {.mirrors = {{"a", vec3(1)}}, .lights = {"l"}},
         {.mirrors = {{"a", vec3(.5f)}, {"b", vec3(1)}}, .lights = {"l", "k"}});
@@ -97,8 +98,8 @@ TEST(Over, SaysEachPatternOnce) {
     EXPECT_THAT(both.lights, ElementsAre("k", "l"));
 }
 
-TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
-    Scene scene = room();
+TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
+    Scene scene = wishes_room();
     scene.objects[1].name = "it's a * [1]=2";
     const std::vector<std::string> options = app::mirror_options(scene);
     EXPECT_THAT(options, ElementsAre("--mirror 'frame/glass'"))
@@ -119,8 +120,8 @@ TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
     EXPECT_EQ(pattern_of(wide), std::string(59, 'n') + "*");
 }
 
-TEST(LightWish, TakesFactorTimesMeanTexel) {
-    Scene scene = room();
+TEST(LightWish, LightOverrideEmitsFactorTimesMeanTexel) {
+    Scene scene = wishes_room();
     Texture half;
     half.image = std::make_shared<Image>(Image{"i", {2, 1}, {0xff0000ffu, 0xff000000u}});
     scene.materials[0].emission_texture = half;
@@ -135,8 +136,8 @@ TEST(LightWish, TakesFactorTimesMeanTexel) {
                 HasSubstr("did you mean 'lamp'"));
 }
 
-TEST(TurnZUp, MakesZYExactly) {
-    Scene scene = room();
+TEST(TurnZUp, TurnZUpMapsZToYExactly) {
+    Scene scene = wishes_room();
     scene.cameras.push_back({.name = "c", .eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}});
     scene.punctual.push_back({.kind = Punctual::Kind::spot});
     scene.objects[3].motion = Harmonic{.amplitude = {1, 2, 3}};
@@ -152,13 +153,14 @@ TEST(TurnZUp, MakesZYExactly) {
     EXPECT_GT(glm::determinant(dmat3(scene.objects[0].world_from_object)), 0);
 }
 
-/// Everything that a rig carries turns with it, at every instant.
-TEST(TurnZUp, TurnsWhatRidesOnRigs) {
+/// Turning the scene from z up to y up also turns the objects and cameras that follow a rig, at
+/// every instant.
+TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
     Rig rig;
     rig.nodes.push_back({.translations = std::make_shared<const Keys>(
                              Keys{.times = {0, 1}, .values = {{0, 0, 0}, {1, 2, 3}}})});
     const Follows follows{.rig = std::make_shared<const Rig>(std::move(rig))};
-    Scene scene = room();
+    Scene scene = wishes_room();
     scene.objects[0].motion = follows;
     scene.cameras = {{.eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}, .follows = follows}};
     const Scene turned = [&] {
@@ -179,16 +181,16 @@ TEST(TurnZUp, TurnsWhatRidesOnRigs) {
     }
 }
 
-TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
-    Scene scene = room();
+TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestAtTheCentre) {
+    Scene scene = wishes_room();
     scene.materials[0].emission = vec3(0), scene.materials[2].emission = vec3(1e-6f);
-    for (int i = 0; i < 6; ++i) { // the nearer, the stronger; its intensity is no measure
+    for (int i = 0; i < 6; ++i) { // equal lights, so the nearest is the strongest
         Punctual light{.name = "p" + std::to_string(i), .intensity = vec3(100)};
         light.world_from_light[3] = dvec4(100.0 * (6 - i), 0, 0, 1);
         scene.punctual.push_back(light);
     }
     Punctual away{.name = "away", .kind = Punctual::Kind::spot, .intensity = vec3(1e6)};
-    away.cos_outer = .9; // shines along -z, not to the centre
+    away.cos_outer = .9; // shines along -z, away from the centre
     away.world_from_light[3] = dvec4(2, 4, -50, 1);
     scene.punctual.push_back(away);
     leave_out_lights(scene, 7);
@@ -207,8 +209,8 @@ TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     EXPECT_EQ(scene.unsupported[0].first, "object 'lamp'");
 }
 
-/// Twenty lit boards in one mesh, each farther than the one before.
-TEST(LeaveOutLights, OfOneMeshTheStrongestPartsStay) {
+/// The lamp is one mesh of twenty separate triangles, with growing distances between them.
+TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestPartsOfAMesh) {
     Scene scene{.name = "chandelier", .materials = {{.name = "glass", .emission = vec3(1)}}};
     Mesh boards{.name = "boards"};
     for (std::uint32_t i = 0; i < 20; ++i) {
@@ -241,7 +243,7 @@ TEST(LeaveOutLights, OfOneMeshTheStrongestPartsStay) {
     EXPECT_EQ(scene.unsupported.at(0).first, "object 'lamp', 4 of its 20 parts");
 }
 
-TEST(CameraNamed, OrthographicInNumbers) {
+TEST(CameraNamed, OrthographicCameraIsReadFromNumbers) {
     const Camera camera = camera_named("1,2,3:4,5,6:h=2.5", Scene());
     EXPECT_EQ(camera.eye, dvec3(1, 2, 3));
     EXPECT_EQ(camera.target, dvec3(4, 5, 6));
@@ -252,15 +254,15 @@ TEST(CameraNamed, OrthographicInNumbers) {
                 HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
 }
 
-TEST(ExposureFor, BringsTheNinetyFifthPercentileToFourFifths) {
+TEST(ExposureFor, ExposureBringsThe95thPercentileTo80Percent) {
     measure::Picture picture(10, 10);
     for (std::size_t i = 0; i < 100; ++i) picture.pixels[i] = vec3(i < 90 ? .01f : .1f);
     EXPECT_EQ(app::exposure_for(picture), 3) << "log2(.8 / .1)";
-    for (vec3& pixel : picture.pixels) pixel *= 1.25f; // log2 .8 = -.32 is nearest to -1/3
+    for (vec3& pixel : picture.pixels) pixel *= 1.25f; // log2(.8 / .125) = 2.68, nearest to 8/3
     EXPECT_DOUBLE_EQ(app::exposure_for(picture), 8.0 / 3);
-    picture.pixels.assign(100, vec3(0, 1, 0)); // Rec. 709: .7152
+    picture.pixels.assign(100, vec3(0, 1, 0)); // luminance .7152 (Rec. 709)
     EXPECT_EQ(app::exposure_for(picture), 0);
-    picture.pixels.assign(100, vec3(0, 0, 1)); // .0722: 3.47 stops
+    picture.pixels.assign(100, vec3(0, 0, 1)); // luminance .0722 (Rec. 709): 3.47 stops
     EXPECT_DOUBLE_EQ(app::exposure_for(picture), 10.0 / 3);
     picture.pixels.assign(100, vec3(NAN));
     EXPECT_EQ(app::exposure_for(picture), 0);

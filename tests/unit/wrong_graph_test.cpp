@@ -1,5 +1,6 @@
-// Graphs that cannot mean anything, and the words with which each is refused.
+// Tests that invalid render graphs are refused, each with an error text that names the mistake.
 #include "graph/plan.hpp"
+#include "support/graphs.hpp"
 #include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
@@ -7,19 +8,19 @@
 namespace catoptric::graph {
 namespace {
 
+using test::kBlack, test::nothing;
+
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-void nothing(Commands&) {}
-
-constexpr Clear kBlack{};
-
-/// What `plan` says; fails the test when it says nothing or fails in another way.
-std::string refusal(const Graph& graph, Failure failure = Failure::internal, Limits limits = {}) {
+/// Returns the error text of graph::plan. Fails the test if `plan` accepts the graph or fails in
+/// another way.
+std::string wrong_graph_refusal(const Graph& graph, Failure failure = Failure::internal,
+                                Limits limits = {}) {
     return test::refusal(failure, [&] { plan(graph, limits, plain_sizer()); });
 }
 
-/// A graph with one image that pass 'make' writes; tests add what is wrong.
+/// Holds a graph with images and a buffer. Each test adds passes with one mistake.
 struct WrongGraph : ::testing::Test {
     Graph g;
     Image cubes = g.image({.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
@@ -32,85 +33,95 @@ struct WrongGraph : ::testing::Test {
     }
 };
 
-TEST_F(WrongGraph, IsAcceptedWithoutTheMistake) {
+TEST_F(WrongGraph, GraphWithoutAMistakeIsAccepted) {
     make(cubes);
     g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
     g.mark_output(out);
     EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
 }
 
-TEST_F(WrongGraph, ReadBeforeWrite) {
+TEST_F(WrongGraph, ReadBeforeWriteIsRefused) {
     g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
     make(cubes);
-    EXPECT_EQ(refusal(g), "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
-                          "layers [0,24)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
+              "layers [0,24)");
 }
 
-TEST_F(WrongGraph, UpdateOfNothing) {
+TEST_F(WrongGraph, UpdateOfUnwrittenLayersIsRefused) {
     g.pass("mend").updates(out, Use::colour, kBlack).area({1, 1, 2, 2}).record(nothing);
     g.mark_output(out);
-    EXPECT_EQ(refusal(g), "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
-                          "[0,1)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
+              "[0,1)");
 }
 
-TEST_F(WrongGraph, UpdateOfTheWhole) {
+TEST_F(WrongGraph, UpdateWithoutAnAreaIsRefused) {
     make(out);
     g.pass("mend").updates(out, Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
 }
 
-TEST_F(WrongGraph, ReadOfPartiallyWritten) {
+TEST_F(WrongGraph, ReadOfPartlyWrittenLayersIsRefused) {
     g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
     g.pass("b").writes(cubes.layers(12, 12), Use::colour, kBlack).layers(12).record(nothing);
     g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
-                          "layers [6,12)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
+              "layers [6,12)");
 }
 
-TEST_F(WrongGraph, ReadOfLastFrameIsNoWrite) {
+TEST_F(WrongGraph, ReadOfTheLastFrameDoesNotCountAsAWrite) {
     g.pass("old")
         .reads(g.previous(cubes), Use::sampled)
         .writes(out, Use::colour, kBlack)
         .record(nothing);
     g.pass("new").reads(cubes, Use::sampled).writes(args, Use::storage_write).record(nothing);
     make(cubes);
-    EXPECT_EQ(refusal(g), "pass 'new' reads 'cubes' [0,24) as sampled before any pass writes "
-                          "layers [0,24)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'new' reads 'cubes' [0,24) as sampled before any pass writes "
+              "layers [0,24)");
 }
 
-TEST_F(WrongGraph, LoadOfNothing) {
+TEST_F(WrongGraph, LoadOfUnwrittenLayersIsRefused) {
     g.pass("glow").writes(out, Use::colour).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'glow' loads (has no clear for) 'out' [0,1) as colour before any "
-                          "pass writes layers [0,1)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'glow' loads (has no clear for) 'out' [0,1) as colour before any "
+              "pass writes layers [0,1)");
 }
 
-TEST_F(WrongGraph, ModificationOfNothing) {
+TEST_F(WrongGraph, StorageUseOfUnwrittenLayersIsRefused) {
     g.pass("blur").writes(out, Use::storage).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'blur' reads and writes 'out' [0,1) as storage before any pass "
-                          "writes layers [0,1)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'blur' reads and writes 'out' [0,1) as storage before any pass "
+              "writes layers [0,1)");
 }
 
-TEST_F(WrongGraph, BufferReadBeforeWrite) {
+TEST_F(WrongGraph, BufferReadBeforeWriteIsRefused) {
     g.pass("draw").reads(args, Use::indirect).writes(out, Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'draw' reads buffer 'args' as indirect before any pass writes it");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'draw' reads buffer 'args' as indirect before any pass writes it");
 }
 
-TEST_F(WrongGraph, SampledWhileAttached) {
+TEST_F(WrongGraph, SamplingAnAttachedLayerIsRefused) {
     make(cubes);
     g.pass("capture")
         .reads(cubes, Use::sampled)
         .writes(cubes.layers(6, 6), Use::colour, kBlack)
         .layers(6)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'capture' reads 'cubes' [0,24) as sampled while it writes 'cubes' "
-                          "[6,12) as colour, in layers [6,12)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'capture' reads 'cubes' [0,24) as sampled while it writes 'cubes' "
+              "[6,12) as colour, in layers [6,12)");
 }
 
-TEST_F(WrongGraph, SampledWhileStored) {
+TEST_F(WrongGraph, SamplingAStorageTargetIsRefused) {
     make(out);
     g.pass("blur").writes(out, Use::storage_write).reads(out, Use::sampled).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'blur' reads 'out' [0,1) as sampled while it writes 'out' [0,1) as "
-                          "storage_write, in layers [0,1)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'blur' reads 'out' [0,1) as sampled while it writes 'out' [0,1) as "
+              "storage_write, in layers [0,1)");
 }
 
 TEST_F(WrongGraph, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
@@ -125,96 +136,102 @@ TEST_F(WrongGraph, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
     EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
 }
 
-TEST_F(WrongGraph, BufferReadWhileWritten) {
+TEST_F(WrongGraph, BufferReadWhileWrittenIsRefused) {
     g.pass("fill").writes(args, Use::copy_to).record(nothing);
     g.pass("sort").reads(args, Use::storage_read).writes(args, Use::storage_write).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'sort' reads buffer 'args' as storage_read while it writes buffer "
-                          "'args' as storage_write");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'sort' reads buffer 'args' as storage_read while it writes buffer "
+              "'args' as storage_write");
 }
 
-TEST_F(WrongGraph, TwoWritesOfTheSameLayers) {
+TEST_F(WrongGraph, TwoWritesOfTheSameLayersAreRefused) {
     g.pass("twice")
         .writes(cubes.layers(0, 6), Use::storage_write)
         .writes(cubes.layers(4, 6), Use::copy_to)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'twice' writes 'cubes' [0,6) as storage_write and 'cubes' [4,10) "
-                          "as copy_to: written twice, in layers [4,6)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'twice' writes 'cubes' [0,6) as storage_write and 'cubes' [4,10) "
+              "as copy_to: written twice, in layers [4,6)");
 }
 
-TEST_F(WrongGraph, TwoLayoutsAtOnce) {
+TEST_F(WrongGraph, TwoLayoutsAtOnceAreRefused) {
     make(out);
     g.pass("look")
         .reads(out, Use::sampled)
         .reads(out, Use::storage_read)
         .writes(args, Use::storage_write)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'look' reads 'out' [0,1) as sampled and 'out' [0,1) as "
-                          "storage_read: one image cannot be in two layouts at once, in layers "
-                          "[0,1)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'look' reads 'out' [0,1) as sampled and 'out' [0,1) as "
+              "storage_read: one image cannot be in two layouts at once, in layers "
+              "[0,1)");
 }
 
-TEST_F(WrongGraph, WantedButNeverWritten) {
+TEST_F(WrongGraph, OutputThatIsNeverWrittenIsRefused) {
     make(cubes);
     g.mark_output(out);
-    EXPECT_EQ(refusal(g), "'out' [0,1) is wanted, but no pass writes layers [0,1)");
+    EXPECT_EQ(wrong_graph_refusal(g), "'out' [0,1) is wanted, but no pass writes layers [0,1)");
 }
 
-TEST_F(WrongGraph, WantedLayersNeverWritten) {
+TEST_F(WrongGraph, OutputLayersThatAreNeverWrittenAreRefused) {
     g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
     g.mark_output(cubes.layers(3, 6));
-    EXPECT_EQ(refusal(g), "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
+    EXPECT_EQ(wrong_graph_refusal(g), "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
 }
 
-TEST_F(WrongGraph, WantedBufferNeverWritten) {
+TEST_F(WrongGraph, OutputBufferThatIsNeverWrittenIsRefused) {
     make(out);
     g.mark_output(args);
-    EXPECT_EQ(refusal(g), "buffer 'args' is wanted, but no pass writes it");
+    EXPECT_EQ(wrong_graph_refusal(g), "buffer 'args' is wanted, but no pass writes it");
 }
 
-TEST_F(WrongGraph, WantedLayersOutOfRange) {
+TEST_F(WrongGraph, OutputLayersOutOfRangeAreRefused) {
     make(out);
     g.mark_output(out.layers(0, 2));
-    EXPECT_EQ(refusal(g), "'out' [0,2) is wanted, but the image has layers [0,1)");
+    EXPECT_EQ(wrong_graph_refusal(g), "'out' [0,2) is wanted, but the image has layers [0,1)");
 }
 
-TEST_F(WrongGraph, WantedPrevious) {
+TEST_F(WrongGraph, OutputOfThePreviousFrameIsRefused) {
     make(out);
     g.mark_output(g.previous(out));
-    EXPECT_EQ(refusal(g), "previous('out') [0,1) is wanted: only this frame's contents can be");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "previous('out') [0,1) is wanted: only this frame's contents can be");
 }
 
-TEST_F(WrongGraph, WantedOfAnotherGraph) {
+TEST_F(WrongGraph, OutputOfAnotherGraphIsRefused) {
     make(out);
     g.mark_output(Image{.id = 9, .layer_count = 1});
-    EXPECT_EQ(refusal(g), "image number 9 is wanted, but the graph has 3");
+    EXPECT_EQ(wrong_graph_refusal(g), "image number 9 is wanted, but the graph has 3");
 }
 
-TEST_F(WrongGraph, PreviousOfWhatNobodyWrites) {
+TEST_F(WrongGraph, PreviousOfAnUnwrittenImageIsRefused) {
     g.pass("view")
         .reads(g.previous(cubes), Use::sampled)
         .writes(out, Use::colour, kBlack)
         .record(nothing);
-    EXPECT_EQ(refusal(g),
+    EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads previous('cubes') as sampled but no pass writes 'cubes'");
 }
 
-TEST_F(WrongGraph, PreviousOfLayersThatNobodyWrites) {
+TEST_F(WrongGraph, PreviousOfUnwrittenLayersIsRefused) {
     g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
     g.pass("view")
         .reads(g.previous(cubes.layers(0, 12)), Use::sampled)
         .writes(out, Use::colour, kBlack)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'view' reads previous('cubes') [0,12) as sampled but no pass "
-                          "writes layers [6,12) of 'cubes'");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'view' reads previous('cubes') [0,12) as sampled but no pass "
+              "writes layers [6,12) of 'cubes'");
 }
 
-TEST_F(WrongGraph, PreviousAsTarget) {
+TEST_F(WrongGraph, WriteToThePreviousFrameIsRefused) {
     g.pass("rewrite").writes(g.previous(out), Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'rewrite' writes previous('out') [0,1) as colour: last frame's "
-                          "contents are only read");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'rewrite' writes previous('out') [0,1) as colour: last frame's "
+              "contents are only read");
 }
 
-TEST_F(WrongGraph, PreviousOfAnotherGraph) {
+TEST_F(WrongGraph, PreviousOfAnotherGraphIsRefused) {
     try {
         g.previous(Image{.id = 9});
         FAIL() << "accepted";
@@ -223,151 +240,161 @@ TEST_F(WrongGraph, PreviousOfAnotherGraph) {
     }
 }
 
-TEST_F(WrongGraph, LayersOutOfRange) {
+TEST_F(WrongGraph, LayersOutOfRangeAreRefused) {
     g.pass("capture").writes(cubes.layers(20, 6), Use::colour, kBlack).layers(6).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'capture' uses 'cubes' [20,26) as colour, but the image has layers "
-                          "[0,24)");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'capture' uses 'cubes' [20,26) as colour, but the image has layers "
+              "[0,24)");
 }
 
-TEST_F(WrongGraph, LayersThatWrapAround) {
+TEST_F(WrongGraph, LayerRangeThatOverflowsIsRefused) {
     g.pass("capture").writes(cubes.layers(1, ~0u), Use::storage_write).record(nothing);
-    EXPECT_THAT(refusal(g), HasSubstr("but the image has layers [0,24)"));
+    EXPECT_THAT(wrong_graph_refusal(g), HasSubstr("but the image has layers [0,24)"));
 }
 
-TEST_F(WrongGraph, NoLayers) {
+TEST_F(WrongGraph, EmptyLayerRangeIsRefused) {
     g.pass("capture").writes(cubes.layers(3, 0), Use::storage_write).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'capture' names no layer of 'cubes' as storage_write");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass 'capture' names no layer of 'cubes' as storage_write");
 }
 
-TEST_F(WrongGraph, HandleOfAnotherGraph) {
+TEST_F(WrongGraph, ImageOfAnotherGraphIsRefused) {
     g.pass("a").writes(Image{.id = 3, .layer_count = 1}, Use::storage_write).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'a' names image number 3, but the graph has 3");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names image number 3, but the graph has 3");
 }
 
-TEST_F(WrongGraph, BufferHandleOfAnotherGraph) {
+TEST_F(WrongGraph, BufferOfAnotherGraphIsRefused) {
     g.pass("a").writes(Buffer{1}, Use::storage_write).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'a' names buffer number 1, but the graph has 1");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names buffer number 1, but the graph has 1");
 }
 
-TEST_F(WrongGraph, AttachmentLayersDifferFromThePass) {
+TEST_F(WrongGraph, AttachmentWithAnotherLayerCountIsRefused) {
     g.pass("capture").writes(cubes.layers(0, 6), Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'capture' renders 1 layer(s), but attaches 'cubes' [0,6) as "
-                          "colour, which are 6");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'capture' renders 1 layer(s), but attaches 'cubes' [0,6) as "
+              "colour, which are 6");
 }
 
-TEST_F(WrongGraph, AttachmentSizesDiffer) {
+TEST_F(WrongGraph, AttachmentsOfDifferentSizesAreRefused) {
     const Image small = g.image({.name = "small", .width = 8, .height = 4});
     g.pass("view")
         .writes(small, Use::colour, kBlack)
         .writes(depth, Use::depth, kBlack)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'view' attaches 'small' [0,1) as colour (8x4) and 'depth' [0,1) as "
-                          "depth (8x8): attachments have one size");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'view' attaches 'small' [0,1) as colour (8x4) and 'depth' [0,1) as "
+              "depth (8x8): attachments have one size");
 }
 
-TEST_F(WrongGraph, TwoDepthAttachments) {
+TEST_F(WrongGraph, TwoDepthAttachmentsAreRefused) {
     const Image other = g.image({.name = "other", .format = Format::d32f, .width = 8, .height = 8});
     g.pass("view")
         .writes(other, Use::depth, kBlack)
         .writes(depth, Use::depth, kBlack)
         .record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
 }
 
-TEST_F(WrongGraph, DepthUseOfAColourFormat) {
+TEST_F(WrongGraph, DepthUseOfAColourFormatIsRefused) {
     g.pass("shadow").writes(out, Use::depth, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'shadow' uses 'out' [0,1) as depth, but its format rgba16f is a "
-                          "colour format");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'shadow' uses 'out' [0,1) as depth, but its format rgba16f is a "
+              "colour format");
 }
 
-TEST_F(WrongGraph, ColourUseOfADepthFormat) {
+TEST_F(WrongGraph, ColourUseOfADepthFormatIsRefused) {
     g.pass("shadow").writes(depth, Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'shadow' uses 'depth' [0,1) as colour, but its format d32f is a "
-                          "depth format");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'shadow' uses 'depth' [0,1) as colour, but its format d32f is a "
+              "depth format");
 }
 
-TEST_F(WrongGraph, TwoPassesOfOneName) {
+TEST_F(WrongGraph, TwoPassesOfOneNameAreRefused) {
     make(out);
     make(cubes);
-    EXPECT_EQ(refusal(g), "pass 'make' is declared twice: names are unique");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass 'make' is declared twice: names are unique");
 }
 
-TEST_F(WrongGraph, TwoImagesOfOneName) {
+TEST_F(WrongGraph, TwoImagesOfOneNameAreRefused) {
     g.image({.name = "out"});
-    EXPECT_EQ(refusal(g), "image 'out': another image or buffer has the same name");
+    EXPECT_EQ(wrong_graph_refusal(g), "image 'out': another image or buffer has the same name");
 }
 
-TEST_F(WrongGraph, BufferNamedLikeAnImage) {
+TEST_F(WrongGraph, BufferNamedLikeAnImageIsRefused) {
     g.buffer({.name = "out", .bytes = 4});
-    EXPECT_EQ(refusal(g), "buffer 'out': another image or buffer has the same name");
+    EXPECT_EQ(wrong_graph_refusal(g), "buffer 'out': another image or buffer has the same name");
 }
 
-TEST_F(WrongGraph, NamelessImage) {
+TEST_F(WrongGraph, ImageWithoutANameIsRefused) {
     g.image({.name = ""});
-    EXPECT_EQ(refusal(g), "image number 3 has no name");
+    EXPECT_EQ(wrong_graph_refusal(g), "image number 3 has no name");
 }
 
-TEST_F(WrongGraph, NamelessPass) {
+TEST_F(WrongGraph, PassWithoutANameIsRefused) {
     make(out);
     g.pass("").writes(out, Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass number 1 has no name");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass number 1 has no name");
 }
 
-TEST_F(WrongGraph, PassWithoutBody) {
+TEST_F(WrongGraph, PassWithoutABodyIsRefused) {
     g.pass("forgotten").writes(out, Use::colour, kBlack);
-    EXPECT_EQ(refusal(g), "pass 'forgotten' has no body");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass 'forgotten' has no body");
 }
 
-TEST_F(WrongGraph, PassThatWritesNothing) {
+TEST_F(WrongGraph, PassThatWritesNothingIsRefused) {
     make(out);
     g.pass("look").reads(out, Use::sampled).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'look' writes nothing");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass 'look' writes nothing");
 }
 
-TEST_F(WrongGraph, PassOfNoLayers) {
+TEST_F(WrongGraph, PassWithoutLayersIsRefused) {
     g.pass("view").writes(out, Use::colour, kBlack).layers(0).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'view' renders 0 layers");
+    EXPECT_EQ(wrong_graph_refusal(g), "pass 'view' renders 0 layers");
 }
 
-TEST_F(WrongGraph, CubeOfSevenFaces) {
+TEST_F(WrongGraph, CubeWithSevenFacesIsRefused) {
     g.image({.name = "odd", .width = 4, .height = 4, .layers = 7, .cube = true});
-    EXPECT_EQ(refusal(g), "image 'odd' is a cube, but its 7 layers are not a multiple of 6");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "image 'odd' is a cube, but its 7 layers are not a multiple of 6");
 }
 
-TEST_F(WrongGraph, CubeThatIsNotSquare) {
+TEST_F(WrongGraph, CubeThatIsNotSquareIsRefused) {
     g.image({.name = "flat", .width = 4, .height = 2, .layers = 6, .cube = true});
-    EXPECT_EQ(refusal(g), "image 'flat' is a cube, but not square: 4x2");
+    EXPECT_EQ(wrong_graph_refusal(g), "image 'flat' is a cube, but not square: 4x2");
 }
 
-TEST_F(WrongGraph, ImageOfNoSize) {
+TEST_F(WrongGraph, ImageWithoutSizeIsRefused) {
     g.image({.name = "void", .width = 4, .height = 0, .layers = 2});
-    EXPECT_EQ(refusal(g), "image 'void' is empty: 4x0, 2 layers");
+    EXPECT_EQ(wrong_graph_refusal(g), "image 'void' is empty: 4x0, 2 layers");
 }
 
-TEST_F(WrongGraph, ImageOfNoLayers) {
+TEST_F(WrongGraph, ImageWithoutLayersIsRefused) {
     g.image({.name = "void", .layers = 0});
-    EXPECT_EQ(refusal(g), "image 'void' is empty: 1x1, 0 layers");
+    EXPECT_EQ(wrong_graph_refusal(g), "image 'void' is empty: 1x1, 0 layers");
 }
 
-TEST_F(WrongGraph, BufferOfNoSize) {
+TEST_F(WrongGraph, BufferWithoutSizeIsRefused) {
     g.buffer({.name = "void"});
-    EXPECT_EQ(refusal(g), "buffer 'void' is empty: 0 bytes");
+    EXPECT_EQ(wrong_graph_refusal(g), "buffer 'void' is empty: 0 bytes");
 }
 
-TEST_F(WrongGraph, ClearOfWhatIsNotAttached) {
+TEST_F(WrongGraph, ClearOfAnImageThatIsNotAttachedIsRefused) {
     g.pass("blur").writes(out, Use::storage_write, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'blur' clears 'out' [0,1) as storage_write, but only attachments "
-                          "are cleared");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'blur' clears 'out' [0,1) as storage_write, but only attachments "
+              "are cleared");
 }
 
-TEST_F(WrongGraph, CopyInARasterPass) {
+TEST_F(WrongGraph, CopyInARasterPassIsRefused) {
     g.pass("view").writes(out, Use::colour, kBlack).writes(args, Use::copy_to).record(nothing);
-    EXPECT_EQ(refusal(g), "pass 'view' has attachments and uses buffer 'args' as copy_to: copies "
-                          "need a pass of their own");
+    EXPECT_EQ(wrong_graph_refusal(g),
+              "pass 'view' has attachments and uses buffer 'args' as copy_to: copies "
+              "need a pass of their own");
 }
 
-// Every use in every direction, so that none is accepted by oversight.
-TEST_F(WrongGraph, UsesInTheWrongDirection) {
+// Tries every use as a read and as a write, of an image and of a buffer, so that no wrong
+// combination is accepted.
+TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
     for (const Use use : {Use::sampled, Use::storage_read, Use::storage_write, Use::storage,
                           Use::colour, Use::depth, Use::copy_from, Use::copy_to, Use::indirect}) {
         const bool reads = use == Use::sampled || use == Use::storage_read ||
@@ -377,81 +404,81 @@ TEST_F(WrongGraph, UsesInTheWrongDirection) {
         if (reads) {
             Graph wrong = g;
             wrong.pass("p").writes(out, use).record(nothing);
-            EXPECT_EQ(refusal(wrong), "pass 'p' writes 'out' [0,1) as " + name +
-                                          ", which is not a way to write an image");
+            EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' writes 'out' [0,1) as " + name +
+                                                      ", which is not a way to write an image");
         }
         if ((!reads && use != Use::depth) || use == Use::indirect) {
             Graph wrong = g;
             wrong.pass("p").reads(out, use).record(nothing);
-            EXPECT_EQ(refusal(wrong), "pass 'p' reads 'out' [0,1) as " + name +
-                                          ", which is not a way to read an image");
+            EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' reads 'out' [0,1) as " + name +
+                                                      ", which is not a way to read an image");
         }
         if (reads || image_only) {
             Graph wrong = g;
             wrong.pass("p").writes(args, use).record(nothing);
-            EXPECT_EQ(refusal(wrong), "pass 'p' writes buffer 'args' as " + name +
-                                          ", which is not a way to write a buffer");
+            EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' writes buffer 'args' as " + name +
+                                                      ", which is not a way to write a buffer");
         }
         if (!reads) {
             Graph wrong = g;
             wrong.pass("p").reads(args, use).record(nothing);
-            EXPECT_EQ(refusal(wrong), "pass 'p' reads buffer 'args' as " + name +
-                                          ", which is not a way to read a buffer");
+            EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' reads buffer 'args' as " + name +
+                                                      ", which is not a way to read a buffer");
         }
     }
 }
 
-// A mistake is told even where nobody wants the result.
-TEST_F(WrongGraph, CulledPassesAreLookedAt) {
+// A mistake is reported even in a pass on which no output depends.
+TEST_F(WrongGraph, CulledPassesAreValidated) {
     make(out);
     g.mark_output(out);
     g.pass("debug").reads(cubes, Use::sampled).writes(args, Use::storage_write).record(nothing);
-    EXPECT_THAT(refusal(g), AllOf(HasSubstr("'debug'"), HasSubstr("'cubes'")));
+    EXPECT_THAT(wrong_graph_refusal(g), AllOf(HasSubstr("'debug'"), HasSubstr("'cubes'")));
 }
 
-TEST_F(WrongGraph, OverSize2d) {
+TEST_F(WrongGraph, ImageOverThe2dSizeLimitIsRefused) {
     make(out);
-    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_size_2d = 7}),
+    EXPECT_EQ(wrong_graph_refusal(g, Failure::exhausted, {.max_size_2d = 7}),
               "image 'out' wants 8 texels a side, device allows max_size_2d = 7");
 }
 
-TEST_F(WrongGraph, OverSizeCube) {
+TEST_F(WrongGraph, CubeOverTheSizeLimitIsRefused) {
     make(out);
-    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_size_cube = 7}),
+    EXPECT_EQ(wrong_graph_refusal(g, Failure::exhausted, {.max_size_cube = 7}),
               "image 'cubes' wants 8 texels a side, device allows max_size_cube = 7");
 }
 
-TEST_F(WrongGraph, OverLayers) {
+TEST_F(WrongGraph, ImageOverTheLayerLimitIsRefused) {
     make(out);
-    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_layers = 23}),
+    EXPECT_EQ(wrong_graph_refusal(g, Failure::exhausted, {.max_layers = 23}),
               "image 'cubes' wants 24 layers, device allows max_layers = 23");
 }
 
-TEST_F(WrongGraph, OverFramebufferLayers) {
+TEST_F(WrongGraph, PassOverTheFramebufferLayerLimitIsRefused) {
     make(cubes);
-    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_framebuffer_layers = 6}),
+    EXPECT_EQ(wrong_graph_refusal(g, Failure::exhausted, {.max_framebuffer_layers = 6}),
               "pass 'make' wants 24 framebuffer layers for 'cubes', device allows "
               "max_framebuffer_layers = 6");
 }
 
-TEST_F(WrongGraph, OverMemory) {
+TEST_F(WrongGraph, FrameOverTheMemoryLimitIsRefused) {
     make(cubes);
     g.mark_output(cubes);
-    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_memory = 12287}),
+    EXPECT_EQ(wrong_graph_refusal(g, Failure::exhausted, {.max_memory = 12287}),
               "the frame wants 12288 bytes of memory, device allows max_memory = 12287; the "
               "largest is 'cubes' with 12288");
 }
 
-TEST_F(WrongGraph, OverMemoryInOnePiece) {
+TEST_F(WrongGraph, MemoryOverTheAllocationLimitIsRefused) {
     make(cubes);
     g.mark_output(cubes);
-    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_allocation = 12287}),
+    EXPECT_EQ(wrong_graph_refusal(g, Failure::exhausted, {.max_allocation = 12287}),
               "the frame wants 12288 bytes of memory in one piece, device allows max_allocation = "
               "12287; the "
               "largest is 'cubes' with 12288");
 }
 
-TEST_F(WrongGraph, JustAtEveryLimitIsAccepted) {
+TEST_F(WrongGraph, GraphAtEveryLimitIsAccepted) {
     make(cubes);
     g.mark_output(cubes);
     const Limits limits{.max_size_2d = 8,

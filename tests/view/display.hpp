@@ -16,7 +16,8 @@
 
 namespace test {
 
-/// An X server without a screen, for as long as this lives; DISPLAY names it.
+/// Runs an X server without a screen (Xvfb) until the destructor. Sets DISPLAY to the server's
+/// name.
 class Display {
 public:
     Display()
@@ -31,8 +32,8 @@ public:
             const int quiet = ::open("/dev/null", O_WRONLY);
             ::dup2(quiet, 1);
             ::dup2(quiet, 2);
-            ::prctl(PR_SET_PDEATHSIG, SIGTERM); // also where the test ends in a crash
-            // Without -noreset it starts over when the last window closes, and refuses the next one
+            ::prctl(PR_SET_PDEATHSIG, SIGTERM); // ends the server even if the test crashes
+            // Without -noreset the server restarts when the last window closes, and refuses windows
             // meanwhile.
             ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-noreset", "-screen", "0",
                      "1280x1024x24", "-fbdir", folder_.c_str(), static_cast<char*>(nullptr));
@@ -56,11 +57,12 @@ public:
     Display& operator=(const Display&) = delete;
     bool is_there() const { return is_there_; }
 
-    /// What it shows in its upper left corner, where it puts windows, from 0 to 1.
+    /// Returns the pixels in the upper left corner of the server's screen, where windows are
+    /// placed. Channels are 0 to 1.
     catoptric::measure::Picture shown(int width, int height) const {
         std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-        const auto word = [&](std::size_t at) { // of an XWD file's header, big-endian
+        const auto word = [&](std::size_t at) { // a big-endian word of the XWD header
             std::uint32_t value = 0;
             for (std::size_t i = 0; i < 4; ++i)
                 value = value << 8 | static_cast<unsigned char>(bytes.at(4 * at + i));

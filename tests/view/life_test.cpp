@@ -1,5 +1,5 @@
-// A window is resized, minimised, closed, refused, loses its device, and runs for long: no message
-// of the validation layer, and memory stays what it was.
+// Tests of a window that is resized, minimised, closed or refused, loses its device, or runs for
+// long. The validation layer must print no message, and memory must stay constant.
 #include "view/settings.hpp"
 #include "view/window.hpp"
 
@@ -18,7 +18,7 @@ using namespace catoptric;
 using namespace catoptric::view;
 using testing::HasSubstr;
 
-/// Resident memory of this process, bytes.
+/// Returns the resident memory of this process in bytes.
 std::uint64_t resident_bytes() {
     std::ifstream statm("/proc/self/statm");
     std::uint64_t all = 0, resident = 0;
@@ -28,10 +28,10 @@ std::uint64_t resident_bytes() {
 
 class ViewLife : public test::WindowTest {};
 
-/// Memory that frames took once is taken no more. What grows by steps, as a heap does, stands still
-/// in some fifty frames; what leaks 1 kB a frame does so in none. The first test: what others
-/// gave back would hide it.
-TEST_F(ViewLife, MemoryStaysFlat) {
+/// Memory must not grow from frame to frame. A heap that grows in steps stays constant over some
+/// fifty frames, but a leak of 1 kB per frame shows in every fifty frames. This test is the first
+/// of the file, because memory that other tests free would hide a leak.
+TEST_F(ViewLife, MemoryStaysConstantOverFrames) {
     constexpr int kFrames = 50;
     std::vector<std::uint64_t> resident, on_device;
     Driver driver;
@@ -52,7 +52,7 @@ TEST_F(ViewLife, MemoryStaysFlat) {
     EXPECT_LT(least, kFrames * 1024) << testing::PrintToString(resident);
 }
 
-TEST_F(ViewLife, RefusesWhatItCannotDo) {
+TEST_F(ViewLife, InvalidOptionsAndMissingDisplayAreRefused) {
     const auto refused = [&](const Words& words, Failure failure, const std::string& text) {
         try {
             view(words);
@@ -75,8 +75,8 @@ TEST_F(ViewLife, RefusesWhatItCannotDo) {
     ::setenv("DISPLAY", shown.c_str(), 1);
 }
 
-/// From the first object of the program on, whatever main has come to.
-TEST_F(ViewLife, AnswersEarlySignals) {
+/// The program answers signals from its first static initialiser on, before main begins.
+TEST_F(ViewLife, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     constexpr std::array kSignals{SIGHUP, SIGINT, SIGTERM};
     int answered = 0;
     for (int i = 0; i < 12; ++i) {
@@ -89,11 +89,12 @@ TEST_F(ViewLife, AnswersEarlySignals) {
         answered += ended.err.find("catoptric-view: stopped by signal " +
                                    std::to_string(process.signal)) != std::string::npos;
     }
-    EXPECT_GE(answered, 10); // the others: between the linker's word and the program's first
+    EXPECT_GE(answered, 10); // the others came before the first initialiser
 }
 
-/// 20 sizes and more; for a while there is nothing to draw on.
-TEST_F(ViewLife, IsResizedMinimisedAndClosed) {
+/// The window takes 20 sizes or more. During frames 30 to 33 the window is minimised, so its size
+/// is 0.
+TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> sizes;
     Driver driver;
     driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window& window) {
@@ -116,9 +117,9 @@ TEST_F(ViewLife, IsResizedMinimisedAndClosed) {
     EXPECT_GE(sizes.size(), 20u);
 }
 
-/// A plan that the device has no memory for, again and again: each time the one before comes back,
-/// and no image of the window is kept.
-TEST_F(ViewLife, GoesBackToThePlanBefore) {
+/// A plan for which the device lacks memory is chosen several times. Each time the window returns
+/// to the previous plan and frees the images of the failed plan.
+TEST_F(ViewLife, PlanWithoutMemoryFallsBackToThePlanBefore) {
     int refused = 0;
     Driver driver;
     driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
@@ -134,8 +135,9 @@ TEST_F(ViewLife, GoesBackToThePlanBefore) {
     EXPECT_EQ(refused, 6);
 }
 
-/// What the user chose is there in the next window; with --frames it is neither read nor written.
-TEST_F(ViewLife, KeepsItsSettings) {
+/// The next window restores the settings that the user chose. With `--frames`, settings are neither
+/// read nor written.
+TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
     const char* before = std::getenv("XDG_CONFIG_HOME");
     const std::string kept = before ? before : "";
     ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
@@ -169,7 +171,7 @@ TEST_F(ViewLife, KeepsItsSettings) {
         ::unsetenv("XDG_CONFIG_HOME");
 }
 
-/// A window whose device or surface fails while it shows 60 frames, or before the first.
+/// Fixture for a window of 60 frames whose device or surface fails during or before these frames.
 class ViewFaults : public ViewLife {
 protected:
     test::Ended with_fault(const std::string& fault) const {
@@ -186,23 +188,23 @@ protected:
     const Words words{"--technique", "reuse:face=32", "--size", "64x64"};
 };
 
-/// In mid-frame: what the user had is there in a session made anew, and the picture comes out as
-/// ever.
-TEST_F(ViewFaults, ItGoesOnWhenTheDeviceIsLost) {
+/// The device is lost in the middle of a frame. A new session keeps the user's state, and the
+/// picture equals the picture of `render`.
+TEST_F(ViewFaults, WindowGoesOnAfterALostDevice) {
     const test::Ended ended = with_fault("vkQueueSubmit2:30:-4");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); the session is made anew"));
     expect_rendered("lost.png", words);
 }
 
-TEST_F(ViewFaults, ItGoesOnWhenTheSurfaceIsLost) {
+TEST_F(ViewFaults, WindowGoesOnAfterALostSurface) {
     const test::Ended ended = with_fault("vkQueuePresentKHR:40:-1000000000");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("the window's surface was lost; the session is made anew"));
     expect_rendered("lost.png", words);
 }
 
-TEST_F(ViewFaults, ADeviceThatCannotShowIsRefused) {
+TEST_F(ViewFaults, DeviceThatCannotPresentIsRefused) {
     const test::Ended ended = with_fault("vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
     EXPECT_EQ(ended.exit_code, 69) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("lacks a way to show pictures in this window"));

@@ -1,4 +1,5 @@
-// The plan's controls under a mouse that clicks everywhere: without a window or a device.
+// Tests of the controls that edit a plan. A simulated mouse clicks everywhere in the panel, without
+// a window or a device.
 #include "core/error.hpp"
 #include "scene/load.hpp"
 #include "view/panels.hpp"
@@ -18,7 +19,7 @@ using testing::Each;
 using testing::Not;
 using testing::StartsWith;
 
-/// Dear ImGui on its own, with one panel of the window's width.
+/// A Dear ImGui context that draws one panel without a window.
 class Panel {
 public:
     explicit Panel(const scene::Scene& scene, ImFontAtlas& fonts)
@@ -27,7 +28,7 @@ public:
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
         io.DisplaySize = {360, 700};
-        io.DeltaTime = 1; // nothing is a double click
+        io.DeltaTime = 1; // seconds, so that no click is a double click
     }
     ~Panel() { ImGui::DestroyContext(context_); }
     Panel(const Panel&) = delete;
@@ -60,7 +61,8 @@ protected:
         fonts.GetTexDataAsAlpha8(&texels, &width, &height);
     }
 
-    /// Plans that one click leads to, or one and another below it: in a list that it opened.
+    /// Returns the plans that a click leads to, for clicks all over the panel. A second click below
+    /// the first one may choose from a list that the first click opened.
     std::set<std::string> reached(const State& from,
                                   const std::function<PlanState(const State&)>& plan) {
         std::set<std::string> texts;
@@ -84,7 +86,7 @@ protected:
     ImFontAtlas fonts;
 };
 
-TEST_F(ViewPanel, TurnsTheKnobsOfAllMirrors) {
+TEST_F(ViewPanel, ControlsChangeTheKnobsOfAllMirrors) {
     State state;
     state.plan = plan_of("secant");
     const std::set<std::string> texts = reached(state, plan_itself);
@@ -96,12 +98,12 @@ TEST_F(ViewPanel, TurnsTheKnobsOfAllMirrors) {
     EXPECT_THAT(texts, Each(Not(testing::HasSubstr(" ")))) << "for all mirrors";
 }
 
-TEST_F(ViewPanel, TurnsTheKnobsOfTheMirrorThatWasChosen) {
+TEST_F(ViewPanel, ControlsChangeTheKnobsOfTheChosenMirror) {
     State state;
     state.plan = plan_of("secant:face=64");
     state.chosen = 2;
     std::set<std::string> texts = reached(state, plan_itself);
-    texts.erase("secant:face=64"); // nothing was hit
+    texts.erase("secant:face=64"); // the plan after a click beside all controls
     EXPECT_THAT(texts, Contains("2=secant:face=128 *=secant:face=64"));
     EXPECT_THAT(texts, Contains("2=secant:face=auto *=secant:face=64"));
     EXPECT_THAT(texts, Each(testing::EndsWith(" *=secant:face=64")));
@@ -109,7 +111,7 @@ TEST_F(ViewPanel, TurnsTheKnobsOfTheMirrorThatWasChosen) {
     EXPECT_THAT(reached(state, plan_itself), Contains("secant:face=64")) << "as all others";
 }
 
-TEST_F(ViewPanel, EditsOneOfTwoPlans) {
+TEST_F(ViewPanel, ControlsEditTheChosenOneOfTwoPlans) {
     State state;
     state.mode = Mode::split;
     state.plan = plan_of("secant"), state.other = plan_of("parallax");

@@ -1,5 +1,5 @@
-// The window under an X server without a screen: its pictures are those of `catoptric render`, and
-// it shows them.
+// Tests of the window under an X server without a screen. Its pictures must equal those of
+// `catoptric render`, and the X server must show them.
 #include "measure/picture_file.hpp"
 #include "scene/load.hpp"
 #include "view/window.hpp"
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class ViewPicture : public test::WindowTest {};
 
-TEST_F(ViewPicture, ItsPictureIsThatOfRender) {
+TEST_F(ViewPicture, ScreenshotEqualsThePictureOfRender) {
     const Words words{"--technique", "reuse:face=32", "--size", "64x48", "--frames",
                       "3",           "--animate"};
     for (const std::string name : {"a.png", "a.exr"}) {
@@ -28,15 +28,15 @@ TEST_F(ViewPicture, ItsPictureIsThatOfRender) {
     }
 }
 
-/// The plan's picture and what is compared with it, as the X server has them.
-TEST_F(ViewPicture, ShowsWhatItSays) {
+/// In each mode the X server must show the picture that the window writes to a file.
+TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
     std::vector<std::string> seen;
-    std::vector<measure::Picture> first; // of plan, split and difference
+    std::vector<measure::Picture> first; // of the modes plan, split and difference
     const auto expect_shown = [&](const Viewer& viewer, const std::string& name) {
         viewer.write(path(name));
         const measure::Picture written = measure::to_display(measure::read_picture(path(name)));
         double apart = 1;
-        for (int tries = 0; tries < 100 && apart > 0; ++tries) { // the server takes its time
+        for (int tries = 0; tries < 100 && apart > 0; ++tries) { // the X server draws with a delay
             if (tries > 0) ::usleep(20000);
             apart = 0;
             const measure::Picture shown = display->shown(written.width, written.height);
@@ -70,7 +70,8 @@ TEST_F(ViewPicture, ShowsWhatItSays) {
              driver),
         0);
     EXPECT_EQ(seen.size(), 7u);
-    // Right of the divider another picture, left of it the plan's; how far they are apart.
+    // The split picture has the plan's pixels left of the divider and the other plan's pixels right
+    // of it. The difference picture must show their difference, times 2.
     double apart = 0, of_difference = 0;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
@@ -88,8 +89,8 @@ TEST_F(ViewPicture, ShowsWhatItSays) {
     EXPECT_LT(of_difference, 1.5 / 255);
 }
 
-/// A reference that was begun is not that of another view, instant or size.
-TEST_F(ViewPicture, TheReferenceIsOfWhatIsShown) {
+/// A change of view, time or size starts the reference picture again.
+TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
     const auto passes = [](const Report& report) { return report.viewer.reference().passes(); };
     std::vector<int> seen;
     Driver driver;
@@ -118,8 +119,8 @@ TEST_F(ViewPicture, TheReferenceIsOfWhatIsShown) {
     EXPECT_GT(seen.back(), 0);
 }
 
-/// Every technique with three of its knobs turned while the window runs.
-TEST_F(ViewPicture, DrawsEveryTechniqueAndTurnsItsKnobs) {
+/// Draws every technique and changes up to three of its knobs while the window runs.
+TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
     std::vector<PlanState> plans;
     for (const app::TechniqueInfo& technique : app::techniques()) {
         PlanState plan;
@@ -156,13 +157,14 @@ TEST_F(ViewPicture, DrawsEveryTechniqueAndTurnsItsKnobs) {
     EXPECT_EQ(drawn, 2 * plans.size());
 }
 
-/// A click on a mirror chooses it, and its technique alone is edited.
-TEST_F(ViewPicture, AClickChoosesTheMirrorThere) {
+/// A click on a mirror selects the mirror. The technique that is then set applies to this mirror
+/// only.
+TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
     const scene::Scene scene = scene::load("cornell-mirrors", {});
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     const scene::Camera& camera = scene.cameras.front();
     const double edge = 96;
-    const auto pixel_of = [&](std::size_t mirror) { // where the camera sees its middle
+    const auto pixel_of = [&](std::size_t mirror) { // where the camera sees the mirror's centre
         const dvec3 at = scene.objects[mirrors[mirror - 1]].sphere->centre - camera.eye;
         const dvec3 forward = glm::normalize(camera.target - camera.eye),
                     right = glm::normalize(glm::cross(forward, camera.up)),
@@ -190,8 +192,9 @@ TEST_F(ViewPicture, AClickChoosesTheMirrorThere) {
               0);
 }
 
-/// Camera, knobs and instant are changed; at rest the copied command renders the same bytes.
-TEST_F(ViewPicture, TheCopiedCommandRendersItsPicture) {
+/// The test changes camera, knobs and time. Once frames stop changing, the command that the window
+/// offers for copying renders the same bytes.
+TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
     std::string command;
     Driver driver;
     driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window&) {
@@ -215,8 +218,9 @@ TEST_F(ViewPicture, TheCopiedCommandRendersItsPicture) {
     EXPECT_TRUE(read("shown.png") == read("view.png")) << command;
 }
 
-/// A file that is dropped is shown; one that is no scene changes nothing but what is said.
-TEST_F(ViewPicture, LoadsWhatIsDropped) {
+/// A scene file that is dropped on the window is shown. A dropped file that is no scene only leads
+/// to a message.
+TEST_F(ViewPicture, DroppedSceneFileIsLoaded) {
     write("broken.glb", "no scene");
     Driver driver;
     driver.before = [&](std::size_t frame, Inputs& inputs, State&, Window&) {
@@ -241,7 +245,7 @@ TEST_F(ViewPicture, LoadsWhatIsDropped) {
     EXPECT_EQ(scenes[3], "cornell-mirrors");
     EXPECT_EQ(said[4], "loaded: flat");
     EXPECT_EQ(scenes[4], "flat");
-    // A plan for mirrors that the other scene has not.
+    // The plan names mirrors that the dropped scene does not have.
     EXPECT_EQ(
         view({"--plan", "ball1=reuse:face=16 *=secant:face=16", "--size", "32x32", "--frames", "6"},
              driver),

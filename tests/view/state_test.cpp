@@ -1,4 +1,4 @@
-// What the window's state stands for, without a window: plans, cameras, drags, commands, settings.
+// Tests of the window's state without a window: plans, cameras, mouse input, commands and settings.
 #include "core/error.hpp"
 #include "scene/camera_named.hpp"
 #include "scene/load.hpp"
@@ -25,19 +25,19 @@ const app::KnobInfo& knob(const std::string& technique, const std::string& name)
     return *std::ranges::find(find(technique)->knobs, name, &app::KnobInfo::name);
 }
 
-TEST(ViewPlan, IsWhatTheCommandLineSaid) {
+TEST(ViewPlan, PlanTextMatchesTheCommandLine) {
     EXPECT_EQ(text_of(plan_of("secant:face=64,steps=3")), "secant:face=64,steps=3");
-    EXPECT_EQ(text_of(plan_of("reuse:face=256")), "reuse"); // which is its default
+    EXPECT_EQ(text_of(plan_of("reuse:face=256")), "reuse"); // 256 is the default
     EXPECT_EQ(text_of(plan_of("1=planar *=reuse")), "1=planar *=reuse");
     EXPECT_THROW(plan_of("secand"), Error);
     EXPECT_THAT(words_of(plan_of("reuse")), ElementsAre("--technique", "reuse"));
     EXPECT_THAT(words_of(plan_of("auto")), ElementsAre("--technique", "auto"));
 }
 
-TEST(ViewPlan, IsEditedMirrorByMirror) {
+TEST(ViewPlan, EditedMirrorGetsARuleOfItsOwn) {
     PlanState plan = plan_of("reuse");
     plan.own[2] = plan.rest;
-    EXPECT_EQ(text_of(plan), "reuse"); // no other than the rest
+    EXPECT_EQ(text_of(plan), "reuse"); // mirror 2 equals the rest
     plan.own[2] = {"raytrace", {}};
     set(plan.own[2], knob("raytrace", "depth"), "3");
     set(plan.rest, knob("reuse", "face"), "64");
@@ -46,10 +46,10 @@ TEST(ViewPlan, IsEditedMirrorByMirror) {
     set(plan.rest, knob("reuse", "face"), "256");
     EXPECT_EQ(text_of(plan), "2=raytrace:depth=3 *=reuse");
     EXPECT_EQ(text_of(with(plan_of("hybrid"), "show", "state")), "hybrid:show=state");
-    EXPECT_EQ(text_of(with(plan, "show", "state")), text_of(plan)); // neither has that knob
+    EXPECT_EQ(text_of(with(plan, "show", "state")), text_of(plan)); // no technique has this knob
 }
 
-TEST(ViewPlan, ThatWasSuggestedBecomesOneByNumber) {
+TEST(ViewPlan, SuggestedPlanBecomesRulesByMirrorNumber) {
     const std::vector<PlanEntry> drawn{
         {1, "ball", "reuse", {{"face", "64", 64, true}, {"colour", "half", {}, false}}, "far"},
         {2, "wall", "planar", {}, "flat"}};
@@ -63,34 +63,35 @@ protected:
     double distance(const scene::Camera& c) const { return glm::length(c.target - c.eye); }
 };
 
-TEST_F(ViewCamera, OrbitsAroundItsTarget) {
+TEST_F(ViewCamera, CameraOrbitsAroundItsTarget) {
     const scene::Camera turned = moved(camera, {.turned = {100, 40}}, false, 400, 10);
     EXPECT_EQ(turned.target, camera.target);
     EXPECT_NEAR(distance(turned), 4, 1e-12);
-    // The scene goes with the mouse: the eye to the picture's left, which is +x, and up.
+    // The scene follows the mouse, so the eye moves up and to the picture's left, which is +x.
     EXPECT_NEAR(turned.eye.y, 1 + 4 * std::sin(.2), 1e-12);
     EXPECT_NEAR(turned.eye.x, 4 * std::cos(.2) * std::sin(.5), 1e-12);
     const scene::Camera above = moved(camera, {.turned = {0, 1e6}}, false, 400, 10);
-    EXPECT_LT(above.eye.y, 5); // never over the pole
+    EXPECT_LT(above.eye.y, 5); // the eye never passes over the target
     EXPECT_NEAR(distance(moved(camera, {.wheel = 1}, false, 400, 10)), 3.6, 1e-12);
 }
 
-TEST_F(ViewCamera, Flies) {
+TEST_F(ViewCamera, FlightMovesTheEyeAndTurningKeepsIt) {
     const scene::Camera ahead = moved(camera, {.flown = {0, 0, 3}}, true, 400, 10);
-    EXPECT_NEAR(ahead.eye.z, 10, 1e-12); // its reach in three seconds
+    EXPECT_NEAR(ahead.eye.z, 10, 1e-12); // a flight of 3 s covers the reach, 10
     const scene::Camera turned = moved(camera, {.turned = {100, 0}}, true, 400, 10);
     EXPECT_EQ(turned.eye, camera.eye);
-    EXPECT_LT(turned.target.x, -1); // to the right, which is -x
+    EXPECT_LT(turned.target.x, -1); // a turn to the right, which is -x
 }
 
-TEST_F(ViewCamera, ShiftsAPixelAPixel) {
+TEST_F(ViewCamera, ShiftMovesTheSceneByThePixelsDragged) {
     const scene::Camera shifted = moved(camera, {.shifted = {400, 0}}, false, 400, 10);
     EXPECT_NEAR(glm::length(shifted.eye - camera.eye), 8 * std::tan(glm::radians(22.5)), 1e-12);
     EXPECT_EQ(shifted.eye - camera.eye, shifted.target - camera.target);
 }
 
-/// What is typed is the same camera, to the bit; and nothing rests where nothing was done.
-TEST_F(ViewCamera, CanBeTyped) {
+/// A camera that is read back from its text is equal to the bit. Without input a camera stays
+/// unchanged.
+TEST_F(ViewCamera, CameraTextGivesTheSameCamera) {
     scene::Camera c = camera;
     EXPECT_EQ(moved(c, {}, false, 400, 10), camera);
     for (int i = 0; i < 50; ++i) {
@@ -102,18 +103,19 @@ TEST_F(ViewCamera, CanBeTyped) {
     }
 }
 
-/// However far the wheel is turned, and whatever a scene file's camera is like.
-TEST_F(ViewCamera, StaysOneThatMayBe) {
+/// The camera stays valid however far the wheel turns. A scene's camera with too large a field of
+/// view stays unchanged.
+TEST_F(ViewCamera, CameraStaysValidAtExtremeInput) {
     for (const double wheel : {1e3, -1e5}) {
         scene::Camera c = camera;
         for (int i = 0; i < 10; ++i) c = moved(c, {.wheel = wheel}, false, 400, 10);
         EXPECT_NO_THROW(static_cast<void>(scene::camera_named(scene::camera_text(c), {})));
     }
-    camera.vertical_fov_degrees = 179.9; // more than may be typed
+    camera.vertical_fov_degrees = 179.9; // degrees, more than `--camera` accepts
     EXPECT_EQ(moved(camera, {.turned = {9, 9}}, false, 400, 10), camera);
 }
 
-TEST(ViewHand, DragsTheDividerAndClicksMirrors) {
+TEST(ViewHand, MouseDragsTheDividerAndClicksMirrors) {
     State state;
     state.camera = {.eye = {0, 1, 0}, .target = {0, 1, 4}};
     const scene::Camera before = state.camera;
@@ -129,35 +131,35 @@ TEST(ViewHand, DragsTheDividerAndClicksMirrors) {
     EXPECT_DOUBLE_EQ(state.divider, .8);
     EXPECT_EQ(state.camera, before);
     at(30, 40, true);
-    EXPECT_EQ(at(31, 40, false), uvec2(30, 40)); // a click, though the hand shook
+    EXPECT_EQ(at(31, 40, false), uvec2(30, 40)); // one pixel apart is still a click
     EXPECT_EQ(state.camera, before);
     at(30, 40, true);
     at(60, 40, true);
     EXPECT_EQ(at(60, 40, false), std::nullopt);
     EXPECT_NE(state.camera, before);
     const scene::Camera turned = state.camera;
-    at(250, 40, true); // on controls
+    at(250, 40, true); // on the controls, outside the picture
     at(20, 40, true);
     EXPECT_EQ(at(20, 40, false), std::nullopt);
     EXPECT_EQ(state.camera, turned);
 }
 
-/// On a display that is scaled by two, and where nothing is known of it.
-TEST(ViewInputs, TheMouseIsInPixels) {
+/// Covers displays with a scale of 2 and displays whose scale is unknown, which counts as 1.
+TEST(ViewInputs, MousePositionIsConvertedToPixels) {
     EXPECT_EQ(pixels_per_unit({1744, 1024}, {872, 512}), dvec2(2));
     EXPECT_EQ(pixels_per_unit({300, 200}, {200, 100}), dvec2(1.5, 2));
     EXPECT_EQ(pixels_per_unit({0, 0}, {872, 512}), dvec2(1));
     EXPECT_EQ(pixels_per_unit({872, 512}, {0, 0}), dvec2(1));
 }
 
-TEST(ViewState, SaysWhatIsRenderedAndShown) {
+TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
     State state;
     state.plan = plan_of("hybrid"), state.other = plan_of("reuse");
     EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid"));
     state.mode = Mode::split;
     EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid", "reuse"));
     EXPECT_EQ(shown(state).second, 1u);
-    state.other = state.plan; // which a frame refuses twice
+    state.other = state.plan; // a frame accepts each technique only once
     EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid"));
     state.against = Against::reference;
     EXPECT_EQ(shown(state).second, app::Showing::kCanvas);
@@ -167,7 +169,7 @@ TEST(ViewState, SaysWhatIsRenderedAndShown) {
     EXPECT_FALSE(wants_canvas(state));
 }
 
-TEST(ViewState, ColoursTellMirrorsApart) {
+TEST(ViewState, EachMirrorNumberHasItsOwnColour) {
     std::set<std::tuple<int, int, int>> colours;
     for (std::uint32_t mirror = 0; mirror <= 16; ++mirror) {
         const glm::ivec3 c(colour_of(mirror) * 16.f);
@@ -179,12 +181,12 @@ TEST(ViewState, ColoursTellMirrorsApart) {
     EXPECT_EQ(picture.at(1, 0), colour_of(1));
 }
 
-TEST(ViewMotion, Advances) {
+TEST(ViewMotion, TimeAdvancesBySpeedWhilePlaying) {
     EXPECT_EQ(advanced({.time = 2}, .5), 2);
     EXPECT_EQ(advanced({.time = 2, .plays = true, .speed = -2}, .5), 1);
 }
 
-TEST(ViewCommand, KeepsWhatSaysHowTheSceneIsRead) {
+TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
     State state;
     state.plan = plan_of("1=planar *=reuse");
     state.motion.time = .25, state.exposure = -1;
@@ -219,7 +221,7 @@ TEST(ViewCommand, KeepsWhatSaysHowTheSceneIsRead) {
     EXPECT_EQ(quoted(""), "''");
 }
 
-TEST(ViewSettings, AreReadAsTheyWereWritten) {
+TEST(ViewSettings, SettingsAreReadAsTheyWereWritten) {
     const Settings settings{
         .window = {800, 600}, .shows_panels = false, .flies = true, .speed = -.5, .gain = 16};
     EXPECT_EQ(settings_of(text_of(settings)), settings);
@@ -229,7 +231,7 @@ TEST(ViewSettings, AreReadAsTheyWereWritten) {
         EXPECT_EQ(settings_of(text), Settings()) << text;
 }
 
-TEST(ViewTimes, AreMediansOfFramesWithTheSamePasses) {
+TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
     Times times;
     const auto sample = [](double ms) {
         Times::Sample s;

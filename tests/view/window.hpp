@@ -5,7 +5,7 @@
 #include "view/display.hpp"
 #include "view/loop.hpp"
 
-/// Tests with a window.
+/// Fixture for tests that open a window.
 namespace test {
 
 using namespace catoptric;
@@ -20,7 +20,8 @@ protected:
         Cli::SetUp();
     }
 
-    /// Validated; with these words of the command line.
+    /// Runs the window program with the given command line and the validation layer. Returns its
+    /// exit code.
     static int view(Words words, const Driver& driver = {}) {
         words.insert(words.end(), {"--validate", "-q"});
         Options options;

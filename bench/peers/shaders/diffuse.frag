@@ -1,14 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "draw.glsl"
-// Faces +X, -X, -Y, +Z, -Z: the light shines down. As layers: what looks a cube up itself is slower.
+// The shadow map's layers are the cube faces +X, -X, -Y, +Z, -Z, because the light shines down. An array of layers is
+// faster than a cube map.
 layout(set = 0, binding = 1) uniform sampler2DArrayShadow shadow_map;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out float out_distance;
 
-// Layer, and place there with depth along its axis.
+// Returns the shadow map layer of a direction from the light, the coordinates on that face, and the depth along its
+// axis.
 vec4 in_face(vec3 v) {
     vec3 size = abs(v);
     if (size.y >= size.x && size.y >= size.z) return vec4(2, v.x, -v.z, size.y);

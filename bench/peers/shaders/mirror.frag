@@ -12,7 +12,8 @@ void main() {
     vec3 seen = position - draw.eye.xyz;
     vec3 along = reflect(normalize(seen), normalize(normal));
     vec3 offset = position - draw.centre.xyz;
-    // One step: what is seen along the ray from the centre is taken for a plane across it.
+    // One step of parallax correction: the surface that the centre sees in the reflected direction is assumed to be a
+    // plane perpendicular to that direction.
     float distance = textureLod(distances, vec4(along, draw.cube), 0.0).r;
     vec3 corrected = offset + along * (distance - dot(offset, along));
     out_colour = vec4(draw.albedo.rgb * textureLod(colours, vec4(corrected, draw.cube), 0.0).rgb, 1);

@@ -1,4 +1,4 @@
-// Rays of a list, each to what it meets first by the engine's own walk.
+// Traces a list of rays to their first hits with the engine's BVH walk.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define BVH_NODES_BINDING 0
@@ -6,8 +6,8 @@
 #include "lib/trace.glsl"
 
 layout(local_size_x = TRACE_LOCAL_SIZE) in;
-layout(set = 0, binding = 2) uniform samplerBuffer rays;                     // origin, direction
-layout(set = 0, binding = 3, std430) writeonly buffer Met { uvec2 met[]; }; // peers::Met
+layout(set = 0, binding = 2) uniform samplerBuffer rays;                     // two texels per ray: origin, direction
+layout(set = 0, binding = 3, std430) writeonly buffer Met { uvec2 met[]; }; // a peers::Met for each ray
 
 const uint kNothing = 0xffffffffu;
 

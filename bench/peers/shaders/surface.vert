@@ -1,4 +1,4 @@
-// Triangles into the faces of a cube, or into the one layer of a view.
+// Transforms triangles into the faces of a cube map, or into the one layer of the camera's view.
 #version 460
 #extension GL_ARB_shader_viewport_layer_array : require
 #extension GL_GOOGLE_include_directive : require

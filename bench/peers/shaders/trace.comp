@@ -1,25 +1,26 @@
-// Whitted ray tracing as plain code has it: one picture, triangles after Moeller and Trumbore, floats, nothing counted.
-// SKIP_LINKS: nodes of a texel, boxes in 16 bits a plane, in the order in which they are walked; what is missed is left
-// by the link to the node behind it. Otherwise: two boxes a node, nearer first, and a stack.
+// Simple Whitted ray tracing of one picture: triangles as in Moeller and Trumbore, single precision, no counters.
+// SKIP_LINKS walks nodes of one texel, with 16 bits for each plane of a box, in the order of the walk. A missed box is
+// skipped by the link to the node behind its subtree. Without SKIP_LINKS, nodes have two boxes, the nearer child is
+// visited first, and the other child waits on a stack.
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform samplerBuffer nodes;
-layout(set = 0, binding = 1) uniform samplerBuffer triangles; // corner and object, two edges
-layout(set = 0, binding = 2) uniform samplerBuffer normals;   // three a triangle
-layout(set = 0, binding = 3) uniform samplerBuffer surfaces;  // albedo and whether it is a mirror, emission, reflectance
+layout(set = 0, binding = 1) uniform samplerBuffer triangles; // three texels each: corner (w: object), two edges
+layout(set = 0, binding = 2) uniform samplerBuffer normals;   // three normals for each triangle
+layout(set = 0, binding = 3) uniform samplerBuffer surfaces;  // three texels: albedo (w: mirror), emission, reflectance
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D picture;
 layout(push_constant) uniform Push {
-    vec4 eye;     // ambient
-    vec4 forward; // deepest bounce
+    vec4 eye;     // eye of the camera; w: ambient light
+    vec4 forward; // view direction; w: most bounces
     vec4 right;
     vec4 down;
-    vec4 light;   // part of the way at which shadow rays end
+    vec4 light;   // position of the light; w: share of the way to the light at which shadow rays end
     vec4 light_normal;
     vec4 intensity;
-    vec4 grid;    // of quantised boxes: lowest corner, steps a scene unit
+    vec4 grid;    // grid of the skip links' boxes: lowest corner; w: steps per scene unit
 };
 
-const float kLift = 1.0 / 1048576.0; // rays leave a surface that far off it
+const float kLift = 1.0 / 1048576.0; // distance from the surface at which reflected and shadow rays start, scene units
 const float kFarthest = 3.4e38;
 
 struct Hit {
@@ -27,7 +28,7 @@ struct Hit {
     int triangle;
 };
 
-// Nearer than the hit so far.
+// Intersects the ray with triangle i, and replaces the hit if the new hit is nearer.
 void meet(int i, vec3 from, vec3 along, inout Hit hit) {
     vec3 a = texelFetch(triangles, 3 * i).xyz;
     vec3 e = texelFetch(triangles, 3 * i + 1).xyz;
@@ -45,7 +46,7 @@ void meet(int i, vec3 from, vec3 along, inout Hit hit) {
 #ifdef SKIP_LINKS
 
 void walk(vec3 from, vec3 along, bool any, inout Hit hit) {
-    // In steps of the grid, where t stays what it is.
+    // The ray is transformed to steps of the grid, in which its points keep their t.
     vec3 inverse = 1.0 / (along * grid.w);
     vec3 start = -(from - grid.xyz) * grid.w * inverse;
     int node = 0, end = int(texelFetch(nodes, 0).w);
@@ -83,7 +84,7 @@ void walk(vec3 from, vec3 along, bool any, inout Hit hit) {
     uint depth = 0u, child = 1u;
     bool done = false;
     do {
-        do { // down to a leaf
+        do { // descends to a leaf
             if (child >> 27 == 0u) {
                 int i = 4 * int(child);
                 vec4 lo_0 = texelFetch(nodes, i), hi_0 = texelFetch(nodes, i + 1);
@@ -118,7 +119,7 @@ void walk(vec3 from, vec3 along, bool any, inout Hit hit) {
 
 #endif
 
-// Off a surface on the side to which the direction points.
+// Returns the origin of a ray that leaves a surface on the side to which its direction points.
 vec3 leaving(vec3 point, vec3 facet, vec3 along) { return point + (dot(along, facet) < 0.0 ? -kLift : kLift) * facet; }
 
 vec3 radiance(vec3 from, vec3 along) {
@@ -166,7 +167,8 @@ vec3 radiance(vec3 from, vec3 along) {
 }
 
 void main() {
-    // A software driver gives each thread one run of groups.
+    // Scatters the work groups over the picture. A software driver gives each thread a contiguous run of work groups,
+    // and neighbouring work groups cost about the same.
     uint count = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
     uint group = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 2531u & (count - 1u);
     uvec2 pixel = uvec2(group % gl_NumWorkGroups.x, group / gl_NumWorkGroups.x) * 8u + gl_LocalInvocationID.xy;

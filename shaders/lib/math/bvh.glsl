@@ -1,24 +1,25 @@
-// Part of lib/math.glsl, which alone includes it.
-// Layout of the bounding volume hierarchy (engine/bvh/bvh.hpp says what it means).
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Constants of the BVH's memory layout, which engine/bvh/bvh.hpp explains.
 
-const int kBvhMaxDepth = 30;        // inner nodes on a path, hence entries on a stack
-const uint kBvhTag = 0x40000000u;   // set in every word: as a float it is neither denormal nor NaN
-const uint kBvhCountShift = 27u;    // a child's triangle count; 0 for an inner node
+const int kBvhMaxDepth = 30;        // most inner nodes on a path, so most stack entries for one tree
+const uint kBvhTag = 0x40000000u;   // bit set in every word, so that a word read as a float is no denormal and no NaN
+const uint kBvhCountShift = 27u;    // position of a child's triangle count in its word; count 0: inner node
 const uint kBvhIndexMask = 0x07ffffffu;
 const uint kBvhRoot = 0x40000001u;  // the child word of the root, node 1
 const uint kBvhNothing = 0x40000000u;
-const uint kBvhIdMask = 0x1fffffffu; // of a triangle's words
-const uint kBvhHidden = 1u;          // flag: camera rays pass through
-const uint kBvhShadowless = 2u;      // flag: shadow rays pass through (a light's own mesh)
-const uint kBvhSphere = 4u;          // flag: stands for an exact sphere
-const uint kBvhOneSided = 8u;        // flag: rays that see pass through from behind
-const uint kBvhMasked = 16u;         // flag: parts of it may be cut out
-const uint kBvhBall = 32u;           // flag: no triangle but a sphere: a is its centre, b.x its radius
+const uint kBvhIdMask = 0x1fffffffu; // bits of a word that hold a number, such as a triangle's
+const uint kBvhHidden = 1u;          // flag: camera rays pass through the triangle
+const uint kBvhShadowless = 2u;      // flag: shadow rays pass through the triangle, which belongs to a lamp
+const uint kBvhSphere = 4u;          // flag: the triangle's mesh approximates an exact sphere
+const uint kBvhOneSided = 8u;        // flag: camera and mirror rays pass through from behind
+const uint kBvhMasked = 16u;         // flag: an alpha test may cut parts of the triangle out
+// Flag: a sphere takes the triangle's place: corner a is its centre, b.x its radius.
+const uint kBvhBall = 32u;
 
-const uint kBvhEnters = 5u;          // in place of a triangle count: a thing in its own space, recorded at that node
-const uint kBvhReturns = 0x70000000u; // on the stack: the way back from there
-const uint kBvhRecordNodes = 3u;     // that such a record takes
-const int kBvhMaxStack = 62;         // two trees' paths, the node above the first and the way back
+const uint kBvhEnters = 5u;          // triangle count that marks an instance, whose record is at the word's node
+const uint kBvhReturns = 0x70000000u; // stack entry that marks the return from an instance to the scene's tree
+const uint kBvhRecordNodes = 3u;     // nodes that the record of an instance takes
+const int kBvhMaxStack = 62;         // most stack entries: paths of two trees, the root above the first, kBvhReturns
 
 INLINE uint bvh_count(uint word) { return (word & ~kBvhTag) >> kBvhCountShift; }
 INLINE uint bvh_index(uint word) { return word & kBvhIndexMask; }

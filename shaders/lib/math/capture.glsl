@@ -1,12 +1,12 @@
-// Part of lib/math.glsl, which alone includes it.
-// Captures: cube maps around a centre.
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Mathematics of captures, cube maps around a centre.
 
-// Distances of a capture: "nothing there" is +infinity.
+// Returns whether a captured distance means that no surface was captured, which is stored as +infinity.
 INLINE bool is_miss(real distance) { return isnan(distance) || distance > kLargest; }
 
-// Direction from the capture's centre to the point that a ray from `offset` (relative to that
-// centre) along unit `dir` would meet, if what it meets is `distance` from the centre. One step of
-// the secant iteration. Nothing met, or met at the centre itself: `dir` as it is.
+// Parallax correction, one step of the secant iteration. Returns the direction from the capture's centre to the point
+// that a ray meets, if the point is `distance` away from the centre. The ray starts at `offset` from the
+// centre, along the unit vector `dir`. Returns `dir` if no surface was captured or the point is the centre itself.
 INLINE vec3 parallax_direction(vec3 offset, vec3 dir, real distance) {
     if (is_miss(distance)) return dir;
     vec3 p = offset + dir * (distance - dot(offset, dir));
@@ -15,7 +15,8 @@ INLINE vec3 parallax_direction(vec3 offset, vec3 dir, real distance) {
     return normalize(p / size);
 }
 
-// Face of a cube map (+X, -X, +Y, -Y, +Z, -Z) that a direction meets; equals go to z, then y.
+// Returns the face of a cube map (+X, -X, +Y, -Y, +Z, -Z) that a direction meets. If components are equal in size, z
+// wins over y, and y over x.
 INLINE int cube_face(vec3 dir) {
     vec3 size = abs(dir);
     if (size.z >= size.x && size.z >= size.y) return dir.z < real(0) ? 5 : 4;
@@ -23,7 +24,7 @@ INLINE int cube_face(vec3 dir) {
     return dir.x < real(0) ? 1 : 0;
 }
 
-// (sc, tc, ma) of the direction on the face: sc right, tc down, ma > 0 towards the face.
+// Returns a direction's coordinates (sc, tc, ma) on a cube face: sc to the right, tc down, ma > 0 towards the face.
 INLINE vec3 cube_coordinates(int face, vec3 dir) {
     if (face == 0) return vec3(-dir.z, -dir.y, dir.x);
     if (face == 1) return vec3(dir.z, -dir.y, -dir.x);
@@ -33,7 +34,7 @@ INLINE vec3 cube_coordinates(int face, vec3 dir) {
     return vec3(-dir.x, -dir.y, -dir.z);
 }
 
-// The direction whose coordinates on the face are (sc, tc, ma); inverse of cube_coordinates.
+// Returns the direction whose coordinates on the face are (sc, tc, ma). This is the inverse of cube_coordinates.
 INLINE vec3 cube_direction(int face, vec3 coordinates) {
     real s = coordinates.x;
     real t = coordinates.y;

@@ -1,14 +1,15 @@
-// Part of lib/math.glsl, which alone includes it.
-// What is seen where the scene ends.
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Mathematics of the environment.
 
-// The direction as the environment's own axes have it: what is seen at an azimuth (from -z towards +x) moves to that
-// plus the angle of this cosine and sine.
+// Rotates a direction from the scene's axes to the environment's axes. The rotation moves the environment's content
+// from an azimuth (counted from -z towards +x) to that azimuth plus the angle with this cosine and sine.
 INLINE vec3 environment_direction(vec3 d, real cosine, real sine) {
     return vec3(cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x);
 }
 
-// The four texels around a direction of any length in an equirectangular map, and how far on they are mixed. Row 0 is
-// at +y, the middle along -z, +x to its right; wraps across, clamps at the poles.
+// The four texels around a direction of any length in an equirectangular map, with their bilinear weights. Row 0 is at
+// +y, the map's middle is at -z, and +x lies to the right of the middle. The map wraps horizontally and clamps at the
+// poles.
 struct MapPlace {
     uint left, right, above, below;
     real across, down;
@@ -30,11 +31,11 @@ INLINE MapPlace map_place(vec3 d, uint width, uint height) {
     return place;
 }
 
-// A photographer's studio, grey: a bright ceiling that darkens to the floor, and a soft box to the left behind a
-// camera that looks along -z. `d`: unit.
+// Returns the grey radiance of the built-in studio environment in the unit direction `d`. The studio has a bright
+// ceiling that darkens to the floor, and a soft box to the left behind a camera that looks along -z.
 INLINE real studio(vec3 d) {
     real grey = d.y < real(0) ? mix(real(0.6), real(0.25), -d.y) : mix(real(0.6), real(0.9), d.y);
-    // Azimuth -150 degrees, elevation 50.
+    // Direction of the soft box: azimuth -150 degrees, elevation 50 degrees.
     vec3 box = vec3(real(-0.32139380484326967), real(0.76604444311897804), real(0.55667039922641936));
     vec3 right = normalize(cross(box, vec3(real(0), real(1), real(0))));
     vec3 up = cross(right, box);
@@ -46,8 +47,8 @@ INLINE real studio(vec3 d) {
     return grey + real(6) * (real(1) - smoothstep(real(18), real(22), x)) * (real(1) - smoothstep(real(10.5), real(14.5), y));
 }
 
-// What falls on a surface with this unit normal, from the nine coefficients of scene::irradiance (Ramamoorthi and
-// Hanrahan 2001), which hold the factors of the harmonics.
+// Returns the irradiance on a surface with unit normal `n`, from the nine coefficients of scene::irradiance
+// (Ramamoorthi and Hanrahan 2001). The coefficients include the constant factors of the spherical harmonics.
 INLINE vec3 irradiance(vec3 of[9], vec3 n) {
     vec3 sum = of[0] + n.y * of[1] + n.z * of[2] + n.x * of[3] + n.x * n.y * of[4] + n.y * n.z * of[5] +
                (real(3) * n.z * n.z - real(1)) * of[6] + n.x * n.z * of[7] + (n.x * n.x - n.y * n.y) * of[8];

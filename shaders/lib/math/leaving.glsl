@@ -1,23 +1,22 @@
-// Part of lib/math.glsl, which alone includes it.
-// Rays that leave a surface: no world epsilon, only bounds of the roundings made.
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Origins of rays that leave a surface. Bounds of the rounding errors replace an epsilon in world units.
 
-// Unit normal of the facet, counter-clockwise side; zero when it has none.
+// Returns the unit normal of a triangle on its counter-clockwise side, or zero if the triangle is degenerate.
 INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
     vec3 e, f;
     short_edges(a, b, c, e, f);
     real e_size = largest(abs(e));
     real f_size = largest(abs(f));
     if (!(e_size > real(0) && f_size > real(0))) return vec3(real(0));
-    // Scaled first, so that tiny triangles do not underflow.
+    // The edges are scaled first, so that the cross product of a tiny triangle does not underflow.
     vec3 n = cross(e / e_size, f / f_size);
     real size = length(n);
     return size > real(0) ? n / size : vec3(real(0));
 }
 
-// The point with barycentric weights w, and how far each coordinate may be off: the interpolation's
-// roundings, plus those of a triangle test that starts here. A flat triangle cannot be met by a ray
-// that leaves it, so Ray::leaves excludes it by name; the bound is for its neighbours in the same
-// plane, and for copies of it.
+// Returns the point of a triangle with barycentric weights `w`, and a bound of the error of each coordinate. The bound
+// covers the roundings of the interpolation, and those of a triangle test for a ray that starts at the point.
+// The triangle itself is excluded by Ray::leaves. The bound is for its copies and for neighbours in the same plane.
 INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
     vec3 point = w.x * a + w.y * b + w.z * c;
     vec3 sum = abs(w.x * a) + abs(w.y * b) + abs(w.z * c);
@@ -26,16 +25,17 @@ INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
     return point;
 }
 
-// How far above a place of a triangle, by its weights w, a smooth surface is that has these normals at its corners:
-// the mean height of the planes across them (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
-// A curved body lies between this and half of it; a hollow one below the facet: 0.
+// Returns the height, above the triangle's point with weights `w`, of a smooth surface with these normals at the
+// corners. The height is the weighted mean height of the corners' tangent planes (Hanika, "Hacking the shadow
+// terminator", Ray Tracing Gems II, 2021). A convex surface lies between half this height and this height. A hollow
+// surface lies below the triangle and gets height 0.
 INLINE real smooth_lift(vec3 a, vec3 b, vec3 c, vec3 n_a, vec3 n_b, vec3 n_c, vec3 w) {
     vec3 point = w.x * a + w.y * b + w.z * c;
     vec3 heights = vec3(dot(a - point, n_a), dot(b - point, n_b), dot(c - point, n_c));
     return dot(w, max(heights, vec3(real(0))));
 }
 
-// The same for a hit on a sphere; the point is put back onto the surface.
+// Returns the point of a hit on a sphere, projected back onto the sphere, and a bound of the error of each coordinate.
 INLINE vec3 sphere_point(vec3 centre, real radius, Ray ray, real t, OUT(vec3) error) {
     vec3 arm = (ray.origin - centre) + t * ray.direction;
     vec3 on_sphere = arm * (radius / length(arm));
@@ -44,8 +44,8 @@ INLINE vec3 sphere_point(vec3 centre, real radius, Ray ray, real t, OUT(vec3) er
     return point;
 }
 
-// Where a ray that leaves `point` along `direction` starts: off the surface by the error bound
-// projected on its normal, then each coordinate one float further.
+// Returns the origin of a ray that leaves `point` along `direction`. The origin is moved off the surface by the error
+// bound projected on the normal, and then by one more float in each coordinate.
 INLINE vec3 spawn_origin(vec3 point, vec3 error, vec3 n_geometric, vec3 direction) {
     vec3 away = dot(direction, n_geometric) < real(0) ? -n_geometric : n_geometric;
     vec3 origin = point + dot(abs(away), error) * away;

@@ -1,9 +1,9 @@
-// Part of lib/math.glsl, which alone includes it.
-// Light and what becomes of it: lamps and other lights, Lambertian surfaces, mirrors, screens.
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Mathematics of lights, Lambertian surfaces, mirror reflection and sRGB encoding.
 
-// The part of a light's contribution that is geometry: max(0, -w.n_l) / t^2 * max(0, n.w), with w
-// the direction and t the distance to the light. light_normal zero: no cosine at the light.
-// False, factor 0: a cosine is not positive (or the light is at the point): no shadow ray needed.
+// Computes the geometric factor of a light's contribution: max(0, -w.n_l) / t^2 * max(0, n.w), where w is the direction
+// and t the distance to the light. A zero light_normal means that the light has no cosine factor. Returns false, with
+// factor 0, if a cosine is not positive or the light is at the point. The caller then needs no shadow ray.
 INLINE bool light_term(vec3 position, vec3 normal, vec3 light_position, vec3 light_normal,
                        OUT(vec3) direction, OUT(real) distance, OUT(real) factor) {
     vec3 to_light = light_position - position;
@@ -20,41 +20,46 @@ INLINE bool light_term(vec3 position, vec3 normal, vec3 light_position, vec3 lig
     return true;
 }
 
-// Sine of the angle above a facet's plane within which light fades, 6 degrees; and the most by which the normals of
-// what is lit by its normals alone leave those of its facets.
+// The sine of 6 degrees, the angle above a facet's plane within which the light of a facet fades. Meshes whose vertex
+// normals differ from their facets' normals by at most this angle are lit by their vertex normals alone.
 const real kFacetFade = real(0.10452846326765347);
 
-// The side of a facet on which the shading normal lies.
+// Returns the facet's normal, turned to the side on which the shading normal lies.
 INLINE vec3 facet_side(vec3 normal, vec3 facet) { return dot(normal, facet) < real(0) ? -facet : facet; }
 
-// What a facet takes of a light in a unit direction that is in front of the unit `normal`: nothing from below its
-// plane, all from 6 degrees above it, or from as high as above the normal's own. `facet`: along its normal, of any length.
+// Returns the share of a light that a facet receives, 0 to 1. The unit `direction` points to the light, which is in
+// front of the unit shading normal. The share is 0 below the facet's plane. It is 1 from 6 degrees above the facet's
+// plane, or from the light's angle above the shading normal's plane if that is smaller. `facet` points along the
+// facet's normal and has any length.
 INLINE real facet_share(vec3 direction, vec3 normal, vec3 facet) {
     real sine = dot(direction, facet_side(normal, facet)) / length(facet);
     real t = clamp(sine / min(kFacetFade, dot(direction, normal)), real(0), real(1));
     return t * t * (real(3) - real(2) * t);
 }
 
-// Mean |cosine| of a lamp's facets to a direction. `cosines`: the same to three orthogonal axes.
+// Returns the mean |cosine| between a lamp's facets and a direction. `cosines` holds this mean for three orthogonal
+// axes.
 INLINE real mean_cosine(vec3 direction, vec3 right, vec3 down, vec3 forward, vec3 cosines) {
     return length(cosines * vec3(dot(right, direction), dot(down, direction), dot(forward, direction)));
 }
 
-// What is left of a light without a surface at a distance, as KHR_lights_punctual has it: 1 near by, 0 from its
-// range on. `reach`: one over the range; 0 without one.
+// Returns the attenuation at a distance of a light without a surface, as in KHR_lights_punctual: 1 close to the light,
+// 0 from its range on. `reach` is 1 / range, or 0 for an infinite range.
 INLINE real range_share(real distance, real reach) {
     real part = distance * reach;
     real square = part * part;
     return clamp(real(1) - square * square, real(0), real(1));
 }
 
-// What a spot sends in a direction at this cosine to its axis. `sharpness`: 1 / max(.001, cos inner - cos outer).
+// Returns the share of its intensity that a spot light emits at an angle with this cosine to its axis. `sharpness` is
+// 1 / max(.001, cos inner - cos outer).
 INLINE real cone_share(real cosine, real cos_outer, real sharpness) {
     real t = clamp((cosine - cos_outer) * sharpness, real(0), real(1));
     return t * t;
 }
 
-// light_term of a directional light that shines along the unit `axis`: the cosine at the surface.
+// Computes the factor of a directional light that shines along the unit `axis`: the cosine at the surface. Returns
+// whether the factor is positive.
 INLINE bool parallel_term(vec3 normal, vec3 axis, OUT(vec3) direction, OUT(real) distance, OUT(real) factor) {
     direction = -axis;
     distance = kLargest;
@@ -62,13 +67,13 @@ INLINE bool parallel_term(vec3 normal, vec3 axis, OUT(vec3) direction, OUT(real)
     return factor > real(0);
 }
 
-// Radiance of a Lambertian surface; `direct` = sum over lights of intensity * factor * visible.
+// Returns the radiance of a Lambertian surface. `direct` is the sum over all lights of intensity * factor * visible.
 INLINE vec3 lambert(vec3 emission, vec3 albedo, vec3 direct, real ambient) {
     return emission + albedo / kPi * direct + albedo * ambient;
 }
 
-// Reflection of the unit direction d about the interpolated normal; where that points below the
-// facet (seen from the side d comes from), it is folded back above it.
+// Reflects the unit direction `d` about the interpolated normal. If the reflection points below the facet, as seen from
+// the side from which `d` comes, it is mirrored to above the facet.
 INLINE vec3 mirror_direction(vec3 d, vec3 n_shading, vec3 n_geometric) {
     vec3 facet = dot(d, n_geometric) > real(0) ? -n_geometric : n_geometric;
     vec3 r = d - real(2) * dot(d, n_shading) * n_shading;
@@ -76,7 +81,7 @@ INLINE vec3 mirror_direction(vec3 d, vec3 n_shading, vec3 n_geometric) {
     return height < real(0) ? normalize(r - real(2) * height * facet) : r;
 }
 
-// The sRGB curve (IEC 61966-2-1) of linear light, both in [0, 1]; NaN is black.
+// Encodes linear light, 0 to 1, by the sRGB curve (IEC 61966-2-1), 0 to 1. NaN becomes 0.
 INLINE real srgb_encoded(real linear) {
     if (!(linear > real(0))) return real(0);
     if (linear >= real(1)) return real(1);

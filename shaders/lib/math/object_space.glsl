@@ -1,13 +1,13 @@
-// Part of lib/math.glsl, which alone includes it.
-// Things in spaces of their own.
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Transforms between object space and scene units.
 
-// A place in the scene is the centre plus its arm, and the arm is `scene_...` times the place in the thing's own
-// space. What is small beside its distance from the scene's origin has its digits there; the centre is a sum of
-// two floats, and so is the origin of a ray that passes near.
+// The placement of an instance. A position in scene units is the centre plus an arm. The arm is the matrix of the
+// columns `scene_...` times the position in object space. Object space keeps the digits of an object that is small
+// compared with its distance from the scene's origin. The centre is a sum of two floats, as are origins of rays.
 struct Place {
-    vec3 own_x, own_y, own_z;       // rows of the matrix from the scene's axes to its own
-    vec3 scene_x, scene_y, scene_z; // columns of the matrix back
-    vec3 centre, centre_low;
+    vec3 own_x, own_y, own_z;       // rows of the matrix from the scene's axes to object space
+    vec3 scene_x, scene_y, scene_z; // columns of the matrix from object space to the scene's axes
+    vec3 centre, centre_low;        // origin of the object space and its rounding error, scene units
 };
 
 INLINE vec3 to_own(Place place, vec3 arm) {
@@ -16,14 +16,15 @@ INLINE vec3 to_own(Place place, vec3 arm) {
 INLINE vec3 arm_of(Place place, vec3 own) {
     return own.x * place.scene_x + own.y * place.scene_y + own.z * place.scene_z;
 }
-// The unit normal that an own one becomes (by the inverse transpose); zero where there is none.
+// Transforms a normal from object space to the scene by the inverse transpose. Returns a unit vector, or zero if the
+// normal is zero.
 INLINE vec3 scene_normal(Place place, vec3 own) {
     vec3 n = own.x * place.own_x + own.y * place.own_y + own.z * place.own_z;
     real size = largest(abs(n));
     return size > real(0) ? normalize(n / size) : vec3(real(0));
 }
 
-// (a + a_low) - (b + b_low), rounded about once: a - b is split into a float and its error (Knuth's two-sum).
+// Returns (a + a_low) - (b + b_low) with about one rounding. Knuth's two-sum splits a - b into a float and its error.
 INLINE vec3 difference_of_sums(vec3 a, vec3 a_low, vec3 b, vec3 b_low) {
     precise vec3 high = a - b;
     precise vec3 taken = a - high;
@@ -33,7 +34,8 @@ INLINE vec3 difference_of_sums(vec3 a, vec3 a_low, vec3 b, vec3 b_low) {
     return result;
 }
 
-// The ray as the thing sees it, with the same t; `low`: what its origin lacks.
+// Transforms a ray to an instance's object space, where its points have the same t. `low` is the rounding error of the
+// ray's origin.
 INLINE Ray own_ray(Place place, Ray ray, vec3 low) {
     precise vec3 high = ray.origin - place.centre;
     precise vec3 rest = low - place.centre_low;
@@ -45,8 +47,8 @@ INLINE Ray own_ray(Place place, Ray ray, vec3 low) {
     return result;
 }
 
-// How far arm_of(own) may be off for a ray that starts there and comes back into the thing's own space, if `own` is
-// off by `error`: each way's roundings, and those of the centre's two floats.
+// Returns a bound of the error of arm_of(own), where `own` has the error `error`. The bound covers the roundings of the
+// transform to the scene, of a ray's transform back, and of the centre's two floats.
 INLINE vec3 arm_error(Place place, vec3 own, vec3 error) {
     vec3 x = abs(place.scene_x);
     vec3 y = abs(place.scene_y);
@@ -58,7 +60,7 @@ INLINE vec3 arm_error(Place place, vec3 own, vec3 error) {
            real(16) * kUnitRoundoff * kUnitRoundoff * abs(place.centre);
 }
 
-// The centre plus an arm, as a sum of two floats (Knuth's two-sum).
+// Returns the centre plus an arm as the sum of two floats, the result and `low` (Knuth's two-sum).
 INLINE vec3 scene_point(Place place, vec3 arm, OUT(vec3) low) {
     precise vec3 sum = place.centre + arm;
     precise vec3 added = sum - place.centre;

@@ -1,10 +1,10 @@
-// Part of lib/math.glsl, which alone includes it.
-// Rays and what they meet: triangles, boxes, spheres.
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Intersection of rays with triangles, boxes and spheres.
 
 struct Ray {
     vec3 origin;
-    vec3 direction; // any length but zero
-    uint leaves;    // 1 + original number of the triangle it starts on; 0: it starts in space
+    vec3 direction; // direction of the ray, of any length but zero
+    uint leaves;    // 1 + original number of the triangle on which the ray starts; 0: it starts on no triangle
 };
 
 INLINE bool is_valid(Ray ray) {
@@ -12,14 +12,14 @@ INLINE bool is_valid(Ray ray) {
            largest(abs(ray.direction)) > real(0);
 }
 
-// What the triangle test needs of a ray (Woop, Benthin, Wald 2013): the dominant axis becomes z,
-// and the ray is sheared onto it.
+// The data of a ray for the triangle test (Woop, Benthin, Wald 2013). The coordinates are turned so that the ray's
+// dominant axis becomes z, and then sheared so that the ray runs along z.
 struct RayShear {
-    int axis;
-    vec3 shear; // d.x / d.z, d.y / d.z, 1 / d.z of the turned direction
+    int axis;   // the ray's dominant axis, 0 to 2
+    vec3 shear; // d.x / d.z, d.y / d.z and 1 / d.z of the turned direction d
 };
 
-// The vector turned so that component `axis` comes last.
+// Permutes the components of a vector cyclically, so that component `axis` comes last.
 INLINE vec3 turned(vec3 v, int axis) {
     return axis == 2 ? v : (axis == 0 ? vec3(v.y, v.z, v.x) : vec3(v.z, v.x, v.y));
 }
@@ -35,7 +35,8 @@ INLINE RayShear ray_shear(vec3 direction) {
     return result;
 }
 
-// a * b - fl(a * b) without error, barring overflow and underflow (Dekker 1971, Veltkamp split).
+// Returns the rounding error of the product a * b, exactly, unless a product overflows or underflows (Dekker 1971, with
+// Veltkamp's split).
 INLINE real product_error(real a, real b) {
     precise real ta = kSplitter * a;
     precise real tb = kSplitter * b;
@@ -49,8 +50,8 @@ INLINE real product_error(real a, real b) {
     return error;
 }
 
-// a * b - c * d with the exact sign, barring overflow and underflow. Rounding is monotone, so only
-// a difference of exactly 0 can have lost its sign, and then the products' errors hold it.
+// Returns a * b - c * d with the exact sign, unless a product overflows or underflows. Rounding is monotone, so only a
+// difference of exactly 0 can have lost its sign. In this case the rounding errors of the products give the sign.
 INLINE real edge_function(real a, real b, real c, real d) {
     precise real difference = a * b - c * d;
     if (difference == real(0)) {
@@ -60,12 +61,13 @@ INLINE real edge_function(real a, real b, real c, real d) {
     return difference;
 }
 
-// The smaller (larger); a NaN candidate (0 * infinity, a ray in a box's plane) changes nothing.
+// Returns the smaller (or larger) of two values, or `kept` if the candidate is NaN. A ray in the plane of a box's face
+// gives the candidate 0 * infinity, which is NaN.
 INLINE real least(real kept, real candidate) { return candidate < kept ? candidate : kept; }
 INLINE real greatest(real kept, real candidate) { return candidate > kept ? candidate : kept; }
 
-// The two shorter edges of a triangle, whose roundings turn its plane least, and which corner lies
-// between them: 0, 1 or 2. cross(e, f) points to the counter-clockwise side.
+// Computes the two shorter edges `e` and `f` of a triangle, because their rounding errors tilt its plane least. Returns
+// the corner between the two edges: 0, 1 or 2. cross(e, f) points to the counter-clockwise side.
 INLINE int short_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f) {
     precise vec3 ab = b - a;
     precise vec3 bc = c - b;
@@ -80,8 +82,8 @@ INLINE int short_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f) {
     return ab_longest ? 2 : (bc_longest ? 0 : 1);
 }
 
-// Watertight triangle test, both sides. True when the ray meets the triangle at a finite t > 0;
-// weights / (their sum) are the barycentric weights of a, b, c (see `barycentric`).
+// Watertight triangle test. Returns whether the ray meets the triangle from either side at a finite t > 0. The weights,
+// divided by their sum, are the barycentric weights of a, b, c (see `barycentric`).
 INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT(real) t,
                           OUT(vec3) weights) {
     precise vec3 ta = turned(a - origin, ray.axis);
@@ -102,8 +104,8 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
                   (u <= real(0) && v <= real(0) && w <= real(0));
     precise real det = u + v + w;
     if (!inside || det == real(0)) return false;
-    // Where the ray meets the plane: the weights of a triangle a thousand times longer than high
-    // would put that a thousand times further off.
+    // Computes t from the triangle's plane. In a triangle that is a thousand times longer than high, t from the
+    // barycentric weights would have a thousand times the error.
     vec3 e, f;
     int between = short_edges(a, b, c, e, f);
     vec3 corner = between == 0 ? ta : (between == 1 ? tb : tc);
@@ -111,18 +113,19 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
                                       e.x * f.y - e.y * f.x), ray.axis);
     precise real height = normal.x * corner.x + normal.y * corner.y + normal.z * corner.z;
     precise real slope = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
-    // A plane seen edge-on within roundings is met anywhere: there the weights know better.
+    // If the plane is seen edge-on within rounding errors, t from the plane is arbitrary, so the weights give t.
     real doubt = gamma_bound(64) * (abs(normal.x * ray.shear.x) + abs(normal.y * ray.shear.y) + abs(normal.z));
     precise vec3 at = ray.shear.z * vec3(ta.z, tb.z, tc.z);
     precise real at_weights = (u * at.x + v * at.y + w * at.z) / det;
     precise real at_plane = abs(slope) > doubt ? ray.shear.z * (height / slope) : at_weights;
-    // Never before the first corner or behind the last; without a normal it is NaN or infinite.
+    // Clamps t to the range between the nearest and the farthest corner. For a triangle without a normal, t from the
+    // plane is NaN or infinite.
     real first = min(at.x, min(at.y, at.z));
     t = least(largest(at), greatest(first, at_plane));
     return t > real(0) && t <= kLargest;
 }
 
-// Whether a ray comes from behind a triangle: corners run clockwise for it.
+// Returns whether a ray comes from behind a triangle, so that the corners run clockwise as seen along the ray.
 INLINE bool is_from_behind(vec3 a, vec3 b, vec3 c, vec3 direction) {
     return dot(cross(b - a, c - a), direction) > real(0);
 }
@@ -132,17 +135,18 @@ INLINE vec3 barycentric(vec3 weights) {
     return weights / det;
 }
 
-// What the box test needs of a ray. The triangle test sees a sheared ray that is off by roundings
-// relative to its distance from the vertices; origins moved by that much keep every box that holds
-// a triangle the test would accept (Woop et al. 2013, section 4).
+// The data of a ray for the box test. The triangle test has rounding errors relative to the ray's distance from the
+// vertices. The origins are moved by as much, so that the ray meets the box of every triangle that the triangle test
+// accepts (Woop et al. 2013, section 4).
 struct BoxRay {
-    vec3 near_origin; // for the planes where the ray enters
-    vec3 far_origin;  // for the planes where it leaves
-    vec3 inverse;     // 1 / direction, infinite where that is 0
+    vec3 near_origin; // moved origin of the ray, for the planes where the ray enters a box
+    vec3 far_origin;  // moved origin of the ray, for the planes where the ray leaves a box
+    vec3 inverse;     // 1 / direction, infinite for a component 0
 };
 
-// `lo`, `hi`: bounds of what the ray may meet; boxes of anything outside are wider by themselves (engine/bvh/bvh.cpp).
-// `times`: how much wider boxes are for things in spaces of their own below them (engine/bvh/tlas.hpp); else 1.
+// Prepares a ray for box tests. `lo` and `hi` bound the geometry that the ray may meet. Boxes of geometry outside these
+// bounds are widened when the tree is built (engine/bvh/bvh.cpp). `times` is the factor by which boxes are widened for
+// instances below them (engine/bvh/tlas.hpp), else 1.
 INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
     real reach = largest(max(abs(lo - ray.origin), abs(hi - ray.origin)));
     real slack = gamma_bound(16) * reach * times;
@@ -156,7 +160,7 @@ INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
     return result;
 }
 
-// Does the ray meet the box in [0, t_max]; enters at t_near.
+// Returns whether the ray meets the box at a t in [0, t_max]. The ray enters the box at t_near.
 INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near) {
     bool back_x = ray.inverse.x < real(0);
     bool back_y = ray.inverse.y < real(0);
@@ -170,8 +174,8 @@ INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near
     return t_near <= t_far * (real(1) + real(2) * gamma_bound(3));
 }
 
-// Nearest t in (0, t_max) where the ray meets the sphere, from outside or inside
-// (Haines, Gunther, Akenine-Moller 2019: no difference of nearly equal squares).
+// Computes the nearest t in (0, t_max) at which the ray meets the sphere from outside or inside. The formula avoids the
+// difference of nearly equal squares (Haines, Gunther, Akenine-Moller 2019).
 INLINE bool sphere_test(vec3 centre, real radius, Ray ray, real t_max, OUT(real) t) {
     vec3 f = ray.origin - centre;
     real a = dot(ray.direction, ray.direction);

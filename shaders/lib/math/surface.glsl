@@ -1,9 +1,9 @@
-// Part of lib/math.glsl, which alone includes it.
-// Where a texture's texels are, and how much a sharp surface reflects.
+// Part of lib/math.glsl; only lib/math.glsl includes this file.
+// Mathematics of texture coordinates and of Fresnel reflectance.
 
 const uint kWrapRepeat = 0u, kWrapMirrored = 1u, kWrapClamp = 2u;
 
-// The texel of an axis with `size` texels that number `i` stands for.
+// Returns the texel index, 0 to size - 1, to which the wrap mode maps the index `i` of an axis with `size` texels.
 INLINE int wrapped_texel(int i, int size, uint wrap) {
     if (wrap == kWrapClamp) return i < 0 ? 0 : i < size ? i : size - 1;
     int period = wrap == kWrapMirrored ? 2 * size : size;
@@ -12,7 +12,8 @@ INLINE int wrapped_texel(int i, int size, uint wrap) {
     return i < size ? i : 2 * size - 1 - i;
 }
 
-// A place along an axis, in texels from the outer edge of the first: near enough to 0 to be whole numbers.
+// Converts a texture coordinate to texels from the outer edge of the first texel. The result is wrapped or clamped, so
+// that it is small enough to convert to an integer.
 INLINE real texel_place(real u, int size, uint wrap) {
     if (wrap == kWrapClamp) return min(max(u, real(-1)), real(2)) * real(size);
     return (u - real(2) * floor(u / real(2))) * real(size);
@@ -22,7 +23,7 @@ INLINE int nearest_texel(real u, int size, uint wrap) {
     return wrapped_texel(int(floor(texel_place(u, size, wrap))), size, wrap);
 }
 
-// The two texels whose centres, (i + .5) / size, lie around u, and the share of the second.
+// Computes the two texels whose centres (i + .5) / size lie on both sides of `u`, and the weight of the second texel.
 INLINE void texels_around(real u, int size, uint wrap, OUT(int) first, OUT(int) second, OUT(real) share) {
     real place = texel_place(u, size, wrap) - real(0.5);
     real below = floor(place);
@@ -31,7 +32,8 @@ INLINE void texels_around(real u, int size, uint wrap, OUT(int) first, OUT(int) 
     second = wrapped_texel(int(below) + 1, size, wrap);
 }
 
-// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering".
+// Returns Schlick's approximation of the Fresnel reflectance ("An Inexpensive BRDF Model for Physically-based
+// Rendering", 1994).
 INLINE vec3 schlick(vec3 f0, vec3 f90, real cosine) {
     real away = real(1) - min(max(cosine, real(0)), real(1));
     real squared = away * away;

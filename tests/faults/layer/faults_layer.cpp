@@ -1,20 +1,22 @@
-// VK_LAYER_CATOPTRIC_faults: makes one Vulkan call fail and counts all of them. By environment,
-// read whenever an instance is made:
-// - CATOPTRIC_FAULT=vkCreateBuffer:3:-2: the third call of that name returns VkResult -2 instead of
-//   being made.
-//   Recorded commands return nothing: that one and all after it of its name are left out.
-// - CATOPTRIC_FAULT_REPORT=FILE: gets a line "NAME CALLS ALIVE" for each call made, then "strays N"
-//   (handles destroyed that were not alive), "untimely N" (destroyed while the device may use
-//   them), "loose_stamps N" (time stamps that no execution barrier follows at once) and
-//   "most_bytes N" (of memory that was alive at one time).
+// VK_LAYER_CATOPTRIC_faults: a Vulkan layer that makes one call fail and counts all calls. The
+// layer reads two environment variables whenever an instance is made:
+// - CATOPTRIC_FAULT=vkCreateBuffer:3:-2: the third call of that name returns VkResult -2 and is not
+//   passed on. Recorded commands (vkCmd...) return no result. Of these, the named call and all
+//   later calls of its name are left out.
+// - CATOPTRIC_FAULT_REPORT=FILE: the file to write. The file gets a line "NAME CALLS ALIVE" for
+//   each call made, and four totals:
+//   "strays N": handles destroyed although they were not alive,
+//   "untimely N": handles destroyed while the device may use them,
+//   "loose_stamps N": timestamps not directly followed by an execution barrier,
+//   "most_bytes N": the largest amount of device memory at one time.
 //
-// Faults come as the world makes them. A wait that fails has not waited. A submit that says "lost"
-// has submitted, and a lost device stays lost. Of the physical devices result 0 finds none; 5
-// (VK_INCOMPLETE) counts one more than there are, or fetches one fewer. With result 0 a device
-// cannot show pictures on a surface (vkGetPhysicalDeviceSurfaceSupportKHR).
+// Faults behave as real ones do. A wait that fails has not waited. A submit that returns "lost" has
+// submitted, and a lost device stays lost. For vkEnumeratePhysicalDevices, result 0 finds no
+// device, and 5 (VK_INCOMPLETE) counts one device too many or lists one too few. For
+// vkGetPhysicalDeviceSurfaceSupportKHR, result 0 says that the device cannot present on a surface.
 //
-// For one instance, one device and one thread at a time, as the engine has them; those that it
-// abandoned may go on beside them.
+// The layer supports one instance, one device and one thread at a time, as the engine uses them.
+// Devices that the engine abandoned may go on running beside the current device.
 #include "support/layer_link.hpp"
 
 #include <vulkan/vk_layer.h>
@@ -37,7 +39,7 @@
 namespace {
 
 // clang-format off
-// Calls that make something, and the call that ends its life.
+// Calls that create an object, each with the call that destroys it.
 #define FOR_CREATORS(X)                                                                            \
     X(AllocateMemory, FreeMemory)                                                                  \
     X(CreateBuffer, DestroyBuffer)                                                                 \
@@ -63,13 +65,14 @@ namespace {
     X(DestroyPipelineLayout) X(DestroyPipeline) X(DestroyDescriptorPool)                           \
     X(DestroyCommandPool) X(DestroySemaphore) X(DestroyFence) X(DestroyEvent)                      \
     X(DestroyPipelineCache) X(DestroyQueryPool)
-// Calls that may fail and make nothing of their own; sets and command buffers go with their pools.
+// Calls that may fail and create no object. Sets and command buffers are destroyed with their
+// pools.
 #define FOR_CALLS(X)                                                                               \
     X(AllocateDescriptorSets) X(AllocateCommandBuffers) X(BindBufferMemory)                        \
     X(BindImageMemory) X(MapMemory) X(BeginCommandBuffer) X(EndCommandBuffer)                      \
     X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle) X(DeviceWaitIdle)                           \
     X(GetQueryPoolResults) X(QueuePresentKHR)
-// Recorded commands that a time stamp may stand before.
+// Recorded commands that may follow a timestamp.
 #define FOR_COMMANDS(X)                                                                            \
     X(CmdBeginRendering) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdClearColorImage)               \
     X(CmdCopyBuffer) X(CmdCopyImage) X(CmdCopyImageToBuffer) X(CmdFillBuffer)                      \
@@ -78,38 +81,40 @@ namespace {
 
 struct Counter {
     int calls = 0, alive = 0;
-    PFN_vkVoidFunction next = nullptr; ///< the driver's, or the next layer's
+    PFN_vkVoidFunction next = nullptr; ///< the function of the next layer or the driver
 };
 
 struct Alive {
     Counter* maker = nullptr;
-    std::uint64_t bytes = 0; ///< of memory
+    std::uint64_t bytes = 0; ///< size of device memory; 0 for other objects
 };
 
-/// The call that destroys it, since handles of two types may be the same number, and the handle.
+/// Identifies an object by the call that destroys it and its handle. The handle alone is not
+/// enough, because handles of two types may be equal.
 using Key = std::pair<std::string_view, std::uint64_t>;
 
-/// Everything the layer knows of an instance. The report is written when that is destroyed, and
-/// from the fault on after every call, since a program may then end without destroying it.
+/// All state of the layer for an instance. The report is written when the instance is destroyed.
+/// After the fault the report is also written after every call, because a program may then end
+/// without destroying the instance.
 struct State {
     std::string fault_name;
     int fault_at = 0, fault_result = 0;
-    bool failed = false; ///< the fault has come
+    bool failed = false; ///< the call that must fail was made
     bool lost = false;   ///< the device has been reported lost, and stays so
     int strays = 0, untimely = 0;
-    bool leaves_out = false; ///< the fault has come to a recorded command
-    bool stamped = false;    ///< the command recorded last is a time stamp
+    bool leaves_out = false; ///< the call that must fail was recorded and is left out
+    bool stamped = false;    ///< the last recorded command is a timestamp
     int loose_stamps = 0;
     std::map<std::string, Counter, std::less<>> counters;
-    std::uint64_t bytes = 0, most_bytes = 0; ///< of memory that is alive
+    std::uint64_t bytes = 0, most_bytes = 0; ///< device memory: now, and at most
     std::map<Key, Alive> alive;
-    std::set<Key> in_use; ///< what devices may still use, those of former instances too
+    std::set<Key> in_use; ///< objects that devices, also abandoned ones, may still use
 
     PFN_vkGetInstanceProcAddr next_instance_proc = nullptr;
     PFN_vkGetDeviceProcAddr next_device_proc = nullptr;
 } state;
 
-/// For a new instance; what former ones abandoned stays in use.
+/// Resets the state for a new instance. Objects that earlier instances abandoned stay in use.
 void begin() {
     const std::set<Key> in_use = std::move(state.in_use);
     state = State{.in_use = in_use};
@@ -174,7 +179,7 @@ void died(std::string_view destroyer, Handle handle) {
     if (state.failed) report();
 }
 
-/// Counts a call; true when it is the one that must fail.
+/// Counts a call. Returns whether this call must fail.
 bool is_fault(std::string_view name) {
     const bool fault = ++counter_of(name).calls == state.fault_at && name == state.fault_name;
     state.failed |= fault;
@@ -190,7 +195,7 @@ bool may_say_lost(std::string_view name) {
     return waits(name) || name == "vkQueueSubmit2" || name == "vkGetQueryPoolResults";
 }
 
-/// What the call must return instead of being made; VK_SUCCESS = make it.
+/// Returns the result that a call must return instead of being passed on. VK_SUCCESS: pass it on.
 VkResult refusal(std::string_view name) {
     const bool fault = is_fault(name);
     if (!fault && !(state.lost && may_say_lost(name))) return VK_SUCCESS;
@@ -202,14 +207,14 @@ VkResult refusal(std::string_view name) {
     return result;
 }
 
-/// How many handles a creator's arguments ask for: pipelines come in arrays.
+/// Returns how many handles a creating call asks for. Only pipelines are created in arrays.
 template <typename... Args>
 std::uint32_t handle_count(const std::tuple<Args...>& args) {
     if constexpr (sizeof...(Args) == 6) return std::get<2>(args);
     return 1;
 }
 
-/// What a call allocates.
+/// Returns how many bytes of device memory a call allocates; 0 for other calls.
 template <typename... Args>
 std::uint64_t bytes_of(const std::tuple<Args...>& args) {
     if constexpr (std::is_same_v<std::tuple_element_t<1, std::tuple<Args...>>,
@@ -252,7 +257,7 @@ template <const auto& kName, typename... Args>
 struct Command<kName, void(VKAPI_PTR*)(VkCommandBuffer, Args...)> {
     static void hook(VkCommandBuffer buffer, Args... args) {
         constexpr std::string_view kThis = kName;
-        bool divides = false; // everything after it waits for everything before it
+        bool divides = false; // all later commands wait for all earlier ones
         if constexpr (kThis == "vkCmdPipelineBarrier") {
             const std::tuple<Args...> list(args...);
             divides = std::get<0>(list) == VK_PIPELINE_STAGE_ALL_COMMANDS_BIT &&
@@ -325,7 +330,8 @@ VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationC
     const VkResult result = next(create, callbacks, instance);
     if (result != VK_SUCCESS) return result;
     born(counter_of("vkCreateInstance"), "vkDestroyInstance", *instance);
-    // Asked now: later the loader answers with the top of the chain, not with what is below us.
+    // Function addresses are taken now. Later the loader would return the first layer's functions
+    // instead of those below this layer.
     for (const char* name : {"vkDestroyInstance", "vkEnumeratePhysicalDevices", "vkCreateDevice",
                              "vkGetPhysicalDeviceSurfaceSupportKHR"})
         counter_of(name).next = state.next_instance_proc(*instance, name);

@@ -1,10 +1,11 @@
-// VK_LAYER_CATOPTRIC_limits: shows the driver's device with limits that a graphics card may have:
+// VK_LAYER_CATOPTRIC_limits: a Vulkan layer that reports the driver's device with limits that a
+// graphics card may have:
 // - 65,536 elements in a texel buffer, 128 bytes of push constants, 128 MiB in a storage buffer,
 // - no linear filtering of 32-bit float images,
-// - memory of which the host sees a window of 256 MiB; the rest cannot be mapped.
-// Ends the program with a message where it does what the device so shown does not allow.
+// - device memory of which the host can map only 256 MiB, called the window.
+// The layer ends a program with a message if the program exceeds one of these limits.
 //
-// The driver below must have one memory type, as the software driver has.
+// The driver below the layer must have one memory type, as the software driver has.
 #include "support/layer_link.hpp"
 
 #include <vulkan/vk_layer.h>
@@ -32,10 +33,11 @@ constexpr std::uint32_t kUnmappable = 0, kWindow = 1, kHost = 2, kTypes = 3;
     std::abort();
 }
 
-/// Handles of an instance and of what is made from it share the first word.
+/// Returns the first word of a Vulkan handle. The word is equal for an instance or device and all
+/// handles that are made from it.
 void* key_of(const void* handle) { return *static_cast<void* const*>(handle); }
 
-/// The next layer's calls, or the driver's.
+/// Functions of the next layer or the driver, for one instance or device.
 struct Calls {
     PFN_vkGetInstanceProcAddr instance_proc = nullptr;
     PFN_vkGetDeviceProcAddr device_proc = nullptr;
@@ -49,9 +51,9 @@ struct Memory {
 std::mutex mutex;
 std::map<void*, Calls> instances, devices;
 std::map<VkDeviceMemory, Memory> memories;
-std::set<VkImageView> unfiltered; ///< views of 32-bit floats
+std::set<VkImageView> unfiltered; ///< image views of 32-bit floats
 std::set<VkSampler> linear;
-std::map<void*, VkDeviceSize> window_used; ///< by device
+std::map<void*, VkDeviceSize> window_used; ///< bytes in use, by device
 
 template <typename Pfn>
 Pfn below(const std::map<void*, Calls>& calls, const void* handle, const char* name) {
@@ -60,7 +62,7 @@ Pfn below(const std::map<void*, Calls>& calls, const void* handle, const char* n
 }
 #define NEXT(calls, handle, name) below<PFN_##name>(calls, handle, #name)
 
-// --- what the device is shown to have ------------------------------------------------------------
+// --- limits that the layer reports ---------------------------------------------------------------
 
 void limit(VkPhysicalDeviceLimits& limits) {
     limits.maxTexelBufferElements = std::min(limits.maxTexelBufferElements, kMostTexels);
@@ -131,7 +133,7 @@ void image_needs2(VkDevice device, const VkDeviceImageMemoryRequirements* info,
     result->memoryRequirements.memoryTypeBits = (1u << kTypes) - 1;
 }
 
-// --- what a program may do with it ---------------------------------------------------------------
+// --- calls that the layer checks -----------------------------------------------------------------
 
 VkResult allocate(VkDevice device, const VkMemoryAllocateInfo* info,
                   const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
@@ -186,7 +188,7 @@ VkResult view_image(VkDevice device, const VkImageViewCreateInfo* info,
     if (result == VK_SUCCESS && is_float(info->format))
         unfiltered.insert(*view);
     else if (result == VK_SUCCESS)
-        unfiltered.erase(*view); // a handle may come again
+        unfiltered.erase(*view); // drivers reuse handles
     return result;
 }
 
@@ -286,7 +288,8 @@ VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationC
         proc(VK_NULL_HANDLE, "vkCreateInstance"));
     const VkResult result = next(create, callbacks, instance);
     if (result != VK_SUCCESS) return result;
-    // Asked now: later the loader answers with the top of the chain, not with what is below us.
+    // Function addresses are taken now. Later the loader would return the first layer's functions
+    // instead of those below this layer.
     Calls calls;
     calls.instance_proc = proc;
     for (const Hook& hook : kInstanceHooks)

@@ -1,5 +1,5 @@
-// The pictures of docs/view.md: the window, as an X server without a screen shows it in each mode.
-// catoptric_view_pictures FOLDER
+// Writes the pictures of docs/view.md: the window in each mode, as an X server without a screen
+// shows it. Usage: catoptric_view_pictures FOLDER
 #include "catoptric/program.hpp"
 #include "core/error.hpp"
 #include "measure/picture_file.hpp"
@@ -49,13 +49,13 @@ int make(const std::filesystem::path& folder) {
     std::size_t shot = 0, last = kShots.front().frames;
     Driver driver;
     driver.before = [&](std::size_t, Inputs& inputs, State& state, Window& window) {
-        inputs.on_controls = true; // the server's own mouse does nothing
+        inputs.on_controls = true; // ignores the mouse pointer of the X server
         kShots[shot].set(state);
         window.resize(kShots[shot].window);
     };
     driver.after = [&](const Report& report) {
         if (report.frame < last) return;
-        ::usleep(500000); // the server takes its time
+        ::usleep(500000); // waits until the X server has drawn
         const auto& [name, frames, set, size] = kShots[shot];
         measure::write_png(display.shown(static_cast<int>(size.x), static_cast<int>(size.y)),
                            folder / ("view-" + name + ".png"));
