@@ -12,7 +12,9 @@
 
 namespace catoptric::shared {
 using uint = std::uint32_t;
+#define IN_QUADS alignas(16) // elements of a list of uvec4
 #else
+#define IN_QUADS
 #extension GL_EXT_scalar_block_layout : require
 #endif
 
@@ -42,12 +44,16 @@ struct TextureUse {
 };
 const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
 
+// The factors of a material: numbers that members of scene::Material hold under the same names. A new factor needs its
+// name here, and its row in engine/scene/material.hpp.
+#define MATERIAL_FACTORS(FACTOR)                                                                                       \
+    FACTOR(metallic)  /* share of the surface that is metal, 0 to 1 */                                                 \
+    FACTOR(roughness) /* glTF roughness, 0 to 1 */
+
 // The parameters of a glTF material that Surface does not hold. Objects with equal parameters share one element.
-struct MaterialParameters {
+struct IN_QUADS MaterialParameters {
     uint flags;             // material flags, kMaterial...
     uint first_attribute;   // index of a vertex's Attribute, minus the index of the vertex
-    float metallic;
-    float roughness;        // glTF roughness, 0 to 1
     float max_specular_roughness; // highest roughness at which the surface still reflects sharply
     float alpha;
     float alpha_cutoff;     // alpha below which the surface is cut out; 0: no alpha test
@@ -56,7 +62,14 @@ struct MaterialParameters {
     TextureUse albedo;      // texture of base colour and alpha
     TextureUse emission;
     TextureUse rough;       // texture with roughness in green and metallic in blue
+#define DECLARE_FACTOR(name) float name;
+    MATERIAL_FACTORS(DECLARE_FACTOR)
+#undef DECLARE_FACTOR
 };
+#define COUNT_FACTOR(name) +1u
+const uint kMaterialFixedWords = 38u; // words of a MaterialParameters before its factors
+const uint kMaterialWords = kMaterialFixedWords MATERIAL_FACTORS(COUNT_FACTOR);
+#undef COUNT_FACTOR
 const uint kMaterialVaries = 1u;     // material flag: several colours, or sharp reflection without being a mirror
 const uint kMaterialAttributes = 2u; // material flag: the vertices have attributes
 const uint kMaterialConstant = 4u;   // material flag: the surface reflects Surface::reflectance at any angle
@@ -227,7 +240,7 @@ struct Overlaying {
 
 // Number of four-component texels that one element takes in the lists of shaders/lib/bindings.glsl. Texels hold floats,
 // those of materials hold unsigned integers.
-const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kMaterialQuads = 10u;
+const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kMaterialQuads = (kMaterialWords + 3u) / 4u;
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);

@@ -52,9 +52,10 @@ std::vector<MaterialInfo> materials_of(const scene::Scene& scene) {
         MaterialInfo info{.name = material.name,
                           .kind = kind_of(material, scene::surface_of(scene, *first)),
                           .objects = count,
-                          .albedo = material.albedo,
-                          .metallic = material.metallic,
-                          .roughness = material.roughness};
+                          .albedo = material.albedo};
+        std::ranges::transform(
+            scene::kMaterialFactors, info.factors.begin(),
+            [&](const scene::MaterialFactor& factor) { return material.*factor.member; });
         info.f0 = material.mirror ? material.reflectance
                                   : scene::f0_of(material, material.albedo, material.metallic);
         info.light = scene::light_of(material);

@@ -2,9 +2,12 @@
 
 #include "app/run.hpp"
 #include "measure/comparison.hpp"
+#include "scene/material.hpp"
 #include "scene/mirror_shape.hpp"
 
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +23,8 @@ struct MaterialInfo {
     std::string kind;
     std::size_t objects = 0; ///< number of objects with this material
     vec3 albedo{0};
-    float metallic = 0, roughness = 1;
+    /// The values of scene::kMaterialFactors, in their order.
+    std::array<float, std::size(scene::kMaterialFactors)> factors{};
     vec3 f0{0};    ///< F0 of the material's factors; a mirror's reflectance
     vec3 light{0}; ///< light that it casts on other surfaces; 0: none
     bool glows = false, is_masked = false, is_two_sided = false;

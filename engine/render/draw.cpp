@@ -3,6 +3,7 @@
 #include "render/views.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace catoptric::render {
@@ -83,18 +84,19 @@ void add_places(const Captures& captures, gpu::Constants& constants) {
     constants.emplace_back("array_count", static_cast<std::uint32_t>(captures.arrays.size()));
 }
 
-/// Returns the constants of every fragment shader that draws objects with a colour.
-gpu::Constants surface_constants(const GpuScene& scene, const Drawing& drawing) {
-    gpu::Constants constants = drawing.store;
-    if (drawing.peeled) constants.emplace_back("peels", 1u);
-    if (scene.has_details()) constants.emplace_back("lights_mirrors", 1u);
-    if (drawing.lighting.shadow_map) constants.emplace_back("has_shadow_map", 1u);
-    return constants;
+/// Returns the constants of the pass for fragment shaders that draw objects with a colour.
+gpu::Constants features_of(const GpuScene& scene, const Drawing& drawing) {
+    gpu::Constants features;
+    if (drawing.peeled) features.emplace_back("peels", 1u);
+    if (scene.has_details()) features.emplace_back("lights_mirrors", 1u);
+    if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
+    return features;
 }
 
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                   const MirrorShader& look, const Wanted& wanted, Triangles triangles = nullptr) {
-    gpu::RasterState state{"", kBlackMirror, surface_constants(scene, drawing)};
+    gpu::RasterState state{"", kBlackMirror, drawing.store};
+    state.features = features_of(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = look.fragment + (look.ablated && !drawing.peeled ? "#ablate" : "");
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
@@ -123,7 +125,7 @@ bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t
 void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                   const Wanted& wanted, Triangles triangles) {
-    state.features = scene.features(first_view);
+    std::ranges::copy(scene.features(first_view), std::back_inserter(state.features));
     const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
         if (own && !scene.has_object_spaces()) break;
@@ -157,14 +159,14 @@ void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState sta
 void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                 const Wanted& wanted) {
     const auto& [first_view, layers, lighting, looks, store, peeled] = drawing;
-    const gpu::Constants constants = surface_constants(scene, drawing);
+    const gpu::Constants features = features_of(scene, drawing);
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
     if (peeled) commands.bind("first_layer", *peeled);
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
-        draw_objects(commands, scene, {"", "diffuse.frag", constants, hidden}, first_view, layers,
-                     0, [&](std::size_t i) {
+        draw_objects(commands, scene, {"", "diffuse.frag", store, hidden, features}, first_view,
+                     layers, 0, [&](std::size_t i) {
                          const DrawRange& range = scene.ranges()[i];
                          return !range.mirror && range.one_sided == one_sided && wanted(i);
                      });
@@ -198,8 +200,9 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
         if (is_shut(i))
-            return draw_objects(commands, scene, {"", kBlackMirror, constants}, first_view, layers,
-                                0, is_shut);
+            return draw_objects(commands, scene,
+                                {"", kBlackMirror, store, gpu::Winding::none, features}, first_view,
+                                layers, 0, is_shut);
 }
 
 } // namespace catoptric::render

@@ -2,6 +2,7 @@
 
 #include "scene/transform.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace catoptric::render {
@@ -86,6 +87,16 @@ void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, 
     }
 }
 
+/// Returns whether the material has a factor, other than those of glTF itself, that is not at its
+/// default.
+bool has_extra_factors(const scene::Material& material) {
+    const scene::Material usual;
+    return std::ranges::any_of(scene::kMaterialFactors, [&](const scene::MaterialFactor& factor) {
+        return factor.extension != scene::kCoreFactors &&
+               material.*factor.member != usual.*factor.member;
+    });
+}
+
 /// Returns whether the visible surface has more than one constant colour and its emission.
 bool varies(const scene::Mesh& mesh, const scene::Material& material,
             float max_specular_roughness) {
@@ -93,7 +104,7 @@ bool varies(const scene::Mesh& mesh, const scene::Material& material,
                           material.roughness_texture;
     const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
-           material.unlit || scene::is_masked(material) ||
+           material.unlit || scene::is_masked(material) || has_extra_factors(material) ||
            (material.mirror ? throws_back || scene::glows(material) : is_sharp);
 }
 

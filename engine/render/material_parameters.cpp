@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -27,7 +28,9 @@ shared::MaterialParameters detail_of(const scene::Material& material, const Draw
                    bit(material.mirror, shared::kMaterialConstant) |
                    bit(material.unlit, shared::kMaterialUnlit) |
                    bit(range.turns, shared::kMaterialTurns);
-    detail.metallic = material.metallic, detail.roughness = material.roughness;
+#define COPY_FACTOR(name) detail.name = material.name;
+    MATERIAL_FACTORS(COPY_FACTOR)
+#undef COPY_FACTOR
     detail.alpha = material.alpha, detail.alpha_cutoff = material.alpha_cutoff;
     detail.f0 = material.dielectric_f0, detail.f90 = material.dielectric_f90;
     return detail;
@@ -114,7 +117,8 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
             any_ = any_ || entry->second;
         }
         masks_ = masks_ || range.masked;
-        const auto bytes = std::bit_cast<std::array<char, sizeof detail>>(detail);
+        std::array<char, 4 * shared::kMaterialWords> bytes{}; // all but the padding
+        std::memcpy(bytes.data(), &detail, bytes.size());
         const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()),
                                                        static_cast<std::uint32_t>(details.size()));
         if (is_new) details.push_back(detail);

@@ -1,6 +1,7 @@
 #include "require/world_content_hashes.hpp"
 
 #include <map>
+#include <type_traits>
 
 namespace catoptric::require {
 
@@ -27,7 +28,8 @@ private:
     std::map<const scene::Image*, std::uint64_t> known_;
 };
 
-void add(ContentHash& content_hash, const std::optional<scene::Texture>& texture, Images& images) {
+void add_texture(ContentHash& content_hash, const std::optional<scene::Texture>& texture,
+                 Images& images) {
     content_hash.add(texture.has_value());
     if (!texture) return;
     content_hash.add(images[texture->image]).add(texture->wrap_u).add(texture->wrap_v);
@@ -48,18 +50,16 @@ std::uint64_t content_hash_of(const scene::Mesh& mesh) {
 std::uint64_t content_hash_of(const std::vector<scene::Material>& materials) {
     ContentHash content_hash;
     Images images;
-    for (const scene::Material& m : materials) {
-        content_hash.add(m.albedo)
-            .add(m.emission)
-            .add(m.mirror)
-            .add(m.reflectance)
-            .add(m.two_sided);
-        content_hash.add(m.front_only).add(m.unlit).add(m.metallic).add(m.roughness);
-        content_hash.add(m.dielectric_f0).add(m.dielectric_f90).add(m.alpha).add(m.alpha_cutoff);
-        add(content_hash, m.albedo_texture, images), add(content_hash, m.emission_texture, images);
-        add(content_hash, m.roughness_texture, images);
-        content_hash.add(scene::light_of(m));
-    }
+    const auto add_member = [&](const auto& member) {
+        using Member = std::remove_cvref_t<decltype(member)>;
+        if constexpr (std::is_same_v<Member, std::optional<scene::Texture>>)
+            add_texture(content_hash, member, images);
+        else if constexpr (std::is_same_v<Member, std::optional<vec3>>)
+            content_hash.add(member.has_value()).add(member.value_or(vec3(0)));
+        else if constexpr (!std::is_same_v<Member, std::string>) // no picture shows a name
+            content_hash.add(member);
+    };
+    for (const scene::Material& material : materials) scene::visit_members(material, add_member);
     return content_hash.value();
 }
 

@@ -2,7 +2,12 @@
 
 #include "scene/gltf_container.hpp"
 #include "scene/json.hpp"
+#include "scene/material.hpp"
 #include "scene/notes.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
 
 /// Checks a glTF document before tinygltf parses it. In the document that tinygltf gets, every
 /// member has the right type and every index names an existing object. Every accessor lies within
@@ -10,6 +15,11 @@
 namespace catoptric::scene::gltf {
 
 inline constexpr std::string_view kEmissiveStrength = "KHR_materials_emissive_strength";
+/// Returns whether the material extension holds factors that are read.
+inline bool is_factor_extension(std::string_view name) {
+    return std::ranges::find(kMaterialFactors, name, &MaterialFactor::extension) !=
+           std::end(kMaterialFactors);
+}
 
 /// Checks the type of every known member, and adds the notes of the member table. Unknown members
 /// are ignored. Throws `bad_data` for a member of the wrong type, an index of no object, or lists

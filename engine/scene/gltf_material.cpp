@@ -64,6 +64,7 @@ private:
         add_unsupported_material(source_.unsupported, std::string(id), from_.label(), index_);
     }
     void base_colour(const Item& item, std::string_view factor, std::string_view texture);
+    void factors(std::string_view extension, const Item& item);
     void metal(const Item& pbr);
     void glossy(const Item& glossiness);
     void dielectric();
@@ -71,7 +72,7 @@ private:
     void alpha();
     bool is_metal_everywhere() const;
     void transmission();
-    void left_out();
+    void other_properties();
     void be_mirror(const vec3& reflectance, const vec3& diffuse);
     void marks();
 
@@ -93,10 +94,16 @@ void MaterialReader::base_colour(const Item& item, std::string_view factor, std:
     material_.albedo_texture = texture(item, map, true);
 }
 
+/// Reads the factors that glTF keeps in the extension, or in the core part of a material.
+void MaterialReader::factors(std::string_view extension, const Item& item) {
+    for (const MaterialFactor& factor : kMaterialFactors)
+        if (factor.extension == extension)
+            material_.*factor.member = fraction(item, factor.key, factor.gltf_default);
+}
+
 void MaterialReader::metal(const Item& pbr) {
     base_colour(pbr, "baseColorFactor", "baseColorTexture");
-    material_.metallic = fraction(pbr, "metallicFactor", 1);
-    material_.roughness = fraction(pbr, "roughnessFactor", 1);
+    factors(kCoreFactors, pbr);
     material_.roughness_texture = texture(pbr, "metallicRoughnessTexture", false);
 }
 
@@ -166,7 +173,8 @@ void MaterialReader::transmission() {
             source_.notes.add("extension " + in_quotes(name) + ", not read", from_.label());
 }
 
-void MaterialReader::left_out() {
+/// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.
+void MaterialReader::other_properties() {
     for (const auto& [key, note, id] :
          {std::array<std::string_view, 3>{"normalTexture",
                                           "materials with a normalTexture, drawn without it",
@@ -178,6 +186,10 @@ void MaterialReader::left_out() {
     if (from_.has("technique")) gap("material-extension");
     if (!extensions_) return;
     for (const auto& [name, value] : extensions_->json().items()) {
+        if (is_factor_extension(name)) {
+            factors(name, *extensions_->object(name));
+            continue;
+        }
         bool is_known = std::ranges::find(kMaterialExtensions, name) !=
                         std::end(kMaterialExtensions);
         for (const auto& [extension, factor, id] : kUnread) {
@@ -227,7 +239,7 @@ Material MaterialReader::read() {
     alpha();
     const bool doubled = from_.flag("doubleSided", false);
     material_.two_sided = doubled, material_.front_only = !doubled;
-    left_out();
+    other_properties();
     transmission();
     if (extension("KHR_materials_unlit")) {
         material_.unlit = true, material_.metallic = 0, material_.roughness = 1;

@@ -64,6 +64,18 @@ void write_dielectric(Writer& writer, const Material& material, tinygltf::Materi
     writer.use("KHR_materials_specular");
 }
 
+/// Writes the factors of extensions that differ from the defaults of Material.
+void write_factors(Writer& writer, const Material& material, tinygltf::Material& to) {
+    const Material usual;
+    for (const auto& [name, member, extension, key, gltf_default] : kMaterialFactors) {
+        if (extension == kCoreFactors || material.*member == usual.*member) continue;
+        Value& members = to.extensions[std::string(extension)];
+        if (!members.IsObject()) members = Value(Value::Object());
+        members.Get<Value::Object>()[std::string(key)] = Value(as_typed(material.*member));
+        writer.use(std::string(extension));
+    }
+}
+
 Value marks_of(const Material& material) {
     Value::Object ours;
     if (material.mirror && material.reflectance != vec3(1))
@@ -125,6 +137,7 @@ void Writer::add_material(const Material& material) {
         to.alphaMode = "MASK", to.alphaCutoff = as_typed(material.alpha_cutoff);
     write_emission(*this, material, to);
     write_dielectric(*this, material, to);
+    write_factors(*this, material, to);
     if (material.unlit) {
         to.extensions["KHR_materials_unlit"] = Value(Value::Object());
         use("KHR_materials_unlit");

@@ -17,7 +17,8 @@ constexpr std::string_view kReadExtensions[] = {
     "KHR_materials_transmission", "KHR_materials_volume"};
 
 bool is_read(std::string_view extension) {
-    return std::ranges::find(kReadExtensions, extension) != std::end(kReadExtensions);
+    return std::ranges::find(kReadExtensions, extension) != std::end(kReadExtensions) ||
+           is_factor_extension(extension);
 }
 
 /// The accessor types that glTF allows for attributes whose name starts with `name`.

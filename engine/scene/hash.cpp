@@ -56,14 +56,7 @@ struct Hasher {
         add(texture.u_row), add(texture.v_row);
     }
     void add(const Material& material) {
-        add(material.name), add(material.albedo), add(material.emission);
-        add(material.mirror), add(material.reflectance), add(material.two_sided);
-        add(material.front_only), add(material.unlit);
-        add(material.metallic), add(material.roughness);
-        add(material.dielectric_f0), add(material.dielectric_f90);
-        add(material.alpha), add(material.alpha_cutoff);
-        add(material.albedo_texture), add(material.emission_texture);
-        add(material.roughness_texture), add(material.light);
+        visit_members(material, [this](const auto& member) { add(member); });
     }
     void add(const std::monostate&) {}
     void add(const Harmonic& motion) { add(motion.amplitude), add(motion.period); }

@@ -4,6 +4,7 @@
 #include "texture.hpp"
 
 #include <optional>
+#include <string_view>
 
 namespace catoptric::scene {
 
@@ -41,6 +42,35 @@ struct Material {
 
     bool operator==(const Material&) const = default;
 };
+
+/// A number from 0 to 1 that scales a property of a material. glTF reading and writing, `info` and
+/// the device's MaterialParameters (shaders/shared.h) follow from the rows of kMaterialFactors.
+struct MaterialFactor {
+    std::string_view name; ///< as in MATERIAL_FACTORS of shaders/shared.h
+    float Material::*member;
+    std::string_view extension; ///< glTF extension, or kCoreFactors
+    std::string_view key;       ///< member of that extension
+    float gltf_default;         ///< value without this key
+};
+/// The part of a glTF material that holds the factors of glTF itself.
+inline constexpr std::string_view kCoreFactors = "pbrMetallicRoughness";
+inline constexpr MaterialFactor kMaterialFactors[] = {
+    {"metallic", &Material::metallic, kCoreFactors, "metallicFactor", 1},
+    {"roughness", &Material::roughness, kCoreFactors, "roughnessFactor", 1},
+};
+
+/// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
+/// this list; a member that is missing here does not compile.
+template <typename Visit>
+void visit_members(const Material& material, Visit&& visit) {
+    const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
+                 metallic, roughness, dielectric_f0, dielectric_f90, alpha, alpha_cutoff,
+                 albedo_texture, emission_texture, roughness_texture, light] = material;
+    visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
+    visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
+    visit(dielectric_f0), visit(dielectric_f90), visit(alpha), visit(alpha_cutoff);
+    visit(albedo_texture), visit(emission_texture), visit(roughness_texture), visit(light);
+}
 
 /// Returns whether camera and reflected rays see the surface only from its front. This holds for
 /// `front_only` and for a light that shines to one side. All surfaces but lights cast their shadow

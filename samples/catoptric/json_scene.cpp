@@ -15,18 +15,17 @@ Json colour_json(const vec3& colour) {
 }
 
 Json material_json(const app::MaterialInfo& material) {
-    return {{"name", material.name},
-            {"kind", material.kind},
-            {"objects", material.objects},
-            {"albedo", colour_json(material.albedo)},
-            {"metallic", scene::as_typed(material.metallic)},
-            {"roughness", scene::as_typed(material.roughness)},
-            {"f0", colour_json(material.f0)},
-            {"light", material.light == vec3(0) ? Json() : colour_json(material.light)},
-            {"glows", material.glows},
-            {"masked", material.is_masked},
-            {"two_sided", material.is_two_sided},
-            {"textures", material.textures}};
+    Json json{{"name", material.name},
+              {"kind", material.kind},
+              {"objects", material.objects},
+              {"albedo", colour_json(material.albedo)}};
+    for (std::size_t i = 0; i < material.factors.size(); ++i)
+        json[std::string(scene::kMaterialFactors[i].name)] = scene::as_typed(material.factors[i]);
+    json["f0"] = colour_json(material.f0);
+    json["light"] = material.light == vec3(0) ? Json() : colour_json(material.light);
+    json["glows"] = material.glows, json["masked"] = material.is_masked;
+    json["two_sided"] = material.is_two_sided, json["textures"] = material.textures;
+    return json;
 }
 
 Json shape_json(const scene::Shape& shape) {

@@ -36,6 +36,9 @@ std::string table(const std::string& title, const SceneCells& cells) {
     return cells.size() < 2 ? "" : "\n" + title + "\n" + aligned(cells, 0);
 }
 
+/// The first factors, metallic and roughness, have columns of their own.
+constexpr std::size_t kFactorColumns = 2;
+
 std::string how(const app::MaterialInfo& material) {
     std::string text;
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
@@ -43,6 +46,10 @@ std::string how(const app::MaterialInfo& material) {
     if (material.light == vec3(0) && material.glows) add("glows, lights nothing");
     if (material.is_masked) add("cut by alpha");
     if (!material.is_two_sided) add("front only");
+    for (std::size_t i = kFactorColumns; i < material.factors.size(); ++i)
+        if (const auto& factor = scene::kMaterialFactors[i];
+            material.factors[i] != scene::Material().*factor.member)
+            add(fmt::format("{} {:.3g}", factor.name, material.factors[i]));
     for (const std::string& texture : material.textures) add(texture);
     return text.empty() ? "-" : text;
 }
@@ -58,8 +65,8 @@ SceneCells materials(const app::SceneInfo& info) {
             break;
         }
         cells.push_back({printable(material.name), material.kind, std::to_string(material.objects),
-                         colour_text(material.albedo), fmt::format("{:.3g}", material.metallic),
-                         fmt::format("{:.3g}", material.roughness), colour_text(material.f0),
+                         colour_text(material.albedo), fmt::format("{:.3g}", material.factors[0]),
+                         fmt::format("{:.3g}", material.factors[1]), colour_text(material.f0),
                          how(material)});
     }
     return cells;

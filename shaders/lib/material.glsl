@@ -16,18 +16,27 @@ TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
 // Returns four words of a MaterialParameters.
 uvec4 detail_quad(uint detail, uint quad) { return detail_quads_at(kMaterialQuads * detail + quad); }
+uint detail_word(uint detail, uint word) { return detail_quad(detail, word / 4u)[word % 4u]; }
 
 // Reads a MaterialParameters. The compiler removes reads of members that the caller does not use.
 MaterialParameters detail_at(uint detail) {
     uvec4 q0 = detail_quad(detail, 0), q1 = detail_quad(detail, 1), q2 = detail_quad(detail, 2), q3 = detail_quad(detail, 3);
     uvec4 q4 = detail_quad(detail, 4), q5 = detail_quad(detail, 5), q6 = detail_quad(detail, 6), q7 = detail_quad(detail, 7);
     uvec4 q8 = detail_quad(detail, 8), q9 = detail_quad(detail, 9);
-    vec4 f1 = uintBitsToFloat(q1), f2 = uintBitsToFloat(q2), f5 = uintBitsToFloat(q5), f9 = uintBitsToFloat(q9);
-    return MaterialParameters(q0.x, q0.y, uintBitsToFloat(q0.z), uintBitsToFloat(q0.w), f1.x, f1.y, f1.z, vec3(f1.w, f2.xy),
-                  vec3(f2.zw, uintBitsToFloat(q3.x)),
-                  TextureUse(q3.y, q3.z, q3.w, uintBitsToFloat(q4.xyz), vec3(uintBitsToFloat(q4.w), f5.xy)),
-                  TextureUse(q5.z, q5.w, q6.x, uintBitsToFloat(q6.yzw), uintBitsToFloat(q7.xyz)),
-                  TextureUse(q7.w, q8.x, q8.y, vec3(uintBitsToFloat(q8.zw), f9.x), f9.yzw));
+    vec4 f0 = uintBitsToFloat(q0), f1 = uintBitsToFloat(q1), f2 = uintBitsToFloat(q2), f4 = uintBitsToFloat(q4);
+    vec4 f5 = uintBitsToFloat(q5), f7 = uintBitsToFloat(q7), f9 = uintBitsToFloat(q9);
+    MaterialParameters result;
+    result.flags = q0.x, result.first_attribute = q0.y;
+    result.max_specular_roughness = f0.z, result.alpha = f0.w, result.alpha_cutoff = f1.x;
+    result.f0 = f1.yzw, result.f90 = f2.xyz;
+    result.albedo = TextureUse(q2.w, q3.x, q3.y, vec3(uintBitsToFloat(q3.zw), f4.x), f4.yzw);
+    result.emission = TextureUse(q5.x, q5.y, q5.z, vec3(f5.w, uintBitsToFloat(q6.xy)), vec3(uintBitsToFloat(q6.zw), f7.x));
+    result.rough = TextureUse(q7.y, q7.z, q7.w, uintBitsToFloat(q8.xyz), vec3(uintBitsToFloat(q8.w), f9.xy));
+    uint word = kMaterialFixedWords;
+#define READ_FACTOR(name) result.name = uintBitsToFloat(detail_word(detail, word++));
+    MATERIAL_FACTORS(READ_FACTOR)
+#undef READ_FACTOR
+    return result;
 }
 Attribute attribute_at_vertex(uint vertex) {
     return Attribute(attribute_texels_at(2u * vertex), attribute_texels_at(2u * vertex + 1u));

@@ -21,8 +21,10 @@ void main() {
     Probe p = probe_at(number);
     put(p.centre), put(p.sphere), put(p.radius), put(p.reflectance), put(p.lowest), put(p.highest), put(p.kind);
     MaterialParameters d = detail_at(number);
-    put(d.flags), put(d.first_attribute), put(d.metallic), put(d.roughness), put(d.max_specular_roughness), put(d.alpha);
-    put(d.alpha_cutoff), put(d.f0), put(d.f90), put(d.albedo), put(d.emission), put(d.rough);
+    put(d.flags), put(d.first_attribute), put(d.max_specular_roughness), put(d.alpha), put(d.alpha_cutoff);
+    put(d.f0), put(d.f90), put(d.albedo), put(d.emission), put(d.rough);
+#define PUT_FACTOR(name) put(d.name);
+    MATERIAL_FACTORS(PUT_FACTOR)
     Attribute a = attribute_at_vertex(number);
     put(a.uv), put(a.colour);
     put(texture_words_at(number));

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 namespace {
 
@@ -21,17 +22,17 @@ gpu::Reflection reflection(const char* name) {
     return gpu::reflect(name, gpu::find_shader(name).words);
 }
 
-/// Returns what the shader uses if its constant `name` is `value` and all others have their
-/// defaults.
-gpu::Reflection specialised(const char* shader, const char* name, std::uint32_t value) {
+/// Returns what the shader uses if its constants have these values, and all others their defaults.
+gpu::Reflection specialised(const char* shader,
+                            const std::map<std::string, std::uint32_t>& constants) {
     const gpu::Reflection all = reflection(shader);
-    const auto constant = std::ranges::find(all.constants, name, &gpu::Constant::name);
-    if (constant == all.constants.end()) {
-        ADD_FAILURE() << shader << " has no constant " << name;
-        return {};
+    std::map<std::uint32_t, std::uint32_t> values;
+    for (const auto& [name, value] : constants) {
+        const auto constant = std::ranges::find(all.constants, name, &gpu::Constant::name);
+        if (constant == all.constants.end()) ADD_FAILURE() << shader << " has no constant " << name;
+        if (constant != all.constants.end()) values[constant->id] = value;
     }
-    return gpu::reflect(
-        shader, gpu::specialise(shader, gpu::find_shader(shader).words, {{constant->id, value}}));
+    return gpu::reflect(shader, gpu::specialise(shader, gpu::find_shader(shader).words, values));
 }
 
 const gpu::Binding* find(const gpu::Reflection& reflection, std::string_view name) {
@@ -73,14 +74,18 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
 }
 
 TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
-    for (const char* shader : {"raytrace.comp", "diffuse.frag"}) {
-        EXPECT_FALSE(find(specialised(shader, "has_shadow_map", 0), "shadow_map")) << shader;
-        EXPECT_TRUE(find(specialised(shader, "has_shadow_map", 1), "shadow_map")) << shader;
-    }
-    EXPECT_FALSE(find(specialised("reflect/naive.frag", "has_capture_table", 0), "Captures"));
-    EXPECT_TRUE(find(specialised("reflect/naive.frag", "has_capture_table", 1), "Captures"));
-    EXPECT_FALSE(find(specialised("reflect/parallax.frag", "peels", 0), "first_layer"));
-    EXPECT_TRUE(find(specialised("reflect/parallax.frag", "peels", 1), "first_layer"));
+    const auto uses_shadow_map = [](const char* shader,
+                                    const std::map<std::string, std::uint32_t>& constants) {
+        return find(specialised(shader, constants), "shadow_map") != nullptr;
+    };
+    EXPECT_FALSE(uses_shadow_map("diffuse.frag", {}));
+    EXPECT_TRUE(uses_shadow_map("diffuse.frag", {{"has_shadow_map", 1}}));
+    EXPECT_FALSE(uses_shadow_map("raytrace.comp", {{"shadow", 2}}));
+    EXPECT_TRUE(uses_shadow_map("raytrace.comp", {{"has_shadow_map", 1}, {"shadow", 1}}));
+    EXPECT_FALSE(find(specialised("reflect/naive.frag", {{"has_capture_table", 0}}), "Captures"));
+    EXPECT_TRUE(find(specialised("reflect/naive.frag", {{"has_capture_table", 1}}), "Captures"));
+    EXPECT_FALSE(find(specialised("reflect/parallax.frag", {{"peels", 0}}), "first_layer"));
+    EXPECT_TRUE(find(specialised("reflect/parallax.frag", {{"peels", 1}}), "first_layer"));
     EXPECT_FALSE(find(reflection("reflect/naive.frag"), "distance_cubes"));
 }
 

@@ -42,8 +42,8 @@ bool overlap(const Facet& a, const Facet& b, double slack) {
 }
 
 TEST(ShippedScenes, NoTwoObjectsOverlapInOnePlane) {
-    for (const std::string name :
-         {"cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat", "gallery", "room"}) {
+    for (const BuiltIn& built_in : built_in_scenes()) {
+        const std::string name = built_in.name;
         const Scene scene = load(name);
         const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;
         // Groups facets by plane. The key is the rounded normal and the rounded distance from the

@@ -126,8 +126,10 @@ TEST(Tables, RegisteredSceneIsFoundByName) {
     EXPECT_EQ(scene::load("test-only").name, "test-only");
     std::vector<std::string> names;
     for (const scene::BuiltIn& scene : scene::built_in_scenes()) names.push_back(scene.name);
-    EXPECT_THAT(names, testing::ElementsAre("cornell-mirrors", "cornell-mirrors-closed", "flat",
-                                            "room", "gallery", "courtyard", "test-only"));
+    EXPECT_EQ(names.front(), "cornell-mirrors");
+    EXPECT_EQ(names.back(), "test-only");
+    EXPECT_THAT(names, testing::IsSupersetOf({"cornell-mirrors-closed", "flat", "room", "gallery",
+                                              "courtyard"}));
 }
 
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {
