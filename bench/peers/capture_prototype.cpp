@@ -7,7 +7,7 @@
 namespace peers {
 
 using namespace catoptric;
-using gpu::BufferUse;
+using gpu::BufferUsage;
 
 namespace {
 
@@ -71,9 +71,9 @@ void CapturePrototype::add_scene(const app::Request& request) {
     frame.light_normal = vec4(vec3(light.normal), kNear);
     frame.intensity = vec4(
         light.emission * static_cast<float>(light.area * space.scale * space.scale), 0);
-    gpu::upload(device_, vertices_, "vertices", geometry_.vertices, BufferUse::vertex);
-    gpu::upload(device_, indices_, "indices", geometry_.indices, BufferUse::index);
-    gpu::upload(device_, frame_, "frame", std::vector<Frame>{frame}, BufferUse::uniform);
+    gpu::upload(device_, vertices_, "vertices", geometry_.vertices, BufferUsage::vertex);
+    gpu::upload(device_, indices_, "indices", geometry_.indices, BufferUsage::index);
+    gpu::upload(device_, frame_, "frame", std::vector<Frame>{frame}, BufferUsage::uniform);
 }
 
 void CapturePrototype::make_images(uvec2 size) {
@@ -91,7 +91,8 @@ void CapturePrototype::make_images(uvec2 size) {
     picture_ = view_.view(kOne);
     view_depth_ = PlainImage(device_, Format::d32f, size, 1, kDepth);
     picture_depth_ = view_depth_.view(kOne);
-    pixels_ = gpu::Buffer(device_, "pixels", sizeof(vec4) * size.x * size.y, BufferUse::read_back);
+    pixels_ = gpu::Buffer(device_, "pixels", sizeof(vec4) * size.x * size.y,
+                          BufferUsage::read_back);
     const auto layers = static_cast<std::uint32_t>(6 * mirrors_.size());
     for (std::size_t i = 0; i < 2; ++i) {
         cubes_[i] = {PlainImage(device_, Format::rgba16f, uvec2(face_), layers, kColour | kSampled),

@@ -9,7 +9,7 @@
 namespace peers {
 
 using namespace catoptric;
-using bvh::Box;
+using bvh::BoundingBox;
 
 namespace {
 

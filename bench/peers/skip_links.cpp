@@ -26,7 +26,7 @@ struct Writer {
                step(std::ceil((hi - lowest) * list.steps) + 1) << 16;
     }
 
-    void add(std::uint32_t word, const bvh::Box& box) {
+    void add(std::uint32_t word, const bvh::BoundingBox& box) {
         const std::size_t node = list.nodes.size();
         vec4& texel = list.nodes.emplace_back();
         for (glm::length_t axis = 0; axis < 3; ++axis)
@@ -52,7 +52,7 @@ struct Writer {
 
 SkipLinks skip_links(const bvh::Bvh& tree) {
     SkipLinks list;
-    bvh::Box all;
+    bvh::BoundingBox all;
     for (int texel = 4; texel < 8; ++texel) all.add(vec3(tree.nodes[texel]));
     list.lowest = all.lo;
     list.steps = kSteps / f32::largest(all.extent());

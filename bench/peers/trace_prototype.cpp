@@ -9,7 +9,7 @@
 namespace peers {
 
 using namespace catoptric;
-using gpu::BufferUse;
+using gpu::BufferUsage;
 
 namespace {
 
@@ -35,7 +35,7 @@ TracePrototype::TracePrototype(gpu::Device& device, gpu::Pipelines& pipelines,
                height = static_cast<std::uint32_t>(scene.height);
     picture_ = PlainImage(device, Format::rgba32f, {width, height}, 1,
                           VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    pixels_ = gpu::Buffer(device, "pixels", sizeof(vec4) * width * height, BufferUse::read_back);
+    pixels_ = gpu::Buffer(device, "pixels", sizeof(vec4) * width * height, BufferUsage::read_back);
     view_ = {texel(scene.eye, scene.ambient),
              texel(scene.forward, static_cast<float>(scene.depth)),
              texel(scene.right),
@@ -78,10 +78,10 @@ void TracePrototype::upload(const Whitted& scene, std::span<const bvh::Triangle>
         view_.grid = vec4(list.lowest, list.steps);
         nodes = std::move(list.nodes);
     }
-    gpu::upload(device_, nodes_, "nodes", nodes, BufferUse::texels);
-    gpu::upload(device_, triangles_, "triangles", corners, BufferUse::texels);
-    gpu::upload(device_, normals_, "normals", normals, BufferUse::texels);
-    gpu::upload(device_, surfaces_, "surfaces", surfaces, BufferUse::texels);
+    gpu::upload(device_, nodes_, "nodes", nodes, BufferUsage::texels);
+    gpu::upload(device_, triangles_, "triangles", corners, BufferUsage::texels);
+    gpu::upload(device_, normals_, "normals", normals, BufferUsage::texels);
+    gpu::upload(device_, surfaces_, "surfaces", surfaces, BufferUsage::texels);
 }
 
 void TracePrototype::trace() {

@@ -19,7 +19,7 @@ using measure::Benchmark;
 using measure::BenchmarkRound;
 
 /// Sums over the iterations of one round.
-struct Sums {
+struct RoundSums {
     double real_ms = 0, host_ms = 0;
     Usage process, caller;
     std::map<std::string, double> counters;
@@ -43,10 +43,10 @@ BenchmarkRound shared_out(int iterations, double real_ms, const Usage& usage) {
             .counters = {}};
 }
 
-class Bench {
+class BenchmarkRunner {
 public:
-    Bench(const std::vector<Subject>& subjects, const UsageMeter& meter,
-          const BenchOptions& options)
+    BenchmarkRunner(const std::vector<Subject>& subjects, const UsageMeter& meter,
+                    const BenchOptions& options)
         : subjects_(subjects), meter_(meter), options_(options),
           rounds_(rounds_of(options.iterations, options.rounds)) {
         std::set<std::string> names;
@@ -96,7 +96,7 @@ private:
         const Subject& subject = subjects_[index];
         tell(index, ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
         const int iterations = frames_of_round(options_.iterations, rounds_, round);
-        Sums sums;
+        RoundSums sums;
         const Usage process = meter_.read(), caller = caller_meter_.read();
         {
             const Stopwatch watch(sums.real_ms);
@@ -108,7 +108,7 @@ private:
         options_.watcher.frame(iterations, iterations);
     }
 
-    void keep(std::size_t index, int iterations, const Sums& sums) {
+    void keep(std::size_t index, int iterations, const RoundSums& sums) {
         BenchmarkRound round = shared_out(iterations, sums.real_ms, sums.process);
         for (const auto& [name, sum] : sums.counters) round.counters[name] = sum / iterations;
         list_[index].rounds.push_back(std::move(round));
@@ -149,7 +149,7 @@ Subject subject_of(std::string name, std::function<void()> work, int warmup) {
 std::vector<measure::Benchmark> measure_rounds(const std::vector<Subject>& subjects,
                                                const UsageMeter& meter,
                                                const BenchOptions& options) {
-    return Bench(subjects, meter, options).run();
+    return BenchmarkRunner(subjects, meter, options).run();
 }
 
 measure::BenchmarkRun bench(const std::vector<Subject>& subjects, const UsageMeter& meter,

@@ -13,7 +13,7 @@ namespace catoptric::app {
 
 namespace {
 
-struct Candidate {
+struct MirrorCandidate {
     float roughness = 1;
     double area = 0; ///< surface area of its bounds: cheap, and enough to tell a wall from a screw
     std::string name;
@@ -34,7 +34,7 @@ std::string shell_word(const std::string& text) {
 
 std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t most) {
     constexpr std::size_t kMostObjects = 20'000; // objects that are examined
-    std::vector<Candidate> candidates;
+    std::vector<MirrorCandidate> candidates;
     std::map<std::pair<std::size_t, std::size_t>, float> smoothest; // by mesh and material
     for (std::size_t i = 0; i < std::min(scene.objects.size(), kMostObjects); ++i) {
         const scene::Object& object = scene.objects[i];
@@ -47,12 +47,12 @@ std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t m
         if (is_new) entry->second = scene::surface_of(scene, object).smoothest;
         candidates.push_back({entry->second, area_of(scene::bounds(scene, object)), name});
     }
-    std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+    std::ranges::stable_sort(candidates, [](const MirrorCandidate& a, const MirrorCandidate& b) {
         return a.roughness != b.roughness ? a.roughness < b.roughness : a.area > b.area;
     });
     std::vector<std::string> options;
     std::set<std::string> known;
-    for (const Candidate& candidate : candidates)
+    for (const MirrorCandidate& candidate : candidates)
         if (options.size() < most && known.insert(candidate.name).second)
             options.push_back("--mirror " + shell_word(candidate.name.empty()
                                                            ? "*" // selects all other objects, too

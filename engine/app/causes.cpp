@@ -41,10 +41,10 @@ std::uint32_t ablated_by(std::uint32_t coalition) {
 }
 
 /// The frames whose history a picture uses and leaves unchanged.
-struct History {
+struct HistorySource {
     std::string technique;
     bool is_settled = false; ///< history of this very instant: nothing is a frame late
-    auto operator<=>(const History&) const = default;
+    auto operator<=>(const HistorySource&) const = default;
 };
 
 /// Returns the technique with distances stored as 32-bit floats.
@@ -68,12 +68,12 @@ constexpr int kSettled = 16; // frames; deeper bounces are below a rounding of t
 
 /// Returns the row's own frames, or frames that are settled at the instant of its last picture.
 /// Returns the settled ones if there is no difference.
-History history_of(const Request& base, const std::string& technique, bool is_settled) {
+HistorySource history_of(const Request& base, const std::string& technique, bool is_settled) {
     const bool may_lag = base.animate || base.total() <= kSettled;
     return {technique, is_settled || !may_lag};
 }
 
-Request request_for(const Request& base, const History& history) {
+Request request_for(const Request& base, const HistorySource& history) {
     Request request = base;
     if (!base.animate || history.is_settled) {
         request.time = base.instant(base.total());
@@ -86,16 +86,16 @@ Request request_for(const Request& base, const History& history) {
     return request;
 }
 
-using Values = std::vector<double>;
+using MirrorValues = std::vector<double>;
 
-Values minus(const Values& from, const Values& what) {
-    Values left(from.size());
+MirrorValues minus(const MirrorValues& from, const MirrorValues& what) {
+    MirrorValues left(from.size());
     std::ranges::transform(from, what, left.begin(), std::minus());
     return left;
 }
 
 /// Returns the values where `chosen` equals `told`, and 0 elsewhere.
-Values only_where(const std::vector<bool>& chosen, bool told, Values values) {
+MirrorValues only_where(const std::vector<bool>& chosen, bool told, MirrorValues values) {
     for (std::size_t i = 0; i < values.size(); ++i)
         if (chosen[i] != told) values[i] = 0;
     return values;
@@ -103,8 +103,8 @@ Values only_where(const std::vector<bool>& chosen, bool told, Values values) {
 
 /// Histories that pictures of a row use; some may be equal.
 struct Histories {
-    History row, row_settled;
-    History stored, settled; ///< with distances stored as 32-bit floats
+    HistorySource row, row_settled;
+    HistorySource stored, settled; ///< with distances stored as 32-bit floats
 };
 
 Histories histories_of(const Request& base, const std::string& technique) {
@@ -114,9 +114,9 @@ Histories histories_of(const Request& base, const std::string& technique) {
 }
 
 /// Returns the coalitions whose picture is needed with each history.
-std::map<History, std::vector<std::uint32_t>> wanted_of(const Histories& histories) {
-    std::map<History, std::vector<std::uint32_t>> wanted;
-    for (const History& history : {histories.row, histories.row_settled, histories.stored})
+std::map<HistorySource, std::vector<std::uint32_t>> wanted_of(const Histories& histories) {
+    std::map<HistorySource, std::vector<std::uint32_t>> wanted;
+    for (const HistorySource& history : {histories.row, histories.row_settled, histories.stored})
         wanted[history] = {0};
     for (std::size_t i = 0; i < kPlayerCount; ++i) wanted[histories.row].push_back(1U << i);
     std::vector<std::uint32_t>& all = wanted[histories.settled];
@@ -126,26 +126,27 @@ std::map<History, std::vector<std::uint32_t>> wanted_of(const Histories& histori
 }
 
 /// Squared errors of the mirrors' pixels.
-struct Errors {
+struct CoalitionErrors {
     measure::Shapley shapley; ///< with the history `settled`
     /// Of coalitions that are read one by one.
-    std::map<std::pair<History, std::uint32_t>, Values> kept;
+    std::map<std::pair<HistorySource, std::uint32_t>, MirrorValues> kept;
     measure::Mask off; ///< pixels that are off in the row's own picture
 };
 
-std::vector<measure::PixelCause> parts_of(const Histories& histories, const Errors& errors,
+std::vector<measure::PixelCause> parts_of(const Histories& histories, const CoalitionErrors& errors,
                                           const std::vector<bool>& disagree) {
-    const auto of = [&](const History& history, std::uint32_t coalition = 0) -> const Values& {
+    const auto of = [&](const HistorySource& history,
+                        std::uint32_t coalition = 0) -> const MirrorValues& {
         return errors.kept.at({history, coalition});
     };
-    const Values &row = of(histories.row), &left = of(histories.settled, kEveryPlayer),
-                 format = minus(row, of(histories.stored));
+    const MirrorValues &row = of(histories.row), &left = of(histories.settled, kEveryPlayer),
+                       format = minus(row, of(histories.stored));
     std::vector<measure::PixelCause> parts{{"storage format", format, format},
                                            {"last frame",
                                             minus(of(histories.stored), of(histories.settled)),
                                             minus(row, of(histories.row_settled))}};
     for (std::size_t i = 0; i < kPlayerCount; ++i)
-        parts.push_back({kPlayers[i].name, minus(Values(row.size()), errors.shapley.worth(i)),
+        parts.push_back({kPlayers[i].name, minus(MirrorValues(row.size()), errors.shapley.worth(i)),
                          minus(row, of(histories.row, 1U << i))});
     parts.push_back(
         {"silhouettes", only_where(disagree, true, left), only_where(disagree, true, row)});
@@ -192,13 +193,14 @@ CauseFinder::CauseFinder(Session& session, const Request& base, const measure::P
 
 report::Causes CauseFinder::find(const std::string& technique) const {
     const Histories histories = histories_of(base_, technique);
-    Errors found{measure::Shapley(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
+    CoalitionErrors found{
+        measure::Shapley(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
     for (const auto& [history, coalitions] : wanted_of(histories)) {
         std::vector<std::uint32_t> ablated;
         std::ranges::transform(coalitions, std::back_inserter(ablated), ablated_by);
         const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
             const std::uint32_t coalition = coalitions[entry];
-            Values errors;
+            MirrorValues errors;
             for (const std::size_t place : pixels_) {
                 const vec3 shown = measure::exposed(picture.pixels[place], base_.exposure),
                            truth = measure::exposed(truth_.pixels[place], base_.exposure);

@@ -13,7 +13,7 @@ namespace catoptric::app {
 namespace {
 
 /// Pixels from `low` up to, but without, `high`.
-struct Box {
+struct PixelRectangle {
     ivec2 low{0}, high{0};
 
     std::uint64_t count() const {
@@ -25,7 +25,8 @@ struct Box {
 /// Returns the pixels whose rays can meet a triangle. Their centres lie within the triangle's
 /// bounds on the screen, or less than half a pixel outside (for rounding errors). Returns all
 /// pixels if a corner lies behind the eye.
-Box bounds_on_screen(const shared::View& view, uvec2 size, const std::array<vec3, 3>& corners) {
+PixelRectangle bounds_on_screen(const shared::View& view, uvec2 size,
+                                const std::array<vec3, 3>& corners) {
     dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     int behind = 0;
     for (const vec3& corner : corners) {
@@ -73,7 +74,7 @@ std::optional<std::vector<int>> objects_covering(const render::Geometry& geometr
             for (std::uint32_t j = 0; j < 3; ++j)
                 corners[j] = geometry.vertices[geometry.indices[k + j]].position;
             const auto& [a, b, c] = corners;
-            const Box box = bounds_on_screen(view, size, corners);
+            const PixelRectangle box = bounds_on_screen(view, size, corners);
             tests += box.count();
             if (tests > most_tests) return std::nullopt;
             for (int y = box.low.y; y < box.high.y; ++y)

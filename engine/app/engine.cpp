@@ -13,7 +13,7 @@ std::string commit() { return CATOPTRIC_COMMIT; }
 
 namespace {
 
-DeviceInfo to_info(const gpu::DeviceInfo& info) {
+DeviceInfo to_info(const gpu::DeviceProperties& info) {
     return {.name = info.name,
             .driver = info.driver,
             .api = info.api,
@@ -85,7 +85,7 @@ std::filesystem::path profile_folder() {
 
 std::vector<DeviceInfo> devices(const std::filesystem::path& profiles) {
     std::vector<DeviceInfo> list;
-    for (const gpu::DeviceInfo& info : gpu::list_devices()) {
+    for (const gpu::DeviceProperties& info : gpu::list_devices()) {
         list.push_back(to_info(info));
         choose({.profiles = profiles}, list.back());
     }

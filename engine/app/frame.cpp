@@ -4,13 +4,13 @@
 
 namespace catoptric::app {
 
-FrameTimes to_times(const graph::FrameTimes& times) {
+FrameTimes to_times(const graph::GraphFrameTimes& times) {
     FrameTimes frame{.gpu_ms = times.span_ms,
                      .record_ms = times.record_ms,
                      .wall_ms = times.wall_ms,
                      .wait_ms = times.wait_ms};
     frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
-    for (const graph::PassTime& pass : times.passes) {
+    for (const graph::GraphPassTime& pass : times.passes) {
         frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
         frame.passes_ms += pass.ms();
     }
@@ -85,7 +85,7 @@ std::vector<std::byte> Frame::state() const {
     impl_->check_last();
     graph::Runner& runner = impl_->runner();
     std::vector<std::byte> bytes = runner.read_history();
-    const auto add = [&](graph::Image image) {
+    const auto add = [&](graph::ImageHandle image) {
         const std::vector<std::byte> texels = runner.read(impl_->ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };

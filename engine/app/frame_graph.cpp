@@ -18,7 +18,7 @@ namespace catoptric::app {
 namespace {
 
 /// Counts scene passes and draws of the part whose passes begin with `prefix`.
-void count_scene_passes(const graph::Graph& graph, const graph::Plan& plan, Part& part) {
+void count_scene_passes(const graph::Graph& graph, const graph::GraphPlan& plan, Part& part) {
     for (const graph::PlannedPass& planned : plan.passes) {
         const graph::Pass& pass = graph.passes()[planned.pass];
         if (pass.tag != graph::Tag::scene || !pass.name.starts_with(part.prefix)) continue;
@@ -85,7 +85,7 @@ std::optional<CaptureBudget> slices_of(const reflect::Outputs& outputs,
     CaptureBudget slices;
     for (std::size_t i = 0; i < kept.options.size(); ++i) {
         slices.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
-        slices.drawn += kept.changes[i] != render::Change::none;
+        slices.drawn += kept.changes[i] != render::CaptureChange::none;
         slices.waiting += kept.waited[i] > 0;
         slices.longest = std::max(slices.longest, kept.waited[i]);
     }
@@ -142,11 +142,12 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
         const reflect::Assignment assignment = reflect::fitted(
             reflect::assign(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
         reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment, kept);
-        const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr,
-                                                         spec.exposure);
+        const graph::ImageHandle display = render::add_compose(frame.graph, inputs, outputs.hdr,
+                                                               spec.exposure);
         frame.graph.mark_output(outputs.hdr);
         frame.graph.mark_output(display);
-        for (const graph::Buffer counters : outputs.counters) frame.graph.mark_output(counters);
+        for (const graph::BufferHandle counters : outputs.counters)
+            frame.graph.mark_output(counters);
         if (outputs.lookup) frame.graph.mark_output(*outputs.lookup);
         if (outputs.captures && (spec.with_lookup || spec.with_captures)) {
             for (const render::Cubes& cubes : outputs.captures->arrays) {
@@ -160,7 +161,7 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
     return frame;
 }
 
-bool remembers(const FrameGraph& frame, const graph::Plan& plan, const Declared& part) {
+bool remembers(const FrameGraph& frame, const graph::GraphPlan& plan, const Declared& part) {
     return part.outputs.kept ||
            std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
                const graph::Pass& pass = frame.graph.passes()[planned.pass];
@@ -226,7 +227,7 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
                const render::GpuScene& scene, const FrameSpec& spec) {
     const Declared& declared = frame.parts[index];
     const reflect::Outputs& outputs = declared.outputs;
-    const graph::Plan& plan = runner.compiled(frame.graph);
+    const graph::GraphPlan& plan = runner.compiled(frame.graph);
     Part part;
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
@@ -239,7 +240,7 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     for (const reflect::Choice& choice : declared.assignment.choices)
         if (choice.settings.has("face") && choice.settings.is_special("face"))
             part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
-    for (const graph::Buffer counters : outputs.counters)
+    for (const graph::BufferHandle counters : outputs.counters)
         add_counters(runner.read(ticket, counters), part);
     const std::vector<std::byte> texels = runner.read(ticket, outputs.hdr);
     part.hdr = to_picture(texels, spec.size, Format::rgba32f);

@@ -17,7 +17,7 @@ struct Declared {
     reflect::Assignment assignment;
     std::string prefix;
     reflect::Outputs outputs;
-    graph::Image display;
+    graph::ImageHandle display;
     std::optional<CaptureBudget> slices; ///< see Frame::slices
 };
 
@@ -39,7 +39,7 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
                    graph::History history, const std::vector<reflect::CaptureHistory>& keeping);
 
 /// Returns whether the part keeps captures, or one of its passes reads data of the frame before.
-bool remembers(const FrameGraph& frame, const graph::Plan& plan, const Declared& part);
+bool remembers(const FrameGraph& frame, const graph::GraphPlan& plan, const Declared& part);
 
 measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
                           uvec2 size);

@@ -21,7 +21,7 @@ constexpr double kLongestPath = 10;
 constexpr double kFramesASecond = 60;
 
 /// Instants along the scene's motion, on each of which every speed has a frame.
-struct Path {
+struct LagInstants {
     double start = 0;   ///< seconds
     double step = 0;    ///< seconds from one instant to the next
     double fastest = 1; ///< fastest speed, as in LagRequest::speeds
@@ -52,11 +52,11 @@ void check_speeds(const std::vector<double>& speeds) {
 
 /// Returns a path with as many instants as the fastest speed has frames, or as are allowed. Returns
 /// one instant if nothing moves.
-Path path_of(const LagRequest& request) {
+LagInstants path_of(const LagRequest& request) {
     check_speeds(request.speeds);
     check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
           request.most_instants);
-    Path path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
+    LagInstants path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
     const double frame = path.fastest / kFramesASecond;
     const double frames = std::min(scene::period(request.base.scene), kLongestPath) / frame;
     path.stride = std::max(1, static_cast<int>(std::ceil(frames / request.most_instants)));
@@ -252,7 +252,7 @@ private:
     Session& session_;
     LagRequest request_;
     report::Lag& lag_;
-    Path path_;
+    LagInstants path_;
     int mirrors_ = 0;
     std::vector<Instant> instants_;
     std::vector<measure::Picture> stills_;      ///< of the current technique, one per instant

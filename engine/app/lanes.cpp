@@ -18,7 +18,7 @@ int count_lanes(gpu::Device& device) {
     gpu::Pipelines pipelines(device); // separate, so that the engine's counts do not change
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
-    const graph::Buffer lanes = graph.buffer({"lanes", 16});
+    const graph::BufferHandle lanes = graph.buffer({"lanes", 16});
     graph.pass("lanes")
         .writes(lanes, graph::Use::storage_write)
         .record([=](graph::Commands& commands) {
@@ -27,7 +27,7 @@ int count_lanes(gpu::Device& device) {
             commands.dispatch(1, 1);
         });
     graph.mark_output(lanes);
-    runner.run(graph, graph::Timing::isolated);
+    runner.run(graph, graph::PassTiming::isolated);
     std::uint32_t count = 0;
     std::memcpy(&count, runner.read(lanes).data(), sizeof count);
     return static_cast<int>(count);

@@ -19,7 +19,7 @@ constexpr float kFar = std::numeric_limits<float>::max();
 /// Returns the ray that a mirror reflects from the point where `ray` met it, as
 /// shaders/lib/whitted.glsl does.
 f32::Ray reflected(const render::Geometry& geometry, const f32::Ray& ray,
-                   const bvh::Hit<float>& hit) {
+                   const bvh::RayHit<float>& hit) {
     const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
         return geometry.vertices[geometry.indices[3 * hit.triangle + j]];
     };
@@ -69,8 +69,8 @@ void Oracle::trace(const Request& request) {
         const f32::Ray onward = reflected(geometry_, ray, *hit);
         const auto met = bvh::closest_hit<float>(everything_, onward, kFar);
         if (met && mirror_of(met->object) < mirror_objects_.size()) continue;
-        Target target{pixel, mirror_of(hit->object), met ? static_cast<int>(met->object) : kNothing,
-                      dvec3(onward.direction)};
+        OraclePixel target{pixel, mirror_of(hit->object),
+                           met ? static_cast<int>(met->object) : kNothing, dvec3(onward.direction)};
         if (met) target.place = dvec3(onward.origin) + double{met->t} * dvec3(onward.direction);
         targets_.push_back(target);
     }
@@ -100,7 +100,7 @@ int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool se
 
 std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup, bool left_out) const {
     std::vector<measure::LookedUp> judged;
-    for (const Target& target : targets_) {
+    for (const OraclePixel& target : targets_) {
         const vec4& pixel = lookup[target.pixel];
         const int code = static_cast<int>(pixel.w) - 1;
         if (code < 0) continue;

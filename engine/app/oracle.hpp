@@ -31,7 +31,7 @@ public:
 
 private:
     /// A mirror pixel whose reflected ray meets no second mirror.
-    struct Target {
+    struct OraclePixel {
         std::size_t pixel = 0;
         std::uint32_t mirror = 0; ///< from 0
         int object = -1;          ///< object that the reflected ray meets; -1: none
@@ -51,7 +51,7 @@ private:
     std::vector<vec3> centres_; ///< centres of the captures
     bvh::Bvh everything_;
     std::vector<bvh::Bvh> without_; ///< entry n: all objects but mirror n
-    std::vector<Target> targets_;
+    std::vector<OraclePixel> targets_;
 };
 
 } // namespace catoptric::app

@@ -1,5 +1,7 @@
 #include "app/row_run.hpp"
 
+#include "core/stopwatch.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -10,9 +12,8 @@ namespace {
 
 /// Returns the seconds since about the start of the program.
 double elapsed_seconds() {
-    using Clock = std::chrono::steady_clock;
-    static const Clock::time_point kStart = Clock::now();
-    return std::chrono::duration<double>(Clock::now() - kStart).count();
+    static const SteadyClock::time_point kStart = SteadyClock::now();
+    return std::chrono::duration<double>(SteadyClock::now() - kStart).count();
 }
 
 } // namespace

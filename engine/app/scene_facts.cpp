@@ -83,11 +83,10 @@ std::vector<measure::LightFacts> light_facts(const scene::Scene& scene) {
                                 .emission = dvec3(light.emission),
                                 .area = light.area};
         if (i >= first_without) {
-            using Kind = scene::Punctual::Kind;
             const scene::Punctual& punctual = scene.punctual[i - first_without];
-            one.kind = punctual.kind == Kind::point  ? "point"
-                       : punctual.kind == Kind::spot ? "spot"
-                                                     : "directional";
+            one.kind = punctual.kind == scene::Punctual::Kind::point  ? "point"
+                       : punctual.kind == scene::Punctual::Kind::spot ? "spot"
+                                                                      : "directional";
             one.name = punctual.name, one.direction = light.axis, one.area = 0;
         }
         facts.push_back(one);

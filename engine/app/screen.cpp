@@ -31,7 +31,7 @@ std::vector<std::uint32_t> packed(const measure::Picture& display) {
 /// need a new buffer.
 template <typename T>
 void put(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
-         const std::vector<T>& data, gpu::BufferUse use) {
+         const std::vector<T>& data, gpu::BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
     if (buffer.bytes() < bytes || !buffer.handle())
         buffer = gpu::Buffer(device, name, std::bit_ceil(bytes), use);
@@ -42,7 +42,7 @@ void put(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
 
 Screen::Impl::Impl(Engine::Impl& engine)
     : device(engine.device), swapchain(engine.device),
-      font(device, "font", 4, gpu::BufferUse::plain) {}
+      font(device, "font", 4, gpu::BufferUsage::plain) {}
 
 Screen::Impl::~Impl() {
     if (device.abandoned()) return;
@@ -86,7 +86,7 @@ void Screen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
     self.font_size = size;
     std::vector<std::uint8_t> padded = coverage; // padded to whole words
     padded.resize((padded.size() + 3) / 4 * 4);
-    gpu::upload(self.device, self.font, "font", padded, gpu::BufferUse::plain);
+    gpu::upload(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
 }
 
 Frame Session::show(const FrameSpec& spec, Screen& screen, const Showing& showing) {
@@ -96,7 +96,7 @@ Frame Session::show(const FrameSpec& spec, Screen& screen, const Showing& showin
     graph::Runner& runner = impl_->runner;
     const std::size_t index = std::exchange(onto.next_slot,
                                             (onto.next_slot + 1) % onto.slots.size());
-    Screen::Impl::Slot& slot = onto.slots[index];
+    Screen::Impl::ScreenSlot& slot = onto.slots[index];
     if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait(slot.ticket);
     std::optional<std::uint32_t> image;
     onto.fits = false; // a refused frame returns its image only when all images are made again
@@ -127,29 +127,30 @@ bool Screen::Impl::present() {
 
 void Screen::Impl::add(FrameGraph& frame, const FrameSpec& spec, const Showing& showing,
                        std::size_t index) {
-    using graph::Image;
-    Slot& slot = slots[index];
+    using graph::ImageHandle;
+    ScreenSlot& slot = slots[index];
     const Overlay& overlay = showing.overlay;
     // The first three indices belong to the triangle that covers the whole window.
     std::vector<std::uint32_t> indices{0, 1, 2};
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
-    put(device, slot.vertices, "overlay.vertices", overlay.vertices, gpu::BufferUse::vertex);
-    put(device, slot.indices, "overlay.indices", indices, gpu::BufferUse::index);
+    put(device, slot.vertices, "overlay.vertices", overlay.vertices, gpu::BufferUsage::vertex);
+    put(device, slot.indices, "overlay.indices", indices, gpu::BufferUsage::index);
     std::vector<std::uint32_t> canvas{0};
     if (showing.canvas) canvas = packed(*showing.canvas);
-    put(device, slot.canvas, "canvas", canvas, gpu::BufferUse::plain);
+    put(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
 
     const uvec2 size = swapchain.size();
     const auto picture = [&](std::size_t part) {
         return frame.parts.at(part == Showing::kCanvas ? 0 : part).display;
     };
-    const Image first = picture(showing.first), second = picture(showing.second);
+    const ImageHandle first = picture(showing.first), second = picture(showing.second);
     const shared::Screening screening{spec.size, static_cast<std::uint32_t>(showing.kind),
                                       (showing.first == Showing::kCanvas ? 1u : 0u) |
                                           (showing.second == Showing::kCanvas ? 2u : 0u),
                                       showing.divider, showing.gain};
-    const Image target = frame.graph.import({"window", swapchain.format(), size.x, size.y},
-                                            &images.at(image), std::nullopt, graph::Use::present);
+    const ImageHandle target = frame.graph.import({"window", swapchain.format(), size.x, size.y},
+                                                  &images.at(image), std::nullopt,
+                                                  graph::Use::present);
     graph::PassBuilder pass = frame.graph.pass("window");
     pass.reads(first, graph::Use::sampled);
     if (!(second == first)) pass.reads(second, graph::Use::sampled);

@@ -9,7 +9,7 @@ namespace catoptric::app {
 
 /// Triangles over a picture, such as controls and text.
 struct Overlay {
-    struct Vertex {
+    struct ScreenVertex {
         vec2 position;            ///< pixels of the window from its upper left corner
         vec2 uv;                  ///< in the font's picture, 0 to 1
         std::uint32_t colour = 0; ///< r | g << 8 | b << 16 | a << 24, as the screen shows them
@@ -19,21 +19,21 @@ struct Overlay {
         std::uint32_t first = 0, count = 0;
         std::array<std::uint32_t, 4> area{}; ///< x, y, width, height, pixels within the window
     };
-    std::vector<Vertex> vertices;
+    std::vector<ScreenVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Draw> draws;
 };
 
 /// What a window shows of a frame: which pictures, from its upper left corner, one pixel per pixel.
 struct Showing {
-    enum class Kind {
+    enum class Arrangement {
         one,       ///< the first picture
         split,     ///< the first left of the divider, the second right of it
         difference ///< difference of the displayed pictures, times `gain`
     };
     static constexpr std::size_t kCanvas = ~std::size_t{0};
 
-    Kind kind = Kind::one;
+    Arrangement kind = Arrangement::one;
     std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvas
     float divider = 0;                 ///< pixels from the left
     float gain = 1;

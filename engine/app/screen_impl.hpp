@@ -22,7 +22,7 @@ struct Screen::Impl {
     void add(FrameGraph& frame, const FrameSpec& spec, const Showing& showing, std::size_t slot);
 
     /// Buffers that one frame in flight reads.
-    struct Slot {
+    struct ScreenSlot {
         gpu::Buffer vertices, indices, canvas;
         const graph::Runner* runner = nullptr; ///< runner of the frame that reads them
         graph::Ticket ticket;
@@ -33,7 +33,7 @@ struct Screen::Impl {
     std::vector<graph::Physical> images; ///< images of the swapchain
     gpu::Buffer font;
     uvec2 font_size{1, 1};
-    std::array<Slot, 3> slots;
+    std::array<ScreenSlot, 3> slots;
     std::size_t next_slot = 0;
     std::uint32_t image = 0; ///< index of the image acquired last
     uvec2 window{0, 0};

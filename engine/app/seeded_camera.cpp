@@ -105,8 +105,8 @@ std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarc
 }
 
 /// A scene at an instant, prepared for rays.
-struct Stage {
-    explicit Stage(const scene::Scene& scene, double seconds)
+struct TracedInstant {
+    explicit TracedInstant(const scene::Scene& scene, double seconds)
         : now(scene::at(scene, seconds)), space(render::space_of(scene)),
           geometry(render::make_geometry(now, space)),
           hierarchy(hierarchy_without(geometry, geometry.ranges.size())), aims(aims_of(now)) {}
@@ -123,7 +123,7 @@ struct Stage {
     std::vector<std::size_t> aims;
 };
 
-scene::Camera drawn_on(const Stage& stage, std::uint64_t seed) {
+scene::Camera drawn_on(const TracedInstant& stage, std::uint64_t seed) {
     const Bounds<double> everything = scene::bounds(stage.now);
     std::mt19937_64 random(seed);
     for (int i = 0; i < kDraws && !stage.aims.empty(); ++i) {
@@ -142,7 +142,7 @@ scene::Camera drawn_on(const Stage& stage, std::uint64_t seed) {
 
 std::vector<scene::Camera> seeded_cameras(const scene::Scene& scene, double seconds,
                                           std::span<const std::uint64_t> seeds) {
-    const Stage stage(scene, seconds);
+    const TracedInstant stage(scene, seconds);
     std::vector<scene::Camera> cameras;
     for (const std::uint64_t seed : seeds) cameras.push_back(drawn_on(stage, seed));
     return cameras;

@@ -15,10 +15,8 @@ namespace catoptric::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+double milliseconds_since(SteadyClock::time_point start) {
+    return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
 SceneKey scene_key_of(const FrameSpec& spec) {
@@ -81,7 +79,7 @@ double Session::Impl::update_scene(const SceneKey& wanted) {
     const std::size_t next = (copy + 1) % read_by.size();
     wait_for_readers(next);
     copy = next;
-    const Clock::time_point start = Clock::now();
+    const SteadyClock::time_point start = SteadyClock::now();
     if (scene_key && scene_key->size != wanted.size) resident->forget_face_needs();
     scene_key.reset(); // stays unset if the update throws half-way
     models.clear();
@@ -165,21 +163,22 @@ Frame Session::submit(const FrameSpec& spec,
         self.catch_up(spec);
     }
     const double update_ms = self.update_scene(scene_key_of(spec));
-    const Clock::time_point start = Clock::now();
+    const SteadyClock::time_point start = SteadyClock::now();
     const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
                                                                       spec.ablated != 0);
     FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history(),
                                self.keeping(spec, *model, follows));
     const double declare_ms = milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
-    const Clock::time_point trees = Clock::now();
+    const SteadyClock::time_point trees = SteadyClock::now();
     self.resident->prepare();
     const double hierarchy_ms = milliseconds_since(trees);
     const graph::ExternalSync outside = finish(frame);
-    const graph::Ticket ticket = self.runner.submit(
-        frame.graph,
-        spec.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined,
-        spec.keeps_history, outside);
+    const graph::Ticket ticket = self.runner.submit(frame.graph,
+                                                    spec.timing == Timing::isolated
+                                                        ? graph::PassTiming::isolated
+                                                        : graph::PassTiming::pipelined,
+                                                    spec.keeps_history, outside);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
     if (!spec.keeps_history) self.keep(frame, ticket);
@@ -278,7 +277,7 @@ std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
         }
         frame = declare(spec, plans, self.mirrors, *self.resident, frame.graph.left(), keeping);
     }
-    const graph::Plan& plan = self.runner.compiled(frame.graph);
+    const graph::GraphPlan& plan = self.runner.compiled(frame.graph);
     switch (format) {
     case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
     case PlanFormat::json: return graph::to_json(frame.graph, plan);
@@ -294,11 +293,12 @@ FrameTimes Session::clear_cubes() {
     graph::Graph graph;
     for (std::uint32_t first = 0; first < mirrors; first += most) {
         const std::uint32_t count = std::min(most, mirrors - first);
-        const graph::Image cubes = graph.image({"cubes" + std::to_string(first / most + 1),
-                                                Format::rgba16f, kEdge, kEdge, 6 * count, true});
+        const graph::ImageHandle cubes = graph.image({"cubes" + std::to_string(first / most + 1),
+                                                      Format::rgba16f, kEdge, kEdge, 6 * count,
+                                                      true});
         for (std::uint32_t cube = 0; cube < count; ++cube) {
             const std::string name = "clear/" + std::to_string(first + cube + 1);
-            const graph::Image depth = graph.image(
+            const graph::ImageHandle depth = graph.image(
                 {name + ".depth", Format::d32f, kEdge, kEdge, 6, true});
             graph.pass(name)
                 .writes(cubes.layers(6 * cube, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
@@ -309,7 +309,7 @@ FrameTimes Session::clear_cubes() {
         graph.mark_output(cubes);
     }
     ++impl_->counts.frames;
-    impl_->last = impl_->runner.submit(graph, graph::Timing::isolated);
+    impl_->last = impl_->runner.submit(graph, graph::PassTiming::isolated);
     return to_times(impl_->runner.wait(*impl_->last));
 }
 

@@ -11,9 +11,9 @@ namespace {
 bool is_limited(const FrameSpec& spec) { return spec.most_captures > 0 || spec.budget_ms > 0; }
 
 /// Returns the milliseconds of passes that draw, keep and compare captures.
-double capture_ms(const graph::FrameTimes& times, const std::string& prefix) {
+double capture_ms(const graph::GraphFrameTimes& times, const std::string& prefix) {
     double ms = 0;
-    for (const graph::PassTime& pass : times.passes)
+    for (const graph::GraphPassTime& pass : times.passes)
         if (pass.name.starts_with(prefix + "capture")) ms += pass.end_ms - pass.begin_ms;
     return ms;
 }
@@ -68,7 +68,7 @@ void Session::Impl::measure() {
     if (!timed) return;
     // Frames that keep the history unchanged may have overwritten its times.
     if (last->frame < timed->ticket.frame + read_by.size()) {
-        const graph::FrameTimes& times = runner.wait(timed->ticket);
+        const graph::GraphFrameTimes& times = runner.wait(timed->ticket);
         paces.resize(timed->drawn.size());
         for (std::size_t i = 0; i < paces.size(); ++i)
             paces[i].add(capture_ms(times, timed->drawn[i].first), timed->drawn[i].second);

@@ -112,7 +112,7 @@ struct Frame::Impl {
 
     graph::Runner& runner() const { return session->runner; }
     const Declared& part(std::size_t index) const { return frame.parts.at(index); }
-    const graph::Plan& plan() const { return runner().compiled(frame.graph); }
+    const graph::GraphPlan& plan() const { return runner().compiled(frame.graph); }
     /// Checks that no later frame was submitted, because it overwrites images that outlive a frame.
     void check_last() const {
         check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
@@ -125,6 +125,6 @@ struct Frame::Impl {
 void check_limit(const FrameSpec& spec);
 
 /// Returns the runner's times under the names that callers know.
-FrameTimes to_times(const graph::FrameTimes& times);
+FrameTimes to_times(const graph::GraphFrameTimes& times);
 
 } // namespace catoptric::app

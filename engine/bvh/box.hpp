@@ -5,20 +5,22 @@
 /// Bounding boxes that the build and the refit of a hierarchy share.
 namespace catoptric::bvh {
 
-using Box = Bounds<float>;
+using BoundingBox = Bounds<float>;
 
 inline constexpr double kTraversalCost = 2; // cost of visiting a node, in triangle tests
 
 /// Returns the surface area of a box. Computes in double, where the extents of finite floats cannot
 /// overflow.
-inline double area(const Box& box) { return Bounds<double>{dvec3(box.lo), dvec3(box.hi)}.area(); }
+inline double area(const BoundingBox& box) {
+    return Bounds<double>{dvec3(box.lo), dvec3(box.hi)}.area();
+}
 
 /// Returns by how much the box of a triangle outside the core must grow on each side. The walk
 /// widens every box by a slack that box_ray (shaders/lib/math/ray.glsl) derives from the size of
 /// the core. That slack is too small for a triangle that reaches out of the core. This pad adds the
 /// same fraction of the triangle's distance from the middle of the core. Returns 0 for a box inside
 /// the core.
-inline float pad_of(const Box& box, const Box& core) {
+inline float pad_of(const BoundingBox& box, const BoundingBox& core) {
     const bool inside = all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
     if (inside) return 0;
     const vec3 middle = core.lo * 0.5f + core.hi * 0.5f;
@@ -28,14 +30,14 @@ inline float pad_of(const Box& box, const Box& core) {
 }
 
 /// Returns the box, grown by `pad` on each side and clamped to the range of finite floats.
-inline Box padded(const Box& box, float pad) {
+inline BoundingBox padded(const BoundingBox& box, float pad) {
     return {max(box.lo - pad, vec3(-f32::kLargest)), min(box.hi + pad, vec3(f32::kLargest))};
 }
 
 /// Returns the bounds of a triangle. If `flags` has kBall, returns the bounds of a sphere, grown by
 /// the rounding errors of the sphere test.
-inline Box box_of(const vec3& a, const vec3& b, const vec3& c, std::uint32_t flags) {
-    Box box;
+inline BoundingBox box_of(const vec3& a, const vec3& b, const vec3& c, std::uint32_t flags) {
+    BoundingBox box;
     if ((flags & kBall) != 0) {
         const float reach = b.x + f32::gamma_bound(16) * (b.x + f32::largest(abs(a)));
         box.add(a - reach), box.add(a + reach);

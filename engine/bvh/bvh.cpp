@@ -17,15 +17,15 @@ constexpr std::size_t kRunCount = 8192; // triangles that one task of a thread r
 
 /// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
 /// `core` means that all triangles lie in the core. Returns the part that the references make up.
-Part refer(std::span<const Triangle> triangles, std::size_t first, const Box& core,
-           Reference* into) {
-    Part part;
+ReferenceRange refer(std::span<const Triangle> triangles, std::size_t first,
+                     const BoundingBox& core, TriangleReference* into) {
+    ReferenceRange part;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         if (!is_finite(t)) continue;
-        Box box = box_of(t.a, t.b, t.c, t.flags);
+        BoundingBox box = box_of(t.a, t.b, t.c, t.flags);
         if (!core.empty()) box = padded(box, pad_of(box, core));
-        const Reference r{lanes(box.lo, id_word(first + i)), lanes(box.hi, 0)};
+        const TriangleReference r{lanes(box.lo, id_word(first + i)), lanes(box.hi, 0)};
         part.add(r);
         *into++ = r;
     }
@@ -34,15 +34,15 @@ Part refer(std::span<const Triangle> triangles, std::size_t first, const Box& co
 
 /// Writes references to all finite triangles, on several threads. Returns the part that they make
 /// up.
-Part refer_all(std::span<const Triangle> triangles, const Box& core, References into,
-               unsigned threads) {
-    std::vector<Part> runs((triangles.size() + kRunCount - 1) / kRunCount);
+ReferenceRange refer_all(std::span<const Triangle> triangles, const BoundingBox& core,
+                         References into, unsigned threads) {
+    std::vector<ReferenceRange> runs((triangles.size() + kRunCount - 1) / kRunCount);
     in_parallel(runs.size(), threads, [&](std::size_t i) {
         const std::size_t first = i * kRunCount,
                           count = std::min(kRunCount, triangles.size() - first);
         runs[i] = refer(triangles.subspan(first, count), first, core, &into[first]);
     });
-    Part all;
+    ReferenceRange all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (all.count < i * kRunCount) // an earlier run had triangles that are not finite
             std::copy_n(&into[i * kRunCount], runs[i].count, &into[all.count]);
@@ -64,7 +64,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
     if (threads == 0) threads = all_threads();
     // The memory stays uninitialised because each reference is written before it is read.
-    const auto memory = std::make_unique_for_overwrite<Reference[]>(2 * triangles.size());
+    const auto memory = std::make_unique_for_overwrite<TriangleReference[]>(2 * triangles.size());
     const References references(memory.get(), 2 * triangles.size());
     advise_large_pages(references.data(), references.size_bytes());
     Workspace work{triangles,
@@ -72,7 +72,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies
                    nullptr,
                    leaf,
                    copies};
-    const Part root = refer_all(triangles, core, work.buffers[0], threads);
+    const ReferenceRange root = refer_all(triangles, core, work.buffers[0], threads);
     Bvh bvh;
     bvh.dropped = triangles.size() - root.count;
     bvh.triangles.reserve(3 * root.count);
@@ -83,7 +83,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies
     const std::size_t kept = build_tree(work, root, threads, bvh.nodes);
     bvh.copies = root.count - kept;
     bvh.triangles.resize(3 * kept);
-    const Box slack = core.empty() ? root.box.box() : core;
+    const BoundingBox slack = core.empty() ? root.box.box() : core;
     bvh.nodes[0] = vec4(slack.lo, id_word(triangle_count(bvh)));
     bvh.nodes[1] = vec4(slack.hi, id_word(node_count(bvh)));
     bvh.cost = cost(bvh);

@@ -84,9 +84,9 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {},
           std::uint32_t leaf = kMaxLeaf, unsigned threads = 0);
 
 /// A half-open range of indices: `first` is included, `end` is not.
-struct Run {
+struct IndexRange {
     std::size_t first = 0, end = 0;
-    bool operator==(const Run&) const = default;
+    bool operator==(const IndexRange&) const = default;
 };
 
 /// The parts of a tree that a refit must visit when some objects move.
@@ -105,8 +105,8 @@ Reach reach_of(const Bvh& bvh, std::span<const char> objects);
 /// Returns the range of Bvh::triangles that holds every changed element. A refitted tree and a
 /// rebuilt tree give the same hits. Costs O(size of `reach`); refitting everything costs a tenth of
 /// a build. Throws `Failure::internal` if a triangle that was finite no longer is.
-Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
-          const Reach* reach = nullptr);
+IndexRange refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
+                 const Reach* reach = nullptr);
 
 /// Returns the walk cost of a ray that the surface area heuristic expects, times the area of the
 /// whole tree. The value rises as the triangles of a refitted tree move away from their neighbours.

@@ -13,22 +13,22 @@
 namespace catoptric::bvh {
 
 template <typename Real>
-using Vec = glm::vec<3, Real>;
+using Vec3 = glm::vec<3, Real>;
 template <typename Real>
 using Ray = std::conditional_t<std::is_same_v<Real, float>, f32::Ray, f64::Ray>;
 
 /// The first intersection of a ray. If triangles tie at the same t, the lowest original number
 /// wins.
 template <typename Real>
-struct Hit {
+struct RayHit {
     Real t = 0;
-    Vec<Real> barycentric{0};   ///< weights of a, b, c
+    Vec3<Real> barycentric{0};  ///< weights of a, b, c
     std::uint32_t triangle = 0; ///< original number
     std::uint32_t object = 0;
     std::uint32_t place = 0; ///< index of the triangle in Bvh::triangles
     /// Record of the instance in whose object space the triangle lies; 0: none.
     std::uint32_t inside = 0;
-    friend bool operator==(const Hit&, const Hit&) = default;
+    friend bool operator==(const RayHit&, const RayHit&) = default;
 };
 
 /// Counters of node visits and triangle tests.
@@ -48,16 +48,16 @@ using f32::sphere_test, f64::sphere_test;
 using f32::triangle_test, f64::triangle_test;
 
 template <typename Real>
-Vec<Real> corner(const vec4& texel) {
-    return Vec<Real>(vec3(texel));
+Vec3<Real> corner(const vec4& texel) {
+    return Vec3<Real>(vec3(texel));
 }
 
 template <typename Real>
-using Place = std::conditional_t<std::is_same_v<Real, float>, f32::Place, f64::Place>;
+using InstancePlace = std::conditional_t<std::is_same_v<Real, float>, f32::Place, f64::Place>;
 
 /// Returns the position and axes that an instance's record stores (see tlas.hpp).
 template <typename Real>
-Place<Real> place_at(const Bvh& bvh, std::uint32_t record) {
+InstancePlace<Real> place_at(const Bvh& bvh, std::uint32_t record) {
     const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
     return {corner<Real>(texel[0]), corner<Real>(texel[1]), corner<Real>(texel[2]),
             corner<Real>(texel[4]), corner<Real>(texel[5]), corner<Real>(texel[6]),
@@ -66,13 +66,13 @@ Place<Real> place_at(const Bvh& bvh, std::uint32_t record) {
 
 /// The closest hit so far, and the state that a triangle test needs.
 template <typename Real>
-struct Search {
+struct HitSearch {
     const Bvh& bvh;
     Ray<Real> ray; ///< in the space of the tree that is being walked
     Real t_max;    ///< exclusive; shrinks to the closest hit
     std::uint32_t skipped_flags;
-    std::optional<Hit<Real>> best{};
-    decltype(ray_shear(Vec<Real>{})) shear = ray_shear(ray.direction);
+    std::optional<RayHit<Real>> best{};
+    decltype(ray_shear(Vec3<Real>{})) shear = ray_shear(ray.direction);
     std::uint32_t record = 0;
 
     /// Continues in the tree of a record, or returns to the tree above (0).
@@ -92,7 +92,7 @@ struct Search {
                                          corner<Real>(texel[2]), ray.direction))
             return;
         Real t;
-        Vec<Real> weights;
+        Vec3<Real> weights;
         if ((flags & f32::kBvhBall) != 0) {
             if (!sphere_test(corner<Real>(texel[0]), Real{texel[1].x}, ray, Real{f32::kLargest}, t))
                 return;
@@ -103,13 +103,13 @@ struct Search {
         }
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
-            best = Hit<Real>{t,        barycentric(weights),
-                             triangle, number_of((record ? of[1] : texel[0]).w),
-                             place,    record};
+            best = RayHit<Real>{t,        barycentric(weights),
+                                triangle, number_of((record ? of[1] : texel[0]).w),
+                                place,    record};
         }
     }
 
-    static Vec<Real> barycentric(const Vec<Real>& weights) {
+    static Vec3<Real> barycentric(const Vec3<Real>& weights) {
         return weights / (weights.x + weights.y + weights.z);
     }
 };
@@ -127,10 +127,10 @@ auto boxes_outside(const Bvh& bvh, const Ray<Real>& ray) {
 }
 
 template <typename Real>
-std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec<Real>& low,
-                              Real t_max, std::uint32_t skipped_flags, bool any, Steps* steps) {
+std::optional<RayHit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low,
+                                 Real t_max, std::uint32_t skipped_flags, bool any, Steps* steps) {
     if (!can_hit(bvh, ray, t_max)) return {};
-    Search<Real> search{bvh, ray, t_max, skipped_flags};
+    HitSearch<Real> search{bvh, ray, t_max, skipped_flags};
     auto boxes = boxes_outside<Real>(bvh, ray);
     std::array<std::uint32_t, f32::kBvhMaxStack> stack;
     std::size_t waiting = 0;
@@ -187,26 +187,26 @@ std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec<Re
 /// ray never hits the triangle that it leaves. `low`: the rounding error of the ray's origin, so
 /// that origin + low is the exact start.
 template <typename Real>
-std::optional<Hit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                                     std::uint32_t skipped = 0, Steps* steps = nullptr,
-                                     const Vec<Real>& low = Vec<Real>(0)) {
+std::optional<RayHit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
+                                        std::uint32_t skipped = 0, Steps* steps = nullptr,
+                                        const Vec3<Real>& low = Vec3<Real>(0)) {
     return detail::walk<Real>(bvh, ray, low, t_max, skipped, false, steps);
 }
 
 /// Returns whether the ray meets any triangle at a t in (0, t_max).
 template <typename Real>
 bool any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
-             Steps* steps = nullptr, const Vec<Real>& low = Vec<Real>(0)) {
+             Steps* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
     return detail::walk<Real>(bvh, ray, low, t_max, skipped, true, steps).has_value();
 }
 
 /// Returns the same as `closest_hit`, by testing every triangle. Valid only for hierarchies without
 /// instances.
 template <typename Real>
-std::optional<Hit<Real>> brute_force(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                                     std::uint32_t skipped = 0) {
+std::optional<RayHit<Real>> brute_force(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
+                                        std::uint32_t skipped = 0) {
     if (!detail::can_hit(bvh, ray, t_max)) return {};
-    detail::Search<Real> search{bvh, ray, t_max, skipped};
+    detail::HitSearch<Real> search{bvh, ray, t_max, skipped};
     for (std::uint32_t i = 0; i < triangle_count(bvh); ++i) search.test(i);
     return search.best;
 }

@@ -28,7 +28,7 @@ struct Extent {
         lo = smaller(lo, point + away), hi = larger(hi, point - away);
     }
     void add(const Extent& other) { lo = smaller(lo, other.lo), hi = larger(hi, other.hi); }
-    Box box() const { return {vector(lo), vector(hi)}; }
+    BoundingBox box() const { return {vector(lo), vector(hi)}; }
     /// Returns half the surface area. The box must not be empty. Computes in double, where products
     /// of finite floats cannot overflow.
     double half_area() const {

@@ -9,28 +9,29 @@ namespace catoptric::bvh {
 
 namespace {
 
-Box bounds_of(const vec4* stored) {
+BoundingBox bounds_of(const vec4* stored) {
     return box_of(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]), number_of(stored[2].w));
 }
 
 /// Returns the bounds of a child, from the corners and nodes below it.
-Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
-    Box box;
+BoundingBox child_bounds(const Bvh& bvh, std::uint32_t child, const BoundingBox& core) {
+    BoundingBox box;
     if (f32::bvh_is_inner(child)) {
         const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
         for (int side = 0; side < 2; ++side)
-            box.add(Box{vec3(node[2 * side]), vec3(node[2 * side + 1])});
+            box.add(BoundingBox{vec3(node[2 * side]), vec3(node[2 * side + 1])});
         return box;
     }
     for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
-        const Box triangle = bounds_of(&bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
+        const BoundingBox triangle = bounds_of(
+            &bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
         box.add(padded(triangle, pad_of(triangle, core)));
     }
     return box;
 }
 
 /// Returns the cost of one child. The cost of a node is the sum over its two children.
-double cost_of_child(std::uint32_t child, const Box& box) {
+double cost_of_child(std::uint32_t child, const BoundingBox& box) {
     return area(box) *
            (f32::bvh_is_inner(child) ? kTraversalCost : static_cast<double>(f32::bvh_count(child)));
 }
@@ -60,11 +61,11 @@ bool move(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
     return moved;
 }
 
-void move_box(Bvh& bvh, std::uint32_t place, const Box& slack) {
+void move_box(Bvh& bvh, std::uint32_t place, const BoundingBox& slack) {
     vec4* texel = &bvh.nodes[4 * std::size_t{place / 2}];
     vec4 &lo = texel[2 * (place % 2)], &hi = texel[2 * (place % 2) + 1];
     const std::uint32_t child = bits(texel[place % 2].w);
-    const Box box = child_bounds(bvh, child, slack);
+    const BoundingBox box = child_bounds(bvh, child, slack);
     bvh.cost += cost_of_child(child, box) - cost_of_child(child, {vec3(lo), vec3(hi)});
     lo = vec4(box.lo, lo.w);
     hi = vec4(box.hi, hi.w);
@@ -96,9 +97,9 @@ Reach reach_of(const Bvh& bvh, std::span<const char> objects) {
     return reach;
 }
 
-Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
-          const Reach* reach) {
-    Run run;
+IndexRange refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
+                 const Reach* reach) {
+    IndexRange run;
     const auto move_one = [&](std::size_t place) {
         if (move(bvh, place, triangles))
             run = {run.end == 0 ? 3 * place : run.first, 3 * place + 3};
@@ -107,7 +108,7 @@ Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& co
         std::ranges::for_each(reach->triangles, move_one);
     else
         for (std::size_t place = 0; place < triangle_count(bvh); ++place) move_one(place);
-    Box slack = core;
+    BoundingBox slack = core;
     if (slack.empty())
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
             slack.add(bounds_of(&bvh.triangles[i]));

@@ -18,7 +18,7 @@ double cost_of(const Extent& extent, std::size_t count) {
     return extent.half_area() * static_cast<double>(count);
 }
 
-bool is_before(const Reference& a, const Reference& b, std::size_t axis) {
+bool is_before(const TriangleReference& a, const TriangleReference& b, std::size_t axis) {
     const float place_a = a.lo[axis] * .5f + a.hi[axis] * .5f,
                 place_b = b.lo[axis] * .5f + b.hi[axis] * .5f;
     return place_a != place_b ? place_a < place_b : a.triangle() < b.triangle();
@@ -31,8 +31,8 @@ Binning::Binning(const Extent& centres)
     lo[3] = bins_per_unit[3] = 0;
 }
 
-void Bins::add(std::span<const Reference> references, const Binning& binning) {
-    for (const Reference& r : references) {
+void Bins::add(std::span<const TriangleReference> references, const Binning& binning) {
+    for (const TriangleReference& r : references) {
         __builtin_prefetch(&r + kAhead);
         // The minimum also sends NaN to the last bin.
         const Integers bin = __builtin_convertvector(
@@ -65,22 +65,22 @@ std::array<Extent, 2> Bins::extents(const Split& split) const {
     return sides;
 }
 
-Sides sides_of(const Part& part, const Bins& bins, const Split& split,
-               const std::array<Extent, 2>& centres) {
+SplitParts sides_of(const ReferenceRange& part, const Bins& bins, const Split& split,
+                    const std::array<Extent, 2>& centres) {
     const std::size_t left = bins.left_count(split);
     const std::array<Extent, 2> boxes = bins.extents(split);
-    return {
-        Part{part.first, left, !part.in_second, false, boxes[0], centres[0]},
-        Part{part.first + left, part.count - left, !part.in_second, false, boxes[1], centres[1]}};
+    return {ReferenceRange{part.first, left, !part.in_second, false, boxes[0], centres[0]},
+            ReferenceRange{part.first + left, part.count - left, !part.in_second, false, boxes[1],
+                           centres[1]}};
 }
 
-void Split::scatter(std::span<const Reference> references, const Binning& binning,
-                    std::array<Reference*, 2> to, std::array<Extent, 2>& centres) const {
+void Split::scatter(std::span<const TriangleReference> references, const Binning& binning,
+                    std::array<TriangleReference*, 2> to, std::array<Extent, 2>& centres) const {
     const auto k = static_cast<std::size_t>(axis);
     const float lo = binning.lo[k], bins_per_unit = binning.bins_per_unit[k],
                 end = static_cast<float>(first_right);
-    Reference *left = to[0], *right = to[1];
-    for (const Reference& r : references) {
+    TriangleReference *left = to[0], *right = to[1];
+    for (const TriangleReference& r : references) {
         __builtin_prefetch(&r + kAhead);
         const Lanes centre = r.centre();
         // Without a branch, because no predictor could foresee it. Without sums in memory, too.
@@ -125,7 +125,7 @@ std::optional<Split> best_split(const Bins& bins, std::size_t most) {
 
 std::optional<Division> sweep(References references, std::size_t most) {
     const std::size_t count = references.size();
-    std::array<Reference, kSweepCount> sorted, best_order;
+    std::array<TriangleReference, kSweepCount> sorted, best_order;
     std::optional<Division> best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -161,7 +161,8 @@ std::size_t halve(References references, const Extent& centres) {
     const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t middle = references.size() / 2;
     std::nth_element(references.begin(), references.begin() + static_cast<std::ptrdiff_t>(middle),
-                     references.end(), [axis](const Reference& a, const Reference& b) {
+                     references.end(),
+                     [axis](const TriangleReference& a, const TriangleReference& b) {
                          return is_before(a, b, axis);
                      });
     return middle;
@@ -169,26 +170,26 @@ std::size_t halve(References references, const Extent& centres) {
 
 References without_copies(References references, std::span<const Triangle> triangles,
                           Copies copies) {
-    const auto what = [&](const Reference& r) {
+    const auto what = [&](const TriangleReference& r) {
         const Triangle& t = triangles[r.triangle()];
         return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
     };
-    const auto whose = [&](const Reference& r) {
+    const auto whose = [&](const TriangleReference& r) {
         const Triangle& t = triangles[r.triangle()];
         const bool is_told_apart = copies == Copies::of_object ||
                                    (t.flags & (kMasked | kSphere)) != 0;
         return std::pair{is_told_apart ? t.object : 0, t.flags};
     };
-    std::ranges::sort(references, [&](const Reference& a, const Reference& b) {
+    std::ranges::sort(references, [&](const TriangleReference& a, const TriangleReference& b) {
         return std::tuple{what(a), whose(a), a.triangle()} <
                std::tuple{what(b), whose(b), b.triangle()};
     });
-    const auto left_out = std::ranges::unique(references,
-                                              [&](const Reference& a, const Reference& b) {
-                                                  return what(a) == what(b) && whose(a) == whose(b);
-                                              });
+    const auto left_out = std::ranges::unique(
+        references, [&](const TriangleReference& a, const TriangleReference& b) {
+            return what(a) == what(b) && whose(a) == whose(b);
+        });
     references = references.first(references.size() - left_out.size());
-    std::ranges::sort(references, {}, &Reference::triangle);
+    std::ranges::sort(references, {}, &TriangleReference::triangle);
     return references;
 }
 

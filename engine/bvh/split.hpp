@@ -12,7 +12,7 @@
 namespace catoptric::bvh {
 
 /// A triangle while the tree is being built.
-struct Reference {
+struct TriangleReference {
     Lanes lo; ///< low corner of the box; the fourth element is the triangle's number as a word
     Lanes hi;
 
@@ -22,16 +22,16 @@ struct Reference {
     Extent extent() const { return {lo, hi}; }
 };
 
-using References = std::span<Reference>;
+using References = std::span<TriangleReference>;
 
 /// The references below a node.
-struct Part {
+struct ReferenceRange {
     std::size_t first = 0, count = 0; ///< place among all references
     bool in_second = false;           ///< lies in the second of the two buffers
     bool is_heap = false; ///< all centres are equal, copies are gone, and the order is by number
     Extent box, centres;
 
-    void add(const Reference& r) { box.add(r.extent()), centres.add(r.centre()), ++count; }
+    void add(const TriangleReference& r) { box.add(r.extent()), centres.add(r.centre()), ++count; }
 };
 
 inline constexpr int kBinCount = 16;
@@ -52,7 +52,7 @@ struct Split;
 /// The contents of the bins of each axis.
 class Bins {
 public:
-    void add(std::span<const Reference> references, const Binning& binning);
+    void add(std::span<const TriangleReference> references, const Binning& binning);
     void add(const Bins& other);
     std::size_t left_count(const Split& split) const;
     /// Returns the bounds of both sides.
@@ -71,16 +71,16 @@ struct Split {
 
     /// Copies the references of each side, in order, to the addresses in `to`. Adds their centres
     /// to `centres`.
-    void scatter(std::span<const Reference> references, const Binning& binning,
-                 std::array<Reference*, 2> to, std::array<Extent, 2>& centres) const;
+    void scatter(std::span<const TriangleReference> references, const Binning& binning,
+                 std::array<TriangleReference*, 2> to, std::array<Extent, 2>& centres) const;
 };
 
-using Sides = std::array<Part, 2>;
+using SplitParts = std::array<ReferenceRange, 2>;
 
 /// Returns the two parts that a split makes, in the other buffer. `centres`: bounds of the centres
 /// on each side.
-Sides sides_of(const Part& part, const Bins& bins, const Split& split,
-               const std::array<Extent, 2>& centres);
+SplitParts sides_of(const ReferenceRange& part, const Bins& bins, const Split& split,
+                    const std::array<Extent, 2>& centres);
 
 /// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
 /// Returns nothing if there is none, as when one bin holds all references.

@@ -16,7 +16,7 @@ public:
     Builder(const Workspace& work, std::size_t first, Subtree& subtree)
         : work_(work), first_(first), subtree_(subtree) {}
 
-    std::uint32_t add(Part part, std::uint32_t depth) {
+    std::uint32_t add(ReferenceRange part, std::uint32_t depth) {
         if (part.count > kMaxLeaf && part.centres.is_point() && !part.is_heap) {
             part.count = without_copies(work_.of(part), work_.input, work_.copies).size();
             part.is_heap = true;
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    std::uint32_t add_node(const Sides& sides, std::uint32_t depth) {
+    std::uint32_t add_node(const SplitParts& sides, std::uint32_t depth) {
         const std::size_t place = subtree_.nodes.size();
         subtree_.nodes.resize(place + 4, vec4(0));
         for (std::size_t i = 0; i < 2; ++i) {
@@ -48,12 +48,12 @@ private:
         return f32::kBvhTag | static_cast<std::uint32_t>(place / 4 + 1);
     }
 
-    std::uint32_t add_leaf(const Part& part) {
+    std::uint32_t add_leaf(const ReferenceRange& part) {
         const References references = work_.of(part);
-        std::ranges::sort(references, {}, &Reference::triangle);
+        std::ranges::sort(references, {}, &TriangleReference::triangle);
         const std::size_t first = first_ + subtree_.triangles;
         vec4* texel = work_.triangles + 3 * first;
-        for (const Reference& r : references) {
+        for (const TriangleReference& r : references) {
             const Triangle& t = work_.input[r.triangle()];
             *texel++ = vec4(t.a, id_word(t.object));
             *texel++ = vec4(t.b, r.lo[3]);
@@ -63,26 +63,26 @@ private:
         return leaf_word(part.count, first);
     }
 
-    Sides divide(const Part& part, std::uint32_t depth) const {
+    SplitParts divide(const ReferenceRange& part, std::uint32_t depth) const {
         const References references = work_.of(part);
         const Binning binning(part.centres);
         Bins bins;
         bins.add(references, binning);
         const std::optional<Split> best = best_split(bins, capacity(work_, depth + 1));
         if (!best) return halves(part);
-        Reference* into = work_.other(part).data();
+        TriangleReference* into = work_.other(part).data();
         std::array<Extent, 2> centres;
         best->scatter(references, binning, {into, into + bins.left_count(*best)}, centres);
         return sides_of(part, bins, *best, centres);
     }
 
-    Sides halves(const Part& part) const {
+    SplitParts halves(const ReferenceRange& part) const {
         return cut(part, part.is_heap ? part.count / 2 : halve(work_.of(part), part.centres));
     }
 
-    Sides cut(const Part& part, std::size_t middle) const {
-        Sides sides{Part{part.first, 0, part.in_second, part.is_heap},
-                    Part{part.first + middle, 0, part.in_second, part.is_heap}};
+    SplitParts cut(const ReferenceRange& part, std::size_t middle) const {
+        SplitParts sides{ReferenceRange{part.first, 0, part.in_second, part.is_heap},
+                         ReferenceRange{part.first + middle, 0, part.in_second, part.is_heap}};
         const References references = work_.of(part);
         for (std::size_t i = 0; i < part.count; ++i) sides[i < middle ? 0 : 1].add(references[i]);
         return sides;
@@ -95,7 +95,7 @@ private:
 
 } // namespace
 
-Subtree build_subtree(const Workspace& work, const Part& part, std::uint32_t depth) {
+Subtree build_subtree(const Workspace& work, const ReferenceRange& part, std::uint32_t depth) {
     Subtree subtree;
     subtree.nodes.reserve(4 * part.count / 2);
     subtree.root = Builder(work, part.first, subtree).add(part, depth);

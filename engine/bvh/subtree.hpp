@@ -14,11 +14,11 @@ struct Workspace {
     std::uint32_t most; ///< the most triangles in a leaf
     Copies copies;
 
-    References of(const Part& part) const {
+    References of(const ReferenceRange& part) const {
         return buffers[part.in_second ? 1 : 0].subspan(part.first, part.count);
     }
     /// Returns the place in the other buffer that the two sides of the part will fill.
-    References other(const Part& part) const {
+    References other(const ReferenceRange& part) const {
         return buffers[part.in_second ? 0 : 1].subspan(part.first, part.count);
     }
 };
@@ -36,6 +36,6 @@ struct Subtree {
 };
 
 /// Builds the subtree of a part with `depth` inner nodes above it. Costs O(n log^2 n).
-Subtree build_subtree(const Workspace& work, const Part& part, std::uint32_t depth);
+Subtree build_subtree(const Workspace& work, const ReferenceRange& part, std::uint32_t depth);
 
 } // namespace catoptric::bvh

@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kRoundings = 0x1p-22; // relative error of a box that becomes float
 
-Box own_bounds(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
+BoundingBox own_bounds(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
 
 /// Returns the bounds of everything below a node.
-Box node_bounds(const Bvh& bvh, std::size_t node) {
-    Box box;
+BoundingBox node_bounds(const Bvh& bvh, std::size_t node) {
+    BoundingBox box;
     for (std::size_t side = 0; side < 2; ++side)
-        box.add(
-            Box{vec3(bvh.nodes[4 * node + 2 * side]), vec3(bvh.nodes[4 * node + 2 * side + 1])});
+        box.add(BoundingBox{vec3(bvh.nodes[4 * node + 2 * side]),
+                            vec3(bvh.nodes[4 * node + 2 * side + 1])});
     return box;
 }
 
@@ -51,7 +51,7 @@ void add_record(Bvh& bvh, const Instance& instance, std::uint32_t root) {
     const auto row = [&](int i) {
         return vec3(own_from_scene[0][i], own_from_scene[1][i], own_from_scene[2][i]);
     };
-    const Box own = own_bounds(*instance.tree);
+    const BoundingBox own = own_bounds(*instance.tree);
     const std::array<vec4, 4 * f32::kBvhRecordNodes> texels{
         vec4(row(0), std::bit_cast<float>(root)),
         vec4(row(1), word(instance.object)),
@@ -68,9 +68,9 @@ void add_record(Bvh& bvh, const Instance& instance, std::uint32_t root) {
 
 /// Returns the bounds of the instance in scene units, padded for rounding to float. The bounds
 /// include the exact sphere, if the instance has one.
-Box scene_bounds(const Instance& instance) {
-    Box own = own_bounds(*instance.tree);
-    if (instance.radius > 0) own.add(Box{vec3(-instance.radius), vec3(instance.radius)});
+BoundingBox scene_bounds(const Instance& instance) {
+    BoundingBox own = own_bounds(*instance.tree);
+    if (instance.radius > 0) own.add(BoundingBox{vec3(-instance.radius), vec3(instance.radius)});
     Bounds<double> box;
     for (int corner = 0; corner < 8; ++corner)
         box.add(instance.centre +
@@ -82,11 +82,11 @@ Box scene_bounds(const Instance& instance) {
 }
 
 /// Builds the tree over the instances' boxes, one in each leaf. Each leaf word refers to a record.
-Bvh build_over(std::span<const Instance> instances, const Box& core, double times,
+Bvh build_over(std::span<const Instance> instances, const BoundingBox& core, double times,
                std::uint32_t first_record) {
     std::vector<Triangle> boxes;
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        Box box = scene_bounds(instances[i]);
+        BoundingBox box = scene_bounds(instances[i]);
         const vec3 beyond = max(max(core.lo - box.lo, box.hi - core.hi), vec3(0));
         const vec3 size = max(abs(box.lo), abs(box.hi));
         if (f32::largest(beyond) > 0) { // beyond the slack of the walk
@@ -154,12 +154,12 @@ Bvh assemble(const Bvh& flat, std::span<const Instance> instances) {
     if (instances.empty()) return flat;
     Bvh result;
     result.nodes.resize(8, vec4(0));
-    const Box in_flat = node_bounds(flat, 1);
+    const BoundingBox in_flat = node_bounds(flat, 1);
     const std::uint32_t flat_root = triangle_count(flat) > 0 ? append(result, flat)
                                                              : f32::kBvhNothing;
     std::map<const Bvh*, std::uint32_t> roots;
     double worst = 1;
-    Box core = own_bounds(flat);
+    BoundingBox core = own_bounds(flat);
     for (const Instance& instance : instances) {
         worst = std::max(worst, stretch(instance.scene_from_own));
         if (triangle_count(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
@@ -171,7 +171,7 @@ Bvh assemble(const Bvh& flat, std::span<const Instance> instances) {
         add_record(result, instance, roots.at(instance.tree));
     const double times = 1 + 4 * worst;
     const Bvh top = build_over(instances, core, times, first_record);
-    const Box in_top = node_bounds(top, 1);
+    const BoundingBox in_top = node_bounds(top, 1);
     const std::uint32_t top_root = append_top(result, top);
     check(node_count(result) <= f32::kBvhIndexMask && triangle_count(result) <= f32::kBvhIndexMask,
           Failure::exhausted, "bounding volume hierarchy wants ", node_count(result), " nodes and ",

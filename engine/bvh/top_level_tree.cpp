@@ -16,7 +16,7 @@ constexpr std::size_t kPieceCount = 4096; // the most references that one task b
 
 /// A node of the top-level tree, or a subtree below it.
 struct Branch {
-    Part part;
+    ReferenceRange part;
     std::uint32_t depth = 0;
     std::size_t sides = 0; ///< index of the first of two branches; 0: a subtree
     Subtree subtree{};
@@ -34,11 +34,11 @@ struct Cut {
 };
 
 /// A share of a branch's references, for one task.
-struct Piece {
+struct BranchChunk {
     std::size_t cut;
     References references;
     Bins bins{};
-    std::array<Reference*, 2> to{};
+    std::array<TriangleReference*, 2> to{};
     std::array<Extent, 2> centres{};
 };
 
@@ -46,7 +46,7 @@ class TopLevelTree {
 public:
     TopLevelTree(const Workspace& work, unsigned threads) : work_(work), threads_(threads) {}
 
-    void grow(const Part& root) {
+    void grow(const ReferenceRange& root) {
         branches_.push_back({root});
         std::vector<std::size_t> level{0};
         while (!level.empty()) level = divide(level);
@@ -76,9 +76,9 @@ private:
     /// Divides all branches of a level. Returns the branches one level deeper.
     std::vector<std::size_t> divide(const std::vector<std::size_t>& level) {
         std::vector<Cut> cuts;
-        std::vector<Piece> pieces;
+        std::vector<BranchChunk> pieces;
         for (const std::size_t i : level) {
-            const Part& part = branches_[i].part;
+            const ReferenceRange& part = branches_[i].part;
             if (part.count <= kSubtreeCount || part.centres.is_point()) continue;
             for (References rest = work_.of(part); !rest.empty();) {
                 const std::size_t count = std::min(kPieceCount, rest.size());
@@ -100,16 +100,16 @@ private:
         return fork(cuts, pieces);
     }
 
-    void choose(std::vector<Cut>& cuts, std::vector<Piece>& pieces) const {
-        for (const Piece& piece : pieces) cuts[piece.cut].bins.add(piece.bins);
-        std::vector<std::array<Reference*, 2>> to;
+    void choose(std::vector<Cut>& cuts, std::vector<BranchChunk>& pieces) const {
+        for (const BranchChunk& piece : pieces) cuts[piece.cut].bins.add(piece.bins);
+        std::vector<std::array<TriangleReference*, 2>> to;
         for (Cut& cut : cuts) {
             const Branch& branch = branches_[cut.branch];
             cut.split = best_split(cut.bins, capacity(work_, branch.depth + 1));
-            Reference* into = work_.other(branch.part).data();
+            TriangleReference* into = work_.other(branch.part).data();
             to.push_back({into, into + (cut.split ? cut.bins.left_count(*cut.split) : 0)});
         }
-        for (Piece& piece : pieces) {
+        for (BranchChunk& piece : pieces) {
             const Cut& cut = cuts[piece.cut];
             if (!cut.split) continue;
             const std::size_t left = piece.bins.left_count(*cut.split);
@@ -118,9 +118,10 @@ private:
         }
     }
 
-    std::vector<std::size_t> fork(const std::vector<Cut>& cuts, const std::vector<Piece>& pieces) {
+    std::vector<std::size_t> fork(const std::vector<Cut>& cuts,
+                                  const std::vector<BranchChunk>& pieces) {
         std::vector<std::array<Extent, 2>> centres(cuts.size());
-        for (const Piece& piece : pieces)
+        for (const BranchChunk& piece : pieces)
             for (std::size_t side = 0; side < 2; ++side)
                 centres[piece.cut][side].add(piece.centres[side]);
         std::vector<std::size_t> next;
@@ -129,9 +130,10 @@ private:
             const std::size_t sides = branches_.size();
             const Branch& branch = branches_[cuts[i].branch];
             const std::uint32_t depth = branch.depth + 1;
-            const Sides parts = sides_of(branch.part, cuts[i].bins, *cuts[i].split, centres[i]);
+            const SplitParts parts = sides_of(branch.part, cuts[i].bins, *cuts[i].split,
+                                              centres[i]);
             branches_[cuts[i].branch].sides = sides;
-            for (const Part& part : parts) branches_.push_back({part, depth});
+            for (const ReferenceRange& part : parts) branches_.push_back({part, depth});
             next.insert(next.end(), {sides, sides + 1});
         }
         return next;
@@ -178,7 +180,7 @@ private:
     static void write_node(vec4* texel, const Branch& left, const Branch& right) {
         const std::array sides{&left, &right};
         for (std::size_t i = 0; i < 2; ++i) {
-            const Box box = sides[i]->part.box.box();
+            const BoundingBox box = sides[i]->part.box.box();
             texel[i].w = std::bit_cast<float>(sides[i]->word);
             texel[2 * i] = vec4(box.lo, texel[2 * i].w);
             texel[2 * i + 1] = vec4(box.hi, texel[2 * i + 1].w);
@@ -200,7 +202,7 @@ private:
 
 } // namespace
 
-std::size_t build_tree(const Workspace& work, const Part& root, unsigned threads,
+std::size_t build_tree(const Workspace& work, const ReferenceRange& root, unsigned threads,
                        std::vector<vec4>& nodes) {
     TopLevelTree crown(work, threads);
     crown.grow(root);

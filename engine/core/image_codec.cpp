@@ -128,7 +128,7 @@ struct ImageReader::Open {
 };
 
 ImageReader::ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
-                         const Judge& judge)
+                         const ShapeCheck& judge)
     : open_(std::make_unique<Open>()) {
     open_->name = std::move(name);
     const auto accept = [&](const ImageShape& shape) {

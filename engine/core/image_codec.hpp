@@ -35,7 +35,7 @@ public:
     static constexpr std::uint32_t kLargestSide = 1 << 16;
 
     /// Throws if the size or channels that a header claims are not acceptable.
-    using Judge = std::function<void(const ImageShape&)>;
+    using ShapeCheck = std::function<void(const ImageShape&)>;
 
     /// Opens a picture. `format` is OpenImageIO's name of it, and `name` begins every message.
     /// `judge` is called before a decoder, which may allocate memory, is opened, and again with the
@@ -43,7 +43,7 @@ public:
     /// side of 0 or more than 65536 pixels. Also throws `bad_data` if the header claims more than a
     /// file of its size can hold.
     ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
-                const Judge& judge = {});
+                const ShapeCheck& judge = {});
     ~ImageReader();
 
     const ImageShape& shape() const;

@@ -14,9 +14,9 @@ namespace catoptric {
 namespace {
 
 /// Reads integers at offsets in a file; 0 beyond its end.
-class Numbers {
+class IntegerReader {
 public:
-    explicit Numbers(const ByteSource& bytes) : bytes_(bytes) {}
+    explicit IntegerReader(const ByteSource& bytes) : bytes_(bytes) {}
 
     std::uint32_t little(std::uint64_t offset, std::size_t size) const {
         std::uint32_t value = 0;
@@ -50,7 +50,7 @@ ImageShape shape_of(std::uint32_t width, std::uint32_t height, std::size_t chann
 /// Returns the shape in the frame header, which follows any number of segments. If the file ends or
 /// is no JPEG there, the size is 0.
 ImageShape jpeg_header(const ByteSource& bytes) {
-    const Numbers numbers(bytes);
+    const IntegerReader numbers(bytes);
     for (std::uint64_t at = 2; at + 9 < bytes.size();) {
         const std::uint32_t mark = numbers.big(at, 2), kind = mark & 0xff;
         if (mark >> 8 != 0xff) break;
@@ -68,7 +68,7 @@ ImageShape jpeg_header(const ByteSource& bytes) {
 }
 
 ImageShape webp_header(const ByteSource& bytes) {
-    const Numbers numbers(bytes);
+    const IntegerReader numbers(bytes);
     switch (numbers.big(12, 4)) {
     case 0x56503858: // "VP8X"
         return shape_of(numbers.little(24, 3) + 1, numbers.little(27, 3) + 1, 4);
@@ -139,7 +139,7 @@ private:
         return is_big_endian_ ? numbers_.big(at, size) : numbers_.little(at, size);
     }
 
-    Numbers numbers_;
+    IntegerReader numbers_;
     bool is_big_endian_;
     std::uint64_t first_;
 };
@@ -178,7 +178,7 @@ ImageShape tiff_header(const ByteSource& bytes, const std::string& name) {
 
 std::optional<ImageShape> header_of(const ByteSource& bytes, const std::string& format,
                                     const std::string& name) {
-    const Numbers numbers(bytes);
+    const IntegerReader numbers(bytes);
     if (format == "openexr") return openexr_header(bytes, name);
     if (format == "hdr") return radiance_header(bytes, name);
     if (format == "tiff") return tiff_header(bytes, name);

@@ -79,7 +79,7 @@ private:
 };
 
 /// The header of one part of the file.
-struct Part {
+struct ExrPart {
     std::vector<std::string> channels;
     std::uint64_t pixel_bytes = 0;
     bool is_subsampled = false;
@@ -95,7 +95,7 @@ struct Part {
     }
 };
 
-void read_channels(Cursor& file, Part& part, std::uint64_t end) {
+void read_channels(Cursor& file, ExrPart& part, std::uint64_t end) {
     while (file.at() < end) {
         std::string name = file.word();
         if (name.empty()) break;
@@ -117,7 +117,7 @@ void check_strings(Cursor& file, std::uint64_t end) {
     }
 }
 
-void read_attribute(Cursor& file, Part& part, const std::string& name, const std::string& type) {
+void read_attribute(Cursor& file, ExrPart& part, const std::string& name, const std::string& type) {
     const std::uint32_t size = file.number();
     file.need(size, "an attribute");
     const std::uint64_t end = file.at() + size;
@@ -142,8 +142,8 @@ void read_attribute(Cursor& file, Part& part, const std::string& name, const std
     file.go_to(end);
 }
 
-Part read_part(Cursor& file, bool is_tiled) {
-    Part part;
+ExrPart read_part(Cursor& file, bool is_tiled) {
+    ExrPart part;
     part.is_tiled = is_tiled;
     for (std::string name = file.word(); !name.empty(); name = file.word()) {
         const std::string type = file.word();
@@ -170,7 +170,7 @@ double most_expansion(std::uint32_t compression) {
 /// Returns the least bytes that the chunks of this part take. Each chunk has 8 bytes in the chunk
 /// table and 8 before its values. The result is a double, because products of claimed sizes may
 /// overflow any integer.
-double least_bytes(const Cursor& file, const Part& part) {
+double least_bytes(const Cursor& file, const ExrPart& part) {
     const auto width = double(part.side(0)), height = double(part.side(1));
     double chunks = std::ceil(height / chunk_lines(part.compression));
     if (part.is_tiled) {
@@ -196,12 +196,12 @@ ImageShape openexr_header(const ByteSource& bytes, const std::string& name) {
     const std::uint32_t flags = file.number();
     check((flags & kHasDeepParts) == 0, Failure::bad_data, name,
           ": wanted a flat picture, found a deep one");
-    std::vector<Part> parts{read_part(file, (flags & kIsTiled) != 0)};
+    std::vector<ExrPart> parts{read_part(file, (flags & kIsTiled) != 0)};
     if ((flags & kHasManyParts) != 0)
         while (!file.takes_zero()) parts.push_back(read_part(file, false));
     double least = 0;
-    for (const Part& part : parts) least += least_bytes(file, part);
-    const Part& first = parts.front();
+    for (const ExrPart& part : parts) least += least_bytes(file, part);
+    const ExrPart& first = parts.front();
     check(least <= double(file.left()), Failure::bad_data, name, ": wanted at least ",
           static_cast<std::uint64_t>(std::min(least, 1e18)), " bytes behind its header for ",
           first.side(0), "x", first.side(1), " pixels of ", first.channels.size(),

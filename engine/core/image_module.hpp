@@ -37,7 +37,7 @@ struct ImageCodecs {
         bool is_deep = false;
         std::vector<std::string> channels;
     };
-    struct Values {
+    struct ModuleValues {
         uvec2 size{0};
         std::size_t channel_count = 0;
         CodecValue type = CodecValue::uint8;
@@ -53,7 +53,7 @@ struct ImageCodecs {
     CodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
                         CodecValue type, void* values) noexcept;
     void (*close)(Picture* picture) noexcept;
-    CodecResult (*encode)(const std::string& format, const Values& picture,
+    CodecResult (*encode)(const std::string& format, const ModuleValues& picture,
                           std::string& bytes) noexcept;
 };
 

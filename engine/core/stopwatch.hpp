@@ -4,6 +4,8 @@
 
 namespace catoptric {
 
+using SteadyClock = std::chrono::steady_clock;
+
 /// Adds the milliseconds from its construction to its destruction to a sum.
 class Stopwatch {
 public:
@@ -14,14 +16,13 @@ public:
 
     /// Returns the milliseconds since construction.
     double ms() const {
-        const std::chrono::duration<double, std::milli> life = Clock::now() - begin_;
+        const std::chrono::duration<double, std::milli> life = SteadyClock::now() - begin_;
         return life.count();
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
     double& sum_ms_;
-    Clock::time_point begin_ = Clock::now();
+    SteadyClock::time_point begin_ = SteadyClock::now();
 };
 
 } // namespace catoptric

@@ -28,9 +28,9 @@ void add_copy(app::FrameGraph& frame, const Target& target, uvec2 size) {
     const graph::ImageDesc desc{
         .name = "target", .format = Format::rgba8_unorm, .width = size.x, .height = size.y};
     frame.target = std::make_shared<graph::Physical>(graph::adopt(desc, target.image));
-    const graph::Image display = frame.parts.front().display;
-    const graph::Image image = frame.graph.import(desc, frame.target.get(), std::nullopt,
-                                                  use_of(target.leaves));
+    const graph::ImageHandle display = frame.parts.front().display;
+    const graph::ImageHandle image = frame.graph.import(desc, frame.target.get(), std::nullopt,
+                                                        use_of(target.leaves));
     frame.graph.pass("target")
         .reads(display, graph::Use::copy_from)
         .writes(image, graph::Use::copy_to)
@@ -40,10 +40,10 @@ void add_copy(app::FrameGraph& frame, const Target& target, uvec2 size) {
 } // namespace
 
 Features::Features(VkPhysicalDevice device) {
-    const gpu::DeviceInfo info = gpu::describe(device);
+    const gpu::DeviceProperties info = gpu::describe(device);
     check(info.missing.empty(), Failure::no_device, "device '", info.name, "' lacks ",
           info.missing);
-    gpu::Features wanted;
+    gpu::DeviceFeatures wanted;
     wanted.switch_on(device);
     core = wanted.core, v11 = wanted.v11, v12 = wanted.v12, v13 = wanted.v13;
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13, v13.pNext = nullptr;

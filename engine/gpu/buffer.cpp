@@ -13,19 +13,19 @@ struct TexelFormat {
     std::uint64_t bytes = 0;
 };
 
-TexelFormat texels_of(BufferUse use) {
-    if (has(use, BufferUse::texels)) return {VK_FORMAT_R32G32B32A32_SFLOAT, 16};
-    if (has(use, BufferUse::quads)) return {VK_FORMAT_R32G32B32A32_UINT, 16};
-    if (has(use, BufferUse::words)) return {VK_FORMAT_R32_UINT, 4};
+TexelFormat texels_of(BufferUsage use) {
+    if (has(use, BufferUsage::texels)) return {VK_FORMAT_R32G32B32A32_SFLOAT, 16};
+    if (has(use, BufferUsage::quads)) return {VK_FORMAT_R32G32B32A32_UINT, 16};
+    if (has(use, BufferUsage::words)) return {VK_FORMAT_R32_UINT, 4};
     return {};
 }
 
-VkBufferUsageFlags usage(BufferUse use) {
+VkBufferUsageFlags usage(BufferUsage use) {
     VkBufferUsageFlags flags = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    if (has(use, BufferUse::vertex)) flags |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-    if (has(use, BufferUse::index)) flags |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
-    if (has(use, BufferUse::uniform)) flags |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+    if (has(use, BufferUsage::vertex)) flags |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+    if (has(use, BufferUsage::index)) flags |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    if (has(use, BufferUsage::uniform)) flags |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
     if (texels_of(use).bytes > 0) flags |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     return flags;
 }
@@ -99,7 +99,7 @@ void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t
 
 } // namespace
 
-Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use)
+Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUsage use)
     : device_(&device), name_(std::move(name)),
       bytes_(std::max<std::uint64_t>(bytes, kFewestBytes)) {
     const auto [format, texel_bytes] = texels_of(use);
@@ -110,9 +110,9 @@ Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse 
     }
     buffer_ = make_buffer(device, bytes_, usage(use), name_);
     memory_ = back(device, buffer_,
-                   has(use, BufferUse::read_back) ? Home::host_reads
-                   : has(use, BufferUse::staging) ? Home::host_writes
-                                                  : Home::device,
+                   has(use, BufferUsage::read_back) ? Home::host_reads
+                   : has(use, BufferUsage::staging) ? Home::host_writes
+                                                    : Home::device,
                    name_, mapped_);
     if (texel_bytes == 0 || device.texels_in_storage()) return;
     VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};

@@ -10,7 +10,7 @@ namespace catoptric::gpu {
 
 /// Uses of a buffer. Every buffer is also a storage buffer and a source and target of copies.
 /// `read_back`: the device writes and the host reads, so it lies in the host's memory.
-enum class BufferUse : std::uint32_t {
+enum class BufferUsage : std::uint32_t {
     plain = 0,
     vertex = 1,
     index = 2,
@@ -21,10 +21,10 @@ enum class BufferUse : std::uint32_t {
     quads = 64,   ///< texel buffer of four unsigned integers per texel
     staging = 128 ///< the host writes and copies read, so it lies in the host's memory
 };
-constexpr BufferUse operator|(BufferUse a, BufferUse b) {
-    return static_cast<BufferUse>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+constexpr BufferUsage operator|(BufferUsage a, BufferUsage b) {
+    return static_cast<BufferUsage>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
-constexpr bool has(BufferUse set, BufferUse bit) {
+constexpr bool has(BufferUsage set, BufferUsage bit) {
     return static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit);
 }
 
@@ -34,7 +34,7 @@ public:
     Buffer() = default;
     /// Allocates at least 16 bytes, so that an empty list can still be bound. Throws `exhausted`,
     /// naming the bytes or the device's limit for texel buffers.
-    Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use);
+    Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUsage use);
 
     /// Copies `data` to `offset`, in bytes. Must not be called while a frame that reads the buffer
     /// is in flight. If device memory cannot be mapped, the copy goes through Uploads. Work
@@ -66,7 +66,7 @@ private:
 /// Writes `data` to `buffer`. If it does not fit, a new buffer of the same name replaces `buffer`.
 template <typename T>
 void upload(Device& device, Buffer& buffer, const std::string& name, const std::vector<T>& data,
-            BufferUse use) {
+            BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
     if (buffer.bytes() < bytes || !buffer.handle()) buffer = Buffer(device, name, bytes, use);
     buffer.write(std::span<const T>(data));

@@ -13,7 +13,7 @@
 namespace catoptric::gpu {
 
 /// Properties of a device, as reported to the user.
-struct DeviceInfo {
+struct DeviceProperties {
     std::string name;
     std::string driver;  ///< name and version, as the driver reports them
     std::string api;     ///< "1.3.230"
@@ -25,11 +25,11 @@ struct DeviceInfo {
 
 /// Returns all devices, most preferred first: discrete, integrated, virtual, cpu. Throws
 /// `no_device` if there is no driver; the message says what to install.
-std::vector<DeviceInfo> list_devices();
+std::vector<DeviceProperties> list_devices();
 
 class Uploads;
 
-/// A device made by the caller with Features::switch_on. All handles must outlive the Device.
+/// A device made by the caller with DeviceFeatures::switch_on. All handles must outlive the Device.
 struct GivenDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -68,7 +68,7 @@ public:
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    const DeviceInfo& info() const { return info_; }
+    const DeviceProperties& info() const { return info_; }
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     DeviceHandle handle() const { return {device_, &abandoned_}; }
     VkPhysicalDevice physical() const { return physical_; }
@@ -169,7 +169,7 @@ private:
     VkPhysicalDeviceLimits limits_{};
     std::uint64_t max_allocation_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
-    DeviceInfo info_;
+    DeviceProperties info_;
     Choices choices_{};
     bool layered_ = true;
     bool doubles_ = false;

@@ -34,13 +34,13 @@ VkDebugUtilsMessengerEXT make_messenger(VkInstance instance, std::vector<std::st
     return messenger;
 }
 
-std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+std::size_t find_wanted(const std::vector<DeviceProperties>& devices, const std::string& wanted) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     const bool is_number = error == std::errc{} && end == wanted.data() + wanted.size();
     if (is_number && index < devices.size()) return index;
     std::vector<std::string> names;
-    for (const DeviceInfo& info : devices) {
+    for (const DeviceProperties& info : devices) {
         if (!is_number && info.name.find(wanted) != std::string::npos) return names.size();
         names.push_back(info.name);
     }
@@ -48,8 +48,8 @@ std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::strin
          ", counted from 0; `catoptric list devices` names them", did_you_mean(wanted, names));
 }
 
-std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& devices) {
-    std::vector<DeviceInfo> list;
+std::vector<DeviceProperties> describe_all(const std::vector<VkPhysicalDevice>& devices) {
+    std::vector<DeviceProperties> list;
     list.reserve(devices.size());
     for (VkPhysicalDevice device : devices) list.push_back(describe(device));
     return list;
@@ -57,10 +57,10 @@ std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& device
 
 } // namespace
 
-std::vector<DeviceInfo> list_devices() {
+std::vector<DeviceProperties> list_devices() {
     bool has_debug_utils = false;
     const VkInstance instance = make_instance(false, {}, has_debug_utils);
-    std::vector<DeviceInfo> list;
+    std::vector<DeviceProperties> list;
     try {
         list = describe_all(physical_devices(instance));
     } catch (...) {
@@ -79,7 +79,7 @@ void Device::create_instance(const DeviceOptions& options) {
 
 void Device::choose(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
-    std::vector<DeviceInfo> infos = describe_all(devices);
+    std::vector<DeviceProperties> infos = describe_all(devices);
     for (std::size_t i = 0; surface_ && i < infos.size(); ++i)
         if (infos[i].missing.empty() && !can_show(devices[i], surface_))
             infos[i].missing = "a way to show pictures in this window";
@@ -88,7 +88,7 @@ void Device::choose(const DeviceOptions& options) {
         index = find_wanted(infos, options.wanted);
     else
         index = static_cast<std::size_t>(
-            std::ranges::find(infos, std::string(), &DeviceInfo::missing) - infos.begin());
+            std::ranges::find(infos, std::string(), &DeviceProperties::missing) - infos.begin());
     check(index < infos.size(), Failure::no_device, "no usable Vulkan device: '", infos[0].name,
           "' lacks ", infos[0].missing);
     check(infos[index].missing.empty(), Failure::no_device, "device '", infos[index].name,
@@ -119,11 +119,11 @@ void Device::look_at(const DeviceOptions& options) {
     limits_ = properties.properties.limits;
     max_allocation_ = pieces.maxMemoryAllocationSize;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    Features has;
+    DeviceFeatures has;
     vkGetPhysicalDeviceFeatures2(physical_, &has.core);
     layered_ = options.layered && has.v12.shaderOutputLayer;
     doubles_ = has.core.features.shaderFloat64;
-    filters_floats_ = Features::filters_floats(physical_);
+    filters_floats_ = DeviceFeatures::filters_floats(physical_);
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
@@ -144,7 +144,7 @@ void Device::create_device() {
     queue.queueFamilyIndex = queue_family_;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    Features features;
+    DeviceFeatures features;
     features.switch_on(physical_);
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     const char* const extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;

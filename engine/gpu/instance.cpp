@@ -203,12 +203,12 @@ std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
     return devices;
 }
 
-DeviceInfo describe(VkPhysicalDevice device) {
+DeviceProperties describe(VkPhysicalDevice device) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
     vkGetPhysicalDeviceProperties2(device, &properties);
     constexpr std::array kTypes{"discrete", "integrated", "virtual", "cpu", "other"};
-    DeviceInfo info;
+    DeviceProperties info;
     info.name = properties.properties.deviceName;
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     info.id = id_of(properties.properties);
@@ -217,7 +217,7 @@ DeviceInfo describe(VkPhysicalDevice device) {
     if (info.type == "cpu") info.threads = cpu_threads();
     info.missing = properties.properties.apiVersion < VK_API_VERSION_1_3
                        ? "Vulkan 1.3 (has " + info.api + ")"
-                       : Features::missing(device);
+                       : DeviceFeatures::missing(device);
     if (info.missing.empty()) info.missing = missing_width(driver);
     if (info.missing.empty() && find_queue_family(device) < 0)
         info.missing = "a queue for graphics and compute with timestamps";
@@ -252,8 +252,8 @@ bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface) {
     return can && std::ranges::any_of(extensions, is_swapchain);
 }
 
-void Features::switch_on(VkPhysicalDevice device) {
-    Features has;
+void DeviceFeatures::switch_on(VkPhysicalDevice device) {
+    DeviceFeatures has;
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     core.features.imageCubeArray = true;
     core.features.fragmentStoresAndAtomics = true;
@@ -269,7 +269,7 @@ void Features::switch_on(VkPhysicalDevice device) {
     v13.maintenance4 = true;              // glslang needs it for work-group sizes with Vulkan 1.3
 }
 
-Features::Features() {
+DeviceFeatures::DeviceFeatures() {
     core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
     v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -277,14 +277,14 @@ Features::Features() {
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13;
 }
 
-bool Features::filters_floats(VkPhysicalDevice device) {
+bool DeviceFeatures::filters_floats(VkPhysicalDevice device) {
     constexpr VkFormatFeatureFlags kFilter = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
     return allows(device, VK_FORMAT_R32_SFLOAT, kFilter) &&
            allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kFilter);
 }
 
-std::string Features::missing(VkPhysicalDevice device) {
-    Features has;
+std::string DeviceFeatures::missing(VkPhysicalDevice device) {
+    DeviceFeatures has;
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     const std::pair<const char*, VkBool32> required[] = {
         {"imageCubeArray", has.core.features.imageCubeArray},

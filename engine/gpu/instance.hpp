@@ -19,7 +19,7 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
 /// `make_instance`.
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
 
-DeviceInfo describe(VkPhysicalDevice device);
+DeviceProperties describe(VkPhysicalDevice device);
 
 /// Returns whether the device's queue can show pictures on the surface.
 bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface);
@@ -33,12 +33,12 @@ int find_queue_family(VkPhysicalDevice device);
 
 /// The device features that the engine enables, as one chain. Not copyable, because it points into
 /// itself.
-struct Features {
-    Features();
+struct DeviceFeatures {
+    DeviceFeatures();
     /// Enables the required features, and the optional ones that the device has.
     void switch_on(VkPhysicalDevice device);
-    Features(const Features&) = delete;
-    Features& operator=(const Features&) = delete;
+    DeviceFeatures(const DeviceFeatures&) = delete;
+    DeviceFeatures& operator=(const DeviceFeatures&) = delete;
     /// Returns the names of the required features that `device` lacks, comma-separated.
     static std::string missing(VkPhysicalDevice device);
     /// Returns whether images of 32-bit floats can be sampled with linear filtering, which is

@@ -182,8 +182,9 @@ private:
                                         : BindingKind::texture;
         check(!is_array || result.kind == BindingKind::texture, Failure::internal, "shader '",
               name_, "': '", result.name, "' is an array of something else than textures");
-        result.shape = dim == kDimCube ? (arrayed ? ImageShape::cube_array : ImageShape::cube)
-                                       : (arrayed ? ImageShape::flat_array : ImageShape::flat);
+        result.shape = dim == kDimCube
+                           ? (arrayed ? ImageViewType::cube_array : ImageViewType::cube)
+                           : (arrayed ? ImageViewType::flat_array : ImageViewType::flat);
         return result;
     }
 

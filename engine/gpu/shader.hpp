@@ -30,14 +30,14 @@ enum class BindingKind {
     sampler,
     storage_image
 };
-enum class ImageShape { flat, flat_array, cube, cube_array };
+enum class ImageViewType { flat, flat_array, cube, cube_array };
 
 /// One resource in set 0 that the shader's code uses.
 struct Binding {
     std::string name; ///< name of the variable or of the block
     std::uint32_t binding = 0;
     BindingKind kind = BindingKind::storage_buffer;
-    ImageShape shape = ImageShape::flat;
+    ImageViewType shape = ImageViewType::flat;
     std::uint32_t count = 1; ///< length of an array of textures
 };
 

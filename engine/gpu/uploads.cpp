@@ -30,7 +30,7 @@ Uploads::Uploads(Device& device) : device_(device) {
     timeline_ = {device.handle(), semaphore_handle};
     for (Block& block : blocks_) {
         block.staging = std::make_unique<Buffer>(device, "staging", kBlockBytes,
-                                                 BufferUse::staging);
+                                                 BufferUsage::staging);
         VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
         allocate.commandPool = pool_;
         allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
@@ -50,7 +50,7 @@ Uploads::~Uploads() {
     }
 }
 
-void Uploads::wait(Ticket ticket) {
+void Uploads::wait(WriteNumber ticket) {
     if (ticket <= ended_) return;
     const VkSemaphore semaphore = timeline_;
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
@@ -77,8 +77,8 @@ Uploads::Block& Uploads::open_block() {
 
 /// Adds a barrier if a write overlaps an earlier one, so that writes happen in the order of their
 /// calls.
-void Uploads::keep_order(Block& block, const Target& target) {
-    const bool overlaps = std::ranges::any_of(block.targets, [&](const Target& other) {
+void Uploads::keep_order(Block& block, const WriteRange& target) {
+    const bool overlaps = std::ranges::any_of(block.targets, [&](const WriteRange& other) {
         return other.buffer == target.buffer && other.first < target.end &&
                target.first < other.end;
     });
@@ -90,7 +90,8 @@ void Uploads::keep_order(Block& block, const Target& target) {
     block.targets.push_back(target);
 }
 
-Uploads::Ticket Uploads::write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data) {
+Uploads::WriteNumber Uploads::write(VkBuffer to, std::uint64_t offset,
+                                    std::span<const std::byte> data) {
     device_.check_usable();
     while (!data.empty()) {
         Block& block = open_block();
@@ -129,7 +130,7 @@ void Uploads::submit() {
     current_ = (current_ + 1) % blocks_.size();
 }
 
-void Uploads::finish(Ticket ticket) {
+void Uploads::finish(WriteNumber ticket) {
     if (ticket > submitted_) submit();
     // A write that could not be submitted is never executed.
     wait(std::min(ticket, submitted_));

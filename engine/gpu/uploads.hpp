@@ -21,35 +21,35 @@ class Device;
 class Uploads {
 public:
     /// The number of a write; 0: none. Larger numbers end later.
-    using Ticket = std::uint64_t;
+    using WriteNumber = std::uint64_t;
 
     explicit Uploads(Device& device);
     ~Uploads();
 
     /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
     /// Throws as Device::check_alive and check_waited do.
-    Ticket write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
+    WriteNumber write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
     /// Submits the recorded copies that are not submitted yet.
     void submit();
     /// Waits until the write has ended.
-    void finish(Ticket ticket);
+    void finish(WriteNumber ticket);
 
 private:
     /// Bytes of `to` that a block's commands write.
-    struct Target {
+    struct WriteRange {
         VkBuffer buffer;
         std::uint64_t first, end;
     };
     struct Block {
         std::unique_ptr<Buffer> staging;
         VkCommandBuffer commands = VK_NULL_HANDLE;
-        std::uint64_t used = 0;      ///< bytes used in `staging`
-        Ticket ends = 0;             ///< timeline value at which the block is free again
-        std::vector<Target> targets; ///< writes since the last barrier
+        std::uint64_t used = 0;          ///< bytes used in `staging`
+        WriteNumber ends = 0;            ///< timeline value at which the block is free again
+        std::vector<WriteRange> targets; ///< writes since the last barrier
     };
     Block& open_block();
-    void wait(Ticket ticket);
-    void keep_order(Block& block, const Target& target);
+    void wait(WriteNumber ticket);
+    void keep_order(Block& block, const WriteRange& target);
 
     Device& device_;
     UniqueCommandPool pool_;
@@ -57,7 +57,7 @@ private:
     std::array<Block, 3> blocks_;
     std::size_t current_ = 0;
     bool is_recording_ = false;
-    Ticket submitted_ = 0, ended_ = 0;
+    WriteNumber submitted_ = 0, ended_ = 0;
 };
 
 /// The last upload to a buffer. Its destructor waits until the upload has ended, so that the buffer
@@ -72,7 +72,7 @@ public:
     }
     ~PendingUpload();
     /// Replaces the ticket with that of a later write to the same buffer.
-    void renew(Device& device, Uploads::Ticket ticket) { device_ = &device, ticket_ = ticket; }
+    void renew(Device& device, Uploads::WriteNumber ticket) { device_ = &device, ticket_ = ticket; }
 
 private:
     void swap(PendingUpload& other) noexcept {
@@ -80,7 +80,7 @@ private:
     }
 
     Device* device_ = nullptr;
-    Uploads::Ticket ticket_ = 0;
+    Uploads::WriteNumber ticket_ = 0;
 };
 
 } // namespace catoptric::gpu

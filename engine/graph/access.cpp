@@ -51,7 +51,7 @@ Accesses::Accesses(const Graph& graph) {
     first_.push_back(all_.size());
 }
 
-Access access_to(const Image& image) {
+Access access_to(const ImageHandle& image) {
     return {.is_buffer = false,
             .id = image.id,
             .previous = image.previous,
@@ -68,8 +68,8 @@ Access access_to_all(const Graph& graph, std::uint32_t image) {
 
 Ledger<char> output_parts(const Graph& graph) {
     Ledger<char> wanted(graph, false);
-    for (const Image& image : graph.output_images()) wanted.set(access_to(image), true);
-    for (const Buffer& buffer : graph.output_buffers())
+    for (const ImageHandle& image : graph.output_images()) wanted.set(access_to(image), true);
+    for (const BufferHandle& buffer : graph.output_buffers())
         wanted.set({.is_buffer = true, .id = buffer.id}, true);
     return wanted;
 }

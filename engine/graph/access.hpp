@@ -88,14 +88,14 @@ public:
     /// Calls visit(first, end, value) for each run of equal values that the access meets.
     template <typename Visit>
     void each(const Access& a, const Visit& visit) const {
-        const Entry& e = entry(a);
+        const LayerRuns& e = entry(a);
         for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
             e.runs.each(first, end, visit);
         });
     }
     template <typename Visit>
     void change(const Access& a, const Visit& visit) {
-        Entry& e = entries_[index(a)];
+        LayerRuns& e = entries_[index(a)];
         for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
             e.runs.change(first, end, visit);
         });
@@ -111,20 +111,20 @@ public:
     }
 
 private:
-    struct Entry {
+    struct LayerRuns {
         Runs<T> runs;
         std::uint32_t layers;
     };
     std::size_t index(const Access& a) const { return a.is_buffer ? images_ + a.id : a.id; }
-    Entry& entry(const Access& a) { return entries_[index(a)]; }
-    const Entry& entry(const Access& a) const { return entries_[index(a)]; }
+    LayerRuns& entry(const Access& a) { return entries_[index(a)]; }
+    const LayerRuns& entry(const Access& a) const { return entries_[index(a)]; }
 
     std::size_t images_;
-    std::vector<Entry> entries_; // images, then buffers
+    std::vector<LayerRuns> entries_; // images, then buffers
 };
 
 /// Returns an access to a part of an image. Its use is left at the default.
-Access access_to(const Image& image);
+Access access_to(const ImageHandle& image);
 /// Returns an access to all layers and mips of an image.
 Access access_to_all(const Graph& graph, std::uint32_t image);
 /// Returns a ledger that is true for every layer and buffer that is an output of the graph.

@@ -9,7 +9,7 @@ namespace catoptric::graph {
 namespace {
 
 /// The touches of one layer of an image, or of a buffer, so far in this frame.
-struct State {
+struct TouchState {
     TouchCode write = kNothing; // the last write in this frame; `nothing`: none
     Touches readers;            // distinct readers since that write or the last layout change
 
@@ -19,12 +19,12 @@ struct State {
         if (!readers.empty()) return readers;
         return write == kNothing ? Touches() : Touches(write);
     }
-    friend bool operator==(const State&, const State&) = default;
+    friend bool operator==(const TouchState&, const TouchState&) = default;
 };
 
 /// Returns the touches that a read must wait for; empty if an earlier reader with this touch
 /// already waited.
-Touches awaited_by_read(const State& state, TouchCode touch, bool is_buffer) {
+Touches awaited_by_read(const TouchState& state, TouchCode touch, bool is_buffer) {
     if (state.readers.contains(touch)) return {};
     if (state.readers.empty() || is_buffer) return Touches(state.write);
     // The layout stays and only the stage differs. `before` must name the present layout. So the
@@ -33,7 +33,7 @@ Touches awaited_by_read(const State& state, TouchCode touch, bool is_buffer) {
     return state.readers; // a layout change counts as a write
 }
 
-void advance(State& state, TouchCode touch, bool is_buffer) {
+void advance(TouchState& state, TouchCode touch, bool is_buffer) {
     if (touch_of(touch).write) {
         state = {.write = touch, .readers = {}};
         return;
@@ -91,17 +91,17 @@ void for_each_rectangle(std::uint32_t first, std::uint32_t end, std::uint32_t la
 }
 
 /// Returns the state of contents that every shader stage may use in this way when the frame begins.
-State arrived(Use use) {
+TouchState arrived(Use use) {
     const Touch compute{.nothing = false, .use = use, .write = false, .raster = false};
     Touch raster = compute;
     raster.raster = true;
-    State state{.write = kNothing, .readers = Touches(code_of(compute))};
+    TouchState state{.write = kNothing, .readers = Touches(code_of(compute))};
     state.readers.add(code_of(raster));
     return state;
 }
 
 /// Returns the state of an image at the start of a frame.
-State at_start(const Graph& graph, std::uint32_t image) {
+TouchState at_start(const Graph& graph, std::uint32_t image) {
     if (graph.lifetime(image) == Lifetime::persistent) return arrived(Use::sampled);
     if (graph.lifetime(image) == Lifetime::imported && graph.arrives(image))
         return arrived(*graph.arrives(image));
@@ -111,17 +111,17 @@ State at_start(const Graph& graph, std::uint32_t image) {
 /// Holds the state of every image and buffer while the frame is walked from first to last pass.
 class Tracker {
 public:
-    Tracker(const Graph& graph, const Plan& plan)
+    Tracker(const Graph& graph, const GraphPlan& plan)
         : graph_(graph), plan_(plan), states_(graph), previous_(graph, arrived(Use::sampled)),
           users_(plan) {
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-            if (const State state = at_start(graph, i); !state.latest().empty())
+            if (const TouchState state = at_start(graph, i); !state.latest().empty())
                 states_.set(access_to_all(graph, i), state);
     }
 
     void touch(const Access& access, const Touch& touch, std::vector<Barrier>& barriers) {
         const TouchCode code = code_of(touch);
-        const auto visit = [&](std::uint32_t first, std::uint32_t end, State& state) {
+        const auto visit = [&](std::uint32_t first, std::uint32_t end, TouchState& state) {
             if (state.latest().empty())
                 emit(access, first, end, {}, touch, listed(users_.left_in(placement(access))),
                      barriers);
@@ -138,7 +138,7 @@ public:
     void finish(const Access& access) {
         if (placement(access).alone) return; // no later resource uses its memory
         TouchSet touches = 0;
-        states_.of(access).each([&](std::uint32_t, std::uint32_t, const State& state) {
+        states_.of(access).each([&](std::uint32_t, std::uint32_t, const TouchState& state) {
             const Touches latest = state.latest();
             for (std::size_t i = 0; i < latest.size(); ++i) touches |= set_of(latest[i]);
         });
@@ -148,9 +148,9 @@ public:
     /// Adds a barrier for each layer, even if it is not needed within the frame: the work after the
     /// frame relies on it. `untouched`: also for layers that no pass touched.
     void leave(const Access& access, Use use, bool untouched, std::vector<Barrier>& barriers) {
-        const State start = access.is_buffer ? State() : at_start(graph_, access.id);
+        const TouchState start = access.is_buffer ? TouchState() : at_start(graph_, access.id);
         const Touch touch{.nothing = false, .use = use};
-        states_.each(access, [&](std::uint32_t first, std::uint32_t end, const State& state) {
+        states_.each(access, [&](std::uint32_t first, std::uint32_t end, const TouchState& state) {
             if (!untouched && state == start) return;
             Touches latest = state.latest();
             // Never touched: the barrier discards the contents.
@@ -194,8 +194,8 @@ private:
     }
 
     const Graph& graph_;
-    const Plan& plan_;
-    Ledger<State> states_, previous_;
+    const GraphPlan& plan_;
+    Ledger<TouchState> states_, previous_;
     MemoryUsers users_;
 };
 
@@ -215,7 +215,7 @@ void order_outputs(const Access& whole, const Ledger<char>& wanted, Tracker& tra
     wanted.of(whole).each(leave);
 }
 
-void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
+void order_end(const Graph& graph, Tracker& tracker, GraphPlan& plan) {
     const Ledger<char> wanted = output_parts(graph);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const Access whole = access_to_all(graph, i);
@@ -240,7 +240,7 @@ void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
 
 } // namespace
 
-void order(const Graph& graph, const Accesses& all, Plan& plan) {
+void order(const Graph& graph, const Accesses& all, GraphPlan& plan) {
     Tracker tracker(graph, plan);
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
         PlannedPass& planned = plan.passes[position];

@@ -28,7 +28,7 @@ void Commands::use(const gpu::ComputeState& state) {
     dirty_ = true;
 }
 
-void Commands::require_declared(Image image, std::string_view name) const {
+void Commands::require_declared(ImageHandle image, std::string_view name) const {
     const auto same = [&](const ImageUse& use) {
         return use.image.id == image.id && use.image.previous == image.previous &&
                use.image.first_mip <= image.first_mip &&
@@ -42,12 +42,12 @@ void Commands::require_declared(Image image, std::string_view name) const {
           "' but does not declare it");
 }
 
-void Commands::bind(std::string_view name, std::span<const Image> images, Filter filter) {
+void Commands::bind(std::string_view name, std::span<const ImageHandle> images, Filter filter) {
     check(!images.empty() && images.size() <= kMostImages, Failure::internal, "pass '", pass_.name,
           "': '", name, "' wants 1 to ", kMostImages, " images, found ", images.size());
     BoundImages bound{{}, images.size(), filter};
     std::ranges::copy(images, bound.images.begin());
-    for (const Image& image : images) require_declared(image, name);
+    for (const ImageHandle& image : images) require_declared(image, name);
     bound_.insert_or_assign(std::string(name), bound);
     dirty_ = true;
 }
@@ -57,14 +57,14 @@ void Commands::bind(std::string_view name, Filter sampler) {
     dirty_ = true;
 }
 
-void Commands::require_declared(Buffer buffer, std::string_view name) const {
+void Commands::require_declared(BufferHandle buffer, std::string_view name) const {
     check(std::ranges::any_of(pass_.buffers,
                               [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
           Failure::internal, "pass '", pass_.name, "' uses buffer '",
           graph_.buffers()[buffer.id].name, "' as '", name, "' but does not declare it");
 }
 
-void Commands::bind(std::string_view name, Buffer buffer) {
+void Commands::bind(std::string_view name, BufferHandle buffer) {
     require_declared(buffer, name);
     bound_.insert_or_assign(std::string(name), recorder_.buffer(buffer));
     dirty_ = true;
@@ -108,7 +108,7 @@ void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     vkCmdDispatch(commands_, x, y, z);
 }
 
-void Commands::dispatch_indirect(Buffer arguments, std::uint64_t offset) {
+void Commands::dispatch_indirect(BufferHandle arguments, std::uint64_t offset) {
     const auto same = [&](const BufferUse& use) {
         return use.buffer.id == arguments.id && use.use == Use::indirect;
     };
@@ -130,7 +130,7 @@ void Commands::barrier() {
     vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
-void Commands::copy(Image from, Image to) {
+void Commands::copy(ImageHandle from, ImageHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
     const ImageDesc& desc = graph_.images()[from.id];
@@ -144,7 +144,7 @@ void Commands::copy(Image from, Image to) {
                    recorder_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
-void Commands::copy(Image from, Buffer to) {
+void Commands::copy(ImageHandle from, BufferHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
     const VkBufferImageCopy region = copy_region(graph_.images()[from.id], from);
@@ -152,12 +152,12 @@ void Commands::copy(Image from, Buffer to) {
                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.buffer(to), 1, &region);
 }
 
-void Commands::fill(Buffer buffer, std::uint32_t word) {
+void Commands::fill(BufferHandle buffer, std::uint32_t word) {
     require_declared(buffer, "target of a fill");
     vkCmdFillBuffer(commands_, recorder_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
-void Commands::update(Buffer buffer, std::span<const std::byte> bytes) {
+void Commands::update(BufferHandle buffer, std::span<const std::byte> bytes) {
     require_declared(buffer, "target of an update");
     vkCmdUpdateBuffer(commands_, recorder_.buffer(buffer), 0, bytes.size(), bytes.data());
 }
@@ -196,7 +196,7 @@ void Commands::write_images(const gpu::Binding& binding, const Bound& bound,
     const auto& [images, count, filter] = std::get<BoundImages>(bound);
     const bool stored = binding.kind == BindingKind::storage_image;
     for (std::size_t i = 0; i < binding.count; ++i) {
-        const Image image = images[i < count ? i : 0];
+        const ImageHandle image = images[i < count ? i : 0];
         infos.push_back(
             {binding.kind == BindingKind::sampled_image
                  ? recorder_.sampler(filter_of(image, filter))
@@ -228,7 +228,7 @@ std::string_view Commands::list_of(const gpu::Binding& binding) {
 /// Returns the filter of the sampler for an image. On devices that do not filter 32-bit floats,
 /// images of distances use the nearest texel. There the shader interpolates them itself
 /// (`distances_by_gather`).
-Filter Commands::filter_of(Image image, Filter filter) const {
+Filter Commands::filter_of(ImageHandle image, Filter filter) const {
     const ImageDesc& desc = graph_.images()[image.id];
     const bool is_float = desc.format == Format::r32f || desc.format == Format::rgba32f;
     if (!is_float || filter == Filter::nearest || recorder_.device().filters_floats())

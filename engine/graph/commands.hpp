@@ -45,16 +45,16 @@ public:
     void use(gpu::RasterState state);
     void use(const gpu::ComputeState& state);
     /// Binds an image, which the pass must declare.
-    void bind(std::string_view name, Image image, Filter filter = Filter::nearest) {
+    void bind(std::string_view name, ImageHandle image, Filter filter = Filter::nearest) {
         bind(name, std::span(&image, 1), filter);
     }
     /// Binds 1 to kMostImages images to an array. If the shader's array is longer, the first image
     /// fills its other entries.
-    void bind(std::string_view name, std::span<const Image> images,
+    void bind(std::string_view name, std::span<const ImageHandle> images,
               Filter filter = Filter::nearest);
     /// Binds a sampler without an image.
     void bind(std::string_view name, Filter sampler);
-    void bind(std::string_view name, Buffer buffer);
+    void bind(std::string_view name, BufferHandle buffer);
     void bind(std::string_view name, const gpu::Buffer& buffer);
     /// Sets the push constants of the draws and dispatches that follow.
     template <typename T>
@@ -77,36 +77,36 @@ public:
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
     /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
     /// pass declares as indirect.
-    void dispatch_indirect(Buffer arguments, std::uint64_t offset = 0);
+    void dispatch_indirect(BufferHandle arguments, std::uint64_t offset = 0);
     /// Makes the writes of earlier dispatches of this pass visible to later ones.
     void barrier();
     /// Copies an image to one of the same size and format, all layers of the handles. The pass
     /// declares both.
-    void copy(Image from, Image to);
+    void copy(ImageHandle from, ImageHandle to);
     /// Copies one mip of an image to a buffer: rows from the top down, one layer after another. The
     /// pass declares both.
-    void copy(Image from, Buffer to);
+    void copy(ImageHandle from, BufferHandle to);
     /// Sets every 32-bit word of a buffer that the pass declares as copy_to.
-    void fill(Buffer buffer, std::uint32_t word);
+    void fill(BufferHandle buffer, std::uint32_t word);
     /// Writes bytes to the start of a buffer that the pass declares as copy_to: whole words, at
     /// most 65536 bytes.
-    void update(Buffer buffer, std::span<const std::byte> bytes);
+    void update(BufferHandle buffer, std::span<const std::byte> bytes);
 
 private:
     struct BoundImages {
-        std::array<Image, kMostImages> images{};
+        std::array<ImageHandle, kMostImages> images{};
         std::size_t count = 1;
         Filter filter = Filter::nearest;
     };
     using Bound = std::variant<BoundImages, Filter, VkBuffer, const gpu::Buffer*>;
     void flush();
-    void require_declared(Image image, std::string_view name) const;
-    void require_declared(Buffer buffer, std::string_view name) const;
+    void require_declared(ImageHandle image, std::string_view name) const;
+    void require_declared(BufferHandle buffer, std::string_view name) const;
     void require_kind(const gpu::Binding& binding, const Bound& bound) const;
     void write_images(const gpu::Binding& binding, const Bound& bound,
                       std::vector<VkDescriptorImageInfo>& infos);
     static std::string_view list_of(const gpu::Binding& binding);
-    Filter filter_of(Image image, Filter filter) const;
+    Filter filter_of(ImageHandle image, Filter filter) const;
     void write_buffer(const gpu::Binding& binding, const Bound& bound,
                       VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 

@@ -33,8 +33,8 @@ VkMemoryRequirements requirements(const gpu::Device& device, const BufferDesc& d
     return needs.memoryRequirements;
 }
 
-Requirements placed(const gpu::Device& device, const VkMemoryRequirements& needs,
-                    const std::string& name) {
+MemoryRequirements placed(const gpu::Device& device, const VkMemoryRequirements& needs,
+                          const std::string& name) {
     const int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
     // Buffers and images share heaps. Aligning to the granularity keeps them on separate pages.
@@ -64,7 +64,7 @@ gpu::UniqueBuffer make_buffer(const gpu::Device& device, const BufferDesc& desc)
 }
 
 OwnedImage make_image(const gpu::Device& device, const ImageDesc& desc) {
-    const Requirements needs = sizer_of(device).image(desc);
+    const MemoryRequirements needs = sizer_of(device).image(desc);
     OwnedImage made{device.allocate(needs.bytes, needs.heap, desc.name),
                     make_physical(device, desc)};
     gpu::check_vk(vkBindImageMemory(device.handle(), made.image.image, made.memory, 0),

@@ -27,7 +27,7 @@ const Pass& pass_of(const Graph& graph, const PlannedPass& planned) {
 /// Tells which resources share memory.
 class Sharers {
 public:
-    Sharers(const Graph& graph, const Plan& plan) {
+    Sharers(const Graph& graph, const GraphPlan& plan) {
         for (std::size_t i = 0; i < plan.images.size(); ++i)
             add(plan.images[i], graph.images()[i].name);
         for (std::size_t b = 0; b < plan.buffers.size(); ++b)
@@ -180,7 +180,7 @@ void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, 
 
 } // namespace
 
-std::string to_text(const Graph& graph, const Plan& plan) {
+std::string to_text(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
     out << counted(plan.passes.size(), "pass", "es") << ", scene_passes " << plan.scene_passes
         << ", " << plan.bytes << " bytes (" << plan.bytes_unshared
@@ -215,7 +215,7 @@ std::string to_text(const Graph& graph, const Plan& plan) {
     return out.str();
 }
 
-std::string to_dot(const Graph& graph, const Plan& plan) {
+std::string to_dot(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
     out << "digraph frame {\n  rankdir=LR;\n";
     for (std::size_t i = 0; i < graph.images().size(); ++i)
@@ -230,7 +230,7 @@ std::string to_dot(const Graph& graph, const Plan& plan) {
     return out.str();
 }
 
-std::string to_json(const Graph& graph, const Plan& plan) {
+std::string to_json(const Graph& graph, const GraphPlan& plan) {
     Json json{{"passes", Json::array()},
               {"culled", Json::array()},
               {"images", Json::array()},

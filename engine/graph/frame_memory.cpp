@@ -11,21 +11,21 @@ namespace {
 /// Calls visit(placement) for each resource in the memory of frames whose `alone` is as given.
 /// Images that outlive frames are skipped.
 template <typename Visit>
-void for_each_placement(const Compiled& shape, bool alone, const Visit& visit) {
+void for_each_placement(const CompiledGraph& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
         const Placement& placement = shape.plan.images[i];
         if (shape.is_owned(i) && placement.alone == alone && !shape.is_persistent(i))
             visit(placement);
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
-        if (shape.is_owned(Buffer{b}) && shape.plan.buffers[b].alone == alone)
+        if (shape.is_owned(BufferHandle{b}) && shape.plan.buffers[b].alone == alone)
             visit(shape.plan.buffers[b]);
 }
 
 /// Returns the offset in each heap of the plan at which the outputs begin. The plan puts outputs
 /// after the shared part. The runner puts them into a separate arena, at the same distance from one
 /// another.
-std::vector<std::uint64_t> begin_of_own(const Compiled& shape) {
+std::vector<std::uint64_t> begin_of_own(const CompiledGraph& shape) {
     const std::vector<std::uint64_t>& heaps = shape.plan.heap_bytes;
     std::vector<std::uint64_t> begin = heaps, alignment(heaps.size(), 1);
     for_each_placement(shape, true, [&](const Placement& p) {
@@ -37,7 +37,7 @@ std::vector<std::uint64_t> begin_of_own(const Compiled& shape) {
 }
 
 /// Returns the bytes that a shape needs of each heap.
-std::vector<std::uint64_t> claim(const Compiled& shape, bool alone) {
+std::vector<std::uint64_t> claim(const CompiledGraph& shape, bool alone) {
     std::vector<std::uint64_t> bytes(shape.plan.heap_bytes.size(), 0);
     const std::vector<std::uint64_t> begin = begin_of_own(shape);
     for_each_placement(shape, alone, [&](const Placement& p) {
@@ -47,7 +47,7 @@ std::vector<std::uint64_t> claim(const Compiled& shape, bool alone) {
     return bytes;
 }
 
-std::vector<std::uint64_t> largest_claim(std::span<const std::shared_ptr<Compiled>> shapes,
+std::vector<std::uint64_t> largest_claim(std::span<const std::shared_ptr<CompiledGraph>> shapes,
                                          bool alone) {
     std::vector<std::uint64_t> largest;
     for (const auto& shape : shapes) {
@@ -71,7 +71,7 @@ void FrameMemory::allocate(Arena& arena, std::vector<std::uint64_t> bytes) {
     arena.bytes = std::move(bytes);
 }
 
-void FrameMemory::make(Compiled& shape, Resources& resources, const Arena& arena, bool alone) {
+void FrameMemory::make(CompiledGraph& shape, Resources& resources, const Arena& arena, bool alone) {
     resources = {};
     const std::vector<std::uint64_t> begin = begin_of_own(shape);
     const auto offset_of = [&](const Placement& p) {
@@ -91,7 +91,7 @@ void FrameMemory::make(Compiled& shape, Resources& resources, const Arena& arena
         const Placement& p = shape.plan.buffers[b];
         const BufferDesc& desc = shape.outline.buffers()[b];
         resources.buffers.emplace_back();
-        if (!shape.is_owned(Buffer{b}) || p.alone != alone) continue;
+        if (!shape.is_owned(BufferHandle{b}) || p.alone != alone) continue;
         resources.buffers.back() = make_buffer(device_, desc);
         gpu::check_vk(vkBindBufferMemory(device_.handle(), resources.buffers.back(),
                                          arena.heaps[p.heap], offset_of(p)),
@@ -110,8 +110,8 @@ std::uint64_t FrameMemory::bytes() const {
     return sum;
 }
 
-void FrameMemory::provide(Compiled& shape, std::size_t slot,
-                          std::span<const std::shared_ptr<Compiled>> shapes,
+void FrameMemory::provide(CompiledGraph& shape, std::size_t slot,
+                          std::span<const std::shared_ptr<CompiledGraph>> shapes,
                           const std::function<void()>& wait) {
     shape.ran = true;
     if (shape.shared.made && shape.own[slot].made) return;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graph/compiled.hpp"
+#include "graph/compiled_graph.hpp"
 
 #include <functional>
 #include <memory>
@@ -17,8 +17,8 @@ public:
     /// Makes the resources that `shape` runs with in this slot, unless they exist. `shapes`: all
     /// shapes that need memory. Calls `wait` before it destroys anything that frames in flight may
     /// use.
-    void provide(Compiled& shape, std::size_t slot,
-                 std::span<const std::shared_ptr<Compiled>> shapes,
+    void provide(CompiledGraph& shape, std::size_t slot,
+                 std::span<const std::shared_ptr<CompiledGraph>> shapes,
                  const std::function<void()>& wait);
 
     /// Returns the bytes of device memory that are allocated.
@@ -31,7 +31,7 @@ private:
         std::vector<gpu::UniqueMemory> heaps;
     };
     void allocate(Arena& arena, std::vector<std::uint64_t> bytes);
-    void make(Compiled& shape, Resources& resources, const Arena& arena, bool alone);
+    void make(CompiledGraph& shape, Resources& resources, const Arena& arena, bool alone);
 
     const gpu::Device& device_;
     Arena shared_;

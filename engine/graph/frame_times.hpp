@@ -9,9 +9,9 @@ namespace catoptric::graph {
 /// - isolated: an execution barrier follows each timestamp. No two passes overlap, and their times
 /// add up.
 /// - pipelined: only the barriers of the plan. Passes may overlap, and only the span is meaningful.
-enum class Timing { isolated, pipelined };
+enum class PassTiming { isolated, pipelined };
 
-struct PassTime {
+struct GraphPassTime {
     std::string name;
     double begin_ms = 0; ///< from the frame's first timestamp
     double end_ms = 0;
@@ -20,11 +20,11 @@ struct PassTime {
 
 /// Times of one frame in milliseconds. On a cpu device the GPU times are processor time of the
 /// driver's threads. compile_ms and record_ms are the host's work and do not contain wait_ms.
-struct FrameTimes {
-    std::vector<PassTime> passes; ///< in order of execution
-    double span_ms = 0;           ///< first to last timestamp
-    double compile_ms = 0;        ///< finding or making the plan, making its images; host clock
-    double record_ms = 0;         ///< filling the command buffer, host clock
+struct GraphFrameTimes {
+    std::vector<GraphPassTime> passes; ///< in order of execution
+    double span_ms = 0;                ///< first to last timestamp
+    double compile_ms = 0; ///< finding or making the plan, making its images; host clock
+    double record_ms = 0;  ///< filling the command buffer, host clock
     double wait_ms =
         0; ///< waiting for a place among the frames in flight, and for this frame's end
     double wall_ms = 0; ///< from submit until the wait for the frame returned, host clock

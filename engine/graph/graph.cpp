@@ -26,7 +26,7 @@ std::string_view name_of(Use use) {
 
 namespace {
 
-Image whole(std::uint32_t id, const ImageDesc& desc) {
+ImageHandle whole(std::uint32_t id, const ImageDesc& desc) {
     return {.id = id, .layer_count = desc.layers, .mip_count = desc.mips};
 }
 
@@ -38,27 +38,27 @@ bool Pass::is_raster() const {
     });
 }
 
-PassBuilder& PassBuilder::reads(Image image, Use use) {
+PassBuilder& PassBuilder::reads(ImageHandle image, Use use) {
     pass_.images.push_back({.image = image, .use = use, .write = false, .clear = {}});
     return *this;
 }
 
-PassBuilder& PassBuilder::reads(Buffer buffer, Use use) {
+PassBuilder& PassBuilder::reads(BufferHandle buffer, Use use) {
     pass_.buffers.push_back({.buffer = buffer, .use = use, .write = false});
     return *this;
 }
 
-PassBuilder& PassBuilder::writes(Image image, Use use, std::optional<Clear> clear) {
+PassBuilder& PassBuilder::writes(ImageHandle image, Use use, std::optional<Clear> clear) {
     pass_.images.push_back({.image = image, .use = use, .write = true, .clear = clear});
     return *this;
 }
 
-PassBuilder& PassBuilder::writes(Buffer buffer, Use use) {
+PassBuilder& PassBuilder::writes(BufferHandle buffer, Use use) {
     pass_.buffers.push_back({.buffer = buffer, .use = use, .write = true});
     return *this;
 }
 
-PassBuilder& PassBuilder::updates(Image image, Use use, const Clear& clear) {
+PassBuilder& PassBuilder::updates(ImageHandle image, Use use, const Clear& clear) {
     pass_.images.push_back(
         {.image = image, .use = use, .write = true, .clear = clear, .stays = true});
     return *this;
@@ -76,38 +76,38 @@ PassBuilder& PassBuilder::area(const Area& area) {
 
 void PassBuilder::record(std::function<void(Commands&)> body) { pass_.body = std::move(body); }
 
-Image Graph::image(ImageDesc desc) {
+ImageHandle Graph::image(ImageDesc desc) {
     const auto id = static_cast<std::uint32_t>(images_.size());
     images_.push_back(std::move(desc));
     lives_.emplace_back();
     return whole(id, images_.back());
 }
 
-Buffer Graph::buffer(BufferDesc desc) {
+BufferHandle Graph::buffer(BufferDesc desc) {
     buffers_.push_back(std::move(desc));
     imported_buffers_.push_back(false);
     outside_buffers_.push_back(nullptr);
     return {static_cast<std::uint32_t>(buffers_.size() - 1)};
 }
 
-Image Graph::persistent(ImageDesc desc) {
+ImageHandle Graph::persistent(ImageDesc desc) {
     const auto found = history_.persistent.find(desc.name);
-    ContentHashes held(desc.layers * desc.mips);
+    LayerHashes held(desc.layers * desc.mips);
     if (found != history_.persistent.end() && found->second.desc == desc)
         held = found->second.stamps;
-    const Image handle = image(std::move(desc));
+    const ImageHandle handle = image(std::move(desc));
     lives_.back().lifetime = Lifetime::persistent;
     lives_.back().held = std::move(held);
     return handle;
 }
 
-const ImageDesc& Graph::described(Image image, const char* asked) const {
+const ImageDesc& Graph::described(ImageHandle image, const char* asked) const {
     check(image.id < images_.size(), Failure::internal, asked, " of image number ", image.id,
           ", but the graph has ", images_.size(), " images");
     return images_[image.id];
 }
 
-bool Graph::holds_content(Image part, std::uint64_t content_hash) const {
+bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
     const ImageDesc& desc = described(part, "holds()");
     check(lifetime(part.id) == Lifetime::persistent, Failure::internal, "holds() of image '",
           desc.name, "', which is not kept");
@@ -121,25 +121,26 @@ bool Graph::holds_content(Image part, std::uint64_t content_hash) const {
     return all;
 }
 
-void Graph::set_content_hash(Image part, std::uint64_t content_hash) {
+void Graph::set_content_hash(ImageHandle part, std::uint64_t content_hash) {
     const ImageDesc& desc = described(part, "made_from()");
     check(lifetime(part.id) == Lifetime::persistent, Failure::internal, "made_from() of image '",
           desc.name, "', which is not kept");
     stamped_.push_back({part, content_hash});
 }
 
-Image Graph::import(ImageDesc desc, Physical* outside, std::optional<Use> arrives, Use leaves) {
-    const Image handle = image(std::move(desc));
+ImageHandle Graph::import(ImageDesc desc, Physical* outside, std::optional<Use> arrives,
+                          Use leaves) {
+    const ImageHandle handle = image(std::move(desc));
     lives_.back() = {.lifetime = Lifetime::imported,
                      .arrives = arrives,
                      .leaves = leaves,
                      .outside = outside,
-                     .held = ContentHashes()};
+                     .held = LayerHashes()};
     return handle;
 }
 
-Buffer Graph::import(BufferDesc desc, const gpu::Buffer* outside) {
-    const Buffer handle = buffer(std::move(desc));
+BufferHandle Graph::import(BufferDesc desc, const gpu::Buffer* outside) {
+    const BufferHandle handle = buffer(std::move(desc));
     imported_buffers_.back() = true;
     outside_buffers_.back() = outside;
     return handle;
@@ -152,7 +153,7 @@ PassBuilder Graph::pass(std::string name, Tag tag) {
     return PassBuilder(pass);
 }
 
-Image Graph::previous(Image image) {
+ImageHandle Graph::previous(ImageHandle image) {
     const ImageDesc& desc = described(image, "previous()");
     Lifetime& lifetime = lives_[image.id].lifetime;
     check(lifetime == Lifetime::frame || lifetime == Lifetime::previous, Failure::internal,
@@ -163,12 +164,12 @@ Image Graph::previous(Image image) {
     return image;
 }
 
-bool Graph::has_history(Image image) const {
+bool Graph::has_history(ImageHandle image) const {
     return history_.previous.contains(described(image, "has_history()").name);
 }
 
-void Graph::mark_output(Image image) { wanted_images_.push_back(image); }
-void Graph::mark_output(Buffer buffer) { wanted_buffers_.push_back(buffer); }
+void Graph::mark_output(ImageHandle image) { wanted_images_.push_back(image); }
+void Graph::mark_output(BufferHandle buffer) { wanted_buffers_.push_back(buffer); }
 
 History Graph::left() const {
     History left = history_;

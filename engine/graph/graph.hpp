@@ -76,7 +76,7 @@ enum class Lifetime {
 
 /// Handle of an image of one graph: of all or some of its layers and mips, or of its contents in
 /// the previous frame. Valid only with the graph that made it.
-struct Image {
+struct ImageHandle {
     std::uint32_t id = 0;
     std::uint32_t first_layer = 0;
     std::uint32_t layer_count = 0;
@@ -84,27 +84,27 @@ struct Image {
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
     /// Returns a handle of some of the layers, counted from this handle's first.
-    Image layers(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle layers(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer + first, count, previous, first_mip, mip_count};
     }
     /// Returns a handle of some of the mips, counted from this handle's first.
-    Image mips(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle mips(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer, layer_count, previous, first_mip + first, count};
     }
-    Image mip(std::uint32_t number) const { return mips(number, 1); }
-    friend bool operator==(const Image&, const Image&) = default;
+    ImageHandle mip(std::uint32_t number) const { return mips(number, 1); }
+    friend bool operator==(const ImageHandle&, const ImageHandle&) = default;
 };
 
-struct Buffer {
+struct BufferHandle {
     std::uint32_t id = 0;
-    friend bool operator==(const Buffer&, const Buffer&) = default;
+    friend bool operator==(const BufferHandle&, const BufferHandle&) = default;
 };
 
 /// Attachment contents before the pass. Colour: r, g, b, a. Depth: the first value.
 using Clear = std::array<float, 4>;
 
 struct ImageUse {
-    Image image;
+    ImageHandle image;
     Use use = Use::sampled;
     bool write = false;
     /// An attachment without a clear needs and keeps its earlier contents.
@@ -113,7 +113,7 @@ struct ImageUse {
 };
 
 struct BufferUse {
-    Buffer buffer;
+    BufferHandle buffer;
     Use use = Use::sampled;
     bool write = false;
     friend bool operator==(const BufferUse&, const BufferUse&) = default;
@@ -144,13 +144,13 @@ struct Pass {
 class PassBuilder {
 public:
     explicit PassBuilder(Pass& pass) : pass_(pass) {}
-    PassBuilder& reads(Image image, Use use);
-    PassBuilder& reads(Buffer buffer, Use use);
-    PassBuilder& writes(Image image, Use use, std::optional<Clear> clear = std::nullopt);
-    PassBuilder& writes(Buffer buffer, Use use);
+    PassBuilder& reads(ImageHandle image, Use use);
+    PassBuilder& reads(BufferHandle buffer, Use use);
+    PassBuilder& writes(ImageHandle image, Use use, std::optional<Clear> clear = std::nullopt);
+    PassBuilder& writes(BufferHandle buffer, Use use);
     /// Declares an attachment that is cleared within the pass's area and keeps its contents
     /// elsewhere.
-    PassBuilder& updates(Image image, Use use, const Clear& clear);
+    PassBuilder& updates(ImageHandle image, Use use, const Clear& clear);
     PassBuilder& layers(std::uint32_t count);
     PassBuilder& area(const Area& area);
     void record(std::function<void(Commands&)> body);
@@ -161,13 +161,13 @@ private:
 
 /// The content hash of each layer of each mip; no value if the layer was never written. Layer l of
 /// mip m has the number m * layers + l.
-using ContentHashes = Runs<std::optional<std::uint64_t>>;
+using LayerHashes = Runs<std::optional<std::uint64_t>>;
 
 /// The contents that a runner has from earlier frames.
 struct History {
     struct PersistentImage {
         ImageDesc desc;
-        ContentHashes stamps;
+        LayerHashes stamps;
     };
     std::set<std::string> previous; ///< names of images whose contents in the last frame exist
     std::map<std::string, PersistentImage> persistent; ///< persistent images by name
@@ -175,7 +175,7 @@ struct History {
 
 /// The content hash of a part of a persistent image after this frame has written it.
 struct ContentRecord {
-    Image part;
+    ImageHandle part;
     std::uint64_t content_hash = 0;
 };
 
@@ -186,52 +186,52 @@ public:
     explicit Graph(History history) : history_(std::move(history)) {}
 
     /// Adds an image. Returns a handle of all its layers and mips.
-    Image image(ImageDesc desc);
-    Buffer buffer(BufferDesc desc);
+    ImageHandle image(ImageDesc desc);
+    BufferHandle buffer(BufferDesc desc);
     /// Adds a persistent image: its contents stay, under its name, until a pass writes them again.
     /// They also stay through frames that do not declare the image. The memory is held as long as
     /// the runner lives. Another description under the same name discards the contents.
-    Image persistent(ImageDesc desc);
+    ImageHandle persistent(ImageDesc desc);
     /// Returns whether all of a part of a persistent image has this content hash, so that no pass
     /// needs to write it. The caller defines the hash, for example of scene and settings.
-    bool holds_content(Image part, std::uint64_t content_hash) const;
+    bool holds_content(ImageHandle part, std::uint64_t content_hash) const;
     /// Sets the content hash of a part of a persistent image that passes of this frame write. Every
     /// written layer of a persistent image must get a hash.
-    void set_content_hash(Image part, std::uint64_t content_hash);
+    void set_content_hash(ImageHandle part, std::uint64_t content_hash);
     /// Adds an image that is owned outside the graph. It is used like any other image and counts as
     /// an output. It arrives in the layout of the use `arrives`; none means that its contents do
     /// not matter. It is left in the layout of `leaves`. `outside` may change from frame to frame,
     /// must match `desc` and must live until the frame has ended.
-    Image import(ImageDesc desc, Physical* outside, std::optional<Use> arrives, Use leaves);
+    ImageHandle import(ImageDesc desc, Physical* outside, std::optional<Use> arrives, Use leaves);
     /// Adds a buffer that is owned outside the graph. Writes to it are visible to the host once the
     /// frame has ended.
-    Buffer import(BufferDesc desc, const gpu::Buffer* outside);
+    BufferHandle import(BufferDesc desc, const gpu::Buffer* outside);
     PassBuilder pass(std::string name, Tag tag = Tag::none);
 
     /// Returns a handle of the image's contents at the end of the last frame (black on the first).
     /// Costs a second copy of the image, whose memory is not shared.
-    Image previous(Image image);
+    ImageHandle previous(ImageHandle image);
     /// Returns whether the last frame left contents of the image. If not, `previous` shows black.
-    bool has_history(Image image) const;
+    bool has_history(ImageHandle image) const;
     /// Marks an image as an output of the frame. Passes that no output depends on are culled.
-    void mark_output(Image image);
-    void mark_output(Buffer buffer);
+    void mark_output(ImageHandle image);
+    void mark_output(BufferHandle buffer);
 
     const std::vector<ImageDesc>& images() const { return images_; }
     const std::vector<BufferDesc>& buffers() const { return buffers_; }
     const std::deque<Pass>& passes() const { return passes_; }
-    const std::vector<Image>& output_images() const { return wanted_images_; }
-    const std::vector<Buffer>& output_buffers() const { return wanted_buffers_; }
+    const std::vector<ImageHandle>& output_images() const { return wanted_images_; }
+    const std::vector<BufferHandle>& output_buffers() const { return wanted_buffers_; }
     const std::vector<ContentRecord>& stamps() const { return stamped_; }
     Lifetime lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
-    bool is_imported(Buffer buffer) const { return imported_buffers_[buffer.id]; }
+    bool is_imported(BufferHandle buffer) const { return imported_buffers_[buffer.id]; }
     /// Returns the use in whose layout an imported image arrives.
     std::optional<Use> arrives(std::uint32_t image) const { return lives_[image].arrives; }
     Use leaves(std::uint32_t image) const { return lives_[image].leaves; }
     Physical* outside(std::uint32_t image) const { return lives_[image].outside; }
-    const gpu::Buffer* outside(Buffer buffer) const { return outside_buffers_[buffer.id]; }
+    const gpu::Buffer* outside(BufferHandle buffer) const { return outside_buffers_[buffer.id]; }
     /// Returns the content hashes of a persistent image at the start of the frame.
-    const ContentHashes& held(std::uint32_t image) const { return lives_[image].held; }
+    const LayerHashes& held(std::uint32_t image) const { return lives_[image].held; }
     /// Returns the history for the next frame once this frame has run.
     History left() const;
     /// Returns a copy with declarations only, to compare other graphs with.
@@ -243,9 +243,9 @@ private:
         std::optional<Use> arrives;
         Use leaves = Use::sampled;
         Physical* outside = nullptr;
-        ContentHashes held;
+        LayerHashes held;
     };
-    const ImageDesc& described(Image image, const char* asked) const;
+    const ImageDesc& described(ImageHandle image, const char* asked) const;
 
     History history_;
     std::vector<ImageDesc> images_;
@@ -254,8 +254,8 @@ private:
     std::vector<char> imported_buffers_; // one per entry of `buffers_`
     std::vector<const gpu::Buffer*> outside_buffers_;
     std::deque<Pass> passes_; // a deque, because builders hold references
-    std::vector<Image> wanted_images_;
-    std::vector<Buffer> wanted_buffers_;
+    std::vector<ImageHandle> wanted_images_;
+    std::vector<BufferHandle> wanted_buffers_;
     std::vector<ContentRecord> stamped_;
 };
 

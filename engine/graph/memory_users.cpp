@@ -12,7 +12,7 @@ bool is_shared(const Placement& placement) {
 
 } // namespace
 
-MemoryUsers::MemoryUsers(const Plan& plan) : heaps_(plan.heap_bytes.size()) {
+MemoryUsers::MemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_bytes.size()) {
     const auto add = [&](const std::vector<Placement>& placements) {
         for (const Placement& placement : placements) {
             if (!is_shared(placement)) continue;

@@ -8,7 +8,7 @@ namespace catoptric::graph {
 /// pass. Each call costs O(log n) in the number of placements.
 class MemoryUsers {
 public:
-    explicit MemoryUsers(const Plan& plan);
+    explicit MemoryUsers(const GraphPlan& plan);
     /// Records that the resource at this placement is not touched again. `touches` were its last
     /// touches.
     void leave(const Placement& placement, TouchSet touches);

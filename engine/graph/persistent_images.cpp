@@ -40,7 +40,7 @@ void clear(VkCommandBuffer commands, const Physical& image) {
 /// Creates the copies of the image, cleared to black and in the layout for sampling.
 void PersistentImages::make(const ImageDesc& desc, PersistentImage& kept) {
     const std::size_t copies = kept.lifetime == Lifetime::previous ? 2 : 1;
-    const Requirements needs = sizer_of(device_).image(desc);
+    const MemoryRequirements needs = sizer_of(device_).image(desc);
     const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
                                  needs.alignment;
     kept.bytes = (copies - 1) * second + needs.bytes;
@@ -54,7 +54,7 @@ void PersistentImages::make(const ImageDesc& desc, PersistentImage& kept) {
     device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         for (const Physical& copy : kept.copies) clear(commands, copy);
     });
-    kept.stamps = ContentHashes(desc.layers * desc.mips);
+    kept.stamps = LayerHashes(desc.layers * desc.mips);
 }
 
 PersistentImage& PersistentImages::provide(const ImageDesc& desc, Lifetime lifetime,
@@ -75,14 +75,14 @@ PersistentImage& PersistentImages::provide(const ImageDesc& desc, Lifetime lifet
     return found->second;
 }
 
-void PersistentImages::provide(Compiled& shape, const std::function<void()>& wait) {
+void PersistentImages::provide(CompiledGraph& shape, const std::function<void()>& wait) {
     shape.kept.assign(shape.plan.images.size(), nullptr);
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
         if (shape.is_persistent(i))
             shape.kept[i] = &provide(shape.outline.images()[i], shape.outline.lifetime(i), wait);
 }
 
-void PersistentImages::write(const Graph& graph, const Compiled& shape) {
+void PersistentImages::write(const Graph& graph, const CompiledGraph& shape) {
     for (const auto& [part, content_hash] : graph.stamps()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image
@@ -93,7 +93,7 @@ void PersistentImages::write(const Graph& graph, const Compiled& shape) {
     }
 }
 
-void PersistentImages::advance(const Compiled& shape) {
+void PersistentImages::advance(const CompiledGraph& shape) {
     for (PersistentImage* const kept : shape.kept) {
         if (!kept || kept->lifetime != Lifetime::previous) continue;
         kept->last = 1 - kept->last;

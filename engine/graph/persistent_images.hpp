@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graph/compiled.hpp"
+#include "graph/compiled_graph.hpp"
 
 #include <functional>
 #include <map>
@@ -20,12 +20,12 @@ public:
 
     /// Finds or makes the persistent images of the shape. Calls `wait` before it destroys anything
     /// that frames in flight may use.
-    void provide(Compiled& shape, const std::function<void()>& wait);
+    void provide(CompiledGraph& shape, const std::function<void()>& wait);
     /// Stores the content hashes that the submitted frame sets.
-    void write(const Graph& graph, const Compiled& shape);
+    void write(const Graph& graph, const CompiledGraph& shape);
     /// Swaps the two copies of each image that has a `previous`: the frame just submitted becomes
     /// the last frame.
-    void advance(const Compiled& shape);
+    void advance(const CompiledGraph& shape);
     /// Drops all images. Must not be called while frames are in flight.
     void forget() { all_.clear(); }
     RetainedImages take() { return std::exchange(all_, {}); }

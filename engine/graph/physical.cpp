@@ -47,7 +47,7 @@ Physical adopt(const ImageDesc& desc, VkImage image) {
     return physical;
 }
 
-VkBufferImageCopy copy_region(const ImageDesc& desc, const Image& part) {
+VkBufferImageCopy copy_region(const ImageDesc& desc, const ImageHandle& part) {
     VkBufferImageCopy region{};
     region.imageSubresource = {aspect_of(desc.format), part.first_mip, part.first_layer,
                                part.layer_count};
@@ -56,10 +56,11 @@ VkBufferImageCopy copy_region(const ImageDesc& desc, const Image& part) {
     return region;
 }
 
-VkImageView Physical::view(const gpu::Device& device, gpu::ImageShape shape, const Image& part) {
-    using gpu::ImageShape;
+VkImageView Physical::view(const gpu::Device& device, gpu::ImageViewType shape,
+                           const ImageHandle& part) {
+    using gpu::ImageViewType;
     const std::uint32_t layer_count = part.layer_count;
-    const Key key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
+    const ImageViewKey key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
     if (const auto found = views_.find(key); found != views_.end()) return found->second;
     const auto wants = [&](bool ok, const char* what) {
         check(ok, Failure::internal, "image '", desc.name, "' has ", layer_count,
@@ -67,14 +68,14 @@ VkImageView Physical::view(const gpu::Device& device, gpu::ImageShape shape, con
     };
     VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     switch (shape) {
-    case ImageShape::flat:
+    case ImageViewType::flat:
         create.viewType = VK_IMAGE_VIEW_TYPE_2D, wants(layer_count == 1, "1");
         break;
-    case ImageShape::flat_array: create.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY; break;
-    case ImageShape::cube:
+    case ImageViewType::flat_array: create.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY; break;
+    case ImageViewType::cube:
         create.viewType = VK_IMAGE_VIEW_TYPE_CUBE, wants(layer_count == 6, "6");
         break;
-    case ImageShape::cube_array:
+    case ImageViewType::cube_array:
         create.viewType = VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, wants(layer_count % 6 == 0, "6 each");
         break;
     }

@@ -16,12 +16,12 @@ struct Physical {
     VkImage image = VK_NULL_HANDLE;
 
     /// Returns the view of the part's layers and mips. Each view is made once.
-    VkImageView view(const gpu::Device& device, gpu::ImageShape shape, const Image& part);
+    VkImageView view(const gpu::Device& device, gpu::ImageViewType shape, const ImageHandle& part);
 
 private:
-    using Key =
-        std::tuple<gpu::ImageShape, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-    std::map<Key, gpu::UniqueImageView> views_;
+    using ImageViewKey =
+        std::tuple<gpu::ImageViewType, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+    std::map<ImageViewKey, gpu::UniqueImageView> views_;
 };
 
 /// Returns the create info of an image of the graph, with every usage that its format allows.
@@ -32,6 +32,6 @@ Physical make_physical(const gpu::Device& device, const ImageDesc& desc);
 Physical adopt(const ImageDesc& desc, VkImage image);
 VkImageAspectFlags aspect_of(Format format);
 /// Returns the region that copies the part's layers and first mip from or to the start of a buffer.
-VkBufferImageCopy copy_region(const ImageDesc& desc, const Image& part);
+VkBufferImageCopy copy_region(const ImageDesc& desc, const ImageHandle& part);
 
 } // namespace catoptric::graph

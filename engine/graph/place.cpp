@@ -7,7 +7,7 @@ namespace catoptric::graph {
 
 namespace {
 
-struct Item {
+struct HeapItem {
     Placement* placement = nullptr;
     int rank = 0; ///< order in the heap: 0 shares, 1 is an output, 2 outlives the frame
 };
@@ -40,7 +40,7 @@ struct Shelf {
 using Shelves = std::vector<Shelf>; // shelves of one heap, from the lowest
 
 /// Returns the lowest aligned offset at which `item` overlaps nothing that is alive with it.
-std::uint64_t first_fit(const Item& item, const Shelves& shelves) {
+std::uint64_t first_fit(const HeapItem& item, const Shelves& shelves) {
     std::uint64_t offset = 0;
     for (const Shelf& shelf : shelves) {
         if (offset + item.placement->bytes <= shelf.offset) break;
@@ -59,7 +59,7 @@ void put(Shelves& shelves, const Placement& placement) {
     shelf->lives.insert(after, life);
 }
 
-Item size_up(Placement& placement, const Requirements& wanted, Lifetime lifetime) {
+HeapItem size_up(Placement& placement, const MemoryRequirements& wanted, Lifetime lifetime) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
     placement.alignment = alignment;
@@ -69,8 +69,8 @@ Item size_up(Placement& placement, const Requirements& wanted, Lifetime lifetime
 }
 
 /// Returns the used resources by rank, then the largest first, so that small ones fill the gaps.
-std::vector<Item> sized_items(const Graph& graph, const Sizer& sizer, Plan& plan) {
-    std::vector<Item> items;
+std::vector<HeapItem> sized_items(const Graph& graph, const Sizer& sizer, GraphPlan& plan) {
+    std::vector<HeapItem> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used && graph.lifetime(i) != Lifetime::imported)
             items.push_back(
@@ -79,7 +79,7 @@ std::vector<Item> sized_items(const Graph& graph, const Sizer& sizer, Plan& plan
         if (plan.buffers[b].used && !graph.is_imported({b}))
             items.push_back(
                 size_up(plan.buffers[b], sizer.buffer(graph.buffers()[b]), Lifetime::frame));
-    std::ranges::stable_sort(items, [](const Item& a, const Item& b) {
+    std::ranges::stable_sort(items, [](const HeapItem& a, const HeapItem& b) {
         return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
     });
     return items;
@@ -93,7 +93,7 @@ void mark(Placement& placement, std::uint32_t position) {
 
 } // namespace
 
-void find_lifetimes(const Graph& graph, const Accesses& all, Plan& plan) {
+void find_lifetimes(const Graph& graph, const Accesses& all, GraphPlan& plan) {
     plan.images.assign(graph.images().size(), {});
     plan.buffers.assign(graph.buffers().size(), {});
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position)
@@ -103,14 +103,14 @@ void find_lifetimes(const Graph& graph, const Accesses& all, Plan& plan) {
         plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != Lifetime::frame;
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         plan.buffers[b].alone = plan.buffers[b].used && graph.is_imported({b});
-    for (const Image& image : graph.output_images()) plan.images[image.id].alone = true;
-    for (const Buffer& buffer : graph.output_buffers()) plan.buffers[buffer.id].alone = true;
+    for (const ImageHandle& image : graph.output_images()) plan.images[image.id].alone = true;
+    for (const BufferHandle& buffer : graph.output_buffers()) plan.buffers[buffer.id].alone = true;
 }
 
-void place(const Graph& graph, const Sizer& sizer, Plan& plan) {
+void place(const Graph& graph, const Sizer& sizer, GraphPlan& plan) {
     std::vector<std::uint64_t> unshared; // per heap
     std::vector<Shelves> shelves;        // per heap
-    for (const Item& item : sized_items(graph, sizer, plan)) {
+    for (const HeapItem& item : sized_items(graph, sizer, plan)) {
         Placement& placement = *item.placement;
         if (placement.heap >= unshared.size()) {
             unshared.resize(placement.heap + 1, 0);

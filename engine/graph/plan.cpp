@@ -12,7 +12,7 @@ namespace catoptric::graph {
 
 namespace {
 
-void cull(const Graph& graph, const Accesses& all, Plan& plan) {
+void cull(const Graph& graph, const Accesses& all, GraphPlan& plan) {
     const std::vector<Fate> fates = graph::fates(graph, all);
     plan.passes.reserve(fates.size());
     for (std::uint32_t p = 0; p < fates.size(); ++p) {
@@ -31,7 +31,7 @@ bool has_own_memory(Lifetime lifetime) {
 
 /// Returns the bytes of the largest allocation. Each image that outlives the frame has its own
 /// allocation; all other resources of a heap share one.
-std::uint64_t largest_piece(const Graph& graph, const Plan& plan) {
+std::uint64_t largest_piece(const Graph& graph, const GraphPlan& plan) {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used)
@@ -43,7 +43,7 @@ std::uint64_t largest_piece(const Graph& graph, const Plan& plan) {
     return bytes;
 }
 
-void check_memory(const Graph& graph, const Plan& plan, const Limits& limits) {
+void check_memory(const Graph& graph, const GraphPlan& plan, const GraphLimits& limits) {
     const std::uint64_t piece = largest_piece(graph, plan);
     const bool too_much = plan.bytes > limits.max_memory;
     if (!too_much && piece <= limits.max_allocation) return;
@@ -70,9 +70,9 @@ void check_memory(const Graph& graph, const Plan& plan, const Limits& limits) {
 Sizer plain_sizer() {
     constexpr std::uint64_t kAlignment = 256;
     const auto padded = [](std::uint64_t bytes) {
-        return Requirements{.bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment,
-                            .alignment = kAlignment,
-                            .heap = 0};
+        return MemoryRequirements{.bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment,
+                                  .alignment = kAlignment,
+                                  .heap = 0};
     };
     return {.image =
                 [=](const ImageDesc& desc) {
@@ -84,10 +84,10 @@ Sizer plain_sizer() {
             .buffer = [=](const BufferDesc& desc) { return padded(desc.bytes); }};
 }
 
-Plan plan(const Graph& graph, const Limits& limits, const Sizer& sizer) {
+GraphPlan plan(const Graph& graph, const GraphLimits& limits, const Sizer& sizer) {
     const Accesses all(graph);
     validate(graph, all, limits);
-    Plan plan;
+    GraphPlan plan;
     cull(graph, all, plan);
     find_lifetimes(graph, all, plan);
     place(graph, sizer, plan);

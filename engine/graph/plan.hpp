@@ -7,7 +7,7 @@
 namespace catoptric::graph {
 
 /// Limits of a device. A graph that exceeds one is refused.
-struct Limits {
+struct GraphLimits {
     std::uint32_t max_size_2d = 16384;
     std::uint32_t max_size_cube = 16384;
     std::uint32_t max_layers = 2048;
@@ -18,14 +18,14 @@ struct Limits {
 
 /// Memory that a device needs for one image or buffer. Resources with different `heap` never share
 /// memory.
-struct Requirements {
+struct MemoryRequirements {
     std::uint64_t bytes = 0;
     std::uint64_t alignment = 1;
     std::uint32_t heap = 0;
 };
 struct Sizer {
-    std::function<Requirements(const ImageDesc&)> image;
-    std::function<Requirements(const BufferDesc&)> buffer;
+    std::function<MemoryRequirements(const ImageDesc&)> image;
+    std::function<MemoryRequirements(const BufferDesc&)> buffer;
 };
 /// Returns sizes without a device, for tests and for `graph`: texels times bytes, 256-byte aligned,
 /// one heap.
@@ -67,7 +67,7 @@ struct PlannedPass {
 };
 
 /// Where an image or buffer lies in memory, and its first and last pass as positions in
-/// `Plan::passes`.
+/// `GraphPlan::passes`.
 struct Placement {
     bool used = false;
     bool alone = false; ///< outlives the frame or is an output: shares no memory
@@ -85,7 +85,7 @@ struct Culled {
     std::string reason;
 };
 
-struct Plan {
+struct GraphPlan {
     std::vector<PlannedPass> passes;
     /// Barriers after the final pass, with the use that each resource is left for:
     /// - outputs: copy_from
@@ -110,6 +110,6 @@ struct Plan {
 /// declaration. Throws `internal` for an invalid graph, naming pass, image and both uses. Throws
 /// `exhausted` over a limit, naming the limit, the required and the allowed number. Costs O(n log
 /// n) in the uses of all passes, however many layers they have.
-Plan plan(const Graph& graph, const Limits& limits, const Sizer& sizer);
+GraphPlan plan(const Graph& graph, const GraphLimits& limits, const Sizer& sizer);
 
 } // namespace catoptric::graph

@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 namespace {
 
-std::uint64_t bytes_of(const ImageDesc& desc, const Image& part) {
+std::uint64_t bytes_of(const ImageDesc& desc, const ImageHandle& part) {
     std::uint64_t texels = 0;
     for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
         texels += std::uint64_t{at_mip(desc.width, m)} * at_mip(desc.height, m);
@@ -14,8 +14,8 @@ std::uint64_t bytes_of(const ImageDesc& desc, const Image& part) {
 }
 
 /// Records the copy of a part of an image to a buffer. The part is in layout `is` before and after.
-void copy_out(VkCommandBuffer commands, const Physical& source, const Image& part, VkImageLayout is,
-              VkBuffer target) {
+void copy_out(VkCommandBuffer commands, const Physical& source, const ImageHandle& part,
+              VkImageLayout is, VkBuffer target) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
@@ -42,10 +42,10 @@ void copy_out(VkCommandBuffer commands, const Physical& source, const Image& par
 
 } // namespace
 
-std::vector<std::byte> Runner::read(Ticket ticket, Image image) {
+std::vector<std::byte> Runner::read(Ticket ticket, ImageHandle image) {
     wait(ticket);
     const Slot& slot = slot_of(ticket);
-    Compiled& shape = *slot.shape;
+    CompiledGraph& shape = *slot.shape;
     const ImageDesc& desc = shape.outline.images()[image.id];
     const bool kept = shape.is_persistent(image.id);
     check(!kept || ticket.frame == frame_, Failure::internal, "image '", desc.name, "' of frame ",
@@ -57,7 +57,7 @@ std::vector<std::byte> Runner::read(Ticket ticket, Image image) {
     image.previous = kept && !slot.stays;
     const Physical& source = shape.physical(image, index_of(ticket.frame));
     const std::uint64_t bytes = bytes_of(desc, image);
-    gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUse::read_back);
+    gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUsage::read_back);
     device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         copy_out(commands, source, image, layout_of(kept ? Use::sampled : Use::copy_from),
                  target.handle());
@@ -67,12 +67,12 @@ std::vector<std::byte> Runner::read(Ticket ticket, Image image) {
     return data;
 }
 
-std::vector<std::byte> Runner::read(Ticket ticket, Buffer buffer) {
+std::vector<std::byte> Runner::read(Ticket ticket, BufferHandle buffer) {
     wait(ticket);
-    const Compiled& shape = *slot_of(ticket).shape;
+    const CompiledGraph& shape = *slot_of(ticket).shape;
     const auto& [name, bytes] = shape.outline.buffers()[buffer.id];
     const VkBuffer source = shape.buffer(buffer, index_of(ticket.frame));
-    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUse::read_back);
+    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUsage::read_back);
     device_.submit_now("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
         vkCmdCopyBuffer(commands, source, target.handle(), 1, &region);
@@ -85,12 +85,12 @@ std::vector<std::byte> Runner::read(Ticket ticket, Buffer buffer) {
 std::vector<std::byte> Runner::read_history() {
     std::vector<std::byte> history;
     if (frame_ == 0) return history;
-    const Compiled& shape = *slot_of({frame_}).shape;
+    const CompiledGraph& shape = *slot_of({frame_}).shape;
     for (std::uint32_t id = 0; id < shape.outline.images().size(); ++id) {
         if (!shape.is_persistent(id) || shape.outline.lifetime(id) != Lifetime::previous) continue;
         const ImageDesc& desc = shape.outline.images()[id];
         const std::vector<std::byte> image = read(
-            Image{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
+            ImageHandle{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
         history.insert(history.end(), image.begin(), image.end());
     }
     return history;

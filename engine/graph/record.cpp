@@ -27,9 +27,9 @@ gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
 }
 
 VkExtent2D extent_of(const Graph& graph, const Pass& pass) {
-    const Image& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
-                             return use.use == Use::colour || use.use == Use::depth;
-                         })->image;
+    const ImageHandle& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
+                                   return use.use == Use::colour || use.use == Use::depth;
+                               })->image;
     const ImageDesc& desc = graph.images()[image.id];
     return {at_mip(desc.width, image.first_mip), at_mip(desc.height, image.first_mip)};
 }
@@ -41,12 +41,12 @@ VkRect2D area_of(const Pass& pass, VkExtent2D extent) {
 }
 
 /// Stages and accesses on both sides of a barrier.
-struct Sides {
+struct BarrierScopes {
     Scope before, after;
 };
 
-Sides sides_of(const Barrier& barrier, bool last) {
-    Sides sides{scope_of(barrier.before), scope_of(barrier.after)};
+BarrierScopes sides_of(const Barrier& barrier, bool last) {
+    BarrierScopes sides{scope_of(barrier.before), scope_of(barrier.after)};
     for (const Touch& touch : barrier.shared) {
         const Scope scope = scope_of(touch);
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
@@ -63,7 +63,7 @@ Sides sides_of(const Barrier& barrier, bool last) {
 }
 
 template <typename VulkanBarrier>
-void set(VulkanBarrier& barrier, const Sides& sides) {
+void set(VulkanBarrier& barrier, const BarrierScopes& sides) {
     barrier.srcStageMask = sides.before.stages, barrier.srcAccessMask = sides.before.access;
     barrier.dstStageMask = sides.after.stages, barrier.dstAccessMask = sides.after.access;
 }
@@ -81,17 +81,17 @@ Recorder::Recorder(gpu::Device& device, gpu::Pipelines& pipelines)
         vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
-void Recorder::record(const Graph& graph, Compiled& shape, Slot& slot, std::size_t slot_index,
-                      Timing timing) {
+void Recorder::record(const Graph& graph, CompiledGraph& shape, Slot& slot, std::size_t slot_index,
+                      PassTiming timing) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index;
     commands_ = slot.commands;
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
     full_barrier();
-    if (timing == Timing::isolated) stamp(timing);
+    if (timing == PassTiming::isolated) stamp(timing);
     for (const PlannedPass& planned : shape.plan.passes) {
-        if (timing == Timing::pipelined) stamp(timing);
+        if (timing == PassTiming::pipelined) stamp(timing);
         barriers(planned.barriers, false);
         record_pass(planned);
         stamp(timing);
@@ -115,17 +115,17 @@ void Recorder::full_barrier() {
 
 /// Writes a timestamp. It is exact only if an execution barrier follows: without one, a software
 /// driver takes it after the next pass's work.
-void Recorder::stamp(Timing timing) {
+void Recorder::stamp(PassTiming timing) {
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries,
                          slot_->next_query++);
-    if (timing == Timing::isolated)
+    if (timing == PassTiming::isolated)
         vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                              VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 0,
                              nullptr);
 }
 
 void Recorder::add(const Barrier& barrier, bool last) {
-    const Sides sides = sides_of(barrier, last);
+    const BarrierScopes sides = sides_of(barrier, last);
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
         set(b, sides);
@@ -175,7 +175,7 @@ void Recorder::record_pass(const PlannedPass& planned) {
     if (end_label_) end_label_(commands_);
 }
 
-Physical& Recorder::physical(Image image) {
+Physical& Recorder::physical(ImageHandle image) {
     if (graph_->lifetime(image.id) != Lifetime::imported)
         return shape_->physical(image, slot_index_);
     Physical* const outside = graph_->outside(image.id);
@@ -184,7 +184,7 @@ Physical& Recorder::physical(Image image) {
     return *outside;
 }
 
-VkBuffer Recorder::buffer(Buffer buffer) const {
+VkBuffer Recorder::buffer(BufferHandle buffer) const {
     if (!graph_->is_imported(buffer)) return shape_->buffer(buffer, slot_index_);
     const gpu::Buffer* const outside = graph_->outside(buffer);
     check(outside, Failure::internal, "buffer '", graph_->buffers()[buffer.id].name,
@@ -194,8 +194,8 @@ VkBuffer Recorder::buffer(Buffer buffer) const {
 
 void Recorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                               std::uint32_t layer_count) {
-    const gpu::ImageShape shape = layer_count > 1 ? gpu::ImageShape::flat_array
-                                                  : gpu::ImageShape::flat;
+    const gpu::ImageViewType shape = layer_count > 1 ? gpu::ImageViewType::flat_array
+                                                     : gpu::ImageViewType::flat;
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = physical(use.image).view(device_, shape,
                                               use.image.layers(first_layer, layer_count));

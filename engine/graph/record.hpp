@@ -12,14 +12,14 @@ public:
     Recorder(gpu::Device& device, gpu::Pipelines& pipelines);
 
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
-    void record(const Graph& graph, Compiled& shape, Slot& slot, std::size_t slot_index,
-                Timing timing);
+    void record(const Graph& graph, CompiledGraph& shape, Slot& slot, std::size_t slot_index,
+                PassTiming timing);
 
     // For Commands only, during a pass's body.
     gpu::Device& device() { return device_; }
     gpu::Pipelines& pipelines() { return pipelines_; }
-    Physical& physical(Image image);
-    VkBuffer buffer(Buffer buffer) const;
+    Physical& physical(ImageHandle image);
+    VkBuffer buffer(BufferHandle buffer) const;
     VkSampler sampler(Filter filter) const { return samplers_[static_cast<std::size_t>(filter)]; }
     VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout) {
         return slot_->descriptor_set(layout);
@@ -33,7 +33,7 @@ private:
     void barriers(const std::vector<Barrier>& list, bool last);
     void add(const Barrier& barrier, bool last);
     void full_barrier();
-    void stamp(Timing timing);
+    void stamp(PassTiming timing);
 
     gpu::Device& device_;
     gpu::Pipelines& pipelines_;
@@ -43,7 +43,7 @@ private:
 
     // The frame that is being recorded.
     const Graph* graph_ = nullptr;
-    Compiled* shape_ = nullptr;
+    CompiledGraph* shape_ = nullptr;
     Slot* slot_ = nullptr;
     std::size_t slot_index_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

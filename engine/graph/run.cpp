@@ -1,5 +1,6 @@
 #include "graph/run.hpp"
 
+#include "core/stopwatch.hpp"
 #include "graph/device_memory.hpp"
 #include "graph/shape.hpp"
 #include "graph/stamps.hpp"
@@ -12,12 +13,10 @@ namespace catoptric::graph {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kShapes = 8;
 
-double milliseconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+double milliseconds_since(SteadyClock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
 }
 
 gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
@@ -32,7 +31,7 @@ gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
 
 /// Returns the number of the frame and the names of all its passes. A lost device does not tell
 /// which pass was running.
-std::string name_of_frame(std::uint64_t frame, const Compiled& shape) {
+std::string name_of_frame(std::uint64_t frame, const CompiledGraph& shape) {
     std::string name = "frame " + std::to_string(frame) + " (passes";
     for (const PlannedPass& planned : shape.plan.passes)
         name += " '" + shape.outline.passes()[planned.pass].name + "'";
@@ -40,8 +39,8 @@ std::string name_of_frame(std::uint64_t frame, const Compiled& shape) {
 }
 
 /// Fills passes and span from the timestamps of a frame that has ended.
-void read_stamps(gpu::Device& device, const Slot& slot, FrameTimes& times) {
-    const Compiled& shape = *slot.shape;
+void read_stamps(gpu::Device& device, const Slot& slot, GraphFrameTimes& times) {
+    const CompiledGraph& shape = *slot.shape;
     std::vector<std::uint64_t> stamps(slot.next_query);
     const VkResult result = vkGetQueryPoolResults(
         device.handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(), 8,
@@ -51,7 +50,7 @@ void read_stamps(gpu::Device& device, const Slot& slot, FrameTimes& times) {
     const std::vector<double> at = milliseconds_since_first(
         stamps, device.timestamp_bits(), static_cast<double>(device.limits().timestampPeriod));
     for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
-        const bool isolated = slot.timing == Timing::isolated;
+        const bool isolated = slot.timing == PassTiming::isolated;
         times.passes.push_back({shape.outline.passes()[shape.plan.passes[i].pass].name,
                                 isolated ? at[i] : at[2 * i],
                                 isolated ? at[i + 1] : at[2 * i + 1]});
@@ -101,20 +100,20 @@ void Runner::resume(RetainedImages leavings) {
     kept_.put(std::move(leavings));
 }
 
-Limits Runner::limits() const {
+GraphLimits Runner::limits() const {
     const VkPhysicalDeviceLimits& limits = device_.limits();
     return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
             limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
 }
 
-Compiled& Runner::compile(const Graph& graph) {
-    const Clock::time_point begin = Clock::now();
+CompiledGraph& Runner::compile(const Graph& graph) {
+    const SteadyClock::time_point begin = SteadyClock::now();
     const std::uint64_t hash = shape_hash(graph);
-    auto found = std::ranges::find_if(shapes_, [&](const std::shared_ptr<Compiled>& shape) {
+    auto found = std::ranges::find_if(shapes_, [&](const std::shared_ptr<CompiledGraph>& shape) {
         return shape->hash == hash && has_shape(graph, shape->outline);
     });
     if (found == shapes_.end()) {
-        auto made = std::make_shared<Compiled>();
+        auto made = std::make_shared<CompiledGraph>();
         made->plan = plan(graph, limits(), sizer_of(device_));
         made->outline = graph.without_bodies();
         made->hash = hash;
@@ -128,25 +127,26 @@ Compiled& Runner::compile(const Graph& graph) {
     return *shapes_.front();
 }
 
-Ticket Runner::submit(const Graph& graph, Timing timing, bool stays, const ExternalSync& outside) {
+Ticket Runner::submit(const Graph& graph, PassTiming timing, bool stays,
+                      const ExternalSync& outside) {
     device_.check_usable();
     const double waited_before = wait_ms_;
-    Compiled& shape = compile(graph);
+    CompiledGraph& shape = compile(graph);
     const std::size_t index = index_of(frame_ + 1);
     Slot& slot = slots_[index];
     finish(slot);
-    const Clock::time_point begin = Clock::now();
+    const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
     const auto wait = [this] { finish_all(); };
     memory_.provide(shape, index, shapes_, wait);
     kept_.provide(shape, wait);
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
-    FrameTimes times;
+    GraphFrameTimes times;
     times.compile_ms = compile_ms_ + milliseconds_since(begin) - (wait_ms_ - waited_for_place);
     times.wait_ms = wait_ms_ - waited_before;
     compile_ms_ = 0;
 
-    const Clock::time_point record_begin = Clock::now();
+    const SteadyClock::time_point record_begin = SteadyClock::now();
     recorder_.record(graph, shape, slot, index, timing);
     times.record_ms = milliseconds_since(record_begin);
     slot.times = times;
@@ -158,7 +158,7 @@ Ticket Runner::submit(const Graph& graph, Timing timing, bool stays, const Exter
     return {frame_};
 }
 
-void Runner::submit(Slot& slot, const Compiled& shape, const ExternalSync& outside) {
+void Runner::submit(Slot& slot, const CompiledGraph& shape, const ExternalSync& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
     const auto at = [](VkSemaphore semaphore, std::uint64_t value) {
@@ -178,7 +178,7 @@ void Runner::submit(Slot& slot, const Compiled& shape, const ExternalSync& outsi
     submit.signalSemaphoreInfoCount = outside.signal ? 2 : 1;
     submit.pSignalSemaphoreInfos = signals.data();
     device_.submit_uploads();
-    slot.submitted = Clock::now();
+    slot.submitted = SteadyClock::now();
     const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
         device_.check_alive(result, "run " + name_of_frame(frame_ + 1, shape));
@@ -189,7 +189,7 @@ void Runner::submit(Slot& slot, const Compiled& shape, const ExternalSync& outsi
 /// Waits for the frame of the slot, unless it was waited for before.
 void Runner::finish(Slot& slot) {
     if (slot.ended) return;
-    const Clock::time_point begin = Clock::now();
+    const SteadyClock::time_point begin = SteadyClock::now();
     const VkSemaphore semaphore = timeline_;
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     wait.semaphoreCount = 1;
@@ -235,7 +235,7 @@ bool Runner::has_ended(Ticket ticket) {
     return result == VK_SUCCESS;
 }
 
-const FrameTimes& Runner::wait(Ticket ticket) {
+const GraphFrameTimes& Runner::wait(Ticket ticket) {
     Slot& slot = slot_of(ticket);
     finish(slot);
     return slot.times;

@@ -45,10 +45,10 @@ public:
     /// Puts back contents from `suspend`, from which the next frame continues, and drops the
     /// present ones. Waits for the frames in flight.
     void resume(RetainedImages leavings);
-    Limits limits() const;
+    GraphLimits limits() const;
     /// Returns the plan of the graph's shape. The plans of the last 8 shapes are cached; others are
     /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan.
-    const Plan& compiled(const Graph& graph) { return compile(graph).plan; }
+    const GraphPlan& compiled(const Graph& graph) { return compile(graph).plan; }
     std::uint64_t plans_made() const { return plans_made_; }
     /// Returns the bytes of device memory for images and buffers of its graphs: as much as the
     /// largest of the last 8 shapes that ran, plus all images that outlive frames.
@@ -58,35 +58,35 @@ public:
     /// `stays`: the frame does not advance the history, so that the next frame sees the same last
     /// frame. Throws `exhausted`. Throws `device_lost` if a wait fails or the device refuses the
     /// frame.
-    Ticket submit(const Graph& graph, Timing timing, bool stays = false,
+    Ticket submit(const Graph& graph, PassTiming timing, bool stays = false,
                   const ExternalSync& outside = {});
     /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
     /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
     /// has taken its slot.
-    const FrameTimes& wait(Ticket ticket);
+    const GraphFrameTimes& wait(Ticket ticket);
     /// Returns whether the frame has ended, without waiting. Throws `device_lost`.
     bool has_ended(Ticket ticket);
-    FrameTimes run(const Graph& graph, Timing timing, bool stays = false) {
+    GraphFrameTimes run(const Graph& graph, PassTiming timing, bool stays = false) {
         return wait(submit(graph, timing, stays));
     }
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.
     /// An image that outlives frames can be read until the next frame is submitted.
-    std::vector<std::byte> read(Ticket ticket, Image image);
-    std::vector<std::byte> read(Ticket ticket, Buffer buffer);
+    std::vector<std::byte> read(Ticket ticket, ImageHandle image);
+    std::vector<std::byte> read(Ticket ticket, BufferHandle buffer);
     /// Reads from the frame that was submitted last.
-    std::vector<std::byte> read(Image image) { return read(Ticket{frame_}, image); }
-    std::vector<std::byte> read(Buffer buffer) { return read(Ticket{frame_}, buffer); }
+    std::vector<std::byte> read(ImageHandle image) { return read(Ticket{frame_}, image); }
+    std::vector<std::byte> read(BufferHandle buffer) { return read(Ticket{frame_}, buffer); }
     /// Returns the texels of all images with a `previous`, one after another: all that the next
     /// frame can see of the last one. Empty if no such image exists.
     std::vector<std::byte> read_history();
 
 private:
-    Compiled& compile(const Graph& graph);
+    CompiledGraph& compile(const Graph& graph);
     Slot& slot_of(Ticket ticket);
     std::size_t index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
-    void submit(Slot& slot, const Compiled& shape, const ExternalSync& outside);
+    void submit(Slot& slot, const CompiledGraph& shape, const ExternalSync& outside);
     void finish(Slot& slot);
     void finish_all();
     void release_persistent();
@@ -96,7 +96,7 @@ private:
     gpu::UniqueSemaphore timeline_;
     FrameMemory memory_;
     PersistentImages kept_;
-    std::vector<std::shared_ptr<Compiled>> shapes_; ///< most recently used first
+    std::vector<std::shared_ptr<CompiledGraph>> shapes_; ///< most recently used first
     std::vector<Slot> slots_;
     std::uint64_t frame_ = 0; ///< number of the frame submitted last
     std::uint64_t plans_made_ = 0;

@@ -34,7 +34,7 @@ void add(Hash& hash, const ImageDesc& desc) {
     hash.add(desc.mips);
 }
 
-void add(Hash& hash, const Image& image) {
+void add(Hash& hash, const ImageHandle& image) {
     hash.add(image.id << 1 | image.previous, image.first_layer);
     hash.add(image.layer_count);
     hash.add(image.first_mip, image.mip_count);
@@ -112,8 +112,8 @@ std::uint64_t shape_hash(const Graph& graph) {
     }
     for (const ContentRecord& stamped : graph.stamps()) add(hash, stamped.part);
     for (const Pass& pass : graph.passes()) add(hash, pass);
-    for (const Image& image : graph.output_images()) add(hash, image);
-    for (const Buffer& buffer : graph.output_buffers()) hash.add(buffer.id);
+    for (const ImageHandle& image : graph.output_images()) add(hash, image);
+    for (const BufferHandle& buffer : graph.output_buffers()) hash.add(buffer.id);
     return hash.value();
 }
 

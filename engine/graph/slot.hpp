@@ -1,10 +1,10 @@
 #pragma once
 
+#include "core/stopwatch.hpp"
 #include "gpu/device.hpp"
-#include "graph/compiled.hpp"
+#include "graph/compiled_graph.hpp"
 #include "graph/frame_times.hpp"
 
-#include <chrono>
 #include <memory>
 
 namespace catoptric::graph {
@@ -26,10 +26,10 @@ public:
     std::uint64_t frame = 0; ///< from 1; 0: none yet
     bool ended = true;       ///< whether it was waited for
     bool stays = false;
-    Timing timing = Timing::isolated;
-    std::shared_ptr<Compiled> shape;
-    std::chrono::steady_clock::time_point submitted;
-    FrameTimes times;
+    PassTiming timing = PassTiming::isolated;
+    std::shared_ptr<CompiledGraph> shape;
+    SteadyClock::time_point submitted;
+    GraphFrameTimes times;
 
 private:
     const gpu::Device& device_;

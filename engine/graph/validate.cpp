@@ -41,7 +41,7 @@ void check_names(const Graph& graph) {
     }
 }
 
-void check_image(const ImageDesc& desc, const Limits& limits) {
+void check_image(const ImageDesc& desc, const GraphLimits& limits) {
     check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kInvalidGraph, "image '", desc.name,
           "' is empty: ", desc.width, "x", desc.height, ", ", desc.layers, " layers");
     check(!desc.cube || desc.layers % 6 == 0, kInvalidGraph, "image '", desc.name,
@@ -153,7 +153,7 @@ void check_previous(const Graph& graph, const Accesses& all, const Ledger<char>&
 }
 
 void check_outputs(const Graph& graph, const Ledger<char>& written) {
-    for (const Image& image : graph.output_images()) {
+    for (const ImageHandle& image : graph.output_images()) {
         check(image.id < graph.images().size(), kInvalidGraph, "image number ", image.id,
               " is wanted, but the graph has ", graph.images().size());
         const Access a = access_to(image);
@@ -170,7 +170,7 @@ void check_outputs(const Graph& graph, const Ledger<char>& written) {
         const std::string missing = missing_layers(graph, written, a);
         check(missing.empty(), kInvalidGraph, what, " is wanted, but no pass writes ", missing);
     }
-    for (const Buffer& buffer : graph.output_buffers()) {
+    for (const BufferHandle& buffer : graph.output_buffers()) {
         check(buffer.id < graph.buffers().size(), kInvalidGraph, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
         const Access a{.is_buffer = true, .id = buffer.id};
@@ -183,7 +183,7 @@ void check_outputs(const Graph& graph, const Ledger<char>& written) {
 
 } // namespace
 
-void validate(const Graph& graph, const Accesses& all, const Limits& limits) {
+void validate(const Graph& graph, const Accesses& all, const GraphLimits& limits) {
     check_names(graph);
     for (const ImageDesc& desc : graph.images()) check_image(desc, limits);
     for (const BufferDesc& desc : graph.buffers())

@@ -9,10 +9,10 @@ constexpr auto kInvalidGraph = Failure::internal;
 
 /// Throws if a graph is contradictory (`Failure::internal`) or exceeds a limit
 /// (`Failure::exhausted`). Checks every declared pass, also those that will be culled.
-void validate(const Graph& graph, const Accesses& all, const Limits& limits);
+void validate(const Graph& graph, const Accesses& all, const GraphLimits& limits);
 
 /// Checks one pass by itself: handles, uses, attachments, conflicts. Throws like `validate`.
 void validate_pass(const Graph& graph, const Pass& pass, std::span<const Access> all,
-                   const Limits& limits);
+                   const GraphLimits& limits);
 
 } // namespace catoptric::graph

@@ -162,7 +162,7 @@ void check_pairs(const Graph& graph, const Pass& pass, std::span<const Access> a
 } // namespace
 
 void validate_pass(const Graph& graph, const Pass& pass, std::span<const Access> all,
-                   const Limits& limits) {
+                   const GraphLimits& limits) {
     check(static_cast<bool>(pass.body), kInvalidGraph, "pass '", pass.name, "' has no body");
     check(pass.layer_count > 0, kInvalidGraph, "pass '", pass.name, "' renders 0 layers");
     for (const Access& a : all) {

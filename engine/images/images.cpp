@@ -137,7 +137,7 @@ void close(ImageCodecs::Picture* picture) noexcept { delete picture; }
 
 /// Encodes to memory, because OpenImageIO's writers report success on a full disk. PNG is supported
 /// to test core/png.cpp against.
-CodecResult encode(const std::string& format, const ImageCodecs::Values& picture,
+CodecResult encode(const std::string& format, const ImageCodecs::ModuleValues& picture,
                    std::string& bytes) noexcept {
     return without_exceptions([&]() -> CodecResult {
         const OIIO::TypeDesc type = type_of(picture.type);

@@ -94,7 +94,7 @@ const Registered kMaxAt{{.name = "max_at",
                          .help = "pixel with the largest channel difference",
                          .order = 110,
                          .get = [](const Difference& error) -> Value {
-                             return Place{error.max_x, error.max_y};
+                             return PixelPosition{error.max_x, error.max_y};
                          }}};
 
 const Registered kMean{{.name = "mean",
@@ -110,14 +110,14 @@ const Registered kMeanClamped{
      .get = [](const Row& row) -> Value { return row.mean_clamped.rgb; }}};
 
 /// Differences of the pixels of a short run. `largest` is NaN where a pixel is not finite.
-struct Run {
+struct PixelRun {
     static constexpr std::size_t kPixels = 256;
     std::array<double, kPixels> largest, square, absolute;
 };
 
 /// Fills `run` with the differences of `count` pixels of three values each.
 CATOPTRIC_WIDE void take_apart(const float* __restrict a, const float* __restrict b,
-                               std::size_t count, Run& run) {
+                               std::size_t count, PixelRun& run) {
     double* __restrict const largest = run.largest.data();
     double* __restrict const square = run.square.data();
     double* __restrict const absolute = run.absolute.data();
@@ -143,8 +143,8 @@ CATOPTRIC_WIDE void take_apart(const float* __restrict a, const float* __restric
 
 void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
                         std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
-    for (std::size_t first = 0; first < a.size(); first += Run::kPixels) {
-        const std::size_t count = std::min(Run::kPixels, a.size() - first);
+    for (std::size_t first = 0; first < a.size(); first += PixelRun::kPixels) {
+        const std::size_t count = std::min(PixelRun::kPixels, a.size() - first);
         const auto part = [&](auto values) {
             return values.empty() ? values : values.subspan(first, count);
         };
@@ -154,7 +154,7 @@ void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
 
 void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
                             std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
-    Run run;
+    PixelRun run;
     take_apart(&a[0].x, &b[0].x, a.size(), run);
     const std::size_t first = off_.size();
     off_.resize(first + a.size());

@@ -34,7 +34,7 @@ struct Difference {
     double off = kNone; ///< share of the finite pixels of the mask that are off (kOff), 0..1
     /// Longest line of pixels that are off, in pixels: `longest_line` of measure/lines.hpp.
     double longest_line = kNone;
-    /// Values of the metrics that are computed from pictures (Metric::OfPictures).
+    /// Values of the metrics that are computed from pictures (Metric::PictureFunction).
     std::vector<double> others;
 };
 

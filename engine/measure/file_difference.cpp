@@ -18,9 +18,9 @@ namespace {
 constexpr int kBandPixels = 1 << 21; // pixels of a band; a band has at least one row
 
 /// Window on a picture: the rows that one band and its surroundings need.
-class Window {
+class RowWindow {
 public:
-    explicit Window(PictureReader reader) : reader_(std::move(reader)) {}
+    explicit RowWindow(PictureReader reader) : reader_(std::move(reader)) {}
 
     /// Returns the rows [first, end). Rows that the window already holds are not read again.
     const Picture& show(int first, int end) {
@@ -95,7 +95,7 @@ FileDifference difference_of_files(const std::filesystem::path& a, const std::fi
     if (!mask_file.empty()) mask = read_mask(mask_file, width, height);
 
     const bool is_of_bytes = is_png(a) || is_png(b);
-    Window window_a(std::move(of_a)), window_b(std::move(of_b));
+    RowWindow window_a(std::move(of_a)), window_b(std::move(of_b));
     DifferenceSum sum(width, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     MeanSum a_mean, b_mean;
     FlipOfParts flip(exposure_stops, is_of_bytes);

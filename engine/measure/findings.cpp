@@ -26,7 +26,6 @@ std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison) {
 }
 
 std::optional<ClearFinding> find_clears(const Comparison& comparison) {
-    using Verdict = ClearFinding::Verdict;
     const Row* one = find_naive(comparison, 0);
     const Row* two = find_row(comparison, "reuse");
     if (one == nullptr || two == nullptr) return {};
@@ -40,15 +39,15 @@ std::optional<ClearFinding> find_clears(const Comparison& comparison) {
     with_clear.resize(std::min(with_clear.size(), clears.size()));
     for (std::size_t i = 0; i < with_clear.size(); ++i) with_clear[i] += clears[i];
     if (finding.one_is_slower)
-        finding.verdict = Verdict::slower_without;
+        finding.verdict = ClearFinding::ClearVerdict::slower_without;
     else if (!(ratio_interval(with_clear, two->time_ms().rounds).low > 1))
-        finding.verdict = Verdict::too_little;
+        finding.verdict = ClearFinding::ClearVerdict::too_little;
     return finding;
 }
 
 std::optional<StoredDistanceFinding> find_stored_distance(const Comparison& comparison) {
     const auto eight_bits = [&](std::string_view range) -> const Row* {
-        const Wanted wanted[] = {{"distance", "unorm8"}, {"range", range}};
+        const KnobText wanted[] = {{"distance", "unorm8"}, {"range", range}};
         const Row* row = find_row(comparison, "parallax", wanted);
         return judged(row) ? row : nullptr;
     };

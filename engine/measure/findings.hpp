@@ -25,7 +25,7 @@ std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison);
 /// Answer to whether clearing cubes explains why part one without inter-reflections, which renders
 /// and clears no cube, is slower than part two.
 struct ClearFinding {
-    enum class Verdict {
+    enum class ClearVerdict {
         slower_without, ///< part one is slower even without a clear
         too_little,     ///< with the clear added, part one is still not slower than part two
         explains
@@ -34,7 +34,7 @@ struct ClearFinding {
     bool one_is_slower = false;
     /// Time to clear all mirrors' cubes; empty if not measured, and then `verdict` says nothing.
     std::optional<double> clear_ms;
-    Verdict verdict = Verdict::explains;
+    ClearVerdict verdict = ClearVerdict::explains;
     /// Excess of part one with a clear over part two, as a share of part two's time.
     double gap = 0;
 };

@@ -121,7 +121,7 @@ int colour_radius(double pixels_per_degree) {
 using Channels = std::array<Plane, 3>;
 
 /// Part of a picture: pixels from `low` up to but excluding `high`.
-struct Part {
+struct PixelRegion {
     ivec2 low, high;
 };
 
@@ -137,7 +137,7 @@ CATOPTRIC_WIDE void make_opponent(double* __restrict x, double* __restrict y, do
 
 /// Writes the opponent colours of a part of a displayed picture with a border of `reach` pixels.
 /// Beyond the picture, its outermost pixels are repeated.
-void find_opponent(const Picture& display, const Part& part, int reach, Channels& result) {
+void find_opponent(const Picture& display, const PixelRegion& part, int reach, Channels& result) {
     const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
     const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
     for (Plane& plane : result) plane.resize(size.x, size.y);
@@ -279,13 +279,13 @@ struct Kernels {
 };
 
 /// Data of one picture that FLIP compares.
-struct Seen {
+struct FlipInput {
     Channels colour;   ///< filtered, clamped to the gamut, in the perceptually uniform space
     Plane edge, point; ///< strength of an edge and of a point at each pixel
 };
 
 /// Writes the distances of colours and of features, pixel by pixel.
-CATOPTRIC_WIDE void compare(const Seen& a, const Seen& b, float* __restrict colours,
+CATOPTRIC_WIDE void compare(const FlipInput& a, const FlipInput& b, float* __restrict colours,
                             float* __restrict features) {
     const std::size_t count = a.edge.values.size();
     const double *a_x = a.colour[0].values.data(), *a_y = a.colour[1].values.data(),
@@ -308,7 +308,7 @@ public:
     explicit PartOfMap(const Kernels& kernels) : kernels_(kernels) {}
 
     /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
-    void write(const Picture& a, const Picture& b, const Part& part, float* to,
+    void write(const Picture& a, const Picture& b, const PixelRegion& part, float* to,
                std::ptrdiff_t stride) {
         see(a, part, a_);
         see(b, part, b_);
@@ -321,7 +321,7 @@ public:
     }
 
 private:
-    void see(const Picture& display, const Part& part, Seen& seen) {
+    void see(const Picture& display, const PixelRegion& part, FlipInput& seen) {
         find_opponent(display, part, kernels_.reach, opponent_);
         const auto& [achromatic, red_green, blue_yellow] = opponent_;
         const ColourKernels& colour = kernels_.colour;
@@ -352,7 +352,7 @@ private:
     const Kernels& kernels_;
     Channels opponent_;
     Plane part_, part_2_, smooth_x_;
-    Seen a_, b_;
+    FlipInput a_, b_;
     std::vector<float> colours_, features_;
     ColourDifference colour_difference_;
 };

@@ -106,7 +106,7 @@ const Registered kTraced{
      .mask = "mirrors",
      .better = Better::less,
      .order = 220,
-     .columns = {{"Traced, %", Style::percent, 2, InTable::lookup, 999}},
+     .columns = {{"Traced, %", Style::percent, 2, MetricTable::lookup, 999}},
      .get = [](const Row& row) -> Value { return or_nothing(row.traced_fraction); }}};
 const Registered kAutoEdge{{.name = "auto_face/edge",
                             .unit = "texels",

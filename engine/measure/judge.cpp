@@ -71,8 +71,8 @@ std::vector<std::size_t> front_of(const std::vector<Row>& rows) {
     return front;
 }
 
-Places places_in_time(const Comparison& comparison, const Row& row) {
-    Places places{1, comparison.rows.size()};
+PlaceRange places_in_time(const Comparison& comparison, const Row& row) {
+    PlaceRange places{1, comparison.rows.size()};
     for (const Row& other : comparison.rows) {
         places.first += is_faster(other, row);
         places.last -= is_faster(row, other);

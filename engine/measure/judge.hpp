@@ -38,10 +38,10 @@ std::vector<std::size_t> front_of(const std::vector<Row>& rows);
 /// Places of a row in the order of time, from 1. `first` is one more than the number of rows that
 /// are faster. `last` is the number of rows less those that this row is faster than. Rows that tie
 /// share places.
-struct Places {
+struct PlaceRange {
     std::size_t first = 1, last = 1;
 };
-Places places_in_time(const Comparison& comparison, const Row& row);
+PlaceRange places_in_time(const Comparison& comparison, const Row& row);
 
 /// Returns the rows whose threads waited for processors that other programs used.
 std::vector<const Row*> noisy_rows(const Comparison& comparison);

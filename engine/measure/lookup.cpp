@@ -25,7 +25,7 @@ const Registered kPixels{
      .help = "number of mirror pixels whose reflected ray meets no second mirror",
      .mask = kFirstOrder,
      .order = 260,
-     .columns = {{"Pixels", Style::fixed, 0, InTable::lookup}},
+     .columns = {{"Pixels", Style::fixed, 0, MetricTable::lookup}},
      .get = [](const Row& row) -> Value {
          return row.lookup ? static_cast<double>(row.lookup->pixels) : NAN;
      }}};
@@ -35,7 +35,7 @@ const Registered kMean{{.name = "lookup/mean_degrees",
                         .mask = kFirstOrder,
                         .better = Better::less,
                         .order = 261,
-                        .columns = {{"Mean, degrees", Style::fixed, 3, InTable::lookup}},
+                        .columns = {{"Mean, degrees", Style::fixed, 3, MetricTable::lookup}},
                         .get = figure<&LookupError::mean_degrees>}};
 const Registered kP95{
     {.name = "lookup/p95_degrees",
@@ -44,7 +44,7 @@ const Registered kP95{
      .mask = kFirstOrder,
      .better = Better::less,
      .order = 262,
-     .columns = {{"95 %", Style::fixed, 2, InTable::lookup}},
+     .columns = {{"95 %", Style::fixed, 2, MetricTable::lookup}},
      .get = figure<&LookupError::p95_degrees>}};
 const Registered kP99{
     {.name = "lookup/p99_degrees",
@@ -53,7 +53,7 @@ const Registered kP99{
      .mask = kFirstOrder,
      .better = Better::less,
      .order = 263,
-     .columns = {{"99 %", Style::fixed, 2, InTable::lookup}},
+     .columns = {{"99 %", Style::fixed, 2, MetricTable::lookup}},
      .get = figure<&LookupError::p99_degrees>}};
 const Registered kWrongObject{
     {.name = "lookup/wrong_object",
@@ -61,20 +61,20 @@ const Registered kWrongObject{
      .mask = kFirstOrder,
      .better = Better::less,
      .order = 264,
-     .columns = {{"Wrong object, %", Style::percent, 2, InTable::lookup}},
+     .columns = {{"Wrong object, %", Style::percent, 2, MetricTable::lookup}},
      .get = figure<&LookupError::wrong_object>}};
 const Registered kUnknown{{.name = "lookup/unknown",
                            .help = "share of the pixels whose search answers unknown",
                            .mask = kFirstOrder,
                            .better = Better::less,
                            .order = 265,
-                           .columns = {{"Unknown, %", Style::percent, 2, InTable::lookup}},
+                           .columns = {{"Unknown, %", Style::percent, 2, MetricTable::lookup}},
                            .get = figure<&LookupError::unknown>}};
 const Registered kMiss{{.name = "lookup/miss",
                         .help = "share of the pixels whose search answers miss",
                         .mask = kFirstOrder,
                         .order = 266,
-                        .columns = {{"Miss, %", Style::percent, 2, InTable::lookup}},
+                        .columns = {{"Miss, %", Style::percent, 2, MetricTable::lookup}},
                         .get = figure<&LookupError::miss>}};
 const Registered kResidual{
     {.name = "lookup/p95_residual",

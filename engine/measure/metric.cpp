@@ -15,7 +15,7 @@ std::vector<Metric>& table() {
 }
 
 bool is_of_row(const Metric& quantity) {
-    return std::holds_alternative<Metric::OfRow>(quantity.get);
+    return std::holds_alternative<Metric::RowFunction>(quantity.get);
 }
 
 std::vector<Metric> in_order() {
@@ -32,7 +32,7 @@ std::size_t index_of(const Metric& quantity) {
     std::size_t index = 0;
     for (const Metric& row : metrics()) {
         if (row.name == quantity.name) break;
-        index += std::holds_alternative<Metric::OfPictures>(row.get);
+        index += std::holds_alternative<Metric::PictureFunction>(row.get);
     }
     return index;
 }
@@ -70,13 +70,13 @@ const std::vector<Metric>& difference_metrics() {
 
 Value value_of(const Metric& quantity, const Row& row) {
     check(is_of_row(quantity), Failure::internal, "'", quantity.name, "' is no figure of a row");
-    return std::get<Metric::OfRow>(quantity.get)(row);
+    return std::get<Metric::RowFunction>(quantity.get)(row);
 }
 
 Value value_of(const Metric& quantity, const Difference& difference) {
     check(!is_of_row(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a difference");
-    if (const auto* get = std::get_if<Metric::OfDifference>(&quantity.get))
+    if (const auto* get = std::get_if<Metric::DifferenceFunction>(&quantity.get))
         return (*get)(difference);
     const std::size_t index = index_of(quantity);
     return index < difference.others.size() ? difference.others[index] : NAN;
@@ -90,7 +90,7 @@ bool is_nothing(const Value& value) {
         bool operator()(const dvec3& colour) const {
             return !std::isfinite(colour.x + colour.y + colour.z);
         }
-        bool operator()(const Place& place) const { return place.x < 0; }
+        bool operator()(const PixelPosition& place) const { return place.x < 0; }
         bool operator()(const Summary& times) const { return times.n == 0; }
         bool operator()(const std::vector<double>& list) const { return list.empty(); }
         bool operator()(const std::vector<Parts>& list) const { return list.empty(); }
@@ -101,7 +101,7 @@ bool is_nothing(const Value& value) {
 std::vector<double> other_figures(const Compared& compared) {
     std::vector<double> figures;
     for (const Metric& quantity : metrics())
-        if (const auto* get = std::get_if<Metric::OfPictures>(&quantity.get))
+        if (const auto* get = std::get_if<Metric::PictureFunction>(&quantity.get))
             figures.push_back((*get)(compared));
     return figures;
 }

@@ -16,7 +16,7 @@
 namespace catoptric::measure {
 
 /// Position of a pixel, counted from the upper left. A negative x means none.
-struct Place {
+struct PixelPosition {
     int x = -1, y = -1;
 };
 
@@ -24,8 +24,8 @@ struct Parts;
 
 /// Value of a metric. A double that is not finite, a time that was never measured and an invalid
 /// place count as no value (see is_nothing).
-using Value = std::variant<std::monostate, bool, double, dvec3, Place, Summary, std::vector<double>,
-                           std::vector<Parts>>;
+using Value = std::variant<std::monostate, bool, double, dvec3, PixelPosition, Summary,
+                           std::vector<double>, std::vector<Parts>>;
 
 /// One of several entries of one kind, such as a pass or a cause, with its values.
 struct Parts {
@@ -46,14 +46,14 @@ enum class Style : std::uint8_t {
     percent,       ///< a share in percent, with a fixed number of decimals
     mebibytes,
 };
-enum class InTable : std::uint8_t { rows, lookup };
+enum class MetricTable : std::uint8_t { rows, lookup };
 
 /// Column of the report's tables.
-struct Column {
+struct MetricColumn {
     std::string_view title;
     Style style = Style::error;
     int decimals = 0;
-    InTable table = InTable::rows;
+    MetricTable table = MetricTable::rows;
     int order = 0; ///< place among the table's columns; 0 means the metric's order
 };
 
@@ -78,14 +78,14 @@ struct Metric {
     int order = 1000;             ///< place in files and lists; equal orders are sorted by name
     bool only_where_true = false; ///< whether JSON leaves this mark out if it is false
     bool each_mask_in_table = false;
-    std::vector<Column> columns = {}; ///< columns in the report's tables; may be empty
+    std::vector<MetricColumn> columns = {}; ///< columns in the report's tables; may be empty
 
-    using OfRow = Value (*)(const Row&);
-    using OfDifference = Value (*)(const Difference&);
+    using RowFunction = Value (*)(const Row&);
+    using DifferenceFunction = Value (*)(const Difference&);
     /// Computed with each difference. The value is finite or counts as none. The cost arises again
     /// for each mask.
-    using OfPictures = double (*)(const Compared&);
-    std::variant<OfRow, OfDifference, OfPictures> get;
+    using PictureFunction = double (*)(const Compared&);
+    std::variant<RowFunction, DifferenceFunction, PictureFunction> get;
 };
 
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program

@@ -39,7 +39,7 @@ std::string format_of(const ByteSource& bytes, const std::string& name) {
     return format;
 }
 
-ImageReader::Judge judge_of(const std::string& name, const PictureReader::Judge& judge) {
+ImageReader::ShapeCheck judge_of(const std::string& name, const PictureReader::Judge& judge) {
     return [&name, &judge](const ImageShape& shape) {
         if (judge) judge(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
         check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMostValues,

@@ -9,7 +9,7 @@
 namespace catoptric::measure {
 
 /// Knob and the value it must have, as the user types it.
-struct Wanted {
+struct KnobText {
     std::string_view knob;
     std::string_view text;
 };
@@ -17,7 +17,7 @@ struct Wanted {
 /// Returns the first row of `technique` with the wanted values and all other knobs at their
 /// defaults, or null.
 const Row* find_row(const Comparison& comparison, std::string_view technique,
-                    std::span<const Wanted> wanted = {});
+                    std::span<const KnobText> wanted = {});
 /// Return the row of part one with `bounces` inter-reflections, of part three, and of ray tracing,
 /// each with its default knobs. Null if there is none.
 const Row* find_naive(const Comparison& comparison, int bounces);

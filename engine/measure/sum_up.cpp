@@ -16,7 +16,7 @@ struct Sums {
 };
 
 /// Mirror pixels and which of them count.
-struct Pixels {
+struct MirrorPixels {
     std::span<const std::uint32_t> hits; ///< first hits of the whole picture
     std::vector<std::size_t> places;     ///< indices of mirror pixels in the picture
     std::vector<bool> counts;            ///< whether each of `places` counts
@@ -35,9 +35,9 @@ struct Pixels {
     }
 };
 
-Pixels pixels_of(std::span<const std::uint32_t> hits, std::span<const double> whole,
-                 const std::vector<PixelCause>& causes) {
-    Pixels pixels{hits, mirror_pixels(hits), {}, 0};
+MirrorPixels pixels_of(std::span<const std::uint32_t> hits, std::span<const double> whole,
+                       const std::vector<PixelCause>& causes) {
+    MirrorPixels pixels{hits, mirror_pixels(hits), {}, 0};
     const auto check_size = [&](std::size_t size, const std::string& what) {
         check(size == pixels.places.size(), Failure::internal, what, ": wanted values of ",
               pixels.places.size(), " mirror pixels, found ", size);
@@ -67,7 +67,7 @@ std::vector<double> means(const std::vector<double>& sums, const std::vector<dou
     return means;
 }
 
-std::vector<std::uint8_t> largest(const Pixels& pixels, const Mask& off,
+std::vector<std::uint8_t> largest(const MirrorPixels& pixels, const Mask& off,
                                   const std::vector<PixelCause>& causes) {
     std::vector<std::uint8_t> largest(pixels.hits.size());
     for (std::size_t i = 0; i < pixels.places.size(); ++i) {
@@ -90,7 +90,7 @@ std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits) {
 
 Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off, std::span<const double> whole,
               const std::vector<PixelCause>& causes) {
-    const Pixels pixels = pixels_of(hits, whole, causes);
+    const MirrorPixels pixels = pixels_of(hits, whole, causes);
     const Sums counts = pixels.sums(std::vector<double>(whole.size(), 1.0)),
                row = pixels.sums(whole);
     if (counts.all() == 0) return {};

@@ -16,9 +16,9 @@ std::optional<std::uint32_t> map_edge(const Settings& settings) {
 }
 
 /// Shadow maps by edge in texels. Each is added to the graph once.
-class Maps {
+class ShadowMaps {
 public:
-    Maps(graph::Graph& graph, const render::FrameInputs& inputs, const require::Model& model)
+    ShadowMaps(graph::Graph& graph, const render::FrameInputs& inputs, const require::Model& model)
         : graph_(graph), inputs_(inputs), model_(model) {}
 
     render::Lighting of(std::optional<std::uint32_t> edge) {
@@ -51,7 +51,8 @@ std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices) {
 /// Returns the capture options of each mirror: those of its technique, extended by the data that
 /// searches need which read captures of other mirrors.
 std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs& inputs,
-                                                       const Assignment& assignment, Maps& maps,
+                                                       const Assignment& assignment,
+                                                       ShadowMaps& maps,
                                                        const render::Lighting& view_lighting) {
     std::vector<render::CaptureOptions> of_choice;
     render::CaptureOptions shared;
@@ -113,7 +114,7 @@ bool has_mirrored_views(const Choice& choice) {
 /// of the frame before. Returns an empty update if no technique needs captures.
 render::CaptureUpdate add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
                                    const Assignment& assignment, const CaptureHistory& keeping,
-                                   Maps& maps, const render::Lighting& view_lighting) {
+                                   ShadowMaps& maps, const render::Lighting& view_lighting) {
     // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, has_mirrored_views);
@@ -168,7 +169,7 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
                   const Assignment& assignment, const CaptureHistory& keeping) {
     const std::vector<Choice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
-    Maps maps(graph, inputs, keeping.model);
+    ShadowMaps maps(graph, inputs, keeping.model);
     const render::Lighting lighting = maps.of(view_map_edge(choices));
     if (!is_mixed && choices.front().technique->picture)
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
@@ -203,8 +204,8 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         std::ranges::move(add_mirrored(graph, inputs, assignment, lighting,
                                        looks_in_mirrors(outputs, assignment, looks), looks),
                           std::back_inserter(outputs.notes));
-    const render::View view = render::add_view(graph, inputs, lighting, std::move(looks),
-                                               !tracers.empty());
+    const render::CameraOutputs view = render::add_view(graph, inputs, lighting, std::move(looks),
+                                                        !tracers.empty());
     outputs.hdr = view.hdr;
     if (inputs.with_lookup) outputs.lookup = view.lookup;
     for (std::uint32_t i = 0; i < tracers.size(); ++i)

@@ -27,7 +27,7 @@ MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& se
     // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
     // binding.
     const auto images = [&](const char* name, auto&& image) {
-        std::vector<graph::Image> list;
+        std::vector<graph::ImageHandle> list;
         for (const render::Cubes& cubes : around.captures->arrays) list.push_back(image(cubes));
         look.mirror.images.emplace_back(name, std::move(list));
     };

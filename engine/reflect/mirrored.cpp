@@ -17,15 +17,15 @@ struct Face {
 };
 
 /// All mirrors that are drawn by mirrored views.
-struct Faces {
+struct MirroredFaces {
     std::vector<Face> faces;
     std::vector<std::optional<render::MirrorPlane>> planes; ///< plane of each face
     /// Mirrors with several faces, and their triangles that belong to no flat face.
     std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleRun>>> bodies;
 };
 
-Faces faces_of(const render::GpuScene& scene, const Assignment& assignment) {
-    Faces all;
+MirroredFaces faces_of(const render::GpuScene& scene, const Assignment& assignment) {
+    MirroredFaces all;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const Choice& choice = assignment.choices[assignment.of_mirror[i]];
         if (!choice.technique->mirrored_bounces) continue;
@@ -47,7 +47,8 @@ Faces faces_of(const render::GpuScene& scene, const Assignment& assignment) {
 
 /// Returns the name of a view. "mirrored/2/1" is the view of mirror 1 inside mirror 2.
 /// "mirrored/2.3" is the view of face 3 of mirror 2.
-std::string name_of(const Faces& all, const std::vector<MirroredView>& views, std::size_t view) {
+std::string name_of(const MirroredFaces& all, const std::vector<MirroredView>& views,
+                    std::size_t view) {
     const auto& within = views[view].within;
     const Face& face = all.faces[views[view].mirror];
     return (within ? name_of(all, views, *within) : "mirrored") + "/" +
@@ -58,9 +59,10 @@ std::string name_of(const Faces& all, const std::vector<MirroredView>& views, st
 /// Adds to `looks` the mirror shading inside view `within`, or in the picture if it is none. Faces
 /// with views show the images `made`. Faces without views and triangles outside all faces are
 /// black.
-render::Looks shown_in(render::Looks looks, const Faces& all,
+render::Looks shown_in(render::Looks looks, const MirroredFaces& all,
                        const std::vector<MirroredView>& views,
-                       const std::vector<graph::Image>& made, std::optional<std::size_t> within) {
+                       const std::vector<graph::ImageHandle>& made,
+                       std::optional<std::size_t> within) {
     const auto black = static_cast<std::uint32_t>(looks.looks.size());
     looks.looks.emplace_back();
     std::vector<std::uint32_t> of_face(all.faces.size(), black);
@@ -94,13 +96,13 @@ std::vector<std::string> add_mirrored(graph::Graph& graph, const render::FrameIn
                                       const Assignment& assignment,
                                       const render::Lighting& lighting, const render::Looks& others,
                                       render::Looks& looks) {
-    const Faces all = faces_of(inputs.scene, assignment);
+    const MirroredFaces all = faces_of(inputs.scene, assignment);
     int asked = 0;
     for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
     int most = asked;
     const std::vector<MirroredView> views = render::mirrored_views(inputs.scene.eye(), all.planes,
                                                                    inputs.size, most);
-    std::vector<graph::Image> made(views.size());
+    std::vector<graph::ImageHandle> made(views.size());
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first
         const std::uint32_t number = inputs.scene.add_view(views[i].view);

@@ -20,12 +20,13 @@ constexpr auto kKnobs = [] {
 constexpr std::uint64_t kProxyBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
 
 /// Declares the pass that derives one proxy per mirror. Returns the buffer of proxies.
-graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const std::shared_ptr<const render::Captures>& captures) {
+graph::BufferHandle add_proxies(graph::Graph& graph, const render::FrameInputs& inputs,
+                                const std::shared_ptr<const render::Captures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
-    const graph::Buffer proxies = graph.buffer({inputs.prefix + "proxies", kProxyBytes * mirrors});
+    const graph::BufferHandle proxies = graph.buffer(
+        {inputs.prefix + "proxies", kProxyBytes * mirrors});
     graph::PassBuilder pass = graph.pass(inputs.prefix + "proxies");
-    std::vector<graph::Image> faces;
+    std::vector<graph::ImageHandle> faces;
     for (const render::Cubes& cubes : captures->arrays) {
         faces.push_back(
             cubes.distance.value_or(cubes.colour)); // placeholder: never read without distance

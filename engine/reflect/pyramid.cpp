@@ -25,8 +25,8 @@ std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
 }
 
 /// Consecutive cubes of one array.
-struct Run {
-    graph::Image distances, bounds;
+struct CubeRun {
+    graph::ImageHandle distances, bounds;
     std::uint32_t face = 0;
 };
 
@@ -43,13 +43,13 @@ std::uint64_t content_hash_of(const render::Captures& captures, std::size_t mirr
 }
 
 /// Returns the cubes of the array whose stored bounds are out of date, as runs.
-std::vector<Run> to_be_made(graph::Graph& graph, const render::Captures& captures,
-                            std::uint32_t array, graph::Image bounds) {
+std::vector<CubeRun> to_be_made(graph::Graph& graph, const render::Captures& captures,
+                                std::uint32_t array, graph::ImageHandle bounds) {
     const render::Cubes& cubes = captures.arrays[array];
     // Captures that no search reads have no distance. Their colour is a placeholder that is never
     // read.
-    const graph::Image distances = cubes.distance.value_or(cubes.colour);
-    std::vector<Run> runs;
+    const graph::ImageHandle distances = cubes.distance.value_or(cubes.colour);
+    std::vector<CubeRun> runs;
     std::uint32_t end = 0; // first layer after the last run
     for (std::size_t mirror = 0; mirror < captures.places.size(); ++mirror) {
         const render::CapturePlace& place = captures.places[mirror];
@@ -72,10 +72,10 @@ std::vector<Run> to_be_made(graph::Graph& graph, const render::Captures& capture
 /// Declares the pyramids of all arrays: all levels of all faces, one layer per face. Each level of
 /// each run of cubes is one dispatch. If captures are kept from frame to frame, the pyramids are
 /// kept as well.
-std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                                      const render::Captures& captures) {
-    std::vector<graph::Image> pyramids;
-    std::vector<Run> runs;
+std::vector<graph::ImageHandle> add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                                            const render::Captures& captures) {
+    std::vector<graph::ImageHandle> pyramids;
+    std::vector<CubeRun> runs;
     std::uint32_t top_of_all = 0;
     for (std::uint32_t array = 0; array < captures.arrays.size(); ++array) {
         const render::Cubes& cubes = captures.arrays[array];
@@ -91,7 +91,7 @@ std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameIn
     }
     if (runs.empty()) return pyramids;
     graph::PassBuilder pass = graph.pass(inputs.prefix + "pyramid");
-    for (const Run& run : runs)
+    for (const CubeRun& run : runs)
         pass.reads(run.distances, graph::Use::sampled)
             .writes(run.bounds, graph::Use::storage_write);
     pass.record([top_of_all, runs = std::move(runs)](graph::Commands& commands) {
@@ -100,7 +100,7 @@ std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameIn
             commands.use(
                 gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
             commands.push(static_cast<std::int32_t>(level));
-            for (const Run& run : runs) {
+            for (const CubeRun& run : runs) {
                 if (level > top_level(run.face)) continue;
                 commands.bind("distances", run.distances);
                 commands.bind("bounds", run.bounds);

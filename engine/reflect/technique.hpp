@@ -17,12 +17,12 @@ namespace catoptric::reflect {
 
 /// Images and buffers that a technique adds to the graph, with notes for the user.
 struct Outputs {
-    graph::Image hdr;      ///< linear radiance, rgba32f
+    graph::ImageHandle hdr; ///< linear radiance, rgba32f
     bool has_hits = false; ///< whether the alpha of `hdr` tells what the ray met (shared::kMetBits)
-    std::vector<graph::Buffer> counters; ///< shared::Counters of each tracing pass
+    std::vector<graph::BufferHandle> counters; ///< shared::Counters of each tracing pass
     /// Where mirrors looked into captures (shaders/lib/mirror.glsl), rgba32f; only if the inputs
     /// ask for it.
-    std::optional<graph::Image> lookup;
+    std::optional<graph::ImageHandle> lookup;
     std::shared_ptr<const render::Captures> captures; ///< captures that the view reads; may be null
     std::vector<std::string> notes;             ///< differences from the request, one sentence each
     std::shared_ptr<render::CaptureCache> kept; ///< for the next frame, if captures are kept

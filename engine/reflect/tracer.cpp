@@ -79,11 +79,11 @@ void dispatch_samples(graph::Commands& commands, const Tracer& tracer, uvec2 siz
 
 /// The pixels to trace, the dispatch arguments in work groups, and counters.
 struct List {
-    graph::Buffer pixels, arguments, counters;
+    graph::BufferHandle pixels, arguments, counters;
 };
 
 List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const std::string& suffix,
-              std::uint32_t number, const render::View& view) {
+              std::uint32_t number, const render::CameraOutputs& view) {
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
     List list;
@@ -143,8 +143,9 @@ Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const 
     return traced;
 }
 
-graph::Buffer add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
-                         const Tracer& tracer, std::uint32_t number, const render::View& view) {
+graph::BufferHandle add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
+                               const Tracer& tracer, std::uint32_t number,
+                               const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
     const List list = add_list(graph, inputs, suffix, number, view);
     inputs.scene.want_tracing(spheres_of(tracer));

@@ -18,14 +18,16 @@ struct Tracer {
 };
 
 struct Traced {
-    graph::Image hdr; ///< linear radiance, rgba32f; alpha: what the ray met (shared::kMetBits)
-    graph::Buffer counters;
+    graph::ImageHandle
+        hdr; ///< linear radiance, rgba32f; alpha: what the ray met (shared::kMetBits)
+    graph::BufferHandle counters;
 };
 Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const Tracer& tracer);
 
 /// Lists the pixels of the view that are marked for tracer `number`, from 1, and traces them into
 /// `view.hdr`. Returns the shared::Counters of the tracing.
-graph::Buffer add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
-                         const Tracer& tracer, std::uint32_t number, const render::View& view);
+graph::BufferHandle add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
+                               const Tracer& tracer, std::uint32_t number,
+                               const render::CameraOutputs& view);
 
 } // namespace catoptric::reflect

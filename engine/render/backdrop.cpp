@@ -14,7 +14,7 @@ constexpr std::size_t kMostLooks = 1 << 22;  ///< the most tests of boxes and ve
 /// tiny next to them.
 constexpr double kInPlane = 0x1p-20;
 
-struct Plane {
+struct BackdropPlane {
     dvec3 normal; ///< unit length, towards the light
     double at;
     double room; ///< points up to this far behind the plane count as in it
@@ -23,16 +23,16 @@ struct Plane {
 };
 
 /// Returns how far the farthest corner of the box lies behind the plane.
-double depth_of(const Plane& plane, const Bounds<float>& box) {
+double depth_of(const BackdropPlane& plane, const Bounds<float>& box) {
     const dvec3 corner(plane.normal.x < 0 ? box.hi.x : box.lo.x,
                        plane.normal.y < 0 ? box.hi.y : box.lo.y,
                        plane.normal.z < 0 ? box.hi.z : box.lo.z);
     return plane.depth(corner);
 }
 
-class Search {
+class BackdropSearch {
 public:
-    Search(const Geometry& geometry, const shared::Light& light)
+    BackdropSearch(const Geometry& geometry, const shared::Light& light)
         : geometry_(geometry), light_(light) {}
 
     bool is_backdrop(const DrawRange& range) {
@@ -51,7 +51,7 @@ private:
         const dvec3 across = cross(corner(1) - corner(0), corner(2) - corner(0));
         const double size = length(across);
         if (!(size > 0)) return true; // a triangle without area casts no shadow
-        Plane plane{across / size, 0, 0};
+        BackdropPlane plane{across / size, 0, 0};
         plane.at = dot(plane.normal, corner(0));
         for (std::uint32_t j = 0; j < 3; ++j)
             plane.room = std::max(plane.room, kInPlane * f64::largest(glm::abs(corner(j))));
@@ -66,7 +66,7 @@ private:
         });
     }
 
-    bool all_vertices_before(const Plane& plane, const DrawRange& range) {
+    bool all_vertices_before(const BackdropPlane& plane, const DrawRange& range) {
         looks_ += range.index_count;
         if (range.own || looks_ >= kMostLooks) return false;
         for (std::uint32_t k = 0; k < range.index_count; ++k) {
@@ -84,7 +84,7 @@ private:
 } // namespace
 
 std::vector<std::uint8_t> find_backdrops(const Geometry& geometry, const shared::Light& light) {
-    Search search(geometry, light);
+    BackdropSearch search(geometry, light);
     std::vector<std::uint8_t> backdrops;
     for (const DrawRange& range : geometry.ranges)
         backdrops.push_back(range.casts_shadow && search.is_backdrop(range) ? 1 : 0);

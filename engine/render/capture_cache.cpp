@@ -60,7 +60,7 @@ Cubes faces_of(const Captures& captures, std::uint32_t mirror, std::uint32_t fir
 /// not there yet. Records in the graph which picture each face will hold.
 void add_keeping(graph::Graph& graph, const std::string& name, const CaptureUpdate& feeding) {
     const Captures& captures = *feeding.captures;
-    std::vector<std::pair<graph::Image, graph::Image>> copies;
+    std::vector<std::pair<graph::ImageHandle, graph::ImageHandle>> copies;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
         if (!captures.places[mirror].exists()) continue;
         const auto drawing = [&](std::uint32_t face) {
@@ -76,15 +76,16 @@ void add_keeping(graph::Graph& graph, const std::string& name, const CaptureUpda
                    (work.of(mirror, face) == FaceWork::keep || !work.part(mirror, face).is_whole());
         };
         for_each_run(is_copied, [&](std::uint32_t first, std::uint32_t end) {
-            for_each_pair(
-                faces_of(*feeding.last, mirror, first, end - first),
-                faces_of(captures, mirror, first, end - first),
-                [&](graph::Image from, graph::Image to) { copies.emplace_back(from, to); });
+            for_each_pair(faces_of(*feeding.last, mirror, first, end - first),
+                          faces_of(captures, mirror, first, end - first),
+                          [&](graph::ImageHandle from, graph::ImageHandle to) {
+                              copies.emplace_back(from, to);
+                          });
         });
         for (std::uint32_t face = 0; face < 6; ++face) {
             if (!is_made(face)) continue;
             const Cubes part = faces_of(captures, mirror, face, 1);
-            for_each_pair(part, part, [&](graph::Image image, graph::Image) {
+            for_each_pair(part, part, [&](graph::ImageHandle image, graph::ImageHandle) {
                 graph.set_content_hash(image, drawing(face));
             });
         }
@@ -164,7 +165,7 @@ CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& i
         any_there = any_there || feeding.was_there.back();
         if (layout[mirror].face == 0) continue;
         decider.decide(mirror, feeding.work, kept);
-        if (most > 0 && kept.changes[mirror] != Change::none &&
+        if (most > 0 && kept.changes[mirror] != CaptureChange::none &&
             decider.can_wait(mirror, feeding.work))
             asking.push_back({mirror, decider.waited(mirror)});
     }
@@ -172,7 +173,7 @@ CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& i
         decider.put_off(mirror, feeding.work, kept);
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror)
         kept.is_late = kept.is_late ||
-                       (kept.changes[mirror] != Change::none && decider.waited(mirror) > 0);
+                       (kept.changes[mirror] != CaptureChange::none && decider.waited(mirror) > 0);
     if (known && same_layout(layout, known->options) && is_idle(feeding.work)) {
         kept.set = known->set;
         feeding.captures = declare(layout, kept);
@@ -183,7 +184,7 @@ CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& i
     feeding.captures = declare(layout, kept);
     add_keeping(graph, inputs.prefix + name + ".keep", feeding);
     if (any_there) feeding.last = looked_into(*feeding.last);
-    if (std::ranges::find(kept.changes, Change::unknown) != kept.changes.end()) {
+    if (std::ranges::find(kept.changes, CaptureChange::unknown) != kept.changes.end()) {
         kept.before = before;
         kept.differing = comparisons->buffer(mirrors);
     }

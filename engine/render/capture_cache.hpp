@@ -31,7 +31,7 @@ struct CachedFace {
 };
 
 /// How a mirror's capture changed since the frame before.
-enum class Change {
+enum class CaptureChange {
     none,
     unknown, ///< drawn again only because the captures of other mirrors changed; may be equal
     some,    ///< changed, or may have changed in another way
@@ -42,7 +42,7 @@ struct CaptureCache {
     std::vector<CaptureOptions> options; ///< settings that determine the layout of the arrays
     std::uint32_t set = 0;               ///< index of the set in use, of the two
     std::vector<std::array<CachedFace, 6>> faces; ///< by mirror
-    std::vector<Change> changes;                  ///< by mirror
+    std::vector<CaptureChange> changes;           ///< by mirror
     /// By mirror: for how many frames the redraw has been put off.
     std::vector<std::uint32_t> waited;
     bool is_late = false; ///< a capture that had waited was drawn, and `saw` does not record that
@@ -115,13 +115,13 @@ public:
     void used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame);
 
 private:
-    struct Entry {
+    struct PooledBuffer {
         std::shared_ptr<gpu::Buffer> buffer; ///< free if nobody else holds it
         std::uint64_t frame = 0;             ///< number of the last frame that wrote to it
     };
     gpu::Device& device_;
     std::function<bool(std::uint64_t)> has_ended_;
-    std::vector<Entry> entries_;
+    std::vector<PooledBuffer> entries_;
 };
 
 /// Declares all captures of this frame and those of the frame before. Every capture is drawn again

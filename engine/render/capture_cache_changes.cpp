@@ -12,8 +12,8 @@ std::vector<char> changed(const CaptureCache& captures) {
     const auto was = [&](std::uint32_t other) { return before.empty() || before[other]; };
     std::vector<char> now;
     for (std::size_t mirror = 0; mirror < captures.changes.size(); ++mirror)
-        now.push_back(captures.changes[mirror] == Change::some ||
-                      (captures.changes[mirror] == Change::unknown &&
+        now.push_back(captures.changes[mirror] == CaptureChange::some ||
+                      (captures.changes[mirror] == CaptureChange::unknown &&
                        std::ranges::any_of(captures.saw[mirror], was)));
     return now;
 }
@@ -27,15 +27,15 @@ void learn(const std::shared_ptr<CaptureCache>& captures,
     for (std::size_t mirror = 0; mirror < captures->changes.size(); ++mirror) {
         std::uint32_t word = 0;
         std::memcpy(&word, found.data() + sizeof word * mirror, sizeof word);
-        if (captures->changes[mirror] == Change::unknown)
-            captures->changes[mirror] = word ? Change::some : Change::none;
+        if (captures->changes[mirror] == CaptureChange::unknown)
+            captures->changes[mirror] = word ? CaptureChange::some : CaptureChange::none;
     }
     captures->before = nullptr;
     captures->differing = nullptr;
 }
 
 void find_unchanged(CaptureCache& captures) {
-    std::ranges::fill(captures.changes, Change::none);
+    std::ranges::fill(captures.changes, CaptureChange::none);
     captures.before = nullptr;
     captures.differing = nullptr;
 }
@@ -43,7 +43,7 @@ void find_unchanged(CaptureCache& captures) {
 std::shared_ptr<gpu::Buffer> Comparisons::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
     // A caller that discards a frame releases its buffer while the device may still write to it.
-    const auto fits = [&](const Entry& entry) {
+    const auto fits = [&](const PooledBuffer& entry) {
         return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
                entry.buffer->bytes() >= sizeof(std::uint32_t) * mirrors;
     };
@@ -51,14 +51,14 @@ std::shared_ptr<gpu::Buffer> Comparisons::buffer(std::size_t mirrors) {
     if (found == entries_.end())
         found = entries_.insert(found, {std::make_shared<gpu::Buffer>(
                                             device_, "differing", sizeof(std::uint32_t) * mirrors,
-                                            gpu::BufferUse::read_back),
+                                            gpu::BufferUsage::read_back),
                                         0});
     found->buffer->write(std::span<const std::uint32_t>(zeros));
     return found->buffer;
 }
 
 void Comparisons::used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame) {
-    const auto is_it = [&](const Entry& entry) { return entry.buffer == buffer; };
+    const auto is_it = [&](const PooledBuffer& entry) { return entry.buffer == buffer; };
     const auto found = std::ranges::find_if(entries_, is_it);
     if (found != entries_.end()) found->frame = frame;
 }
@@ -69,12 +69,12 @@ void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const Captur
     struct Push {
         std::uint32_t before, after, mirror;
     };
-    struct Compared {
+    struct CubePair {
         Cubes before, after; ///< the whole arrays
         Push push;
         std::uint32_t faces;
     };
-    std::vector<Compared> all;
+    std::vector<CubePair> all;
     for (std::uint32_t mirror = 0; mirror < now.places.size(); ++mirror)
         for_each_run(
             [&](std::uint32_t face) {
@@ -88,18 +88,18 @@ void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const Captur
                                {6 * from.cube + first, 6 * to.cube + first, mirror},
                                end - first});
             });
-    const graph::Buffer differing = graph.import(
+    const graph::BufferHandle differing = graph.import(
         graph::BufferDesc{inputs.prefix + now.name + ".differing",
                           feeding.kept->differing->bytes()},
         feeding.kept->differing.get());
     graph::PassBuilder pass = graph.pass(inputs.prefix + now.name + ".compare");
-    std::vector<graph::Image> images;
-    for (const Compared& one : all)
+    std::vector<graph::ImageHandle> images;
+    for (const CubePair& one : all)
         for (const Cubes* const cubes : {&one.before, &one.after})
-            for (const graph::Image image :
+            for (const graph::ImageHandle image :
                  {cubes->colour, cubes->distance.value_or(cubes->colour)})
                 if (std::ranges::find(images, image) == images.end()) images.push_back(image);
-    for (const graph::Image image : images) pass.reads(image, graph::Use::sampled);
+    for (const graph::ImageHandle image : images) pass.reads(image, graph::Use::sampled);
     pass.writes(differing, graph::Use::storage_write)
         .record([all = std::move(all), differing](graph::Commands& commands) {
             commands.use(gpu::ComputeState{"differing.comp", {}});

@@ -13,7 +13,7 @@ namespace {
 
 using graph::Clear;
 using graph::Commands;
-using graph::Image;
+using graph::ImageHandle;
 using graph::Tag;
 using graph::Use;
 
@@ -26,7 +26,7 @@ void write_cubes(graph::PassBuilder& pass, const CaptureOptions& options, const 
     const float nothing = options.distance == Format::r8_unorm
                               ? 1.0f
                               : std::numeric_limits<float>::infinity();
-    const auto write = [&](Image image, const Clear& clear) {
+    const auto write = [&](ImageHandle image, const Clear& clear) {
         area ? pass.updates(image, Use::colour, clear) : pass.writes(image, Use::colour, clear);
     };
     write(cubes.colour, kBlack);
@@ -47,11 +47,11 @@ bool may_show(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
 /// Declares a pass that draws a range of faces of a mirror's capture. `peeled`: draws only what
 /// lies behind these distances.
 void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                 const Faces& faces, const std::string& pass_name, const Cubes& cubes,
-                 const std::shared_ptr<const Looks>& looks, std::optional<Image> peeled,
+                 const FaceRange& faces, const std::string& pass_name, const Cubes& cubes,
+                 const std::shared_ptr<const Looks>& looks, std::optional<ImageHandle> peeled,
                  const require::FacePart& changing) {
     const std::string name = inputs.prefix + pass_name;
-    const Image depth = graph.image(
+    const ImageHandle depth = graph.image(
         {name + ".depth", Format::d32f, options.face, options.face, faces.count, faces.count == 6});
     graph::PassBuilder pass = graph.pass(name, Tag::scene);
     read_surroundings(pass, options.lighting, *looks);
@@ -87,7 +87,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
 
 /// Declares a pass that clears faces that no ray can ask for.
 void add_clear(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-               const Faces& faces, const std::string& name, const Cubes& cubes) {
+               const FaceRange& faces, const std::string& name, const Cubes& cubes) {
     graph::PassBuilder pass = graph.pass(inputs.prefix + name_of(name, faces) + ".clear");
     write_cubes(pass, options, cubes);
     if (cubes.colour2)
@@ -107,7 +107,7 @@ void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures
         const std::string number = "/" + std::to_string(mirror + 1);
         const auto draw = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                               std::uint32_t first, std::uint32_t end) {
-            const Faces faces{mirror, first, end - first};
+            const FaceRange faces{mirror, first, end - first};
             const require::FacePart changing = work.part(mirror, first);
             const Cubes part = part_of(cubes, first_layer + first, faces.count);
             const Cubes front{part.face, part.colour, part.distance, {}, {}, part.surfaces};

@@ -88,7 +88,8 @@ Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureO
 }
 
 /// Declares a buffer with the place of each mirror's capture, and the pass that fills it.
-graph::Buffer add_table(graph::Graph& graph, const std::string& name, const Captures& captures) {
+graph::BufferHandle add_table(graph::Graph& graph, const std::string& name,
+                              const Captures& captures) {
     shared::CaptureTable places{};
     for (std::size_t i = 0; i < captures.places.size(); ++i) {
         const auto& [array, cube] = captures.places[i];
@@ -98,7 +99,7 @@ graph::Buffer add_table(graph::Graph& graph, const std::string& name, const Capt
         places.arrays[array] = {options.stored_unit,
                                 options.distance == Format::r8_unorm ? 1u : 0u};
     }
-    const graph::Buffer table = graph.buffer({name + ".table", sizeof places});
+    const graph::BufferHandle table = graph.buffer({name + ".table", sizeof places});
     graph.pass(name + ".table")
         .writes(table, graph::Use::copy_to)
         .record([table, places](graph::Commands& commands) {
@@ -110,7 +111,7 @@ graph::Buffer add_table(graph::Graph& graph, const std::string& name, const Capt
 } // namespace
 
 Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count) {
-    const auto part = [&](const std::optional<graph::Image>& image) {
+    const auto part = [&](const std::optional<graph::ImageHandle>& image) {
         return image ? std::optional(image->layers(first, count)) : image;
     };
     return {cubes.face,

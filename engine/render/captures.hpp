@@ -18,11 +18,11 @@ namespace catoptric::render {
 /// the centre.
 struct Cubes {
     std::uint32_t face = 0; ///< edge in texels
-    graph::Image colour;
-    std::optional<graph::Image> distance;
-    std::optional<graph::Image> colour2, distance2;
+    graph::ImageHandle colour;
+    std::optional<graph::ImageHandle> distance;
+    std::optional<graph::ImageHandle> colour2, distance2;
     /// Surface number and normal (rgba16f), see shaders/lib/surface.glsl.
-    std::optional<graph::Image> surfaces;
+    std::optional<graph::ImageHandle> surfaces;
 };
 
 /// Returns a range of layers of every image that exists.
@@ -60,7 +60,7 @@ struct Captures {
     std::vector<CapturePlace> places;    ///< by mirror
     std::vector<Cubes> arrays;           ///< 1 to shared::kMostArrays arrays
     /// Holds a shared::CaptureTable; absent if mirror n is cube n of the only array.
-    std::optional<graph::Buffer> table;
+    std::optional<graph::BufferHandle> table;
     std::vector<std::string> notes; ///< deviations from the request, one sentence each
     /// By mirror and face, if captures persist: equal numbers under equal options mean equal
     /// texels.

@@ -38,7 +38,7 @@ std::uint32_t Decider::waited(std::uint32_t mirror) const {
 }
 
 void Decider::decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const {
-    Change change = Change::none;
+    CaptureChange change = CaptureChange::none;
     std::vector<std::uint32_t>& saw = kept.saw[mirror];
     for (std::uint32_t face = 0; face < 6; ++face) {
         const std::vector<std::uint32_t> seen = seen_by(mirror, face);
@@ -46,9 +46,9 @@ void Decider::decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept
         work.faces[mirror][face] = what;
         if (work.is_drawn(mirror, face))
             work.parts[mirror][face] = changing(mirror, face, seen, kept.faces[mirror][face]);
-        if (what == FaceWork::draw) change = Change::some;
+        if (what == FaceWork::draw) change = CaptureChange::some;
         if (what != FaceWork::compare) continue;
-        change = std::max(change, Change::unknown);
+        change = std::max(change, CaptureChange::unknown);
         saw.insert(saw.end(), seen.begin(), seen.end());
     }
     kept.changes[mirror] = change;
@@ -69,7 +69,7 @@ void Decider::put_off(std::uint32_t mirror, CaptureWork& work, CaptureCache& kep
         kept.faces[mirror][face].is_behind = true;
         work.faces[mirror][face] = FaceWork::keep, work.parts[mirror][face] = {};
     }
-    kept.changes[mirror] = Change::none;
+    kept.changes[mirror] = CaptureChange::none;
     kept.saw[mirror].clear();
     kept.waited[mirror] = before_->waited[mirror] + 1;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using graph::Commands;
 using graph::Filter;
-using graph::Image;
+using graph::ImageHandle;
 
 constexpr const char* kBlackMirror = "mirror_black.frag";
 
@@ -26,7 +26,7 @@ gpu::Winding turns_away(const shared::View& view) {
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, Triangles triangles) {
+                 std::uint32_t first_view, std::uint32_t layers, TriangleRuns triangles) {
     const DrawRange& range = scene.ranges()[object];
     const auto instance = static_cast<std::uint32_t>(object) << shared::kLayerBits;
     scene.bind_vertices(commands, object);
@@ -47,8 +47,8 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
 
 /// Returns one image of each array.
 template <typename Part>
-std::vector<Image> images_of(const Captures& captures, Part&& part) {
-    std::vector<Image> images;
+std::vector<ImageHandle> images_of(const Captures& captures, Part&& part) {
+    std::vector<ImageHandle> images;
     for (const Cubes& cubes : captures.arrays) images.push_back(part(cubes));
     return images;
 }
@@ -61,7 +61,7 @@ void bind_captures(Commands& commands, const Captures& captures) {
     commands.bind("surface_cubes", images_of(captures, [](const Cubes& cubes) {
                       return cubes.surfaces.value_or(cubes.colour);
                   }));
-    const std::vector<Image> distances = images_of(
+    const std::vector<ImageHandle> distances = images_of(
         captures, [](const Cubes& cubes) { return cubes.distance.value_or(cubes.colour); });
     commands.bind("distance_cubes", distances);
     commands.bind("linear_texels", Filter::linear);
@@ -94,7 +94,8 @@ gpu::Constants features_of(const GpuScene& scene, const Drawing& drawing) {
 }
 
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
-                  const MirrorShader& look, const Wanted& wanted, Triangles triangles = nullptr) {
+                  const MirrorShader& look, const ObjectFilter& wanted,
+                  TriangleRuns triangles = nullptr) {
     gpu::RasterState state{"", kBlackMirror, drawing.store};
     state.features = features_of(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
@@ -124,7 +125,7 @@ bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t
 
 void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const Wanted& wanted, Triangles triangles) {
+                  const ObjectFilter& wanted, TriangleRuns triangles) {
     std::ranges::copy(scene.features(first_view), std::back_inserter(state.features));
     const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
@@ -144,7 +145,7 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
 
 void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState state,
                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                 const Wanted& wanted, Triangles triangles) {
+                 const ObjectFilter& wanted, TriangleRuns triangles) {
     const shared::View& view = scene.views()[first_view];
     const auto is_front = [&](std::size_t i) { return hides_its_back(scene, view, i); };
     draw_objects(
@@ -157,7 +158,7 @@ void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState sta
 }
 
 void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,
-                const Wanted& wanted) {
+                const ObjectFilter& wanted) {
     const auto& [first_view, layers, lighting, looks, store, peeled] = drawing;
     const gpu::Constants features = features_of(scene, drawing);
     scene.bind(commands);

@@ -8,23 +8,23 @@
 namespace catoptric::render {
 
 /// Returns whether an object, given by its index, is drawn.
-using Wanted = std::function<bool(std::size_t)>;
+using ObjectFilter = std::function<bool(std::size_t)>;
 
 /// The triangles of an object to draw; null: all of them.
-using Triangles = const std::vector<scene::TriangleRun>*;
+using TriangleRuns = const std::vector<scene::TriangleRun>*;
 
 /// Draws the wanted objects with this fragment shader and state. Draws each object into those
 /// layers whose views may meet it; the views start at `first_view`. Draws objects with an object
 /// space last.
 void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const Wanted& wanted, Triangles triangles = nullptr);
+                  const ObjectFilter& wanted, TriangleRuns triangles = nullptr);
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
 void draw_fronts(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                 const Wanted& wanted, Triangles triangles = nullptr);
+                 const ObjectFilter& wanted, TriangleRuns triangles = nullptr);
 
 /// The settings with which a picture of the scene is drawn.
 struct Drawing {
@@ -33,12 +33,12 @@ struct Drawing {
     std::shared_ptr<const Looks> looks; ///< shaders of the mirrors
     gpu::Constants store;               ///< constants for storing distances and surfaces
     /// Distances of a first layer; only surfaces behind them are drawn.
-    std::optional<graph::Image> peeled;
+    std::optional<graph::ImageHandle> peeled;
 };
 
 /// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
 /// draw the mirrors first.
 void draw_scene(graph::Commands& commands, const GpuScene& scene, const Drawing& drawing,
-                const Wanted& wanted);
+                const ObjectFilter& wanted);
 
 } // namespace catoptric::render

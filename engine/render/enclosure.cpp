@@ -12,18 +12,18 @@ namespace {
 // Tolerance for a sum of solid angles, far above its rounding error.
 constexpr double kRoundings = 1e-3;
 
-using Place = std::array<double, 3>;
+using PointKey = std::array<double, 3>;
 
-Place place_of(const dvec3& p) { return {p.x, p.y, p.z}; }
+PointKey place_of(const dvec3& p) { return {p.x, p.y, p.z}; }
 
 /// Returns whether each edge is traversed equally often in both directions. Edges are compared by
 /// position, not by vertex index. `at(k)`: corner k, three corners a triangle.
 template <typename At>
 bool is_closed(std::size_t corners, At&& at) {
-    std::map<std::pair<Place, Place>, int> runs;
+    std::map<std::pair<PointKey, PointKey>, int> runs;
     for (std::size_t k = 0; k < corners; k += 3)
         for (std::size_t j = 0; j < 3; ++j) {
-            const Place a = place_of(at(k + j)), b = place_of(at(k + (j + 1) % 3));
+            const PointKey a = place_of(at(k + j)), b = place_of(at(k + (j + 1) % 3));
             if (a < b) ++runs[{a, b}];
             if (b < a) --runs[{b, a}];
         }

@@ -46,7 +46,7 @@ std::vector<double> find_face_needs(const Geometry& geometry, std::span<const st
     for (std::size_t mirror = 0; mirror < mirrors.size(); ++mirror) {
         const DrawRange& range = geometry.ranges[mirrors[mirror]];
         const double radius{probes[mirror].radius};
-        Pixels pixels{in_perspective(camera, range.bounds.centre()), height};
+        PixelGrid pixels{in_perspective(camera, range.bounds.centre()), height};
         if (range.own)
             pixels.view.eye = vec3(eye + dvec3(pixels.view.eye - camera.eye) - range.own->centre);
         if (!range.seen_by_camera || !may_meet(camera, range.bounds))

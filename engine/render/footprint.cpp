@@ -45,7 +45,7 @@ std::array<dvec3, 5> picture_planes(const shared::View& view) {
     return {forward, forward + right, forward - right, forward + down, forward - down};
 }
 
-bool is_in_picture(const Pixels& pixels, const Facet& facet) {
+bool is_in_picture(const PixelGrid& pixels, const Facet& facet) {
     return std::ranges::none_of(picture_planes(pixels.view), [&](const dvec3& inward) {
         return std::ranges::all_of(facet.position, [&](const dvec3& corner) {
             return dot(inward, corner - dvec3(pixels.view.eye)) <= 0;
@@ -60,7 +60,7 @@ double cosine_to_axis(const shared::View& view, const dvec3& place) {
     return distance > 0 ? dot(seen, dvec3(view.forward)) / distance : 0;
 }
 
-double facet_need(const Pixels& pixels, const Facet& facet) {
+double facet_need(const PixelGrid& pixels, const Facet& facet) {
     double to_axis = 1;
     for (const dvec3& corner : facet.position)
         to_axis = std::min(to_axis, cosine_to_axis(pixels.view, corner));
@@ -80,13 +80,13 @@ double facet_need(const Pixels& pixels, const Facet& facet) {
 
 } // namespace
 
-double Pixels::corner() const {
+double PixelGrid::corner() const {
     const double across = 1 / glm::length(dvec3(view.right)),
                  up = 1 / glm::length(dvec3(view.down));
     return 1 / std::sqrt(1 + across * across + up * up);
 }
 
-double Pixels::angle(double cosine) const {
+double PixelGrid::angle(double cosine) const {
     const double at_most = std::max(cosine, corner());
     return 2 / (glm::length(dvec3(view.down)) * height) * at_most * at_most;
 }
@@ -98,7 +98,7 @@ double reflected_footprint(double pixel_angle, double distance, double curvature
 
 double face_need(double footprint) { return kRightAngle / footprint; }
 
-double sphere_need(const Pixels& pixels, const vec3& centre, double radius) {
+double sphere_need(const PixelGrid& pixels, const vec3& centre, double radius) {
     const dvec3 seen = dvec3(centre) - dvec3(pixels.view.eye);
     for (const dvec3& inward : picture_planes(pixels.view))
         if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
@@ -119,7 +119,7 @@ double sphere_need(const Pixels& pixels, const vec3& centre, double radius) {
     return need;
 }
 
-double mesh_need(const Pixels& pixels, std::span<const shared::Vertex> vertices,
+double mesh_need(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
                  std::span<const std::uint32_t> indices) {
     double need = 0;
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {

@@ -14,7 +14,7 @@ namespace catoptric::render {
 
 /// The pixels of a picture as the eye sees them: squares on a plane. Towards the edge of the
 /// picture they turn away from the eye and lie farther off.
-struct Pixels {
+struct PixelGrid {
     shared::View view;
     std::uint32_t height = 1; ///< of the picture, in pixels
 
@@ -40,13 +40,13 @@ double face_need(double footprint);
 
 /// Returns the largest face_need on a sphere. The maximum lies near the point closest to the eye, a
 /// little farther from the axis. Returns 0 for a sphere outside the picture.
-double sphere_need(const Pixels& pixels, const vec3& centre, double radius);
+double sphere_need(const PixelGrid& pixels, const vec3& centre, double radius);
 
 /// Returns the largest face_need of a mesh's triangles. Each triangle uses the two principal
 /// curvatures that its corner normals give (Rusinkiewicz 2004), and the pixel angle at the corner
 /// farthest from the axis. Facets without smooth normals are flat. Both sides reflect. Ignores
 /// occlusion. Returns 0 if no triangle with an area is in the picture.
-double mesh_need(const Pixels& pixels, std::span<const shared::Vertex> vertices,
+double mesh_need(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
                  std::span<const std::uint32_t> indices);
 
 /// Returns the common edge of captures in one cube array: the largest need, rounded up to a

@@ -20,7 +20,7 @@ struct FrameInputs {
 
 /// The lighting of captures and views. Without a shadow map, light casts no shadows.
 struct Lighting {
-    std::optional<graph::Image> shadow_map;
+    std::optional<graph::ImageHandle> shadow_map;
     friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 

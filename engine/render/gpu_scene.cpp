@@ -71,13 +71,14 @@ const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
     : device_(device), space_(space_of(fitting(device, scene))),
-      vertices_(expected_motion(scene), slots), view_buffer_("views", gpu::BufferUse::plain, slots),
-      frame_("frame", gpu::BufferUse::uniform, slots),
-      surface_buffer_("surfaces", gpu::BufferUse::texels, slots),
-      placement_buffer_("placements", gpu::BufferUse::plain, slots),
-      light_buffer_("lights", gpu::BufferUse::uniform, slots),
-      probe_buffer_("probes", gpu::BufferUse::texels, slots),
-      mirror_tree_("mirror_tree", gpu::BufferUse::texels, slots), details_(slots), sky_(slots),
+      vertices_(expected_motion(scene), slots),
+      view_buffer_("views", gpu::BufferUsage::plain, slots),
+      frame_("frame", gpu::BufferUsage::uniform, slots),
+      surface_buffer_("surfaces", gpu::BufferUsage::texels, slots),
+      placement_buffer_("placements", gpu::BufferUsage::plain, slots),
+      light_buffer_("lights", gpu::BufferUsage::uniform, slots),
+      probe_buffer_("probes", gpu::BufferUsage::texels, slots),
+      mirror_tree_("mirror_tree", gpu::BufferUsage::texels, slots), details_(slots), sky_(slots),
       tracing_(std::make_unique<Tracing>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
@@ -85,7 +86,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     update_ms_ = 0, hierarchy_ms_before_ = tracing_->ms();
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {};
-    const Changes changes = seen_.take_over(now, !complete_);
+    const SceneChanges changes = seen_.take_over(now, !complete_);
     complete_ = false; // stays false if the update throws, so that the next update starts anew
     if (changes.layout)
         lay_out(now);
@@ -196,7 +197,7 @@ bool GpuScene::has_other_mirrors() const {
 }
 
 /// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.
-void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
+void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
     flats_.resize(mirror_objects_.size());

@@ -2,12 +2,12 @@
 
 #include "graph/commands.hpp"
 #include "render/backdrop.hpp"
-#include "render/changes.hpp"
 #include "render/material_parameters.hpp"
 #include "render/mirror_tree.hpp"
 #include "render/mirrored.hpp"
 #include "render/nearest.hpp"
 #include "render/resident.hpp"
+#include "render/scene_changes.hpp"
 #include "render/sky.hpp"
 #include "render/tracing.hpp"
 #include "render/vertices.hpp"
@@ -58,7 +58,7 @@ public:
     /// Returns how far from flat a mirror may be to be drawn as a plane in this picture.
     double flat_tolerance() const { return scene::flat_tolerance(camera_, size_); }
     /// Returns the eye from which mirrored views start.
-    Eye eye() const;
+    MirroredEye eye() const;
     /// Returns whether the object is a closed mirror around the camera, which no light from outside
     /// reaches.
     bool hides_all_from_camera(std::size_t object) const { return hides_all_[object]; }
@@ -139,7 +139,7 @@ private:
     void fill_surfaces(const scene::Scene& now);
     void fill_placements();
     void fill_lights(const scene::Scene& now, bool others);
-    void fill_probes(const scene::Scene& now, const Changes& changes);
+    void fill_probes(const scene::Scene& now, const SceneChanges& changes);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
@@ -149,7 +149,7 @@ private:
     Space space_;
     Geometry geometry_;
     Nearest nearest_;
-    Seen seen_;
+    SceneChangeTracker seen_;
     Vertices vertices_;
     mutable std::vector<shared::View> views_; ///< all views
     std::vector<shared::View> scene_views_;   ///< views of mirrors and lights

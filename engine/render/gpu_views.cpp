@@ -23,7 +23,7 @@ void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
     view_buffer_.set(views_);
 }
 
-Eye GpuScene::eye() const { return {views_[kCameraView], eye_, bounds_of(geometry_)}; }
+MirroredEye GpuScene::eye() const { return {views_[kCameraView], eye_, bounds_of(geometry_)}; }
 
 void GpuScene::begin_frame() const {
     views_.resize(views_.size() - added_views_);

@@ -34,7 +34,7 @@ Amounts amounts_of(const scene::Scene& scene) {
     return amounts;
 }
 
-void check_limits(const std::string& scene, const Amounts& amounts, const Limits& limits) {
+void check_limits(const std::string& scene, const Amounts& amounts, const GeometryLimits& limits) {
     const auto within = [&](std::uint64_t wanted, std::uint64_t allowed, const char* what) {
         check(wanted <= allowed, Failure::exhausted, "scene '", scene, "' wants ", wanted, " ",
               what, ", the device allows ", allowed);

@@ -16,7 +16,7 @@ struct Amounts {
 Amounts amounts_of(const scene::Scene& scene);
 
 /// The limits of a device.
-struct Limits {
+struct GeometryLimits {
     std::uint64_t texels = 0;        ///< most texels of a texel buffer, 16 bytes each
     std::uint64_t storage_bytes = 0; ///< most bytes of a storage buffer that shaders see
     std::uint64_t piece_bytes = 0;   ///< most bytes of one allocation
@@ -25,6 +25,6 @@ struct Limits {
 
 /// Throws `exhausted` with the amount that the scene needs and the device's limit, before anything
 /// is created. Counts the least that a scene needs, so it never refuses a scene that would fit.
-void check_limits(const std::string& scene, const Amounts& amounts, const Limits& limits);
+void check_limits(const std::string& scene, const Amounts& amounts, const GeometryLimits& limits);
 
 } // namespace catoptric::render

@@ -39,9 +39,9 @@ shared::MaterialParameters detail_of(const scene::Material& material, const Draw
 } // namespace
 
 MaterialParameterLists::MaterialParameterLists(std::size_t slots)
-    : details_("details", gpu::BufferUse::quads, slots),
-      attributes_("attributes", gpu::BufferUse::texels, slots),
-      texels_("texels", gpu::BufferUse::words, slots) {}
+    : details_("details", gpu::BufferUsage::quads, slots),
+      attributes_("attributes", gpu::BufferUsage::texels, slots),
+      texels_("texels", gpu::BufferUsage::words, slots) {}
 
 shared::TextureUse
 MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) const {

@@ -9,15 +9,15 @@ namespace {
 /// The resources that a pass has declared so far.
 struct Reads {
     graph::PassBuilder& pass;
-    std::vector<graph::Image> images = {};
-    std::vector<graph::Buffer> buffers = {};
+    std::vector<graph::ImageHandle> images = {};
+    std::vector<graph::BufferHandle> buffers = {};
 
-    void add(graph::Image image) {
+    void add(graph::ImageHandle image) {
         if (std::ranges::find(images, image) != images.end()) return;
         images.push_back(image);
         pass.reads(image, graph::Use::sampled);
     }
-    void add(graph::Buffer buffer, graph::Use use) {
+    void add(graph::BufferHandle buffer, graph::Use use) {
         if (std::ranges::find(buffers, buffer) != buffers.end()) return;
         buffers.push_back(buffer);
         pass.reads(buffer, use);
@@ -44,7 +44,7 @@ void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const
     for (const MirrorShader& look : looks.looks) {
         if (look.captures) reads.add(*look.captures);
         for (const auto& [name, images] : look.images)
-            for (const graph::Image& image : images) reads.add(image);
+            for (const graph::ImageHandle& image : images) reads.add(image);
         for (const auto& [name, buffer] : look.buffers) reads.add(buffer, graph::Use::storage_read);
     }
 }

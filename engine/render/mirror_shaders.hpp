@@ -17,8 +17,9 @@ struct MirrorShader {
     std::shared_ptr<const Captures> captures;
     /// Further images that it samples (nearest), by shader name: one image, or one for each array
     /// of the captures.
-    std::vector<std::pair<std::string, std::vector<graph::Image>>> images;
-    std::vector<std::pair<std::string, graph::Buffer>> buffers; ///< further buffers that it reads
+    std::vector<std::pair<std::string, std::vector<graph::ImageHandle>>> images;
+    std::vector<std::pair<std::string, graph::BufferHandle>>
+        buffers;               ///< further buffers that it reads
     bool blank = false;        ///< black, because the captures of the frame before do not exist
     std::uint32_t ablated = 0; ///< causes of error that fragment#ablate removes
 };

@@ -34,17 +34,17 @@ dvec2 projected(const shared::View& view, const dvec3& v) {
 }
 
 /// A rectangle of the picture, -1 to 1.
-struct Part {
+struct PictureRectangle {
     dvec2 low{-1}, high{1};
 };
 
-Part part_of(const graph::Area& area, uvec2 size) {
+PictureRectangle part_of(const graph::Area& area, uvec2 size) {
     const dvec2 low(area.x, area.y), extent(area.width, area.height);
     return {low / dvec2(size) * 2.0 - 1.0, (low + extent) / dvec2(size) * 2.0 - 1.0};
 }
 
 /// Returns the side planes and the near plane of a part of the view.
-Planes sides_of(const shared::View& view, const Part& part) {
+Planes sides_of(const shared::View& view, const PictureRectangle& part) {
     const dvec3 right(view.right), down(view.down), forward(view.forward);
     if (view.parallel != 0)
         return {{right, -part.low.x},
@@ -160,7 +160,7 @@ bool add_views(std::vector<MirroredView>& views, const MirroredView& from,
 
 } // namespace
 
-std::vector<MirroredView> mirrored_views(const Eye& camera,
+std::vector<MirroredView> mirrored_views(const MirroredEye& camera,
                                          const std::vector<std::optional<MirrorPlane>>& mirrors,
                                          uvec2 size, int& most) {
     const MirroredView first{

@@ -22,7 +22,7 @@ struct MirroredView {
 };
 
 /// The eye from which mirrored views start; scene units.
-struct Eye {
+struct MirroredEye {
     shared::View view;
     dvec3 place{0};
     Bounds<float> everything; ///< bounds of the scene: the range of a parallel view
@@ -44,7 +44,7 @@ inline constexpr std::size_t kMostMirroredViews = 1000;
 /// mirrored, and the projection stays (Diefenbach and Badler 1997). If this gives more than
 /// kMostMirroredViews, reduces `most`, the greatest depth, until the views fit; else `most` stays.
 /// Ignores occlusion. Costs O(views * mirrors).
-std::vector<MirroredView> mirrored_views(const Eye& camera,
+std::vector<MirroredView> mirrored_views(const MirroredEye& camera,
                                          const std::vector<std::optional<MirrorPlane>>& mirrors,
                                          uvec2 size, int& most);
 

@@ -77,17 +77,17 @@ void BoxTree::add(std::span<const Bounds<float>> boxes, std::uint32_t first, std
 
 void BoxTree::refit(std::span<const Bounds<float>> boxes) {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
-        Node& node = nodes_[i];
+        BoxNode& node = nodes_[i];
         node.box = {};
         for (std::uint32_t k = 0; k < node.count; ++k) node.box.add(boxes[order_[node.first + k]]);
         if (node.count == 0) node.box.add(nodes_[i + 1].box), node.box.add(nodes_[node.second].box);
     }
 }
 
-std::vector<BoxTree::Step> BoxTree::steps() const {
-    std::vector<Step> steps(nodes_.size());
+std::vector<BoxTree::WalkStep> BoxTree::steps() const {
+    std::vector<WalkStep> steps(nodes_.size());
     for (std::size_t i = nodes_.size(); i-- > 0;) {
-        const Node& node = nodes_[i];
+        const BoxNode& node = nodes_[i];
         steps[i].box = node.box;
         steps[i].past = node.count > 0 ? static_cast<std::uint32_t>(i + 1)
                                        : steps[node.second].past;
@@ -118,7 +118,7 @@ void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& 
         for (std::uint32_t i = 0; i < range.index_count / 3; ++i) look(i);
         return;
     }
-    Part& part = parts_[range.storage];
+    ObjectTree& part = parts_[range.storage];
     if (!part.tree)
         part.tree = BoxTree(triangle_boxes(geometry, range));
     else if (part.moved)

@@ -22,16 +22,16 @@ public:
     void nearest(const vec3& point, const float& squared, Visit&& visit) const;
 
     /// A node of a walk without a stack. If the ray misses the box, the walk goes on at `past`.
-    struct Step {
+    struct WalkStep {
         Bounds<float> box;
         std::uint32_t past = 0;            ///< the node after the whole subtree
         std::optional<std::uint32_t> only; ///< index of the box, if the node holds a single one
     };
     /// Returns all nodes, parents before their children.
-    std::vector<Step> steps() const;
+    std::vector<WalkStep> steps() const;
 
 private:
-    struct Node {
+    struct BoxNode {
         Bounds<float> box;
         std::uint32_t first = 0, count = 0; ///< range of a leaf in `order_`
         std::uint32_t second = 0;           ///< the second child; the first child is the next node
@@ -40,7 +40,7 @@ private:
 
     std::uint32_t leaf_ = 0;
     std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_; ///< children after their parents
+    std::vector<BoxNode> nodes_; ///< children after their parents
 };
 
 /// Distance queries to the nearest triangle of a scene. Keeps a tree over objects. Builds a tree
@@ -61,7 +61,7 @@ public:
                    const std::function<bool(std::size_t, const DrawRange&)>& skip);
 
 private:
-    struct Part {
+    struct ObjectTree {
         std::optional<BoxTree> tree;
         bool moved = false;
     };
@@ -71,7 +71,7 @@ private:
 
     BoxTree objects_;
     bool moved_ = false;
-    std::vector<Part> parts_; ///< by object
+    std::vector<ObjectTree> parts_; ///< by object
 };
 
 /// Returns a lower bound of the distance from the point to the box. The bound also holds for the
@@ -90,7 +90,7 @@ void BoxTree::nearest(const vec3& point, const float& squared, Visit&& visit) co
         const std::uint32_t place = waiting.back();
         waiting.pop_back();
         if (!may_be_nearer(place)) continue;
-        const Node& node = nodes_[place];
+        const BoxNode& node = nodes_[place];
         for (std::uint32_t i = 0; i < node.count; ++i) visit(order_[node.first + i]);
         if (node.count > 0) continue;
         const bool swap = gap_below(point, nodes_[node.second].box) <

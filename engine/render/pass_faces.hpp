@@ -12,12 +12,12 @@ inline constexpr graph::Clear kBlack{0, 0, 0, 1};
 inline constexpr graph::Clear kFarthest{0, 0, 0, 0}; ///< 0, because depth is reversed
 
 /// A range of faces of a mirror's capture or of a light's shadow map.
-struct Faces {
+struct FaceRange {
     std::uint32_t owner = 0, first = 0, count = 6;
 };
 
 /// Returns `name` for all six faces, else "NAME.FIRST-LAST".
-inline std::string name_of(const std::string& name, const Faces& faces) {
+inline std::string name_of(const std::string& name, const FaceRange& faces) {
     if (faces.count == 6) return name;
     return name + "." + std::to_string(faces.first + 1) + "-" +
            std::to_string(faces.first + faces.count);

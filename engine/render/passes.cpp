@@ -11,7 +11,7 @@ namespace {
 
 using graph::Clear;
 using graph::Commands;
-using graph::Image;
+using graph::ImageHandle;
 using graph::Tag;
 using graph::Use;
 
@@ -33,14 +33,15 @@ Looks ablated(Looks looks, const FrameInputs& inputs, const Lighting& lighting) 
 
 } // namespace
 
-View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, Looks looks,
-              bool is_traced) {
+CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting,
+                       Looks looks, bool is_traced) {
     const uvec2 size = inputs.size;
-    const Image hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
-    const Image depth = graph.image({inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
+    const ImageHandle hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
+    const ImageHandle depth = graph.image(
+        {inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
     graph::PassBuilder pass = graph.pass(inputs.prefix + "view", Tag::scene);
     read_surroundings(pass, lighting, looks);
-    View view{hdr, {}, {}};
+    CameraOutputs view{hdr, {}, {}};
     pass.writes(hdr, Use::colour, kBlack);
     if (is_traced || inputs.with_lookup) {
         // The order of attachments is that of the shaders' outputs. `tracers` takes the location
@@ -66,12 +67,13 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
     return view;
 }
 
-Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
-                        const MirroredView& view, std::uint32_t number, const Lighting& lighting,
-                        Looks looks, std::optional<std::uint32_t> left_out) {
+ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
+                              const std::string& name, const MirroredView& view,
+                              std::uint32_t number, const Lighting& lighting, Looks looks,
+                              std::optional<std::uint32_t> left_out) {
     const uvec2 size = inputs.size;
-    const Image hdr = graph.image({inputs.prefix + name, Format::rgba32f, size.x, size.y});
-    const Image depth = graph.image(
+    const ImageHandle hdr = graph.image({inputs.prefix + name, Format::rgba32f, size.x, size.y});
+    const ImageHandle depth = graph.image(
         {inputs.prefix + name + ".depth", Format::d32f, size.x, size.y});
     graph::PassBuilder pass = graph.pass(inputs.prefix + name, Tag::scene);
     read_surroundings(pass, lighting, looks);
@@ -96,10 +98,11 @@ Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs, const st
     return hdr;
 }
 
-Image add_compose(graph::Graph& graph, const FrameInputs& inputs, Image hdr,
-                  double exposure_stops) {
+ImageHandle add_compose(graph::Graph& graph, const FrameInputs& inputs, ImageHandle hdr,
+                        double exposure_stops) {
     const uvec2 size = inputs.size;
-    const Image picture = graph.image({inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
+    const ImageHandle picture = graph.image(
+        {inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
     graph.pass(inputs.prefix + "compose")
         .reads(hdr, Use::sampled)
         .writes(picture, Use::colour, kBlack)

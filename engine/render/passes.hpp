@@ -18,9 +18,9 @@ inline constexpr std::uint32_t kReferenceDepth = 16;
 /// ...) of a 2D array. Returns nothing if the scene has no light. `suffix` tells several maps of a
 /// frame apart. With a required model, maps persist while the shadow casters stay, and a light that
 /// needs no map gets none.
-std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
-                                       std::uint32_t edge, const require::Model& model = {},
-                                       const std::string& suffix = "");
+std::optional<graph::ImageHandle> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
+                                             std::uint32_t edge, const require::Model& model = {},
+                                             const std::string& suffix = "");
 
 /// Declares one pass for each mirror with a capture. The pass draws all faces that need drawing. If
 /// some faces stay, each run of neighbours has its own pass, and so has each face of which only a
@@ -30,29 +30,29 @@ void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures
                   Looks looks, const CaptureWork& work = {});
 
 /// The outputs of the camera's view.
-struct View {
-    graph::Image hdr; ///< linear radiance, rgba32f
+struct CameraOutputs {
+    graph::ImageHandle hdr; ///< linear radiance, rgba32f
     /// Where each mirror pixel looked, rgba32f: see shaders/lib/mirror.glsl; 0 for other pixels.
-    std::optional<graph::Image> lookup;
+    std::optional<graph::ImageHandle> lookup;
     /// Number of the tracing that completes the pixel, from 1, r32f; 0: none.
-    std::optional<graph::Image> tracers;
+    std::optional<graph::ImageHandle> tracers;
 };
 /// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to
 /// tracing. In that case `lookup` and `tracers` exist.
-View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, Looks looks,
-              bool is_traced = false);
+CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting,
+                       Looks looks, bool is_traced = false);
 
 /// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
 /// rgba32f. The image is defined only in that area. `number`: of the view in the scene's list of
 /// views. Leaves out everything behind the mirror's plane, and the mirror `left_out`, from 0.
-graph::Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
-                               const std::string& name, const MirroredView& view,
-                               std::uint32_t number, const Lighting& lighting, Looks looks,
-                               std::optional<std::uint32_t> left_out);
+graph::ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
+                                     const std::string& name, const MirroredView& view,
+                                     std::uint32_t number, const Lighting& lighting, Looks looks,
+                                     std::optional<std::uint32_t> left_out);
 
 /// Declares the pass that makes the final picture: exposure in stops, clamp and sRGB curve,
 /// rgba8_unorm.
-graph::Image add_compose(graph::Graph& graph, const FrameInputs& inputs, graph::Image hdr,
-                         double exposure_stops);
+graph::ImageHandle add_compose(graph::Graph& graph, const FrameInputs& inputs,
+                               graph::ImageHandle hdr, double exposure_stops);
 
 } // namespace catoptric::render

@@ -15,7 +15,7 @@ namespace catoptric::render {
 /// one a slot.
 class Resident {
 public:
-    Resident(std::string name, gpu::BufferUse use, std::size_t slots)
+    Resident(std::string name, gpu::BufferUsage use, std::size_t slots)
         : name_(std::move(name)), use_(use), bound_(slots) {}
 
     /// Sets the contents for the next `write`. Returns whether they differ from the last contents;
@@ -47,7 +47,7 @@ private:
     std::size_t free_copy(std::size_t slot);
 
     std::string name_;
-    gpu::BufferUse use_;
+    gpu::BufferUsage use_;
     std::vector<std::byte> data_;
     std::vector<std::uint64_t> pages_; ///< by page of `data_`: the version of the last change
     std::uint64_t version_ = 1;

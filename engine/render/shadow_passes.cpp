@@ -12,7 +12,7 @@ namespace catoptric::render {
 namespace {
 
 using graph::Commands;
-using graph::Image;
+using graph::ImageHandle;
 using graph::Tag;
 using graph::Use;
 
@@ -36,7 +36,8 @@ std::uint64_t shadow_content_hash(const GpuScene& scene, const require::Model& m
 /// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears
 /// them to the farthest depth, so that nothing is in shadow.
 void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
-                      const Faces& faces, bool has_map, const std::string& name, Image part) {
+                      const FaceRange& faces, bool has_map, const std::string& name,
+                      ImageHandle part) {
     graph.pass(name, Tag::scene)
         .writes(part, Use::depth, kFarthest)
         .layers(faces.count)
@@ -57,14 +58,15 @@ void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t 
 
 } // namespace
 
-std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge,
-                                const require::Model& model, const std::string& suffix) {
+std::optional<ImageHandle> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
+                                      std::uint32_t edge, const require::Model& model,
+                                      const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
     if (scene.light_count() == 0) return std::nullopt;
     const std::uint32_t faces = scene.shadow_faces();
     const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, Format::d32f, edge, edge,
                                 faces * scene.light_count()};
-    const Image map = model.is_everything ? graph.image(desc) : graph.persistent(desc);
+    const ImageHandle map = model.is_everything ? graph.image(desc) : graph.persistent(desc);
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         const bool has_map = model.is_everything || model.lights[light].has_map;
         const std::string name = scene.light_count() == 1 ? "shadow"
@@ -80,7 +82,7 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
                                     !graph.holds_content(part(face, 1), content_hashes[face]));
         };
         for_each_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
-            const Faces run{light, first, end - first};
+            const FaceRange run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
                 graph.set_content_hash(part(face, 1), content_hashes[face]);
             const std::string text = run.count == faces ? name : name_of(name, run);

@@ -27,10 +27,10 @@ shared::Sky sky_of(const scene::Environment& environment) {
 } // namespace
 
 Sky::Sky(std::size_t slots)
-    : sky_("sky", gpu::BufferUse::uniform, slots),
-      texels_("sky.texels", gpu::BufferUse::texels, slots),
-      vertices_("sky.vertices", gpu::BufferUse::vertex, slots),
-      indices_("sky.indices", gpu::BufferUse::index, slots) {
+    : sky_("sky", gpu::BufferUsage::uniform, slots),
+      texels_("sky.texels", gpu::BufferUsage::texels, slots),
+      vertices_("sky.vertices", gpu::BufferUsage::vertex, slots),
+      indices_("sky.indices", gpu::BufferUsage::index, slots) {
     sky_.set(std::vector(1, shared::Sky{}));
 }
 

@@ -101,7 +101,7 @@ gpu::Constants constants_of(const gpu::Choices& choices, std::uint64_t bytes,
 
 Tracing::Tracing(std::size_t slots)
     : hierarchies_{Hierarchy(slots), Hierarchy(slots)},
-      normals_buffer_("normals", gpu::BufferUse::texels, slots) {}
+      normals_buffer_("normals", gpu::BufferUsage::texels, slots) {}
 
 void Tracing::lay_out() {
     is_read_ = false;
@@ -139,7 +139,7 @@ void Tracing::build_own(const Geometry& geometry, std::size_t object) {
 
 /// Reads the objects that have moved.
 void Tracing::follow(const Geometry& geometry) {
-    bvh::Run changed{normals_.size(), 0};
+    bvh::IndexRange changed{normals_.size(), 0};
     for (const auto& [object, vertices] : moved_) {
         const DrawRange& range = geometry.ranges[object];
         const bool own = range.own.has_value();

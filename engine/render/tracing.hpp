@@ -68,15 +68,16 @@ private:
     };
     struct Hierarchy {
         explicit Hierarchy(std::size_t slots)
-            : nodes("bvh_nodes", gpu::BufferUse::texels, slots),
-              triangles("bvh_triangles", gpu::BufferUse::texels, slots) {}
+            : nodes("bvh_nodes", gpu::BufferUsage::texels, slots),
+              triangles("bvh_triangles", gpu::BufferUsage::texels, slots) {}
         bvh::Bvh tree; ///< of the triangles in scene units
         double cost_when_built = 0;
         Version seen;
         std::vector<char> moved;   ///< by object in scene units: moved since `seen`
         std::vector<char> reached; ///< by object: the objects that `reach` was made for
         bvh::Reach reach;
-        bvh::Run changed; ///< range of the tree's triangles that changed since the last `fill`
+        bvh::IndexRange
+            changed; ///< range of the tree's triangles that changed since the last `fill`
         Resident nodes, triangles;
     };
     Hierarchy& of(Spheres spheres) { return hierarchies_[static_cast<std::size_t>(spheres)]; }

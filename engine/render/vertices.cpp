@@ -6,9 +6,9 @@
 namespace catoptric::render {
 
 Vertices::Vertices(const std::vector<bool>& moves, std::size_t slots)
-    : still_("vertices", gpu::BufferUse::vertex, slots),
-      moving_("moving vertices", gpu::BufferUse::vertex, slots),
-      indices_("indices", gpu::BufferUse::index, slots) {
+    : still_("vertices", gpu::BufferUsage::vertex, slots),
+      moving_("moving vertices", gpu::BufferUsage::vertex, slots),
+      indices_("indices", gpu::BufferUsage::index, slots) {
     for (const bool one : moves) places_.push_back({one, 0});
 }
 
@@ -28,7 +28,7 @@ void Vertices::lay_out(const Geometry& geometry) {
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
             indices[k] = geometry.indices[k] - range.first_vertex + places_[i].first;
     }
-    anything_moves_ = std::ranges::any_of(places_, &Place::moves);
+    anything_moves_ = std::ranges::any_of(places_, &VertexRange::moves);
     still_.set(still);
     moving_.set(moving);
     indices_.set(indices);

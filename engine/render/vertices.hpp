@@ -32,12 +32,12 @@ public:
     void bind(graph::Commands& commands, std::size_t slot, std::size_t object) const;
 
 private:
-    struct Place {
+    struct VertexRange {
         bool moves = false;
         std::uint32_t first = 0;
     };
     std::size_t layouts_ = 0;
-    std::vector<Place> places_; ///< by object
+    std::vector<VertexRange> places_; ///< by object
     bool anything_moves_ = false;
     Resident still_, moving_, indices_;
 };

@@ -36,10 +36,10 @@ glm::mat3 turned_cube(vec3 forward) {
 }
 
 /// The least and the largest product of an axis with the points of a box.
-struct Extent {
+struct AxisRange {
     double low = 0, high = 0;
 };
-Extent along(const dvec3& axis, const Bounds<float>& box) {
+AxisRange along(const dvec3& axis, const Bounds<float>& box) {
     if (box.empty()) return {};
     const dvec3 middle(box.centre()), half(dvec3(box.extent()) / 2.0);
     const double at = dot(axis, middle), reach = dot(abs(axis), half);
@@ -47,7 +47,7 @@ Extent along(const dvec3& axis, const Bounds<float>& box) {
 }
 
 /// Returns where all geometry begins and ends along an axis, with a margin.
-Extent depth_of(const dvec3& forward, const Bounds<float>& everything) {
+AxisRange depth_of(const dvec3& forward, const Bounds<float>& everything) {
     const auto [low, high] = along(forward, everything);
     const double room = kRoom * std::max(high - low, 1.0);
     return {low - room, high + room};
@@ -55,7 +55,7 @@ Extent depth_of(const dvec3& forward, const Bounds<float>& everything) {
 
 /// Makes the view parallel. It reaches from a plane at depth.low, to which the eye moves, to a
 /// plane at depth.high.
-void look_along(shared::View& view, dvec3& eye, const dvec3& forward, const Extent& depth) {
+void look_along(shared::View& view, dvec3& eye, const dvec3& forward, const AxisRange& depth) {
     eye += forward * (depth.low - dot(forward, eye));
     view.near = static_cast<float>(1 / std::max(depth.high - depth.low, kRoom));
     view.parallel = 1;
@@ -88,7 +88,7 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
         const double half = camera.orthographic_height * space.scale / 2;
         view.right = vec3(right / (half * aspect));
         view.down = vec3(down / half);
-        const Extent depth = depth_of(forward, everything);
+        const AxisRange depth = depth_of(forward, everything);
         look_along(view, eye, forward, {std::max(depth.low, dot(forward, eye)), depth.high});
     }
     view.eye = vec3(eye);

@@ -99,7 +99,7 @@ struct Adds {
         line.add(name + "_g", colour.y);
         line.add(name + "_b", colour.z);
     }
-    void operator()(const measure::Place& place) const {
+    void operator()(const measure::PixelPosition& place) const {
         const auto text = [&](int value) { return place.x < 0 ? "" : std::to_string(value); };
         line.add(name + "_x", text(place.x));
         line.add(name + "_y", text(place.y));
@@ -131,8 +131,8 @@ void CsvLine::add(const std::string& name, const measure::Value& value) {
 
 /// Returns whether the report's table of rows has a column of this metric.
 bool is_in_rows_table(const measure::Metric& quantity) {
-    return std::ranges::any_of(quantity.columns, [](const measure::Column& column) {
-        return column.table == measure::InTable::rows;
+    return std::ranges::any_of(quantity.columns, [](const measure::MetricColumn& column) {
+        return column.table == measure::MetricTable::rows;
     });
 }
 
@@ -241,7 +241,7 @@ CsvLine line_of(const Comparison& comparison, const Row& row, std::size_t mirror
     line.add("label", row.label);
     line.add("settings", settings_text(row));
     line.add("model", row.model);
-    const measure::Places places = measure::places_in_time(comparison, row);
+    const measure::PlaceRange places = measure::places_in_time(comparison, row);
     line.add("place_first", places.first);
     line.add("place_last", places.last);
     add_figures(line, comparison, row, mirrors);

@@ -46,17 +46,16 @@ Sentence not_drawn(const Comparison& comparison) {
 }
 
 std::string clear_verdict(const measure::ClearFinding& finding) {
-    using Verdict = measure::ClearFinding::Verdict;
     switch (finding.verdict) {
-    case Verdict::slower_without:
+    case measure::ClearFinding::ClearVerdict::slower_without:
         return "part one is slower without any clear, so clearing alone does not explain the order "
                "on "
                "this device";
-    case Verdict::too_little:
+    case measure::ClearFinding::ClearVerdict::too_little:
         return "added to part one that still leaves it no slower than part two, so clearing alone "
                "does "
                "not explain the report's order on this device";
-    case Verdict::explains: break;
+    case measure::ClearFinding::ClearVerdict::explains: break;
     }
     return fmt::format(
         "added to part one that would put it {} behind part two (the report: {}), so "

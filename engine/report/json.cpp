@@ -79,7 +79,7 @@ struct Writes {
     Json operator()(bool mark) const { return mark; }
     Json operator()(double value) const { return number(value); }
     Json operator()(const dvec3& colour) const { return point_json(colour); }
-    Json operator()(const measure::Place& place) const {
+    Json operator()(const measure::PixelPosition& place) const {
         return place.x < 0 ? Json(nullptr) : Json::array({place.x, place.y});
     }
     Json operator()(const measure::Summary& times) const { return to_json(times); }

@@ -31,7 +31,7 @@ std::string short_device_name(const Comparison& comparison) {
 }
 
 /// Returns places as "3" or "3–5".
-std::string places_text(const measure::Places& places) {
+std::string places_text(const measure::PlaceRange& places) {
     const std::string first = std::to_string(places.first);
     return places.first == places.last ? first : first + "–" + std::to_string(places.last);
 }
@@ -95,7 +95,7 @@ std::string remark(const Comparison& comparison, const Row& row) {
 }
 
 /// Returns a cell of a metric's column. `decimals` is that of times in the whole table.
-std::string cell(const measure::Column& column, const measure::Value& value, int decimals) {
+std::string cell(const measure::MetricColumn& column, const measure::Value& value, int decimals) {
     using measure::Style;
     if (measure::is_nothing(value)) return nothing();
     if (const auto* times = std::get_if<measure::Summary>(&value)) {
@@ -119,7 +119,7 @@ std::string cell(const measure::Column& column, const measure::Value& value, int
 /// Column of a metric. For metrics of a difference, `mask` is the mask of the column.
 struct FigureColumn {
     const measure::Metric* quantity;
-    measure::Column column;
+    measure::MetricColumn column;
     const measure::RowMask* mask = nullptr;
 
     int order() const { return column.order != 0 ? column.order : quantity->order; }
@@ -136,13 +136,13 @@ struct FigureColumn {
 
 /// Returns the columns of the metrics in a table, by order. Columns over other masks follow all
 /// columns over the mirrors.
-std::vector<FigureColumn> figure_columns(measure::InTable table, const Comparison& comparison) {
+std::vector<FigureColumn> figure_columns(measure::MetricTable table, const Comparison& comparison) {
     std::vector<FigureColumn> columns;
     int last = 0; // the last order of a metric of differences
     for (const measure::Metric& quantity : measure::difference_metrics())
         if (quantity.order < measure::kAfterDifferences) last = quantity.order;
     for (const measure::Metric& quantity : measure::metrics())
-        for (const measure::Column& column : quantity.columns) {
+        for (const measure::MetricColumn& column : quantity.columns) {
             if (column.table != table) continue;
             if (quantity.mask != "each") {
                 columns.push_back({&quantity, column});
@@ -224,7 +224,8 @@ Table rows_table(const Comparison& comparison) {
     if (measure::find_not_drawn(comparison))
         table.note += " Smooth dielectrics: the pixels whose first hit reflects without being a "
                       "mirror.";
-    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::rows, comparison);
+    const std::vector<FigureColumn> columns = figure_columns(measure::MetricTable::rows,
+                                                             comparison);
     add_columns(table, columns);
     table.columns.push_back({"Remark", false});
     const int decimals = ms_decimals(comparison);
@@ -267,7 +268,8 @@ Table lookup_table(const Comparison& comparison) {
                 "the capture shows another one there; unknown and miss: what the search says of "
                 "itself; traced: of "
                 "all mirror pixels."};
-    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::lookup, comparison);
+    const std::vector<FigureColumn> columns = figure_columns(measure::MetricTable::lookup,
+                                                             comparison);
     add_columns(table, columns);
     const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows)

@@ -11,19 +11,19 @@ namespace {
 
 struct Figure {
     const measure::Metric* quantity;
-    const measure::Column* column;
+    const measure::MetricColumn* column;
 };
 
 /// Returns the metrics of differences that the table of rows shows, too.
 std::vector<Figure> figures() {
     std::vector<Figure> list;
     for (const measure::Metric& quantity : measure::difference_metrics())
-        for (const measure::Column& column : quantity.columns)
+        for (const measure::MetricColumn& column : quantity.columns)
             if (measure::is_number(quantity)) list.push_back({&quantity, &column});
     return list;
 }
 
-std::string number_text(double value, const measure::Column& column) {
+std::string number_text(double value, const measure::MetricColumn& column) {
     switch (column.style) {
     case measure::Style::fixed: return fixed(value, column.decimals);
     case measure::Style::percent: return fixed(100 * value, column.decimals);
@@ -34,7 +34,7 @@ std::string number_text(double value, const measure::Column& column) {
 std::string cell(const Row& row, const Figure& figure) {
     const measure::OverViews over = measure::over_views(row, measure::masks().front(),
                                                         *figure.quantity);
-    const measure::Column& column = *figure.column;
+    const measure::MetricColumn& column = *figure.column;
     const std::string median = number_text(over.median, column);
     if (!over.ci95.is_known()) return median;
     return fmt::format("{} [{}–{}]", median, number_text(over.ci95.low, column),

@@ -10,10 +10,10 @@ namespace catoptric::require {
 
 namespace {
 
-using Numbers = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
+using NumberList = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
 
 /// Returns `one` with its number and name, or the plural with several numbers.
-std::string called(const std::string& one, const Numbers& numbers, const std::string& name) {
+std::string called(const std::string& one, const NumberList& numbers, const std::string& name) {
     if (numbers.size() == 1) return one + " " + ranges(numbers) + (name.empty() ? "" : " " + name);
     return one + "s " + ranges(numbers);
 }
@@ -46,7 +46,7 @@ void add_unseen(std::vector<CulledWork>& all, const Model& model, const Findings
                 const scene::Scene& scene, const std::vector<std::size_t>& mirrors) {
     const auto seen = static_cast<std::size_t>(
         std::ranges::count_if(model.mirrors, &MirrorNeeds::is_seen));
-    std::map<std::pair<Unseen::Why, std::size_t>, Numbers> alike;
+    std::map<std::pair<Unseen::Why, std::size_t>, NumberList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         if (!model.mirrors[i].is_captured && findings.camera[i])
             alike[{findings.camera[i]->why, findings.camera[i]->wall}].push_back(i + 1);
@@ -65,7 +65,7 @@ void add_unseen(std::vector<CulledWork>& all, const Model& model, const Findings
 
 void add_faces(std::vector<CulledWork>& all, const Model& model, const scene::Scene& scene,
                const std::vector<std::size_t>& mirrors) {
-    std::map<Faces, Numbers> alike;
+    std::map<Faces, NumberList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllFaces)
             alike[model.mirrors[i].faces].push_back(i + 1);

@@ -15,7 +15,7 @@ dvec3 furthest(const Bounds<double>& box, const dvec3& normal) {
 
 } // namespace
 
-Picture::Picture(const scene::Camera& camera, uvec2 size) : eye_(camera.eye) {
+PictureFrustum::PictureFrustum(const scene::Camera& camera, uvec2 size) : eye_(camera.eye) {
     forward_ = normalize(camera.target - camera.eye);
     const dvec3 right = normalize(cross(forward_, camera.up)), down = cross(forward_, right);
     const double aspect = static_cast<double>(size.x) / static_cast<double>(size.y);
@@ -34,14 +34,14 @@ Picture::Picture(const scene::Camera& camera, uvec2 size) : eye_(camera.eye) {
     planes_[4] = {half * along - down, beyond * half};
 }
 
-bool Picture::may_hold(const Bounds<double>& box) const {
+bool PictureFrustum::may_hold(const Bounds<double>& box) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
         return dot(plane.first, furthest(box, plane.first) - eye_) < -plane.second;
     });
 }
 
 /// Clips the triangle by one plane after the other (Sutherland and Hodgman 1974).
-bool Picture::may_hold_triangle(const std::array<dvec3, 3>& triangle, double margin) const {
+bool PictureFrustum::may_hold_triangle(const std::array<dvec3, 3>& triangle, double margin) const {
     constexpr std::size_t kMostCorners = 3 + 5; // each plane adds at most one corner
     std::array<dvec3, kMostCorners> corners{triangle[0], triangle[1], triangle[2]}, kept;
     std::size_t count = 3;
@@ -62,13 +62,13 @@ bool Picture::may_hold_triangle(const std::array<dvec3, 3>& triangle, double mar
     return true;
 }
 
-bool Picture::may_hold_ball(const dvec3& centre, double radius) const {
+bool PictureFrustum::may_hold_ball(const dvec3& centre, double radius) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
         return dot(plane.first, centre - eye_) + plane.second < -radius * length(plane.first);
     });
 }
 
-double Picture::pixel_angle(double distance) const {
+double PictureFrustum::pixel_angle(double distance) const {
     return is_parallel_ ? pixel_ / distance : pixel_;
 }
 

@@ -9,9 +9,9 @@ namespace catoptric::require {
 
 /// The volume that a picture shows: in front of the eye and between the picture's four sides. An
 /// orthographic picture also holds a box that lies only partly in front of the eye's plane.
-class Picture {
+class PictureFrustum {
 public:
-    Picture(const scene::Camera& camera, uvec2 size);
+    PictureFrustum(const scene::Camera& camera, uvec2 size);
 
     const dvec3& eye() const { return eye_; }
     const dvec3& forward() const { return forward_; }

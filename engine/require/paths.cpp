@@ -14,9 +14,9 @@ namespace catoptric::require {
 namespace {
 
 /// The scene's triangles relative to the eye, with the normals of their corners.
-class Stage {
+class EyeTriangles {
 public:
-    explicit Stage(const Question& question) : number_(question.now.objects.size(), 0) {
+    explicit EyeTriangles(const Question& question) : number_(question.now.objects.size(), 0) {
         const scene::Scene& now = question.now;
         std::uint32_t mirrors = 0;
         for (const std::size_t object : scene::mirrors(now)) {
@@ -29,15 +29,15 @@ public:
         tree_ = bvh::build(triangles);
     }
 
-    struct Path {
+    struct MirrorPath {
         std::vector<std::uint32_t> mirrors; ///< in the order in which the ray meets them, from 0
         std::vector<bool>
             /// For each mirror on the path, whether its capture does not show what the ray meets
             /// next.
             is_hidden;
     };
-    Path follow(f32::Ray ray) const {
-        Path path;
+    MirrorPath follow(f32::Ray ray) const {
+        MirrorPath path;
         auto hit = bvh::closest_hit<float>(tree_, ray, kFar, bvh::kHidden | bvh::kOneSided);
         while (hit && number_[hit->object] > 0 && path.mirrors.size() < kLongestPath) {
             const std::uint32_t mirror = number_[hit->object] - 1;
@@ -74,7 +74,7 @@ private:
         }
     }
 
-    f32::Ray reflected(const f32::Ray& ray, const bvh::Hit<float>& hit) const {
+    f32::Ray reflected(const f32::Ray& ray, const bvh::RayHit<float>& hit) const {
         const vec4* corner = &tree_.triangles[3 * std::size_t{hit.place}];
         const vec3 a(corner[0]), b(corner[1]), c(corner[2]), w = hit.barycentric;
         const vec3* normals = &normals_[3 * std::size_t{hit.triangle}];
@@ -89,7 +89,7 @@ private:
     /// Returns whether the mirror's capture shows what the ray met, or that the ray met nothing.
     /// The capture does not contain the mirror itself.
     bool shows(std::uint32_t mirror, const f32::Ray& ray,
-               const std::optional<bvh::Hit<float>>& met) const {
+               const std::optional<bvh::RayHit<float>>& met) const {
         constexpr int kMostOwn = 64; // most of the mirror's own triangles that the ray passes
         constexpr float kBefore = 1 - 0x1p-10f;
         if (met && number_[met->object] == mirror + 1) return false;
@@ -131,7 +131,7 @@ std::size_t Paths::on_mirrors() const {
 Paths paths_of(const Question& question) {
     const scene::Camera& camera = question.camera;
     const std::size_t mirrors = scene::mirrors(question.now).size();
-    const Stage stage(question);
+    const EyeTriangles stage(question);
     const uvec2 grid = grid_of(question.size);
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);

@@ -23,14 +23,14 @@ struct Requirements::Impl {
 
     explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
-    void find_seen(const Picture& picture, const scene::Scene& now);
+    void find_seen(const PictureFrustum& picture, const scene::Scene& now);
     void find_captured(std::size_t mirror, bool asks_all);
-    Faces faces_of(const Picture& picture, std::size_t mirror);
-    void find_lights(const Picture& picture);
+    Faces faces_of(const PictureFrustum& picture, std::size_t mirror);
+    void find_lights(const PictureFrustum& picture);
 };
 
 /// Finds the mirrors that the camera sees, the mirrors that these can see, and so on.
-void Requirements::Impl::find_seen(const Picture& picture, const scene::Scene& now) {
+void Requirements::Impl::find_seen(const PictureFrustum& picture, const scene::Scene& now) {
     const std::size_t count = world.mirrors().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
     waiting.clear();
@@ -74,7 +74,7 @@ void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
         if (sight.shows(world, mirror, i)) needs.sees.push_back(static_cast<std::uint32_t>(i));
 }
 
-Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
+Faces Requirements::Impl::faces_of(const PictureFrustum& picture, std::size_t mirror) {
     const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     const dvec3 flat = world.meshes()[thing.mesh].flat_normal;
     if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaces;
@@ -91,7 +91,7 @@ Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
 
 /// Finds whether each light may shine on something that is seen. If any capture is made, all
 /// objects count as seen; else only those that the camera may see.
-void Requirements::Impl::find_lights(const Picture& picture) {
+void Requirements::Impl::find_lights(const PictureFrustum& picture) {
     model.lights.resize(world.lights().size());
     model.casters = content_hashes.casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorNeeds::is_captured);
@@ -113,7 +113,7 @@ Requirements& Requirements::operator=(Requirements&&) noexcept = default;
 
 const Model& Requirements::of(const Question& question) {
     Impl& impl = *impl_;
-    const Picture picture(question.camera, question.size);
+    const PictureFrustum picture(question.camera, question.size);
     impl.world.follow(question.now);
     impl.sight.follow(impl.world);
     impl.content_hashes.follow(impl.world, question.shadow_edge);

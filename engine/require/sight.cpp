@@ -14,7 +14,7 @@ double margin_of(const World& world) { return 4 * world.rounding(); }
 
 } // namespace
 
-std::optional<Unseen> hidden_from_camera(const World& world, const Picture& picture,
+std::optional<Unseen> hidden_from_camera(const World& world, const PictureFrustum& picture,
                                          std::size_t mirror) {
     const std::size_t object = world.mirrors()[mirror];
     const WorldObject& thing = world.things()[object];
@@ -35,7 +35,7 @@ std::optional<Unseen> hidden_from_camera(const World& world, const Picture& pict
 
 bool is_tested(const scene::Mesh& mesh) { return mesh.triangles.size() <= kMostPairs; }
 
-bool is_surface_in(const Picture& picture, const World& world, std::size_t mirror,
+bool is_surface_in(const PictureFrustum& picture, const World& world, std::size_t mirror,
                    const scene::Scene& now) {
     const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     const double margin = margin_of(world);
@@ -84,7 +84,7 @@ Sight::Sides Sight::sides_of(const World& world, const Bounds<double>& box) cons
     return sides;
 }
 
-Sight::Place Sight::place_of(const World& world, std::size_t mirror) const {
+Sight::MirrorSides Sight::place_of(const World& world, std::size_t mirror) const {
     const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     if (thing.box.empty()) return {};
     const dvec3 centre = thing.tight.centre();

@@ -21,14 +21,14 @@ struct Unseen {
 
 /// Returns why the camera does not see a mirror. The result is none if its bounds are in the
 /// picture and no wall stands in front of them.
-std::optional<Unseen> hidden_from_camera(const World& world, const Picture& picture,
+std::optional<Unseen> hidden_from_camera(const World& world, const PictureFrustum& picture,
                                          std::size_t mirror);
 
 /// Returns whether a mirror's mesh has few enough triangles to be tested one by one in each frame.
 bool is_tested(const scene::Mesh& mesh);
 /// Returns false if no triangle of the mirror is in the picture, though its bounds may be. Returns
 /// true for a mesh that is not tested. An exact sphere is tested as a ball.
-bool is_surface_in(const Picture& picture, const World& world, std::size_t mirror,
+bool is_surface_in(const PictureFrustum& picture, const World& world, std::size_t mirror,
                    const scene::Scene& now);
 
 /// Which mirrors can see each other, kept from one instant to the next.
@@ -53,17 +53,17 @@ private:
     struct Sides {
         std::uint32_t front = 0, back = 0;
     };
-    struct Place {
+    struct MirrorSides {
         Sides box, centre;
     };
     Sides sides_of(const World& world, const Bounds<double>& box) const;
-    Place place_of(const World& world, std::size_t mirror) const;
+    MirrorSides place_of(const World& world, std::size_t mirror) const;
     void look(const World& world, std::size_t viewer);
     std::uint8_t look_at(const World& world, std::size_t viewer, std::size_t target) const;
 
     std::uint64_t layout_ = 0;
     std::size_t count_ = 0;
-    std::vector<Place> places_;
+    std::vector<MirrorSides> places_;
     std::uint32_t two_sided_ = 0;                 ///< bits of walls that hide from both sides
     std::vector<std::vector<std::uint8_t>> rows_; ///< answers by viewer; empty: not computed yet
     std::vector<bool> changed_;

@@ -84,7 +84,7 @@ double pass_of(const Known& known, double pixels) {
 }
 
 /// The ways to draw a mirror.
-enum class Way { planes, hybrid, march, small };
+enum class DrawingMethod { planes, hybrid, march, small };
 
 /// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
 /// more than a tenth.
@@ -98,8 +98,8 @@ bool is_traced(const Known& known, std::size_t mirror) {
 /// the mirrors that `count` rays meet; this mirror is the last. A mirrored view looks into the
 /// mirror's capture but traces nothing, so it can only guess what the capture does not show.
 void weigh_in_planes(Candidate& candidate, const Known& known,
-                     const std::vector<std::uint32_t>& path, std::size_t count, Way way) {
-    const bool is_searched = way != Way::small;
+                     const std::vector<std::uint32_t>& path, std::size_t count, DrawingMethod way) {
+    const bool is_searched = way != DrawingMethod::small;
     if (is_searched) candidate.cost += kCosts.searched * known.pixels_of(count);
     const double error = is_searched ? kErrors.search : kErrors.reuse;
     candidate.error += static_cast<double>(count) * (error - kErrors.planar);
@@ -110,26 +110,27 @@ void weigh_in_planes(Candidate& candidate, const Known& known,
 
 /// Adds cost and error of the candidate's techniques. `face` is the edge in texels of the captures
 /// of mirrors drawn by `planar`; 0: no captures.
-void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& ways,
+void weigh(Candidate& candidate, const Known& known, const std::vector<DrawingMethod>& ways,
            std::uint32_t face) {
     std::vector<bool> by_planes;
-    for (const Way way : ways) by_planes.push_back(way == Way::planes);
+    for (const DrawingMethod way : ways) by_planes.push_back(way == DrawingMethod::planes);
     candidate.cost = pass_of(known, known.pixels);
     for (std::size_t i = 0; i < known.count() && face > 0; ++i) {
-        const double edge = by_planes[i]            ? face
-                            : ways[i] == Way::small ? kSmallFace
-                                                    : kUsualFace,
+        const double edge = by_planes[i]                      ? face
+                            : ways[i] == DrawingMethod::small ? kSmallFace
+                                                              : kUsualFace,
                      pixels = 6 * edge * edge;
         candidate.cost += pass_of(known, pixels);
-        if (ways[i] == Way::hybrid) candidate.cost += kCosts.bounds * pixels;
+        if (ways[i] == DrawingMethod::hybrid) candidate.cost += kCosts.bounds * pixels;
     }
     for (std::size_t i = 0; i < known.count(); ++i) {
         const auto first = static_cast<double>(known.paths.first[i]);
-        const bool is_searched = ways[i] == Way::hybrid || ways[i] == Way::march;
+        const bool is_searched = ways[i] == DrawingMethod::hybrid ||
+                                 ways[i] == DrawingMethod::march;
         if (is_searched) candidate.cost += kCosts.searched * known.pixels_of(known.paths.first[i]);
-        if (ways[i] == Way::hybrid)
+        if (ways[i] == DrawingMethod::hybrid)
             candidate.cost += kCosts.traced * known.pixels_of(known.paths.hidden[i]);
-        if (ways[i] == Way::march)
+        if (ways[i] == DrawingMethod::march)
             candidate.error += static_cast<double>(known.paths.hidden[i]) *
                                (kErrors.unknown - kErrors.search);
         candidate.error += first * (by_planes[i]  ? kErrors.planar
@@ -151,11 +152,11 @@ void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& way
 
 /// Returns the techniques of a candidate, each once, without those of hardly seen mirrors: "planar,
 /// hybrid".
-std::string name_of(const std::vector<Way>& ways) {
+std::string name_of(const std::vector<DrawingMethod>& ways) {
     std::string name;
     for (const auto& [way, word] :
-         {std::pair(Way::planes, "planar"), std::pair(Way::hybrid, "hybrid"),
-          std::pair(Way::march, "march")})
+         {std::pair(DrawingMethod::planes, "planar"), std::pair(DrawingMethod::hybrid, "hybrid"),
+          std::pair(DrawingMethod::march, "march")})
         if (std::ranges::find(ways, way) != ways.end())
             name += (name.empty() ? "" : ", ") + std::string(word);
     return name.empty() ? "reuse" : name;
@@ -164,18 +165,19 @@ std::string name_of(const std::vector<Way>& ways) {
 /// Returns a candidate. Flat mirrors get `planar` if `planes` is set. Hardly seen mirrors get small
 /// captures, and all others get searches.
 Candidate candidate_of(const Known& known, bool planes) {
-    std::vector<Way> ways(known.count(), Way::small);
+    std::vector<DrawingMethod> ways(known.count(), DrawingMethod::small);
     bool is_searched = false; // whether any mirror's capture is searched
     for (std::size_t i = 0; i < known.count(); ++i) {
         if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
-        ways[i] = is_traced(known, i) ? Way::hybrid : Way::march;
+        ways[i] = is_traced(known, i) ? DrawingMethod::hybrid : DrawingMethod::march;
         is_searched = true;
     }
     bool has_captures = false;
     for (std::size_t i = 0; i < known.count(); ++i) {
         // If no mirror is searched, a mirrored view costs less than a capture.
-        if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched)) ways[i] = Way::planes;
-        has_captures = has_captures || ways[i] != Way::planes;
+        if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched))
+            ways[i] = DrawingMethod::planes;
+        has_captures = has_captures || ways[i] != DrawingMethod::planes;
     }
     std::string planar = "planar";
     const char* between = ":";
@@ -185,10 +187,10 @@ Candidate candidate_of(const Known& known, bool planes) {
     if (known.bounces != kFewestBounces) add("bounces=" + std::to_string(known.bounces));
     if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallFace));
     Candidate candidate{.name = name_of(ways)};
-    for (const Way way : ways)
-        candidate.techniques.push_back(way == Way::planes   ? planar
-                                       : way == Way::hybrid ? "hybrid"
-                                       : way == Way::march
+    for (const DrawingMethod way : ways)
+        candidate.techniques.push_back(way == DrawingMethod::planes   ? planar
+                                       : way == DrawingMethod::hybrid ? "hybrid"
+                                       : way == DrawingMethod::march
                                            ? "march"
                                            : "reuse:face=" + std::to_string(kSmallFace));
     weigh(candidate, known, ways, !has_captures ? 0 : is_searched ? kUsualFace : kSmallFace);

@@ -35,20 +35,20 @@ std::optional<Quad> joined(const scene::Mesh& mesh, const uvec3& one, const uvec
 }
 
 /// The corners of a box, or its only point if the box is a point.
-struct Corners {
+struct BoxCorners {
     std::array<dvec3, 8> at;
     std::size_t count = 8;
-    explicit Corners(const Bounds<double>& box) : at(corners_of(box)) {
+    explicit BoxCorners(const Bounds<double>& box) : at(corners_of(box)) {
         if (box.lo == box.hi) count = 1;
     }
 };
 
-struct Side {
+struct WallDistances {
     double height;                ///< distance from the plane, positive
     std::array<double, 4> inside; ///< distance inside each edge
 };
-Side side_of(const Wall& wall, const dvec3& place) {
-    Side side{std::abs(wall.height(place)), {}};
+WallDistances side_of(const Wall& wall, const dvec3& place) {
+    WallDistances side{std::abs(wall.height(place)), {}};
     for (std::size_t edge = 0; edge < 4; ++edge) side.inside[edge] = wall.inside(edge, place);
     return side;
 }
@@ -104,11 +104,11 @@ bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>&
     const bool from_front = viewer_low > above && target_high < below;
     const bool from_behind = viewer_high < below && target_low > above && !wall.front_only;
     if (!(from_front || from_behind)) return false;
-    const Corners from(viewer), to(target);
-    std::array<Side, 8> there;
+    const BoxCorners from(viewer), to(target);
+    std::array<WallDistances, 8> there;
     for (std::size_t j = 0; j < to.count; ++j) there[j] = side_of(wall, to.at[j]);
     for (std::size_t i = 0; i < from.count; ++i) {
-        const Side here = side_of(wall, from.at[i]);
+        const WallDistances here = side_of(wall, from.at[i]);
         for (std::size_t j = 0; j < to.count; ++j)
             for (std::size_t edge = 0; edge < 4; ++edge)
                 if (!(here.inside[edge] * there[j].height + there[j].inside[edge] * here.height >=

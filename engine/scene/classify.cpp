@@ -23,7 +23,7 @@ constexpr const char* kIndirect = "indirect-left-out";
 constexpr const char* kUnshadowed = "environment-unshadowed";
 
 /// Values of a material at one place.
-struct Spot {
+struct MaterialSample {
     vec4 colour{1}; ///< base colour and alpha
     float metallic = 0, roughness = 1;
 };
@@ -34,7 +34,7 @@ struct AreaSums {
     dvec3 mirror_f0{0};
     float smoothest = 1;
 
-    void add(const Scene& scene, const Material& material, const Spot& spot) {
+    void add(const Scene& scene, const Material& material, const MaterialSample& spot) {
         if (material.unlit || spot.colour.w < material.alpha_cutoff) return;
         all += 1;
         smoothest = std::min(smoothest, spot.roughness);
@@ -79,8 +79,10 @@ vec4 sampled(const Texture& texture, const Mesh& mesh, const uvec3& t, const vec
     return texel_at(texture, uv.empty() ? vec2(0) : between(uv, t, weights));
 }
 
-Spot spot_at(const Material& material, const Mesh& mesh, const uvec3& t, const vec3& weights) {
-    Spot spot{vec4(material.albedo, material.alpha), material.metallic, material.roughness};
+MaterialSample spot_at(const Material& material, const Mesh& mesh, const uvec3& t,
+                       const vec3& weights) {
+    MaterialSample spot{vec4(material.albedo, material.alpha), material.metallic,
+                        material.roughness};
     if (!mesh.colours.empty()) spot.colour *= between(mesh.colours, t, weights);
     if (material.albedo_texture) spot.colour *= sampled(*material.albedo_texture, mesh, t, weights);
     if (material.roughness_texture) {

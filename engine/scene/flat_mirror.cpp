@@ -60,11 +60,11 @@ constexpr std::size_t kMostPlanes = 64, kMostFlatTriangles = 65536;
 constexpr double kSamePlane = 1e-4; // radians between normals; share of the extent for distances
 
 /// Triangles of a mesh in the world.
-struct Triangles {
+struct MeshTriangles {
     const Mesh& mesh;
     std::vector<dvec3> places, normals; ///< of the mesh's vertices
 
-    Triangles(const Mesh& of, const dmat4& world_from_object) : mesh(of) {
+    MeshTriangles(const Mesh& of, const dmat4& world_from_object) : mesh(of) {
         const dmat3 turns = normal_matrix(world_from_object);
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             places.push_back(transform_point(world_from_object, mesh.positions[i]));
@@ -86,7 +86,7 @@ struct Triangles {
 };
 
 /// Face while its triangles are collected.
-struct Plane {
+struct FacePlane {
     dvec3 point{0}, normal{0};
     double area = 0; ///< twice the area
     std::vector<std::uint32_t> triangles;
@@ -94,13 +94,13 @@ struct Plane {
 
 /// Returns the planes of the triangles whose normals agree; nothing if there are more than
 /// kMostPlanes.
-std::optional<std::vector<Plane>> planes_of(const Triangles& triangles, double extent) {
-    std::vector<Plane> planes;
+std::optional<std::vector<FacePlane>> planes_of(const MeshTriangles& triangles, double extent) {
+    std::vector<FacePlane> planes;
     for (std::uint32_t i = 0; i < triangles.mesh.triangles.size(); ++i) {
         const dvec3 along = triangles.cross_of(i), normal = normalized_or_zero(along);
         if (normal == dvec3(0) || !(triangles.off(i, normal) <= kFarFromFlat)) continue;
         const uvec3& t = triangles.mesh.triangles[i];
-        const auto holds = [&](const Plane& plane) {
+        const auto holds = [&](const FacePlane& plane) {
             if (!(dot(plane.normal, normal) > 0 &&
                   angle_between(plane.normal, normal) <= kSamePlane))
                 return false;
@@ -139,11 +139,12 @@ bool is_closed(const Mesh& mesh) {
     for (const uvec3& t : mesh.triangles) triangles.push_back({first[t.x], first[t.y], first[t.z]});
     bool closed = true;
     for_each_edge(sides_of(triangles),
-                  [&](std::span<const Side> sides) { closed &= sides.size() == 2; });
+                  [&](std::span<const TriangleEdge> sides) { closed &= sides.size() == 2; });
     return closed;
 }
 
-Flat face_of(const Triangles& triangles, const Plane& plane, double area, bool is_one_sided) {
+Flat face_of(const MeshTriangles& triangles, const FacePlane& plane, double area,
+             bool is_one_sided) {
     Flat face{.point = plane.point,
               .normal = plane.normal,
               .corners = {},
@@ -184,16 +185,16 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     }
     if (count > 0) found.bent = {{0, count}};
     if (count > kMostFlatTriangles) return found;
-    const Triangles triangles(mesh, world_from_object);
+    const MeshTriangles triangles(mesh, world_from_object);
     Bounds<double> box;
     for (const dvec3& place : triangles.places) box.add(place);
     double area = 0;
     for (std::uint32_t i = 0; i < count; ++i) area += length(triangles.cross_of(i));
-    std::optional<std::vector<Plane>> planes;
+    std::optional<std::vector<FacePlane>> planes;
     if (!box.empty() && area > 0) planes = planes_of(triangles, length(box.extent()));
     if (!planes) return found;
-    std::erase_if(*planes, [&](const Plane& plane) { return plane.area < kLeastFace * area; });
-    std::ranges::stable_sort(*planes, std::ranges::greater(), &Plane::area);
+    std::erase_if(*planes, [&](const FacePlane& plane) { return plane.area < kLeastFace * area; });
+    std::ranges::stable_sort(*planes, std::ranges::greater(), &FacePlane::area);
     if (planes->size() > kMostFaces) planes->resize(kMostFaces);
     if (planes->empty()) return found;
     // The normals of a closed body with negative volume point inwards: it is inside out. They are
@@ -204,7 +205,7 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     for (std::uint32_t i = 0; i < count; ++i)
         volume += dot(triangles.cross_of(i), triangles.places[mesh.triangles[i].x] - centre);
     std::vector<bool> in_face(count);
-    for (Plane& plane : *planes) {
+    for (FacePlane& plane : *planes) {
         for (const std::uint32_t i : plane.triangles) in_face[i] = true;
         if (volume < 0) plane.normal = -plane.normal;
         found.faces.push_back(face_of(triangles, plane, area, is_body && volume != 0));

@@ -56,21 +56,21 @@ std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
 struct GltfBuilder {
     gltf::Context context;
     Scene scene;
-    std::vector<dmat4> at_rest;                 ///< transform from each node to world space
-    std::vector<std::vector<gltf::Part>> parts; ///< for each mesh
+    std::vector<dmat4> at_rest;                     ///< transform from each node to world space
+    std::vector<std::vector<gltf::MeshPart>> parts; ///< for each mesh
     std::vector<Camera> cameras;
-    struct Key {
+    struct MeshKey {
         std::size_t mesh, part;
         int skin; ///< -1 if the node has none
         bool inside_out;
         std::vector<double> weights; ///< of morph targets
-        auto operator<=>(const Key&) const = default;
+        auto operator<=>(const MeshKey&) const = default;
     };
-    std::map<Key, std::size_t> meshes;
+    std::map<MeshKey, std::size_t> meshes;
 
     std::string node_place(std::size_t node) const;
-    Mesh repaired(const Key& key);
-    std::size_t mesh_for(const Key& key);
+    Mesh repaired(const MeshKey& key);
+    std::size_t mesh_for(const MeshKey& key);
     std::string object_name(std::size_t node, std::size_t mesh, std::size_t part);
     void add_node(std::size_t node, const gltf::Placed& placed);
     void add_object(std::size_t node, const gltf::Placed& placed, std::size_t part);
@@ -83,7 +83,7 @@ std::string GltfBuilder::node_place(std::size_t node) const {
     return context.document.file + ": " + context.document.label(node);
 }
 
-Mesh GltfBuilder::repaired(const Key& key) {
+Mesh GltfBuilder::repaired(const MeshKey& key) {
     std::vector<dmat4> joints;
     if (key.skin >= 0) joints = joints_of(key.skin, at_rest, context);
     Mesh mesh = mesh_of(key.mesh, parts[key.mesh][key.part], key.weights, context,
@@ -98,7 +98,7 @@ Mesh GltfBuilder::repaired(const Key& key) {
     return mesh;
 }
 
-std::size_t GltfBuilder::mesh_for(const Key& key) {
+std::size_t GltfBuilder::mesh_for(const MeshKey& key) {
     const auto [entry, is_new] = meshes.try_emplace(key, scene.meshes.size());
     if (is_new) scene.meshes.push_back(repaired(key));
     return entry->second;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
 constexpr std::size_t kWidths[] = {1, 2, 3, 4, 4, 9, 16}; // components per element
 
-struct View {
+struct StridedView {
     std::uint64_t length, stride; ///< bytes; a stride of 0 means tightly packed
 };
 
@@ -26,7 +26,7 @@ std::size_t component_bytes(const Item& item) {
         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component)));
 }
 
-View view_of(const Item& item, const std::vector<Buffer>& buffers) {
+StridedView view_of(const Item& item, const std::vector<GltfBuffer>& buffers) {
     const std::uint64_t size = buffers[item.needed_index("buffer", buffers.size())].length;
     const std::uint64_t offset = item.whole("byteOffset", 0), length = item.whole("byteLength", 0);
     item.require(length >= 1 && offset <= size && length <= size - offset, "wanted ", length,
@@ -38,7 +38,7 @@ View view_of(const Item& item, const std::vector<Buffer>& buffers) {
 }
 
 /// Checks that `count` elements, at least 1, of `size` bytes lie in the item's view.
-void check_elements(const Item& item, const std::vector<View>& views, std::uint64_t count,
+void check_elements(const Item& item, const std::vector<StridedView>& views, std::uint64_t count,
                     std::size_t size) {
     const auto& [length, given_stride] = views[item.needed_index("bufferView", views.size())];
     const std::uint64_t stride = given_stride == 0 ? size : given_stride;
@@ -49,7 +49,7 @@ void check_elements(const Item& item, const std::vector<View>& views, std::uint6
 }
 
 /// Checks that the values and the indices of a sparse accessor lie in their views.
-void check_sparse(const Item& sparse, const std::vector<View>& views, std::uint64_t count,
+void check_sparse(const Item& sparse, const std::vector<StridedView>& views, std::uint64_t count,
                   std::size_t element) {
     const std::uint64_t changed = sparse.whole("count", 0);
     sparse.require(changed >= 1 && changed <= count, "count: wanted 1 to ", count, ", found ",
@@ -60,7 +60,7 @@ void check_sparse(const Item& sparse, const std::vector<View>& views, std::uint6
     check_elements(*values, views, changed, element);
 }
 
-void check_accessor(const Item& item, const std::vector<View>& views) {
+void check_accessor(const Item& item, const std::vector<StridedView>& views) {
     const auto* const type = std::ranges::find(kTypes, item.text("type"));
     item.require(type != std::end(kTypes),
                  "type: wanted SCALAR, VEC2 .. VEC4 or MAT2 .. MAT4, found ",
@@ -80,8 +80,8 @@ std::size_t element_bytes(const Item& accessor) {
     return kWidths[type - kTypes] * component_bytes(accessor);
 }
 
-void check_bounds(const Item& root, const std::vector<Buffer>& buffers) {
-    std::vector<View> views;
+void check_bounds(const Item& root, const std::vector<GltfBuffer>& buffers) {
+    std::vector<StridedView> views;
     root.each("bufferViews", [&](const Item& item) { views.push_back(view_of(item, buffers)); });
     root.each("accessors", [&](const Item& item) { check_accessor(item, views); });
 }

@@ -31,7 +31,7 @@ Json what_is_read(Json document);
 
 /// Throws `bad_data` unless each view lies in its buffer and each accessor in its view. Unused
 /// views and accessors are checked, too. Defined in gltf_bounds.cpp.
-void check_bounds(const Item& root, const std::vector<Buffer>& buffers);
+void check_bounds(const Item& root, const std::vector<GltfBuffer>& buffers);
 
 /// Checks rules that involve more than one member, and notes extensions and animation channels that
 /// are not read. Throws `bad_data`, also for an image file outside the folders that `files` allows.

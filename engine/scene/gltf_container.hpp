@@ -14,7 +14,7 @@ namespace catoptric::scene::gltf {
 using Bytes = std::vector<unsigned char>;
 
 /// The first `length` bytes, at least 1, of one of the container's files.
-struct Buffer {
+struct GltfBuffer {
     std::size_t file = 0; ///< index into `Container::files`
     std::uint64_t length = 0;
 };
@@ -23,7 +23,7 @@ struct Buffer {
 /// version 2 and requires no extension that we lack.
 struct Container {
     Json document;
-    std::vector<Buffer> buffers;
+    std::vector<GltfBuffer> buffers;
     /// The bytes of buffer files, data URIs and a GLB's binary chunk. A file that several buffers
     /// use is stored once.
     std::vector<Bytes> files;

@@ -86,9 +86,10 @@ bool is_drawn(const tinygltf::Primitive& primitive, const std::string& label, Co
     return has_place;
 }
 
-std::vector<Part> parts_of(std::size_t mesh, std::vector<Material>& materials, Context& context) {
+std::vector<MeshPart> parts_of(std::size_t mesh, std::vector<Material>& materials,
+                               Context& context) {
     const Document& document = context.document;
-    std::vector<Part> parts;
+    std::vector<MeshPart> parts;
     std::unordered_map<std::size_t, std::size_t> part_of; // part by material
     const std::vector<tinygltf::Primitive>& primitives = document.model.meshes[mesh].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -113,14 +114,14 @@ std::vector<Part> parts_of(std::size_t mesh, std::vector<Material>& materials, C
 
 } // namespace
 
-std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Context& context) {
-    std::vector<std::vector<Part>> parts;
+std::vector<std::vector<MeshPart>> read_parts(std::vector<Material>& materials, Context& context) {
+    std::vector<std::vector<MeshPart>> parts;
     for (std::size_t mesh = 0; mesh < context.document.model.meshes.size(); ++mesh)
         parts.push_back(parts_of(mesh, materials, context));
     return parts;
 }
 
-Mesh mesh_of(std::size_t index, const Part& part, const std::vector<double>& weights,
+Mesh mesh_of(std::size_t index, const MeshPart& part, const std::vector<double>& weights,
              const Context& context, const std::vector<dmat4>* joints) {
     const tinygltf::Model& model = context.document.model;
     const std::string place = mesh_place(context.document, index);

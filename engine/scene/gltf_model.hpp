@@ -118,21 +118,21 @@ std::vector<Camera> read_cameras(const Document& document);
 
 /// The primitives of a glTF mesh that share a material. They become one mesh of the scene, because
 /// a mirror is a node and exporters may split its mesh into any number of primitives.
-struct Part {
+struct MeshPart {
     std::size_t material = 0;
     std::vector<std::size_t> primitives;
 };
 
 /// Returns the parts of each mesh, ordered by the first use of their materials. Appends a white
 /// material to `materials` if a primitive has none.
-std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Context& context);
+std::vector<std::vector<MeshPart>> read_parts(std::vector<Material>& materials, Context& context);
 /// Returns a mesh's place for messages, such as "FILE: meshes[0] 'm'".
 std::string mesh_place(const Document& document, std::size_t mesh);
 /// Builds the mesh of one part, without unused vertices. Normals may be missing or have zero
 /// length. `weights`: weights of the morph targets. `joints`: for each joint of the skin, the
 /// transform from its bind space to world space. With joints, the vertices are in world space.
 /// Throws `bad_data`.
-Mesh mesh_of(std::size_t mesh, const Part& part, const std::vector<double>& weights,
+Mesh mesh_of(std::size_t mesh, const MeshPart& part, const std::vector<double>& weights,
              const Context& context, const std::vector<dmat4>* joints = nullptr);
 
 // ---- gltf_animation.cpp

@@ -23,13 +23,13 @@ std::optional<Elements> elements(const tinygltf::Model& model, const Attributes&
 }
 
 /// A vertex attribute besides the position, with its allowed types and component types.
-struct Wanted {
+struct AttributeRule {
     const char* name;
     std::string_view what;
     int type, other_type;
     Context::Also also;
 };
-constexpr Wanted kWanted[] = {
+constexpr AttributeRule kWanted[] = {
     {"NORMAL", "normals", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3, Context::Also::quantised},
     {"TEXCOORD_0", "texture coordinates", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2,
      Context::Also::quantised},

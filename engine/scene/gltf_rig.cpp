@@ -19,7 +19,7 @@ enum class Going {
 };
 
 /// The state of a node that its children continue from.
-struct Way {
+struct NodeState {
     Placed placed;
     Going going = Going::still;
     std::optional<std::size_t> rig_node; ///< the nearest animated node, itself or above it
@@ -37,14 +37,14 @@ public:
     }
 
     std::vector<Placed> run() {
-        std::vector<std::pair<std::size_t, Way>> waiting; // node, and state of its parent
+        std::vector<std::pair<std::size_t, NodeState>> waiting; // node, and state of its parent
         for (const int root : roots_of(document_.model)) waiting.push_back({std::size_t(root), {}});
         while (!waiting.empty()) {
             const auto [index, parent] = std::move(waiting.back());
             waiting.pop_back();
             check(!placed_[index].reached, Failure::bad_data, document_.file, ": ",
                   document_.label(index), ": wanted one parent at most, found a second way to it");
-            const Way way = way_of(index, parent);
+            const NodeState way = way_of(index, parent);
             placed_[index] = way.placed;
             for (const int child : document_.model.nodes[index].children)
                 waiting.push_back({std::size_t(child), way});
@@ -54,8 +54,8 @@ public:
     }
 
 private:
-    Way way_of(std::size_t index, const Way& parent);
-    std::size_t add_to_rig(std::size_t index, const Way& parent);
+    NodeState way_of(std::size_t index, const NodeState& parent);
+    std::size_t add_to_rig(std::size_t index, const NodeState& parent);
     void finish();
 
     const Document& document_;
@@ -67,7 +67,7 @@ private:
 
 /// Adds an animated node to the rig and returns its index. Parts of its transform without a track
 /// keep their values at rest.
-std::size_t Placer::add_to_rig(std::size_t index, const Way& parent) {
+std::size_t Placer::add_to_rig(std::size_t index, const NodeState& parent) {
     const tinygltf::Node& node = document_.model.nodes[index];
     const Tracks& tracks = animation_.nodes[index];
     Rig::Node to{.parent = parent.rig_node,
@@ -83,8 +83,8 @@ std::size_t Placer::add_to_rig(std::size_t index, const Way& parent) {
     return rig_.nodes.size() - 1;
 }
 
-Way Placer::way_of(std::size_t index, const Way& parent) {
-    Way way = parent;
+NodeState Placer::way_of(std::size_t index, const NodeState& parent) {
+    NodeState way = parent;
     way.placed.reached = true;
     way.placed.world_from_node = parent.placed.world_from_node * rest_[index];
     const Tracks& tracks = animation_.nodes[index];

@@ -20,17 +20,17 @@ namespace {
 
 using tinygltf::Value;
 
-int texels(Writer& writer, const std::vector<vec2>& list) {
+int texels(GltfWriter& writer, const std::vector<vec2>& list) {
     writer.append(list, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
     return size_of(writer.model.accessors) - 1;
 }
 
-int colours(Writer& writer, const std::vector<vec4>& list) {
+int colours(GltfWriter& writer, const std::vector<vec4>& list) {
     writer.append(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
     return size_of(writer.model.accessors) - 1;
 }
 
-int indices(Writer& writer, const Mesh& mesh, bool inside_out) {
+int indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
     std::vector<std::uint32_t> wide;
     for (const uvec3& t : mesh.triangles)
         wide.insert(wide.end(), {t.x, inside_out ? t.z : t.y, inside_out ? t.y : t.z});
@@ -44,7 +44,7 @@ int indices(Writer& writer, const Mesh& mesh, bool inside_out) {
 
 /// Returns the glTF mesh of an object, and adds it if it is new. glTF stores the material with the
 /// triangles. Objects with a mirrored transform get a mesh with reversed winding.
-int mesh_for(Writer& writer, const Object& object) {
+int mesh_for(GltfWriter& writer, const Object& object) {
     const bool inside_out = glm::determinant(dmat3(object.world_from_object)) < 0;
     tinygltf::Model& model = writer.model;
     const auto [entry, is_new] = writer.meshes.try_emplace(
@@ -84,7 +84,7 @@ Value extras(const Object& object) {
 }
 
 /// Adds a node that has no motion of its own, as a root of the scene or as a child of a rig's node.
-void add_below(Writer& writer, const Follows* follows, tinygltf::Node node) {
+void add_below(GltfWriter& writer, const Follows* follows, tinygltf::Node node) {
     const int parent = follows ? writer.node_of(*follows) : -1;
     const int index = size_of(writer.model.nodes);
     writer.model.nodes.push_back(std::move(node));
@@ -96,7 +96,7 @@ void add_below(Writer& writer, const Follows* follows, tinygltf::Node node) {
 
 /// Adds a node with its transform and motion. A moving node stores its translation separately. If
 /// the rest of its transform is more than a scale, a child node gets the rest.
-void place(Writer& writer, const dmat4& world, const Motion& motion, tinygltf::Node node) {
+void place(GltfWriter& writer, const dmat4& world, const Motion& motion, tinygltf::Node node) {
     tinygltf::Model& model = writer.model;
     if (const Follows* follows = followed(motion)) {
         node.matrix = numbers(follows->node_from_object);
@@ -123,7 +123,7 @@ void place(Writer& writer, const dmat4& world, const Motion& motion, tinygltf::N
     model.nodes.push_back(std::move(node));
 }
 
-void add_object(Writer& writer, const Object& object) {
+void add_object(GltfWriter& writer, const Object& object) {
     if (writer.scene.meshes[object.mesh].triangles.empty()) return;
     tinygltf::Node node;
     node.name = object.name, node.mesh = mesh_for(writer, object), node.extras = extras(object);
@@ -131,7 +131,7 @@ void add_object(Writer& writer, const Object& object) {
 }
 
 /// Adds a camera and its node. glTF cameras look along -z with +y up.
-void add_camera(Writer& writer, const Camera& camera) {
+void add_camera(GltfWriter& writer, const Camera& camera) {
     const double distance = glm::distance(camera.eye, camera.target);
     const dvec3 forward = normalized_or_zero(camera.target - camera.eye);
     const dvec3 right = normalized_or_zero(glm::cross(forward, camera.up));
@@ -160,7 +160,7 @@ void add_camera(Writer& writer, const Camera& camera) {
     }
 }
 
-void add_light(Writer& writer, const Punctual& light) {
+void add_light(GltfWriter& writer, const Punctual& light) {
     using enum Punctual::Kind;
     const std::string extension = "KHR_lights_punctual";
     const double largest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
@@ -181,7 +181,7 @@ void add_light(Writer& writer, const Punctual& light) {
 }
 
 /// Returns the bytes of a GLB file with the writer's contents. Throws `io` above 4 GiB.
-std::string packed(Writer& writer) {
+std::string packed(GltfWriter& writer) {
     tinygltf::Model& model = writer.model;
     if (!writer.bytes.empty()) model.buffers.emplace_back().data = std::move(writer.bytes);
     std::ostringstream stream;
@@ -210,7 +210,7 @@ Value listed(const std::vector<double>& list) {
     return Value(std::move(array));
 }
 
-tinygltf::BufferView& Writer::view(const void* first, std::size_t size) {
+tinygltf::BufferView& GltfWriter::view(const void* first, std::size_t size) {
     tinygltf::BufferView& view = model.bufferViews.emplace_back();
     view.buffer = 0, view.byteOffset = bytes.size(), view.byteLength = size;
     const auto* const data = static_cast<const unsigned char*>(first);
@@ -219,7 +219,7 @@ tinygltf::BufferView& Writer::view(const void* first, std::size_t size) {
     return view;
 }
 
-int Writer::vectors(const std::vector<vec3>& list) {
+int GltfWriter::vectors(const std::vector<vec3>& list) {
     Bounds<float> box;
     for (const vec3& v : list) box.add(v);
     tinygltf::Accessor& accessor = append(list, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT);
@@ -227,7 +227,7 @@ int Writer::vectors(const std::vector<vec3>& list) {
     return size_of(model.accessors) - 1;
 }
 
-void Writer::use(const std::string& extension) {
+void GltfWriter::use(const std::string& extension) {
     if (std::ranges::find(model.extensionsUsed, extension) == model.extensionsUsed.end())
         model.extensionsUsed.push_back(extension);
 }
@@ -235,7 +235,7 @@ void Writer::use(const std::string& extension) {
 } // namespace gltf
 
 void save_glb(const Scene& scene, const std::filesystem::path& path) {
-    gltf::Writer writer{.scene = scene};
+    gltf::GltfWriter writer{.scene = scene};
     tinygltf::Model& model = writer.model;
     model.asset.version = "2.0", model.asset.generator = "catoptric";
     model.defaultScene = 0;

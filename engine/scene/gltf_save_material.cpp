@@ -35,7 +35,7 @@ Value transform_of(const Texture& texture) {
 /// Writes the emission. If its largest component is above 1, that component is written as the
 /// strength of KHR_materials_emissive_strength. A largest component of at most 1e-6 needs the
 /// extension, too, because tinygltf treats it as black.
-void write_emission(Writer& writer, const Material& material, tinygltf::Material& to) {
+void write_emission(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
     const dvec3 emission(material.emission);
     const double largest = std::max({emission.x, emission.y, emission.z});
     if (largest == 0) return;
@@ -50,7 +50,7 @@ void write_emission(Writer& writer, const Material& material, tinygltf::Material
 
 /// Writes F0 and F90 by KHR_materials_specular if they differ from the defaults. The index of
 /// refraction keeps its default, 1.5.
-void write_dielectric(Writer& writer, const Material& material, tinygltf::Material& to) {
+void write_dielectric(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
     const Material usual;
     if (material.dielectric_f0 == usual.dielectric_f0 &&
         material.dielectric_f90 == usual.dielectric_f90)
@@ -88,7 +88,7 @@ Value marks_of(const Material& material) {
 
 } // namespace
 
-int Writer::image(const Image& image) {
+int GltfWriter::image(const Image& image) {
     const auto [entry, is_new] = images.try_emplace(&image, size_of(model.images));
     if (!is_new) return entry->second;
     const std::string png = png_of(image);
@@ -99,7 +99,7 @@ int Writer::image(const Image& image) {
     return entry->second;
 }
 
-int Writer::sampler(const Texture& texture) {
+int GltfWriter::sampler(const Texture& texture) {
     const std::tuple key{filter_of(texture), wrap_of(texture.wrap_u), wrap_of(texture.wrap_v)};
     const auto [entry, is_new] = samplers.try_emplace(key, size_of(model.samplers));
     if (!is_new) return entry->second;
@@ -108,7 +108,7 @@ int Writer::sampler(const Texture& texture) {
     return entry->second;
 }
 
-tinygltf::TextureInfo Writer::texture(const Texture& texture) {
+tinygltf::TextureInfo GltfWriter::texture(const Texture& texture) {
     tinygltf::Texture to;
     to.source = image(*texture.image), to.sampler = sampler(texture);
     tinygltf::TextureInfo info;
@@ -120,7 +120,7 @@ tinygltf::TextureInfo Writer::texture(const Texture& texture) {
     return info;
 }
 
-void Writer::add_material(const Material& material) {
+void GltfWriter::add_material(const Material& material) {
     const vec3& base = material.mirror ? material.reflectance : material.albedo;
     tinygltf::Material to;
     to.name = material.name;

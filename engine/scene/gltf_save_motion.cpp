@@ -24,7 +24,7 @@ Keys keys_of(const Harmonic& motion) {
     return keys;
 }
 
-int times(Writer& writer, const std::vector<double>& list) {
+int times(GltfWriter& writer, const std::vector<double>& list) {
     const std::vector<float> times(list.begin(), list.end());
     tinygltf::Accessor& accessor = writer.append(times, TINYGLTF_TYPE_SCALAR,
                                                  TINYGLTF_COMPONENT_TYPE_FLOAT);
@@ -32,8 +32,8 @@ int times(Writer& writer, const std::vector<double>& list) {
     return size_of(writer.model.accessors) - 1;
 }
 
-int values(Writer& writer, const std::vector<vec3>& list) { return writer.vectors(list); }
-int values(Writer& writer, const std::vector<vec4>& list) {
+int values(GltfWriter& writer, const std::vector<vec3>& list) { return writer.vectors(list); }
+int values(GltfWriter& writer, const std::vector<vec4>& list) {
     writer.append(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
     return size_of(writer.model.accessors) - 1;
 }
@@ -55,7 +55,7 @@ std::optional<Keys> keys_of(const Motion& motion) {
 }
 
 template <typename Value>
-void Writer::add_track(const Track<Value>& track, int node, const std::string& path) {
+void GltfWriter::add_track(const Track<Value>& track, int node, const std::string& path) {
     using enum Interpolation;
     if (track.times.empty()) return;
     const bool is_cubic = track.interpolation == cubic;
@@ -78,13 +78,13 @@ void Writer::add_track(const Track<Value>& track, int node, const std::string& p
     motion.channels.push_back(std::move(channel));
 }
 
-void Writer::add_motion(const Keys& keys, const dvec3& rest, int node) {
+void GltfWriter::add_motion(const Keys& keys, const dvec3& rest, int node) {
     Keys there = keys;
     for (dvec3& value : there.values) value += rest;
     add_track(there, node, "translation");
 }
 
-int Writer::add_rig_node(const Rig::Node& node, int parent) {
+int GltfWriter::add_rig_node(const Rig::Node& node, int parent) {
     const auto add = [&](tinygltf::Node to) {
         const int index = size_of(model.nodes);
         model.nodes.push_back(std::move(to));
@@ -109,7 +109,7 @@ int Writer::add_rig_node(const Rig::Node& node, int parent) {
     return index;
 }
 
-int Writer::node_of(const Follows& follows) {
+int GltfWriter::node_of(const Follows& follows) {
     const auto [entry, is_new] = rigs.try_emplace(follows.rig.get());
     if (is_new) {
         std::vector<int> nodes;
@@ -120,7 +120,7 @@ int Writer::node_of(const Follows& follows) {
     return rigs[follows.rig.get()][follows.node];
 }
 
-void Writer::finish_motion() {
+void GltfWriter::finish_motion() {
     if (motion.channels.empty()) return;
     const auto goes_on = [](const auto& thing) { return repeats(thing.motion); };
     const bool all = std::ranges::all_of(scene.objects, goes_on) &&

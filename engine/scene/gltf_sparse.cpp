@@ -13,7 +13,7 @@ namespace {
 /// Returns the bytes of the view that `part` names, from the offset of `part` on.
 const unsigned char* bytes_at(const Container& container, const Item& root, const Item& part) {
     const Item view = root.at("bufferViews", part.whole("bufferView", 0));
-    const Buffer& buffer = container.buffers[view.whole("buffer", 0)];
+    const GltfBuffer& buffer = container.buffers[view.whole("buffer", 0)];
     return container.files[buffer.file].data() + view.whole("byteOffset", 0) +
            part.whole("byteOffset", 0);
 }

@@ -91,7 +91,7 @@ std::shared_ptr<const Image> Textures::decoded(const Item& image, const Item& us
     const auto number = image.index("bufferView", source_.root.size("bufferViews"));
     if (!number) return missing(image, "", use);
     const Item view = source_.root.at("bufferViews", *number);
-    const Buffer& buffer =
+    const GltfBuffer& buffer =
         source_.container.buffers[view.needed_index("buffer", source_.container.buffers.size())];
     return decode(source_.container.files[buffer.file].data() + view.whole("byteOffset", 0),
                   view.whole("byteLength", 0));

@@ -26,7 +26,7 @@ tinygltf::Value marked(tinygltf::Value::Object ours);
 tinygltf::Value listed(const std::vector<double>& list);
 
 /// Builds a tinygltf model and the bytes of its single buffer.
-struct Writer {
+struct GltfWriter {
     const Scene& scene;
     tinygltf::Model model;
     Bytes bytes;

@@ -20,12 +20,12 @@ bool is_targa(const std::string& file) {
 
 /// Indices of red, green, blue and alpha among a pixel's values. Alpha is 255 if the picture has
 /// none.
-struct Layout {
+struct ChannelOrder {
     std::array<std::size_t, 3> rgb;
     std::size_t alpha; ///< channel_count if the picture has no alpha
 };
 
-Layout layout_of(const ImageShape& shape) {
+ChannelOrder layout_of(const ImageShape& shape) {
     const auto find = [&](const char* name) {
         return static_cast<std::size_t>(std::ranges::find(shape.channels, name) -
                                         shape.channels.begin());
@@ -38,7 +38,7 @@ Layout layout_of(const ImageShape& shape) {
 
 std::vector<std::uint32_t> texels_of(const ImageShape& shape,
                                      const std::vector<std::uint8_t>& values) {
-    const Layout layout = layout_of(shape);
+    const ChannelOrder layout = layout_of(shape);
     std::vector<std::uint32_t> texels(std::size_t(shape.size.x) * shape.size.y);
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const std::uint8_t* const pixel = values.data() + i * shape.channel_count;

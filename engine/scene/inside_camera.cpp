@@ -18,9 +18,9 @@ struct Met {
 };
 
 /// Ray casts through a scene at rest. Each ray is tested against every triangle.
-class Rays {
+class RayCaster {
 public:
-    explicit Rays(const Scene& scene) : scene_(scene) {
+    explicit RayCaster(const Scene& scene) : scene_(scene) {
         for (const Object& object : scene.objects)
             object_from_world_.push_back(glm::inverse(object.world_from_object));
     }
@@ -53,7 +53,7 @@ std::optional<double> distance_to(const dvec3& a, const dvec3& b, const dvec3& c
     return distance;
 }
 
-std::optional<Met> Rays::first(const dvec3& origin, const dvec3& direction) const {
+std::optional<Met> RayCaster::first(const dvec3& origin, const dvec3& direction) const {
     std::optional<Met> nearest;
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
         const Object& object = scene_.objects[i];
@@ -88,7 +88,7 @@ std::vector<dvec3> directions(int count) {
     return all;
 }
 
-bool is_closed(const Rays& rays, const dvec3& centre) {
+bool is_closed(const RayCaster& rays, const dvec3& centre) {
     constexpr int kRays = 64, kMostMisses = 3;
     int misses = 0;
     for (const dvec3& direction : directions(kRays))
@@ -98,7 +98,7 @@ bool is_closed(const Rays& rays, const dvec3& centre) {
 
 /// Returns whether nearly all surfaces that the camera sees turn their backs, over a grid of its
 /// picture.
-bool sees_backs(const Rays& rays, const Camera& camera) {
+bool sees_backs(const RayCaster& rays, const Camera& camera) {
     constexpr int kSide = 12;
     constexpr double kMost = .9;
     const dvec3 forward = normalize(camera.target - camera.eye),
@@ -134,8 +134,8 @@ std::vector<dvec3> places_of_interest(const Scene& scene) {
     return places;
 }
 
-bool hides_what_is_of_interest(const Rays& rays, const std::vector<dvec3>& places, const dvec3& eye,
-                               const dvec3& centre) {
+bool hides_what_is_of_interest(const RayCaster& rays, const std::vector<dvec3>& places,
+                               const dvec3& eye, const dvec3& centre) {
     const auto seen_from = [&](const dvec3& from) {
         return std::ranges::any_of(places,
                                    [&](const dvec3& to) { return !rays.is_blocked(from, to); });
@@ -145,7 +145,7 @@ bool hides_what_is_of_interest(const Rays& rays, const std::vector<dvec3>& place
 
 /// Returns the share of the places that the camera sees unhidden, within a cone as wide as its
 /// vertical field of view.
-double share_seen(const Rays& rays, const std::vector<dvec3>& places, const Camera& camera) {
+double share_seen(const RayCaster& rays, const std::vector<dvec3>& places, const Camera& camera) {
     const dvec3 forward = normalize(camera.target - camera.eye);
     const double least = std::cos(glm::radians(camera.vertical_fov_degrees) / 2);
     const auto seen = std::ranges::count_if(places, [&](const dvec3& place) {
@@ -157,7 +157,7 @@ double share_seen(const Rays& rays, const std::vector<dvec3>& places, const Came
 
 /// Returns the summed distance from a place to the surfaces that rays from it meet. A ray that
 /// meets nothing counts as 0.
-double freedom_of(const Rays& rays, const dvec3& place) {
+double freedom_of(const RayCaster& rays, const dvec3& place) {
     double sum = 0;
     for (const dvec3& direction : directions(24)) {
         const auto met = rays.first(place, direction);
@@ -178,7 +178,7 @@ dvec3 rounded_to_thousandth(const dvec3& point, double extent) {
 std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside) {
     const Bounds<double> box = bounds(scene);
     if (box.empty() || triangle_count(scene) > kMostTested) return std::nullopt;
-    const Rays rays(scene);
+    const RayCaster rays(scene);
     const double extent = length(box.extent());
     const dvec3 centre = rounded_to_thousandth(box.centre(), extent);
     if (!is_closed(rays, centre)) return std::nullopt;

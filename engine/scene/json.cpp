@@ -46,7 +46,7 @@ std::string Item::entry() const {
     return label("", steps);
 }
 
-Item Item::to(const Step& step) const {
+Item Item::to(const PathStep& step) const {
     if (steps_ == kMostSteps) fail(Failure::internal, place(), ": ", step.key, ": lies too deep");
     Item item = *this;
     item.way_[item.steps_++] = step;

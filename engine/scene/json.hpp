@@ -80,14 +80,14 @@ public:
 
 private:
     /// One step of the path: the member `key` or, with an index, one element of the list `key`.
-    struct Step {
+    struct PathStep {
         std::string_view key;
         std::optional<std::size_t> index;
         const Json* json = nullptr; ///< the value that the step leads to
     };
     static constexpr std::size_t kMostSteps = 8; // nested extensions need no more steps
 
-    Item to(const Step& step) const;
+    Item to(const PathStep& step) const;
     std::string label(std::string_view before, std::size_t steps) const;
     std::uint64_t whole_of(const Json& value, std::string_view key) const;
     std::size_t index_of(const Json& value, std::string_view key, std::size_t count) const;
@@ -95,7 +95,7 @@ private:
 
     const Json* json_;
     const std::string* file_;
-    std::array<Step, kMostSteps> way_{};
+    std::array<PathStep, kMostSteps> way_{};
     std::size_t steps_ = 0; ///< 0 for the document itself
 };
 

@@ -167,7 +167,7 @@ Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
         if (!counted[first[i]]) sums[index].add_position(world[i]);
         counted[first[i]] = true;
     }
-    for_each_edge(sides_of(corners), [&](std::span<const Side> edge) {
+    for_each_edge(sides_of(corners), [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 2) return;
         for (const std::size_t end : {edge[0].low, edge[0].high})
             if (const auto index = index_of_root.find(islands.find(end));

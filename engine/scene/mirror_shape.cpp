@@ -144,7 +144,7 @@ struct Edges {
 /// of its neighbour.
 Edges edges_of(const Soup& soup) {
     Edges edges;
-    const auto add = [&](const Side& here, const Side& there) {
+    const auto add = [&](const TriangleEdge& here, const TriangleEdge& there) {
         const dvec3 normal = normalized_or_zero(soup.cross_of(soup.triangles[here.triangle]));
         const dvec3 other = normalized_or_zero(soup.cross_of(soup.triangles[there.triangle]));
         const double above = glm::dot(normal, soup.places[there.tip] - soup.places[here.low]);
@@ -154,7 +154,7 @@ Edges edges_of(const Soup& soup) {
                                                         glm::distance(soup.places[here.low],
                                                                       soup.places[here.high]);
     };
-    for_each_edge(sides_of(soup.triangles), [&](std::span<const Side> sides) {
+    for_each_edge(sides_of(soup.triangles), [&](std::span<const TriangleEdge> sides) {
         edges.closed &= sides.size() == 2;
         if (sides.size() == 2) add(sides[0], sides[1]);
     });

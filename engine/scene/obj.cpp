@@ -42,12 +42,12 @@ void add_vertex(Mesh& mesh, const Triple& vertex, const obj::Text& text, bool ha
 /// a triangle. Vertices are sorted by the index of position, then normal, then texture coordinates.
 Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners, std::string name,
              Total& vertices, const std::string& place) {
-    struct Use {
+    struct CornerUse {
         Triple triple;
         std::uint32_t corner;
-        auto operator<=>(const Use&) const = default;
+        auto operator<=>(const CornerUse&) const = default;
     };
-    std::vector<Use> uses;
+    std::vector<CornerUse> uses;
     uses.reserve(corners.size());
     for (const tinyobj::index_t& corner : corners)
         uses.push_back({triple_of(corner), static_cast<std::uint32_t>(uses.size())});
@@ -82,19 +82,19 @@ struct ObjBuilder {
     std::optional<std::size_t> without_material;
 
     /// The triangles of a shape with the same material.
-    struct Part {
+    struct ShapePart {
         int material; ///< -1 if there is none
         std::vector<tinyobj::index_t> corners;
     };
-    static std::vector<Part> parts_of(const tinyobj::mesh_t& mesh);
+    static std::vector<ShapePart> parts_of(const tinyobj::mesh_t& mesh);
     void add_shape(const tinyobj::shape_t& shape);
-    void add_object(const std::string& shape, Part part, bool is_only);
+    void add_object(const std::string& shape, ShapePart part, bool is_only);
     std::size_t material_index(int material);
 };
 
 /// Returns the parts of a shape, in the order of first use of their materials.
-std::vector<ObjBuilder::Part> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) {
-    std::vector<Part> parts;
+std::vector<ObjBuilder::ShapePart> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) {
+    std::vector<ShapePart> parts;
     std::unordered_map<int, std::size_t> part_of;
     for (std::size_t i = 0; i < mesh.material_ids.size(); ++i) {
         const auto [entry, is_new] = part_of.try_emplace(mesh.material_ids[i], parts.size());
@@ -126,7 +126,7 @@ void apply_remarks(const obj::Remarks& remarks, const std::string& group, Object
     object.seen_by_camera = !remarks.hidden.contains(group);
 }
 
-void ObjBuilder::add_object(const std::string& shape, Part part, bool is_only) {
+void ObjBuilder::add_object(const std::string& shape, ShapePart part, bool is_only) {
     Account& account = context.account;
     account.objects.add(1, file, ": object ", in_quotes(shape));
     Object object{
@@ -147,8 +147,8 @@ void ObjBuilder::add_object(const std::string& shape, Part part, bool is_only) {
 }
 
 void ObjBuilder::add_shape(const tinyobj::shape_t& shape) {
-    std::vector<Part> parts = parts_of(shape.mesh);
-    for (Part& part : parts)
+    std::vector<ShapePart> parts = parts_of(shape.mesh);
+    for (ShapePart& part : parts)
         add_object(text.names[std::stoul(shape.name)], std::move(part), parts.size() == 1);
 }
 

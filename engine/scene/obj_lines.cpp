@@ -45,7 +45,7 @@ std::string_view take_word(std::string_view& text) {
 }
 
 void for_each_line(const std::string& file, std::string_view text,
-                   const std::function<void(const Line&)>& body) {
+                   const std::function<void(const ObjLine&)>& body) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     std::string joined, remark;
@@ -64,7 +64,7 @@ void for_each_line(const std::string& file, std::string_view text,
     }
 }
 
-std::vector<std::string_view> words(const Line& line) {
+std::vector<std::string_view> words(const ObjLine& line) {
     std::vector<std::string_view> list;
     std::string_view rest = line.rest;
     while (!rest.empty() && rest.front() != '#' && list.size() < kMostWords)
@@ -78,13 +78,13 @@ std::size_t count_words(std::string_view text) {
     return count;
 }
 
-double number_of(const Line& line, std::string_view word) {
+double number_of(const ObjLine& line, std::string_view word) {
     if (const std::optional<double> number = parse_number(word)) return *number;
     fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants finite numbers, found ",
          in_quotes(word));
 }
 
-std::vector<double> numbers(const Line& line, const std::vector<std::string_view>& words,
+std::vector<double> numbers(const ObjLine& line, const std::vector<std::string_view>& words,
                             std::size_t first, std::size_t count) {
     if (words.size() < first + count)
         fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants ", count,
@@ -94,7 +94,7 @@ std::vector<double> numbers(const Line& line, const std::vector<std::string_view
     return list;
 }
 
-void Unread::add(const Line& line) {
+void Unread::add(const ObjLine& line) {
     auto at = counts_.find(line.keyword);
     if (at == counts_.end())
         at = counts_.try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "", Count())
@@ -109,7 +109,7 @@ void Unread::tell(const std::string& file, Notes& notes) const {
                   file + ":" + std::to_string(count.first), count.lines);
 }
 
-dvec3 vector_of(const Line& line) {
+dvec3 vector_of(const ObjLine& line) {
     dvec3 vector(0);
     std::string_view rest = line.rest;
     for (int i = 0; i < 3; ++i) {

@@ -27,7 +27,7 @@ bool is_bump(std::string_view keyword) {
 
 /// Reads a colour from three numbers, or from one number for all channels. Returns none for the
 /// forms "spectral" and "xyz".
-std::optional<dvec3> colour_of(const Line& line) {
+std::optional<dvec3> colour_of(const ObjLine& line) {
     std::string_view rest = line.rest;
     const std::string_view first = take_word(rest);
     if (first == "spectral" || first == "xyz") return std::nullopt;
@@ -35,11 +35,11 @@ std::optional<dvec3> colour_of(const Line& line) {
     return vector_of(line);
 }
 
-double number_in(const Line& line) { return numbers(line, words(line), 0, 1)[0]; }
+double number_in(const ObjLine& line) { return numbers(line, words(line), 0, 1)[0]; }
 
 /// Reads a map's options and file name. `-s`, `-o` and `-clamp` change the lookup; other options
 /// are skipped.
-MapUse map_of(const Line& line) {
+MapUse map_of(const ObjLine& line) {
     MapUse map;
     std::string_view rest = line.rest;
     while (rest.starts_with('-')) {
@@ -81,7 +81,7 @@ fs::path find_map(const std::string& name, const std::string& place, Files& file
     return real;
 }
 
-void add_map(const Line& line, Context& context, Library& library) {
+void add_map(const ObjLine& line, Context& context, Library& library) {
     MapUse map = map_of(line);
     if (map.file.empty()) return;
     map.real = find_map(map.file, line.where(), context.files);
@@ -106,20 +106,20 @@ constexpr Number kNumbers[] = {{"Ns", &Draft::shininess}, {"Ni", &Draft::ior},
                                {"Pr", &Draft::roughness}, {"Pm", &Draft::metallic},
                                {"illum", &Draft::kind},   {"d", &Draft::alpha}};
 
-void add_radiance(const Line& line, const dvec3& radiance, Draft& draft) {
+void add_radiance(const ObjLine& line, const dvec3& radiance, Draft& draft) {
     draft.emission = vec3(radiance);
     check(is_radiance(draft.emission), Failure::bad_data, line.where(),
           ": 'Ke' wants radiance of at least 0 that fits a float, found ", in_quotes(line.rest));
 }
 
 /// Reads a statement into a member of the draft. Returns false if the draft has none for it.
-bool add_member(const Line& line, Draft& draft) {
+bool add_member(const ObjLine& line, Draft& draft) {
     const auto* const number = std::ranges::find(kNumbers, line.keyword, &Number::keyword);
     if (number != std::end(kNumbers)) {
         // The number may follow an option: "d -halo .5".
         std::string_view rest = line.rest;
-        const Line of{line.file, line.number, line.keyword,
-                      take_word(rest) == "-halo" ? rest : line.rest};
+        const ObjLine of{line.file, line.number, line.keyword,
+                         take_word(rest) == "-halo" ? rest : line.rest};
         const double value = number_in(of);
         check(line.keyword != "illum" || (value >= 0 && value <= 10 && value == std::floor(value)),
               Failure::bad_data, line.where(),
@@ -139,7 +139,7 @@ bool add_member(const Line& line, Draft& draft) {
     return true;
 }
 
-void add_statement(Library& library, const Line& line, Unread& unread, Context& context,
+void add_statement(Library& library, const ObjLine& line, Unread& unread, Context& context,
                    bool& is_in_material) {
     if (line.keyword == "newmtl") {
         context.account.materials.add(1, line.where());
@@ -154,9 +154,9 @@ void add_statement(Library& library, const Line& line, Unread& unread, Context& 
 }
 
 /// Reads the images of materials. Decodes each image once.
-class Maps {
+class MaterialMaps {
 public:
-    explicit Maps(Context& context) : context_(context) {}
+    explicit MaterialMaps(Context& context) : context_(context) {}
 
     std::optional<Texture> of(const MapUse& map) {
         const std::shared_ptr<const Image> image = image_of(map);
@@ -198,7 +198,7 @@ vec3 fraction(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); 
 /// Turns a draft into an engine material, as scene.md describes under "Surface".
 class Maker {
 public:
-    Maker(const Draft& draft, std::size_t index, Maps& maps, Context& context)
+    Maker(const Draft& draft, std::size_t index, MaterialMaps& maps, Context& context)
         : draft_(draft), index_(index), maps_(maps), context_(context) {}
 
     Material make() {
@@ -282,7 +282,7 @@ private:
 
     const Draft& draft_;
     std::size_t index_;
-    Maps& maps_;
+    MaterialMaps& maps_;
     Context& context_;
     Material material_;
     int kind_ = 0;
@@ -295,7 +295,7 @@ void read_materials(const fs::path& real, const std::string& place, Context& con
     Unread unread;
     bool is_in_material = false;
     const std::string file = real.string();
-    for_each_line(file, context.files.read(real, place), [&](const Line& line) {
+    for_each_line(file, context.files.read(real, place), [&](const ObjLine& line) {
         add_statement(library, line, unread, context, is_in_material);
     });
     unread.tell(file, context.notes);
@@ -303,7 +303,7 @@ void read_materials(const fs::path& real, const std::string& place, Context& con
 
 std::vector<Material> materials_of(const Library& library, Context& context) {
     std::vector<Material> materials;
-    Maps maps(context);
+    MaterialMaps maps(context);
     for (const Draft& draft : library.drafts)
         materials.push_back(Maker(draft, materials.size(), maps, context).make());
     return materials;

@@ -32,7 +32,7 @@ double turn(const dvec2& a, const dvec2& b, const dvec2& c) {
 /// Triangulates by clipping ears: convex corners whose triangle holds no reflex corner (notch).
 class Ears {
 public:
-    Ears(const std::vector<dvec2>& points, Total& comparisons, const Line& line)
+    Ears(const std::vector<dvec2>& points, Total& comparisons, const ObjLine& line)
         : points_(points), comparisons_(comparisons), line_(line), next_(points.size()),
           previous_(points.size()), left_(points.size()) {
         for (std::size_t i = 0; i < left_; ++i) {
@@ -82,7 +82,7 @@ private:
 
     const std::vector<dvec2>& points_;
     Total& comparisons_;
-    const Line& line_;
+    const ObjLine& line_;
     std::vector<std::size_t> next_, previous_, notches_;
     std::size_t left_;
 };
@@ -90,7 +90,7 @@ private:
 } // namespace
 
 void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
-         const Line& line, std::vector<Corner>& triangles) {
+         const ObjLine& line, std::vector<Corner>& triangles) {
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         triangles.insert(triangles.end(), {polygon[a], polygon[b], polygon[c]});
     };

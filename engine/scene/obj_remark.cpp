@@ -11,13 +11,13 @@ namespace catoptric::scene::obj {
 
 namespace {
 
-using Words = std::vector<std::string_view>;
+using WordList = std::vector<std::string_view>;
 
 dvec3 vector_at(const std::vector<double>& list, std::size_t first) {
     return {list[first], list[first + 1], list[first + 2]};
 }
 
-Camera camera(const Line& line, const Words& words) {
+Camera camera(const ObjLine& line, const WordList& words) {
     const std::vector<double> n = numbers(line, words, 1, 10);
     const Camera camera{.name = std::string(words[0]),
                         .eye = vector_at(n, 0),
@@ -32,7 +32,7 @@ Camera camera(const Line& line, const Words& words) {
     return camera;
 }
 
-Harmonic harmonic(const Line& line, const Words& words) {
+Harmonic harmonic(const ObjLine& line, const WordList& words) {
     const std::vector<double> n = numbers(line, words, 2, 4);
     check(n[3] > 0, Failure::bad_data, line.where(), ": motion of ", in_quotes(words[0]),
           " wants a period above 0, found ", n[3]);
@@ -41,7 +41,7 @@ Harmonic harmonic(const Line& line, const Words& words) {
 
 /// Reads a key count, and then time and position of each key. Words are not stored in a list,
 /// because a line may be as long as the file. Throws `bad_data`.
-Keyframes keyframes(const Line& line, std::string_view name, std::string_view rest,
+Keyframes keyframes(const ObjLine& line, std::string_view name, std::string_view rest,
                     Keys::Interpolation interpolation, Account& account) {
     const bool is_cubic = interpolation == Keys::Interpolation::cubic;
     const std::size_t stride = is_cubic ? 10 : 4;
@@ -68,7 +68,7 @@ Keyframes keyframes(const Line& line, std::string_view name, std::string_view re
     return {.keys = std::move(keys)};
 }
 
-Motion motion(const Line& line, Account& account) {
+Motion motion(const ObjLine& line, Account& account) {
     using enum Keys::Interpolation;
     std::string_view rest = line.rest;
     const std::string_view name = take_word(rest), kind = take_word(rest);
@@ -80,7 +80,7 @@ Motion motion(const Line& line, Account& account) {
          in_quotes(kind));
 }
 
-Sphere sphere(const Line& line, const Words& words) {
+Sphere sphere(const ObjLine& line, const WordList& words) {
     const std::vector<double> n = numbers(line, words, 1, 4);
     check(n[3] > 0, Failure::bad_data, line.where(), ": sphere ", in_quotes(words[0]),
           " wants a radius above 0, found ", n[3]);
@@ -89,8 +89,8 @@ Sphere sphere(const Line& line, const Words& words) {
 
 } // namespace
 
-void add_remark(Remarks& remarks, const Line& line, Account& account) {
-    const Words list = words(line);
+void add_remark(Remarks& remarks, const ObjLine& line, Account& account) {
+    const WordList list = words(line);
     check(!list.empty(), Failure::bad_data, line.where(), ": ", in_quotes(line.keyword),
           " wants a name, found none");
     if (line.keyword == "#exposure") {

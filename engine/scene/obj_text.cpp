@@ -22,21 +22,21 @@ public:
     ObjReader(const std::string& file, Context& context) : file_(file), context_(context) {}
 
     /// Reads one line of the first pass: everything but faces, groups and uses of materials.
-    void definition(const Line& line);
+    void definition(const ObjLine& line);
     void name_materials();
     /// Reads one line of the second pass: faces, groups and uses of materials.
-    void use(const Line& line);
+    void use(const ObjLine& line);
     Text finish();
 
 private:
-    void library(const Line& line);
-    void library_file(const Line& line, const std::string& name);
-    void position(const Line& line);
-    void texture_coordinates(const Line& line);
-    void face(const Line& line);
-    Corner corner(const Line& line, std::string_view word) const;
-    void group(const Line& line);
-    void use_material(const Line& line);
+    void library(const ObjLine& line);
+    void library_file(const ObjLine& line, const std::string& name);
+    void position(const ObjLine& line);
+    void texture_coordinates(const ObjLine& line);
+    void face(const ObjLine& line);
+    Corner corner(const ObjLine& line, std::string_view word) const;
+    void group(const ObjLine& line);
+    void use_material(const ObjLine& line);
 
     const std::string& file_;
     Context& context_;
@@ -50,7 +50,7 @@ private:
     std::vector<Corner> polygon_, triangles_;           ///< of the current face
 };
 
-void ObjReader::library_file(const Line& line, const std::string& name) {
+void ObjReader::library_file(const ObjLine& line, const std::string& name) {
     const std::string place = line.where() + ": mtllib";
     const fs::path real = context_.files.find(name, place);
     if (real.empty()) {
@@ -62,7 +62,7 @@ void ObjReader::library_file(const Line& line, const std::string& name) {
 }
 
 /// Reads `mtllib`. The line is one name with spaces if such a file exists, else several names.
-void ObjReader::library(const Line& line) {
+void ObjReader::library(const ObjLine& line) {
     const std::vector<std::string_view> names = words(line);
     check(!names.empty(), Failure::bad_data, line.where(),
           ": mtllib wants a file name, found none");
@@ -79,7 +79,7 @@ void ObjReader::name_materials() {
         material_of_.try_emplace(text_.library.drafts[i].name, i);
 }
 
-void ObjReader::use_material(const Line& line) {
+void ObjReader::use_material(const ObjLine& line) {
     const std::string name(line.rest);
     const auto found = material_of_.find(name);
     if (found == material_of_.end()) {
@@ -100,7 +100,7 @@ void ObjReader::use_material(const Line& line) {
 
 /// Starts a shape. The rest of an `o` line is one name. `g` lists several names, which are joined
 /// by spaces.
-void ObjReader::group(const Line& line) {
+void ObjReader::group(const ObjLine& line) {
     std::string name(line.rest);
     if (line.keyword == "g") {
         name.clear();
@@ -116,7 +116,7 @@ void ObjReader::group(const Line& line) {
 
 /// Parses an index and returns it from 0. A negative index counts back from the last of the
 /// `so_far` elements before the line. Throws `bad_data` if no element has the index.
-std::uint32_t index_of(const Line& line, std::string_view digits, std::size_t so_far,
+std::uint32_t index_of(const ObjLine& line, std::string_view digits, std::size_t so_far,
                        std::size_t count, std::string_view what) {
     std::int64_t value = 0;
     const char* end = digits.data() + digits.size();
@@ -134,7 +134,7 @@ std::uint32_t index_of(const Line& line, std::string_view digits, std::size_t so
 }
 
 /// Parses a face corner: "v", "v/vt", "v//vn" or "v/vt/vn".
-Corner ObjReader::corner(const Line& line, std::string_view word) const {
+Corner ObjReader::corner(const ObjLine& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
     Corner corner{
         index_of(line, word.substr(0, slash), positions_, text_.positions.size(), "positions"),
@@ -149,7 +149,7 @@ Corner ObjReader::corner(const Line& line, std::string_view word) const {
     return corner;
 }
 
-void ObjReader::face(const Line& line) {
+void ObjReader::face(const ObjLine& line) {
     const std::size_t count = count_words(line.rest);
     if (count < 3) {
         context_.notes.add("faces of one or two corners, left out", line.where());
@@ -172,7 +172,7 @@ void ObjReader::face(const Line& line) {
 }
 
 /// Reads a position: x y z, optionally followed by w, r g b, or w r g b. w is ignored.
-void ObjReader::position(const Line& line) {
+void ObjReader::position(const ObjLine& line) {
     context_.account.positions.add(1, *line.file, ":", line.number);
     text_.positions.push_back(vector_of(line));
     const std::size_t count = count_words(line.rest);
@@ -183,7 +183,7 @@ void ObjReader::position(const Line& line) {
     text_.colours.back() = vec3(glm::clamp(dvec3(rgb[0], rgb[1], rgb[2]), 0.0, 1.0));
 }
 
-void ObjReader::texture_coordinates(const Line& line) {
+void ObjReader::texture_coordinates(const ObjLine& line) {
     context_.account.attributes.add(1, *line.file, ":", line.number);
     std::string_view rest = line.rest;
     const double u = number_of(line, take_word(rest));
@@ -191,7 +191,7 @@ void ObjReader::texture_coordinates(const Line& line) {
     text_.uv.emplace_back(u, has_v ? number_of(line, take_word(rest)) : 0);
 }
 
-void ObjReader::definition(const Line& line) {
+void ObjReader::definition(const ObjLine& line) {
     if (line.keyword == "v") {
         position(line);
     } else if (line.keyword == "vt") {
@@ -211,7 +211,7 @@ void ObjReader::definition(const Line& line) {
     }
 }
 
-void ObjReader::use(const Line& line) {
+void ObjReader::use(const ObjLine& line) {
     if (line.keyword == "v") ++positions_;
     if (line.keyword == "vn") ++normals_;
     if (line.keyword == "vt") ++uvs_;
@@ -233,9 +233,9 @@ Text read_text(const std::string& file, Context& context) {
     const std::string bytes = context.files.read_scene();
     check(!bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff"), Failure::bad_data, file,
           ": wanted text in UTF-8, found UTF-16");
-    for_each_line(file, bytes, [&](const Line& line) { reader.definition(line); });
+    for_each_line(file, bytes, [&](const ObjLine& line) { reader.definition(line); });
     reader.name_materials();
-    for_each_line(file, bytes, [&](const Line& line) { reader.use(line); });
+    for_each_line(file, bytes, [&](const ObjLine& line) { reader.use(line); });
     return reader.finish();
 }
 

@@ -21,7 +21,7 @@ namespace catoptric::scene::obj {
 
 /// A line with a statement or a `# catoptric` comment. The views are valid only during the call
 /// that receives the line.
-struct Line {
+struct ObjLine {
     std::string where() const { return *file + ":" + std::to_string(number); }
 
     const std::string* file;
@@ -33,31 +33,31 @@ struct Line {
 /// Calls `body` for each statement and each `# catoptric` comment. Empty lines and other comments
 /// are skipped. A backslash at the end of a line joins it with the next line.
 void for_each_line(const std::string& file, std::string_view text,
-                   const std::function<void(const Line&)>& body);
+                   const std::function<void(const ObjLine&)>& body);
 
 /// Removes the first word from the front of `text` and returns it.
 std::string_view take_word(std::string_view& text);
 
 /// Returns the words of `line.rest` up to a comment, at most 4096 words.
-std::vector<std::string_view> words(const Line& line);
+std::vector<std::string_view> words(const ObjLine& line);
 /// Returns the number of words up to a comment.
 std::size_t count_words(std::string_view text);
 
 /// Parses a word as a finite number. Throws `bad_data` naming the line.
-double number_of(const Line& line, std::string_view word);
+double number_of(const ObjLine& line, std::string_view word);
 
 /// Parses the words [first, first + count) as finite numbers. Throws `bad_data` naming the line.
-std::vector<double> numbers(const Line& line, const std::vector<std::string_view>& words,
+std::vector<double> numbers(const ObjLine& line, const std::vector<std::string_view>& words,
                             std::size_t first, std::size_t count);
 
 /// Parses the first three words of `line.rest` as finite numbers. Throws `bad_data` naming the
 /// line.
-dvec3 vector_of(const Line& line);
+dvec3 vector_of(const ObjLine& line);
 
 /// Counts the statements that are not read, by keyword.
 class Unread {
 public:
-    void add(const Line& line);
+    void add(const ObjLine& line);
     /// Adds a note for each keyword. Keywords after the first 40 share one note.
     void tell(const std::string& file, Notes& notes) const;
 
@@ -126,7 +126,7 @@ struct Remarks {
 };
 
 /// Adds one comment line. Throws `bad_data` naming the line if it is invalid.
-void add_remark(Remarks& remarks, const Line& line, Account& account);
+void add_remark(Remarks& remarks, const ObjLine& line, Account& account);
 
 /// A corner of a face, as indices from 0.
 struct Corner {
@@ -156,6 +156,6 @@ Text read_text(const std::string& file, Context& context);
 /// at most corners - 2 triangles. The work may grow with the cube of the corners; `comparisons`
 /// counts it. Throws `bad_data` naming the line if the count exceeds the budget.
 void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
-         const Line& line, std::vector<Corner>& triangles);
+         const ObjLine& line, std::vector<Corner>& triangles);
 
 } // namespace catoptric::scene::obj

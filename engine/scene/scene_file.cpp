@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Key of the file: its name, its reader and its writer. The table of keys defines the format.
-struct Key {
+struct OverrideKey {
     const char* name;
     void (*read)(const gltf::Item& file, const gltf::Json& value, SceneOverrides& overrides);
     gltf::Json (*written)(const SceneOverrides& overrides); ///< null: not set
@@ -70,7 +70,7 @@ Json mirror_json(const MirrorOverride& wish) {
            (r.x == r.y && r.y == r.z ? text(r.x) : text(r.x) + "," + text(r.y) + "," + text(r.z));
 }
 
-const std::array<Key, 12> kKeys{
+const std::array<OverrideKey, 12> kKeys{
     {{"mirrors",
       [](const Item& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : texts_of(file, value, "mirrors"))
@@ -157,10 +157,10 @@ SceneOverrides read(const std::string& file, const std::string& text, Account& a
     const Item item(document, file);
     item.require(document.is_object(), "wanted an object, found ", gltf::shown(document));
     std::vector<std::string> names;
-    for (const Key& key : kKeys) names.emplace_back(key.name);
+    for (const OverrideKey& key : kKeys) names.emplace_back(key.name);
     SceneOverrides overrides;
     for (const auto& [name, value] : document.items()) {
-        const auto key = std::ranges::find(kKeys, name, &Key::name);
+        const auto key = std::ranges::find(kKeys, name, &OverrideKey::name);
         if (key == kKeys.end()) {
             std::string list;
             for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
@@ -211,7 +211,7 @@ std::string scene_file_text(const SceneOverrides& overrides, const fs::path& sce
         picture = name.string();
     }
     nlohmann::ordered_json document = nlohmann::ordered_json::object();
-    for (const Key& key : kKeys)
+    for (const OverrideKey& key : kKeys)
         if (const Json value = key.written(relative); !value.is_null()) document[key.name] = value;
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -12,9 +12,9 @@ namespace catoptric::scene {
 namespace {
 
 /// Grid of cubes that holds vertices, to find the first vertex at a place.
-class Places {
+class VertexGrid {
 public:
-    explicit Places(std::span<const dvec3> positions) : positions_(positions) {
+    explicit VertexGrid(std::span<const dvec3> positions) : positions_(positions) {
         for (const dvec3& p : positions)
             scale_ = std::max({scale_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         if (scale_ == 0) scale_ = 1;
@@ -68,14 +68,14 @@ private:
 } // namespace
 
 std::vector<std::size_t> first_at_place(std::span<const dvec3> positions) {
-    Places places(positions);
+    VertexGrid places(positions);
     std::vector<std::size_t> first(positions.size());
     for (std::size_t i = 0; i < first.size(); ++i) first[i] = places.first_at(i);
     return first;
 }
 
-std::vector<Side> sides_of(std::span<const Corners> triangles) {
-    std::vector<Side> sides;
+std::vector<TriangleEdge> sides_of(std::span<const Corners> triangles) {
+    std::vector<TriangleEdge> sides;
     sides.reserve(3 * triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Corners& t = triangles[i];
@@ -85,8 +85,9 @@ std::vector<Side> sides_of(std::span<const Corners> triangles) {
             sides.push_back({low, high, i, t[(k + 2) % 3]});
         }
     }
-    std::ranges::sort(
-        sides, {}, [](const Side& side) { return std::tuple(side.low, side.high, side.triangle); });
+    std::ranges::sort(sides, {}, [](const TriangleEdge& side) {
+        return std::tuple(side.low, side.high, side.triangle);
+    });
     return sides;
 }
 

@@ -23,7 +23,7 @@ inline bool has_three_places(const Corners& t) {
 std::vector<std::size_t> first_at_place(std::span<const dvec3> positions);
 
 /// Edge of one triangle.
-struct Side {
+struct TriangleEdge {
     std::size_t low, high; ///< ends of the edge
     std::size_t triangle;
     std::size_t tip; ///< the triangle's third corner
@@ -31,12 +31,12 @@ struct Side {
 
 /// Returns the sides of all triangles, ordered by edge, then by triangle. A triangle with two equal
 /// corners is skipped. O(n log n).
-std::vector<Side> sides_of(std::span<const Corners> triangles);
+std::vector<TriangleEdge> sides_of(std::span<const Corners> triangles);
 
 /// Calls `visit(std::span<const Side>)` for each edge with the sides that meet there. A surface is
 /// closed if every edge has two sides.
 template <typename Visit>
-void for_each_edge(const std::vector<Side>& sides, Visit&& visit) {
+void for_each_edge(const std::vector<TriangleEdge>& sides, Visit&& visit) {
     for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
         while (end < sides.size() && sides[end].low == sides[first].low &&
                sides[end].high == sides[first].high)

@@ -54,7 +54,7 @@ constexpr const char* kOneModel =
 constexpr const char* kFlatScene = "flat"; // `planar` needs a flat mirror
 constexpr const char* kFlatTechnique = "planar";
 
-struct BenchOptions {
+struct BenchArguments {
     Common common; ///< options for all scenes
     std::vector<std::string> scenes;
     std::vector<std::string> techniques;
@@ -72,7 +72,7 @@ struct SceneAsked {
     std::vector<std::string> techniques;
 };
 
-std::vector<SceneAsked> asked_of(const BenchOptions& options) {
+std::vector<SceneAsked> asked_of(const BenchArguments& options) {
     std::vector<SceneAsked> list;
     std::vector<std::string> scenes = options.scenes;
     if (scenes.empty()) scenes.push_back(options.common.scene);
@@ -88,7 +88,7 @@ std::vector<SceneAsked> asked_of(const BenchOptions& options) {
     return list;
 }
 
-int frames_of(const BenchOptions& options) {
+int frames_of(const BenchArguments& options) {
     return options.common.frames.value_or(app::Request().frames);
 }
 
@@ -113,7 +113,7 @@ void add_subjects(app::Engine& engine, const SceneAsked& asked, app::Request req
     }
 }
 
-void check_output(const BenchOptions& options, const std::vector<std::filesystem::path>& inputs,
+void check_output(const BenchArguments& options, const std::vector<std::filesystem::path>& inputs,
                   const std::string& read) {
     if (options.output.empty()) return;
     check_file_can_be_made(options.output);
@@ -121,14 +121,14 @@ void check_output(const BenchOptions& options, const std::vector<std::filesystem
 }
 
 /// Writes the result to stdout, and also to a file if the user asks for one.
-void put_result(const BenchOptions& options, const std::string& json, const std::string& table) {
+void put_result(const BenchArguments& options, const std::string& json, const std::string& table) {
     put(options.common.manners.json ? json : table);
     if (options.output.empty()) return;
     write_file(options.output, json);
     note(options.common.manners, "written: " + options.output);
 }
 
-int measure(const BenchOptions& options) {
+int measure(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
     const app::UsageMeter meter(app::UsageMeter::Of::process);
     check(!options.common.both_models, Failure::usage, kOneModel);
@@ -170,7 +170,7 @@ void warn_of_circumstances(const measure::BenchmarkRun& before,
         warn("others were at work beside what was measured; times are not to be trusted");
 }
 
-int judge(const BenchOptions& options, const measure::BenchmarkRun& before,
+int judge(const BenchArguments& options, const measure::BenchmarkRun& before,
           const measure::BenchmarkRun& after) {
     warn_of_circumstances(before, after);
     const measure::Changes changes = measure::compare(before, after);
@@ -186,7 +186,7 @@ int judge(const BenchOptions& options, const measure::BenchmarkRun& before,
     return 0;
 }
 
-int compare_benchmark_files(const BenchOptions& options) {
+int compare_benchmark_files(const BenchArguments& options) {
     const std::vector<std::string>& files = options.before_and_after;
     check(files.size() == 2, Failure::usage, "--compare: wanted OLD and NEW, found ", files.size(),
           files.size() == 1 ? " file" : " files");
@@ -197,7 +197,7 @@ int compare_benchmark_files(const BenchOptions& options) {
     return judge(options, runs[0], runs[1]);
 }
 
-int run_against(const BenchOptions& options) {
+int run_against(const BenchArguments& options) {
     app::check_rounds(options.rounds);
     check_output(options, {options.against}, ", which is run");
     const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -210,7 +210,7 @@ int run_against(const BenchOptions& options) {
     return judge(options, runs[0], runs[1]);
 }
 
-int tune(const BenchOptions& options) {
+int tune(const BenchArguments& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
           "--tune: wanted at most one SCENE and no --techniques, since ", app::kTunedTechnique,
           " is what is measured");
@@ -220,7 +220,7 @@ int tune(const BenchOptions& options) {
     return tune_device(common, std::min(options.rounds, frames_of(options)), options.output);
 }
 
-int run_bench(const BenchOptions& options) {
+int run_bench(const BenchArguments& options) {
     const bool compares = !options.before_and_after.empty(), in_turn = !options.against.empty();
     for (const auto& [both, names] : {std::pair{compares && in_turn, "--compare and --against"},
                                       {options.tunes && compares, "--tune and --compare"},
@@ -235,7 +235,7 @@ int run_bench(const BenchOptions& options) {
 } // namespace
 
 void add_bench(CommandLine& program, std::vector<std::string> command) {
-    const auto options = std::make_shared<BenchOptions>();
+    const auto options = std::make_shared<BenchArguments>();
     options->command = std::move(command);
     Verb& verb = program.add(
         "bench", "measure times of frames and scenes; compare with another run or build");

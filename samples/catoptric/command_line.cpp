@@ -73,7 +73,7 @@ std::string paragraphs(const std::string& text) {
 }
 
 /// Formats the help of CLI11 in kHelpWidth columns.
-class Layout : public CLI::Formatter {
+class HelpFormatter : public CLI::Formatter {
 public:
     std::string make_option(const CLI::Option* option, bool is_positional) const override {
         return help_entry(make_option_name(option, is_positional) + make_option_opts(option),
@@ -192,7 +192,7 @@ void Verb::option_without_value(const std::string& names, const std::string& hel
 CommandLine::CommandLine(const std::string& name, const std::string& summary,
                          const std::string& version, const std::string& examples)
     : app_(std::make_unique<CLI::App>(summary, name)) {
-    app_->formatter(std::make_shared<Layout>());
+    app_->formatter(std::make_shared<HelpFormatter>());
     app_->option_defaults()->group(kCommonOptions);
     app_->require_subcommand(1);
     app_->footer(examples);

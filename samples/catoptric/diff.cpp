@@ -75,7 +75,7 @@ std::string mean_text(const char* name, const measure::Mean& mean, const measure
 
 std::string value_text(const measure::Value& value) {
     if (measure::is_nothing(value)) return "none";
-    if (const auto* place = std::get_if<measure::Place>(&value))
+    if (const auto* place = std::get_if<measure::PixelPosition>(&value))
         return fmt::format("({}, {})", place->x, place->y);
     const double number = std::get<double>(value);
     return number == std::trunc(number) ? fmt::format("{:.0f}", number)

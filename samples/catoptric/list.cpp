@@ -134,11 +134,11 @@ std::string listing(const std::string& kind, const std::string& name, bool json)
 } // namespace
 
 void add_list(CommandLine& program) {
-    struct Options {
+    struct ListOptions {
         Manners manners;
         std::string kind, name;
     };
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ListOptions>();
     Verb& verb = program.add("list", "techniques, scenes, devices or metrics");
     verb.examples(kListExamples);
     verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,

@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Files by their resolved path and, if they exist, by inode number.
-class Files {
+class KnownFiles {
 public:
-    struct File {
+    struct KnownFile {
         fs::path path; ///< path as the user named it
         bool is_input = false;
     };
     /// Returns the known file that is the same file, or null. Devices and pipes are never the same.
-    const File* find(const fs::path& path) const {
+    const KnownFile* find(const fs::path& path) const {
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;
         if (is_there && !S_ISREG(status.st_mode)) return nullptr;
@@ -31,7 +31,7 @@ public:
         const auto found = numbers_.find({status.st_dev, status.st_ino});
         return is_there && found != numbers_.end() ? &found->second : nullptr;
     }
-    void add(const File& file) {
+    void add(const KnownFile& file) {
         paths_.emplace(real_path(file.path), file);
         struct stat status {};
         if (::stat(file.path.c_str(), &status) == 0)
@@ -39,18 +39,18 @@ public:
     }
 
 private:
-    std::map<fs::path, File> paths_;
-    std::map<std::pair<dev_t, ino_t>, File> numbers_;
+    std::map<fs::path, KnownFile> paths_;
+    std::map<std::pair<dev_t, ino_t>, KnownFile> numbers_;
 };
 
 } // namespace
 
 void check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs,
                  const std::string& read) {
-    Files files;
+    KnownFiles files;
     for (const fs::path& input : inputs) files.add({input, true});
     for (const fs::path& output : outputs) {
-        if (const Files::File* same = files.find(output)) {
+        if (const KnownFiles::KnownFile* same = files.find(output)) {
             check(same->is_input || same->path != output, Failure::usage, output.string(),
                   ": wanted one output in a place, found two");
             fail(Failure::usage, output.string(), ": cannot be written: it is the same file as ",

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -55,7 +56,7 @@ Progress::Progress(const Manners& manners, OffTerminal off_terminal)
 Progress::~Progress() { clear(); }
 
 void Progress::row(const std::string& label, std::size_t index, std::size_t count) {
-    if (index == 0) start_ = Clock::now(), tenths_ = 0; // a new list of rows begins
+    if (index == 0) start_ = SteadyClock::now(), tenths_ = 0; // a new list of rows begins
     label_ = printable(label);
     index_ = index;
     count_ = std::max<std::size_t>(count, 1);
@@ -74,13 +75,13 @@ void Progress::show_tenth() {
 }
 
 std::string Progress::time_left(double done) const {
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double elapsed = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     return duration_text(elapsed * (1 - done) / done);
 }
 
 void Progress::frame(int number, int total) {
     if (!active_ || !rewrites_) return;
-    const Clock::time_point now = Clock::now();
+    const SteadyClock::time_point now = SteadyClock::now();
     if (now - shown_at_ < std::chrono::milliseconds(100)) return;
     shown_at_ = now;
     // Rows take different times, but this estimate suffices to decide whether to wait.

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "app/watcher.hpp"
+#include "core/stopwatch.hpp"
 #include "output.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -34,7 +34,6 @@ public:
     void clear();
 
 private:
-    using Clock = std::chrono::steady_clock;
     void show(const std::string& text);
     /// Writes a line if another tenth is done since the last line.
     void show_tenth();
@@ -48,8 +47,8 @@ private:
     std::string label_;
     std::size_t index_ = 0, count_ = 1;
     std::size_t shown_width_ = 0;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point shown_at_{};
+    SteadyClock::time_point start_ = SteadyClock::now();
+    SteadyClock::time_point shown_at_{};
 };
 
 /// Returns a watcher that shows every row and frame, and stops the work at the first signal

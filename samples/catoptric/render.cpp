@@ -5,6 +5,7 @@
 #include "core/file.hpp"
 #include "core/image_module.hpp"
 #include "drawn.hpp"
+#include "file_sequence.hpp"
 #include "json.hpp"
 #include "measure/difference.hpp"
 #include "measure/picture_file.hpp"
@@ -12,7 +13,6 @@
 #include "options.hpp"
 #include "places.hpp"
 #include "progress.hpp"
-#include "sequence.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ bool is_still(const RenderOptions& options) {
 /// Returns the files that pictures are written to; none if the picture goes to stdout.
 std::vector<std::string> pictures_of(const RenderOptions& options) {
     if (is_stdout(options)) return {};
-    const std::optional<Sequence> sequence = Sequence::find(options.output);
+    const std::optional<FileSequence> sequence = FileSequence::find(options.output);
     if (!sequence) return {options.output};
     const int frames = options.common.frames.value_or(app::Request().frames);
     check(!is_still(options), Failure::usage, "-o ", options.output,

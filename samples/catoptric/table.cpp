@@ -58,7 +58,7 @@ std::string compare_table(const report::Comparison& comparison) {
     if (has_notes) rows.front().emplace_back("not as asked");
     const std::size_t notes_at = rows.front().size() - (has_notes ? 1 : 0);
     for (const report::Row& row : comparison.rows) {
-        const measure::Places places = measure::places_in_time(comparison, row);
+        const measure::PlaceRange places = measure::places_in_time(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
                         milliseconds(row.gpu_ms.median), spread(row.gpu_ms),
                         places.first == places.last

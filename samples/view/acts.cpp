@@ -66,8 +66,8 @@ void Loop::next_camera(std::size_t index) {
     if (!cameras.empty()) state_.camera = cameras[index % cameras.size()];
 }
 
-void Loop::act(const Key& key) {
-    Motion& motion = state_.motion;
+void Loop::act(const KeyBinding& key) {
+    Playback& motion = state_.motion;
     const std::vector<scene::Camera>& cameras = request_.scene.cameras;
     switch (key.act) {
     case Act::keys: state_.shows_keys ^= true; break;
@@ -126,7 +126,7 @@ void Loop::carry_out(const Wants& wants) try {
 /// Loads another scene in place of this one. If the scene cannot be read or does not fit the
 /// device, the current scene stays.
 void Loop::load(const std::string& file) {
-    const Options options = options_;
+    const ViewOptions options = options_;
     const app::Request request = request_;
     const State state = state_;
     try {
@@ -141,12 +141,12 @@ void Loop::load(const std::string& file) {
             if (!value.empty()) options_.words.insert(options_.words.end(), {option, value});
         request_ = ask(options_).request;
         state_.plan = without_mirrors(state_.plan), state_.other = without_mirrors(state_.other);
-        open(Scene::another);
+        open(SceneOrigin::another);
         say("loaded: " + file);
     } catch (const Error& error) {
         const bool is_open = viewer_ != nullptr && viewer_->engine().usable();
         options_ = options, request_ = request, state_ = state;
-        if (!is_open) open(Scene::same);
+        if (!is_open) open(SceneOrigin::same);
         say(error.what());
     }
 }

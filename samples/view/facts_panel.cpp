@@ -10,7 +10,7 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_line(const Line& line, double most) {
+void draw_line(const TimeRow& line, double most) {
     std::string text = fmt::format("{:.2f} ms", line.median);
     if (line.ci95.is_known())
         text += fmt::format(" [{:.2f} {:.2f}]", line.ci95.low, line.ci95.high);
@@ -20,10 +20,10 @@ void draw_line(const Line& line, double most) {
     ImGui::TextUnformatted(line.name.c_str());
 }
 
-void draw_lines(const std::vector<Line>& lines) {
+void draw_lines(const std::vector<TimeRow>& lines) {
     double most = 0;
-    for (const Line& line : lines) most = std::max(most, line.median);
-    for (const Line& line : lines) draw_line(line, most);
+    for (const TimeRow& line : lines) most = std::max(most, line.median);
+    for (const TimeRow& line : lines) draw_line(line, most);
 }
 
 void draw_mirror(const scene::Object& object, std::size_t number) {
@@ -48,7 +48,7 @@ void draw_times(const Viewer& viewer) {
                         times.count() == 1 ? "frame" : "frames");
 }
 
-void draw_scene(const Seen& seen, Wants& wants) {
+void draw_scene(const PanelData& seen, Wants& wants) {
     const scene::Scene& scene = seen.scene;
     ImGui::Text("%zu objects, %zu triangles, %zu materials", scene.objects.size(),
                 scene::triangle_count(scene), scene.materials.size());

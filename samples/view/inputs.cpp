@@ -14,8 +14,8 @@ constexpr double kStray = 3; // most pixels that the mouse moves during a click
 
 } // namespace
 
-const std::vector<Key>& keys() {
-    static const std::vector<Key> kList{
+const std::vector<KeyBinding>& keys() {
+    static const std::vector<KeyBinding> kList{
         {GLFW_KEY_F1, Act::keys, 0, "F1", "this list"},
         {GLFW_KEY_TAB, Act::panels, 0, "Tab", "controls come and go"},
         {GLFW_KEY_SPACE, Act::pause, 0, "Space", "motion stops and goes on"},

@@ -29,14 +29,14 @@ enum class Act {
 };
 
 /// A key and its action. `mode` is the mode's number for Act::mode.
-struct Key {
+struct KeyBinding {
     int code; ///< key code of the window library
     Act act;
     int mode;
     const char* name;
     const char* does;
 };
-const std::vector<Key>& keys();
+const std::vector<KeyBinding>& keys();
 
 /// User input since the previous frame.
 struct Inputs {
@@ -47,7 +47,7 @@ struct Inputs {
     double wheel = 0;
     bool on_controls = false; ///< whether the mouse is over controls
     dvec3 flies{0};           ///< flight, each from -1 to 1: right, up, forwards
-    std::vector<Key> acts;
+    std::vector<KeyBinding> acts;
     std::vector<std::string> dropped; ///< files dropped on the window
     bool closes = false;
     double seconds = 0;

@@ -23,16 +23,16 @@ double reach_of(const scene::Scene& scene) {
 
 } // namespace
 
-Loop::Loop(const Options& options, const Driver& driver)
+Loop::Loop(const ViewOptions& options, const Driver& driver)
     : options_(options), driver_(driver),
-      settings_(is_scripted() ? Settings() : load_settings(settings_file())),
+      settings_(is_scripted() ? ViewerSettings() : load_settings(settings_file())),
       request_(ask(options).request), window_("Catoptric", first_window()), controls_(window_) {
     state_.plan = plan_of(options.technique);
     state_.other = plan_of("raytrace");
     state_.shows_panels = settings_.shows_panels, state_.flies = settings_.flies;
     state_.motion.speed = settings_.speed, state_.gain = settings_.gain;
     state_.model = request_.model;
-    open(Scene::another);
+    open(SceneOrigin::another);
 }
 
 /// Returns the first window size, with room for the picture and for controls beside it, in desktop
@@ -45,13 +45,13 @@ uvec2 Loop::first_window() const {
 }
 
 /// Opens engine, screen and session for the requested scene.
-void Loop::open(Scene scene) {
+void Loop::open(SceneOrigin scene) {
     viewer_.reset(); // releases its surface before another is made
     entries_of_.clear();
     app::EngineOptions options = cli::engine_options(options_.common.device);
     viewer_ = std::make_unique<Viewer>(window_, options, request_);
     controls_.give_font(viewer_->screen());
-    if (scene == Scene::same) return; // the state stays the same
+    if (scene == SceneOrigin::same) return; // the state stays the same
     cli::introduce(viewer_->engine(), options_.common.manners);
     app::settle_exposure(viewer_->session(), request_);
     state_.camera = request_.camera;
@@ -101,7 +101,7 @@ void Loop::recover(const Error& error) {
     }
     if (!is_lost) return say(error.what());
     cli::warn(std::string(error.what()) + "; the session is made anew");
-    open(Scene::same);
+    open(SceneOrigin::same);
     state_.said = std::string("the device was lost: ") + error.what();
 }
 
@@ -115,7 +115,7 @@ void Loop::show(const Inputs& inputs) {
     ++frame_;
     if (viewer_->screen().lost()) {
         cli::warn("the window's surface was lost; the session is made anew");
-        open(Scene::same);
+        open(SceneOrigin::same);
     }
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
 }
@@ -128,7 +128,7 @@ bool Loop::turn() try {
     if (driver_.before) driver_.before(frame_ + 1, inputs, state_, window_);
     if (frame_ == 0) first_ = inputs.window;
     if (inputs.window != uvec2(0)) last_ = inputs.window, scale_ = inputs.scale;
-    for (const Key& key : inputs.acts) act(key);
+    for (const KeyBinding& key : inputs.acts) act(key);
     for (const std::string& file : inputs.dropped) load(file);
     const uvec2 size = picture_size(last_, state_.shows_panels);
     if (const auto clicked = hand_.apply(inputs, state_, size, reach_))
@@ -152,11 +152,11 @@ bool Loop::turn() try {
 /// Prints the times of the last frames, with -v.
 void Loop::tell_times() const {
     const Times& times = viewer_->times();
-    std::vector<Line> lines = times.passes();
-    for (const Line& line : times.host()) lines.push_back(line);
+    std::vector<TimeRow> lines = times.passes();
+    for (const TimeRow& line : times.host()) lines.push_back(line);
     lines.push_back(times.gpu());
     lines.push_back(times.frame());
-    for (const Line& line : lines)
+    for (const TimeRow& line : lines)
         cli::detail(options_.common.manners,
                     fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
 }
@@ -184,12 +184,12 @@ int Loop::run() {
     return signal == 0 ? code : 128 + signal;
 }
 
-int run(const Options& options, const Driver& driver) { return Loop(options, driver).run(); }
+int run(const ViewOptions& options, const Driver& driver) { return Loop(options, driver).run(); }
 
 int run_view(int argc, char** argv) {
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     return cli::run_guarded("catoptric-view", [&] {
-        return parse(words, [](const Options& options) { return run(options); })();
+        return parse(words, [](const ViewOptions& options) { return run(options); })();
     });
 }
 

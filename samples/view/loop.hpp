@@ -23,7 +23,7 @@ struct Driver {
 };
 
 /// Runs the window from opening to closing. Returns the exit code. Throws as its parts do.
-int run(const Options& options, const Driver& driver = {});
+int run(const ViewOptions& options, const Driver& driver = {});
 
 /// Runs the whole program and turns errors into exit codes. May be called once per process.
 int run_view(int argc, char** argv);

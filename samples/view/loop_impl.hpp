@@ -11,16 +11,16 @@ namespace catoptric::view {
 
 class Loop {
 public:
-    Loop(const Options& options, const Driver& driver);
+    Loop(const ViewOptions& options, const Driver& driver);
     int run();
 
 private:
     bool is_scripted() const { return options_.common.frames.has_value(); }
     uvec2 first_window() const;
-    enum class Scene { another, same };
-    void open(Scene scene);
+    enum class SceneOrigin { another, same };
+    void open(SceneOrigin scene);
     bool turn();
-    void act(const Key& key);
+    void act(const KeyBinding& key);
     void carry_out(const Wants& wants);
     void load(const std::string& file);
     void show(const Inputs& inputs);
@@ -32,9 +32,9 @@ private:
     void tell_times() const;
     int end();
 
-    Options options_;
+    ViewOptions options_;
     const Driver& driver_;
-    Settings settings_;
+    ViewerSettings settings_;
     app::Request request_;
     State state_, good_; ///< good: state of the last frame that could be rendered
     Window window_;

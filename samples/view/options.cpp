@@ -20,7 +20,7 @@ F1 in the window lists the keys. --frames N ends the program after N frames. Fra
 'catoptric render' with --frames N --warmup 0. --screenshot writes the last frame without controls, with the same
 bytes.)";
 
-void check_screenshot(const Options& options) {
+void check_screenshot(const ViewOptions& options) {
     if (options.screenshot.empty()) return;
     check(options.common.frames.has_value(), Failure::usage,
           "--screenshot is of the last frame: wanted --frames N, found none");
@@ -33,11 +33,11 @@ void check_screenshot(const Options& options) {
 } // namespace
 
 std::function<int()> parse(const std::vector<std::string>& words,
-                           const std::function<int(const Options&)>& run) {
+                           const std::function<int(const ViewOptions&)>& run) {
     auto program = std::make_shared<cli::CommandLine>(
         "catoptric-view", "Shows a scene in a window, drawn by any technique.",
         "catoptric-view " + app::version() + " (" + app::commit() + ")", kExamples);
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ViewOptions>();
     options->words = words;
     cli::Verb& verb = program->whole();
     add_drawn(verb, options->drawn);
@@ -60,7 +60,7 @@ std::function<int()> parse(const std::vector<std::string>& words,
     return [program, work] { return work(); };
 }
 
-cli::Asked ask(const Options& options) {
+cli::Asked ask(const ViewOptions& options) {
     cli::Asked asked = make_asked(options.common);
     app::Request& request = asked.request;
     request.techniques = {options.technique};

@@ -9,7 +9,7 @@
 namespace catoptric::view {
 
 /// The options of the command line.
-struct Options {
+struct ViewOptions {
     cli::Common common;
     cli::Drawn drawn;
     std::string technique; ///< as app::FrameSpec::techniques takes it
@@ -20,9 +20,9 @@ struct Options {
 /// Parses `catoptric-view WORDS...` and returns the function to call, which may print help. Throws
 /// `usage`, and `cannot_create` for a screenshot that cannot be written.
 std::function<int()> parse(const std::vector<std::string>& words,
-                           const std::function<int(const Options&)>& run);
+                           const std::function<int(const ViewOptions&)>& run);
 
 /// Returns the request for the scene and its first frame.
-cli::Asked ask(const Options& options);
+cli::Asked ask(const ViewOptions& options);
 
 } // namespace catoptric::view

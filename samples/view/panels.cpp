@@ -38,7 +38,7 @@ void draw_mode(State& state) {
         state.gain = 1 << power;
     }
     if (state.mode == Mode::causes)
-        for (const Cause& cause : causes())
+        for (const CauseLabel& cause : causes())
             if (ImGui::RadioButton(cause.name, state.cause == cause.bit)) state.cause = cause.bit;
     if (state.mode == Mode::answers)
         ImGui::TextWrapped(state.plan.typed.empty()
@@ -104,7 +104,7 @@ void draw_keys(uvec2 window) {
         {0, 0}, {static_cast<float>(window.x), static_cast<float>(window.y)});
     ImGui::Begin("Keys", nullptr,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    for (const Key& key : keys()) {
+    for (const KeyBinding& key : keys()) {
         ImGui::TextUnformatted(key.name);
         ImGui::SameLine(70);
         ImGui::TextUnformatted(key.does);
@@ -118,7 +118,7 @@ void draw_keys(uvec2 window) {
 
 } // namespace
 
-void draw_panels(State& state, const Seen& seen, uvec2 window, Wants& wants) {
+void draw_panels(State& state, const PanelData& seen, uvec2 window, Wants& wants) {
     if (state.shows_keys) draw_keys(window);
     if (!state.shows_panels) return;
     ImGui::SetNextWindowPos({static_cast<float>(window.x) - kPanelWidth, 0});

@@ -6,7 +6,7 @@
 namespace catoptric::view {
 
 /// Data that panels show in addition to the state.
-struct Seen {
+struct PanelData {
     const scene::Scene& scene;
     const Viewer& viewer;
     const std::vector<PlanEntry>& entries; ///< entries of the plan as the user typed it
@@ -21,12 +21,12 @@ struct Wants {
 
 /// Draws the controls at the right of the window and edits the state. Call between Controls::begin
 /// and end.
-void draw_panels(State& state, const Seen& seen, uvec2 window, Wants& wants);
+void draw_panels(State& state, const PanelData& seen, uvec2 window, Wants& wants);
 
 // Parts of draw_panels, one file each.
 /// `entries` are those of the plan as the user typed it.
 void draw_plan(State& state, const scene::Scene& scene, const std::vector<PlanEntry>& entries);
 void draw_times(const Viewer& viewer);
-void draw_scene(const Seen& seen, Wants& wants);
+void draw_scene(const PanelData& seen, Wants& wants);
 
 } // namespace catoptric::view

@@ -11,7 +11,7 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_choice(Drawing& drawing, const app::KnobInfo& knob) {
+void draw_choice(TechniqueSettings& drawing, const app::KnobInfo& knob) {
     const std::string value = value_of(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
@@ -20,7 +20,7 @@ void draw_choice(Drawing& drawing, const app::KnobInfo& knob) {
 }
 
 /// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
-void draw_number(Drawing& drawing, const app::KnobInfo& knob) {
+void draw_number(TechniqueSettings& drawing, const app::KnobInfo& knob) {
     constexpr int kFew = 64;
     const std::string text = value_of(drawing, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
@@ -52,7 +52,7 @@ void draw_number(Drawing& drawing, const app::KnobInfo& knob) {
                                          : knob.value);
 }
 
-void draw_knobs(Drawing& drawing) {
+void draw_knobs(TechniqueSettings& drawing) {
     const app::TechniqueInfo* technique = find(drawing.technique);
     if (!technique) return;
     for (const app::KnobInfo& knob : technique->knobs) {
@@ -66,7 +66,7 @@ void draw_knobs(Drawing& drawing) {
     }
 }
 
-void draw_technique(Drawing& drawing) {
+void draw_technique(TechniqueSettings& drawing) {
     if (ImGui::BeginCombo("technique", drawing.technique.c_str())) {
         for (const app::TechniqueInfo& technique : table()) {
             if (ImGui::Selectable(technique.name.c_str(), technique.name == drawing.technique) &&
@@ -104,7 +104,7 @@ void draw_one(PlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
     }
     if (chosen == 0) return draw_technique(plan.rest);
     const auto own = plan.own.find(chosen);
-    Drawing drawing = own == plan.own.end() ? plan.rest : own->second;
+    TechniqueSettings drawing = own == plan.own.end() ? plan.rest : own->second;
     draw_technique(drawing);
     if (own != plan.own.end() && ImGui::SmallButton("as all others"))
         plan.own.erase(own);

@@ -8,14 +8,14 @@ namespace catoptric::view {
 
 namespace {
 
-Drawing drawing_of(const std::string& technique, const std::vector<Setting>& settings) {
-    Drawing drawing{technique, {}};
+TechniqueSettings drawing_of(const std::string& technique, const std::vector<Setting>& settings) {
+    TechniqueSettings drawing{technique, {}};
     for (const Setting& setting : settings)
         if (setting.changed) drawing.knobs[setting.name] = setting.text;
     return drawing;
 }
 
-nlohmann::json rule_of(nlohmann::json mirror, const Drawing& drawing) {
+nlohmann::json rule_of(nlohmann::json mirror, const TechniqueSettings& drawing) {
     nlohmann::json settings = nlohmann::json::object();
     for (const auto& [knob, value] : drawing.knobs) settings[knob] = value;
     return {{"mirror", std::move(mirror)},
@@ -35,7 +35,7 @@ const app::TechniqueInfo* find(const std::string& technique) {
     return found == table().end() ? nullptr : &*found;
 }
 
-std::string text_of(const Drawing& drawing) {
+std::string text_of(const TechniqueSettings& drawing) {
     std::string text = drawing.technique;
     char before = ':';
     for (const auto& [knob, value] : drawing.knobs) {
@@ -75,26 +75,26 @@ PlanState resolved(const PlanState& plan, const std::vector<PlanEntry>& entries)
     PlanState made;
     made.rest = drawing_of(entries.front().technique, entries.front().settings);
     for (const PlanEntry& entry : entries) {
-        const Drawing drawing = drawing_of(entry.technique, entry.settings);
+        const TechniqueSettings drawing = drawing_of(entry.technique, entry.settings);
         if (!(drawing == made.rest)) made.own[entry.mirror] = drawing;
     }
     return made;
 }
 
-void set(Drawing& drawing, const app::KnobInfo& knob, const std::string& value) {
+void set(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value) {
     if (value == knob.value)
         drawing.knobs.erase(knob.name);
     else
         drawing.knobs[knob.name] = value;
 }
 
-std::string value_of(const Drawing& drawing, const app::KnobInfo& knob) {
+std::string value_of(const TechniqueSettings& drawing, const app::KnobInfo& knob) {
     const auto found = drawing.knobs.find(knob.name);
     return found == drawing.knobs.end() ? knob.value : found->second;
 }
 
 PlanState with(PlanState plan, const std::string& knob, const std::string& value) {
-    const auto change = [&](Drawing& drawing) {
+    const auto change = [&](TechniqueSettings& drawing) {
         const app::TechniqueInfo* technique = find(drawing.technique);
         if (!technique) return;
         const auto known = std::ranges::find(technique->knobs, knob, &app::KnobInfo::name);

@@ -11,15 +11,15 @@
 /// single mirrors.
 namespace catoptric::view {
 
-struct Drawing {
+struct TechniqueSettings {
     std::string technique = "secant";
     std::map<std::string, std::string> knobs; ///< knobs that differ from their default
-    bool operator==(const Drawing&) const = default;
+    bool operator==(const TechniqueSettings&) const = default;
 };
 
 struct PlanState {
-    Drawing rest;                         ///< for mirrors without an entry in `own`
-    std::map<std::uint32_t, Drawing> own; ///< by mirror number, from 1
+    TechniqueSettings rest;                         ///< for mirrors without an entry in `own`
+    std::map<std::uint32_t, TechniqueSettings> own; ///< by mirror number, from 1
     /// The plan as the user typed it, unless it lists techniques by mirror number. Examples are
     /// "auto", "plan:FILE" and patterns of names. Empty: the other members define the plan.
     std::string typed;
@@ -27,7 +27,7 @@ struct PlanState {
 };
 
 /// Returns the technique with its knobs, such as "secant:face=64".
-std::string text_of(const Drawing& drawing);
+std::string text_of(const TechniqueSettings& drawing);
 /// Returns the plan as app::FrameSpec::techniques takes it.
 std::string text_of(const PlanState& plan);
 /// Returns the words of the options by which `catoptric render` draws the plan.
@@ -37,9 +37,9 @@ PlanState plan_of(const std::string& text);
 /// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
 PlanState resolved(const PlanState& plan, const std::vector<PlanEntry>& entries);
 /// Sets a knob. Removes its entry if the value is the default.
-void set(Drawing& drawing, const app::KnobInfo& knob, const std::string& value);
+void set(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value);
 /// Returns the value of a knob.
-std::string value_of(const Drawing& drawing, const app::KnobInfo& knob);
+std::string value_of(const TechniqueSettings& drawing, const app::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.
 PlanState with(PlanState plan, const std::string& knob, const std::string& value);
 /// Returns the plan as JSON that --plan reads.

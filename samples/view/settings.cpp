@@ -43,8 +43,8 @@ fs::path settings_file() {
     return home.empty() ? home : home / ".config" / "catoptric" / "view.json";
 }
 
-Settings settings_of(const std::string& text) {
-    Settings settings;
+ViewerSettings settings_of(const std::string& text) {
+    ViewerSettings settings;
     const Json document = Json::parse(text, nullptr, false);
     if (!document.is_object()) return settings;
     const auto any = [](bool) { return true; };
@@ -62,7 +62,7 @@ Settings settings_of(const std::string& text) {
     return settings;
 }
 
-std::string text_of(const Settings& settings) {
+std::string text_of(const ViewerSettings& settings) {
     return Json{{"width", settings.window.x},      {"height", settings.window.y},
                 {"panels", settings.shows_panels}, {"flies", settings.flies},
                 {"speed", settings.speed},         {"gain", settings.gain}}
@@ -70,7 +70,7 @@ std::string text_of(const Settings& settings) {
            "\n";
 }
 
-Settings load_settings(const fs::path& file) {
+ViewerSettings load_settings(const fs::path& file) {
     try {
         if (!file.empty()) return settings_of(read_file(file));
     } catch (const Error&) {
@@ -79,7 +79,7 @@ Settings load_settings(const fs::path& file) {
     return {};
 }
 
-void save_settings(const Settings& settings, const fs::path& file) {
+void save_settings(const ViewerSettings& settings, const fs::path& file) {
     if (file.empty()) return;
     std::error_code error; // write_file reports a failure
     fs::create_directories(file.parent_path(), error);

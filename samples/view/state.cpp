@@ -13,13 +13,13 @@ const char* name_of(Mode mode) {
     return kNames.at(static_cast<std::size_t>(mode));
 }
 
-const std::vector<Cause>& causes() {
-    static const std::vector<Cause> kList{{shared::kAblateDistance, "captured distance"},
-                                          {shared::kAblateDirection, "looked-up direction"},
-                                          {shared::kAblateHidden, "hidden surfaces"},
-                                          {shared::kAblateTexels, "texels"},
-                                          {shared::kAblateMirrors, "mirrors in captures"},
-                                          {shared::kAblateShadows, "shadow map"}};
+const std::vector<CauseLabel>& causes() {
+    static const std::vector<CauseLabel> kList{{shared::kAblateDistance, "captured distance"},
+                                               {shared::kAblateDirection, "looked-up direction"},
+                                               {shared::kAblateHidden, "hidden surfaces"},
+                                               {shared::kAblateTexels, "texels"},
+                                               {shared::kAblateMirrors, "mirrors in captures"},
+                                               {shared::kAblateShadows, "shadow map"}};
     return kList;
 }
 
@@ -29,9 +29,8 @@ bool wants_canvas(const State& state) {
            (compares && state.against == Against::reference);
 }
 
-Shown shown(const State& state) {
-    using Kind = app::Showing::Kind;
-    Shown shown{{text_of(state.plan)}, Kind::one, 0, 0};
+ShownPictures shown(const State& state) {
+    ShownPictures shown{{text_of(state.plan)}, app::Showing::Arrangement::one, 0, 0};
     switch (state.mode) {
     case Mode::plan: break;
     case Mode::answers: shown.techniques = {text_of(with(state.plan, "show", "state"))}; break;
@@ -39,7 +38,8 @@ Shown shown(const State& state) {
     case Mode::causes: shown.first = app::Showing::kCanvas; break;
     case Mode::split:
     case Mode::difference:
-        shown.kind = state.mode == Mode::split ? Kind::split : Kind::difference;
+        shown.kind = state.mode == Mode::split ? app::Showing::Arrangement::split
+                                               : app::Showing::Arrangement::difference;
         if (state.against == Against::reference) {
             shown.second = app::Showing::kCanvas;
         } else if (const std::string other = text_of(state.other); other != shown.techniques[0]) {
@@ -51,7 +51,7 @@ Shown shown(const State& state) {
     return shown;
 }
 
-double advanced(const Motion& motion, double seconds) {
+double advanced(const Playback& motion, double seconds) {
     return motion.plays ? motion.time + motion.speed * seconds : motion.time;
 }
 

@@ -27,7 +27,7 @@ const char* name_of(Mode mode);
 enum class Against { other, reference };
 
 /// Scene time, in seconds.
-struct Motion {
+struct Playback {
     double time = 0;
     bool plays = false;
     double speed = 1;
@@ -43,7 +43,7 @@ struct State {
     std::uint32_t cause = 16; ///< the cause of error to remove, a bit of shared::kMend...
     scene::Camera camera;
     bool flies = false;
-    Motion motion;
+    Playback motion;
     app::Modelling model = app::Modelling::required;
     double exposure = 0;
     bool judges = false; ///< whether errors against the traced reference are measured at rest
@@ -54,26 +54,26 @@ struct State {
 };
 
 /// The techniques that one frame renders, and the pictures that it shows.
-struct Shown {
+struct ShownPictures {
     std::vector<std::string> techniques;
-    app::Showing::Kind kind = app::Showing::Kind::one;
+    app::Showing::Arrangement kind = app::Showing::Arrangement::one;
     std::size_t first = 0, second = 0; ///< indices for app::Showing
 };
 
 /// Returns whether the mode shows a picture that is made outside the frames: the reference, mirror
 /// numbers, or a cause of error.
 bool wants_canvas(const State& state);
-Shown shown(const State& state);
+ShownPictures shown(const State& state);
 
 /// A cause of error with its name for the user. Bits are shared::kMend...
-struct Cause {
+struct CauseLabel {
     std::uint32_t bit;
     const char* name;
 };
-const std::vector<Cause>& causes();
+const std::vector<CauseLabel>& causes();
 
 /// Returns the scene's time after a frame of this duration. All times are in seconds.
-double advanced(const Motion& motion, double seconds);
+double advanced(const Playback& motion, double seconds);
 /// Returns a distinct display colour for each mirror number; black for 0.
 vec3 colour_of(std::uint32_t mirror);
 /// Returns a picture of mirror numbers from the first hits of camera rays (app::Part::hits).

@@ -19,22 +19,22 @@ void Times::add(Sample sample) {
 }
 
 template <typename Get>
-Line Times::line(const std::string& name, const Get& get) const {
+TimeRow Times::line(const std::string& name, const Get& get) const {
     std::vector<double> values;
     for (const Sample& sample : samples_) values.push_back(get(sample));
     if (values.empty()) return {name, 0, {}};
     return {name, measure::percentile(values, .5), measure::median_interval(values)};
 }
 
-std::vector<Line> Times::passes() const {
-    std::vector<Line> lines;
+std::vector<TimeRow> Times::passes() const {
+    std::vector<TimeRow> lines;
     for (std::size_t i = 0; !samples_.empty() && i < samples_.back().frame.passes.size(); ++i)
         lines.push_back(line(samples_.back().frame.passes[i].name,
                              [i](const Sample& s) { return s.frame.passes[i].ms(); }));
     return lines;
 }
 
-std::vector<Line> Times::host() const {
+std::vector<TimeRow> Times::host() const {
     return {line("update", [](const Sample& s) { return s.frame.host.update; }),
             line("hierarchy", [](const Sample& s) { return s.frame.host.hierarchy; }),
             line("compile", [](const Sample& s) { return s.frame.host.compile; }),
@@ -44,11 +44,11 @@ std::vector<Line> Times::host() const {
             line("present", [](const Sample& s) { return s.present_ms; })};
 }
 
-Line Times::gpu() const {
+TimeRow Times::gpu() const {
     return line("gpu", [](const Sample& s) { return s.frame.gpu_ms; });
 }
 
-Line Times::frame() const {
+TimeRow Times::frame() const {
     return line("frame", [](const Sample& s) { return s.frame.frame_ms(); });
 }
 

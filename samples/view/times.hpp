@@ -10,7 +10,7 @@
 namespace catoptric::view {
 
 /// One line of the table of times, in milliseconds.
-struct Line {
+struct TimeRow {
     std::string name;
     double median = 0;
     measure::Interval ci95; ///< of the median; unknown below six frames
@@ -29,17 +29,17 @@ public:
     };
     void add(Sample sample);
     std::size_t count() const { return samples_.size(); }
-    std::vector<Line> passes() const;
+    std::vector<TimeRow> passes() const;
     /// Returns the times of the host, parts first.
-    std::vector<Line> host() const;
-    Line gpu() const;
-    Line frame() const;
+    std::vector<TimeRow> host() const;
+    TimeRow gpu() const;
+    TimeRow frame() const;
     /// Returns frames per second, from the median of the intervals; 0: unknown.
     double fps() const;
 
 private:
     template <typename Get>
-    Line line(const std::string& name, const Get& get) const;
+    TimeRow line(const std::string& name, const Get& get) const;
 
     std::deque<Sample> samples_;
 };

@@ -136,7 +136,7 @@ std::shared_ptr<const measure::Picture> Viewer::canvas(const State& state) {
 void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is_seen) {
     follow(state, size);
     work_at_rest(state);
-    const Shown what = shown(state);
+    const ShownPictures what = shown(state);
     showing_ = {what.kind,
                 what.first,
                 what.second,
@@ -180,9 +180,9 @@ void Viewer::write(const std::filesystem::path& file) const {
         return part == app::Showing::kCanvas ? *showing_.canvas : last_->read(part).display;
     };
     measure::Picture shown = picture(showing_.first);
-    if (showing_.kind == app::Showing::Kind::difference)
+    if (showing_.kind == app::Showing::Arrangement::difference)
         shown = difference_picture(shown, picture(showing_.second), showing_.gain);
-    if (showing_.kind == app::Showing::Kind::split) {
+    if (showing_.kind == app::Showing::Arrangement::split) {
         const measure::Picture right = picture(showing_.second);
         for (int y = 0; y < shown.height; ++y)
             for (int x = static_cast<int>(showing_.divider); x < shown.width; ++x)

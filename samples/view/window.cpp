@@ -41,10 +41,10 @@ struct Callbacks {
     }
     static void key(GLFWwindow* window, int code, int, int action, int) {
         if (action == GLFW_RELEASE) return;
-        const auto repeats = [](const Key& key) {
+        const auto repeats = [](const KeyBinding& key) {
             return key.act == Act::step || key.act == Act::back;
         };
-        for (const Key& key : keys())
+        for (const KeyBinding& key : keys())
             if (key.code == code && (action == GLFW_PRESS || repeats(key)))
                 of(window).acts.push_back(key);
     }

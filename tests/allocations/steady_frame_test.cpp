@@ -43,7 +43,7 @@ TEST_P(SteadyFrame, EachFrameMakesTheSameNumberOfAllocations) {
         const render::FrameInputs inputs{gpu_scene, {32, 32}, ""};
         graph.mark_output(test::add_technique(graph, inputs, GetParam()).hdr);
         const std::size_t declared = test::allocations();
-        runner.submit(graph, graph::Timing::isolated);
+        runner.submit(graph, graph::PassTiming::isolated);
         const std::size_t recorded = test::allocations();
         passes = runner.compiled(graph).passes.size();
         if (frame >= 5) seen.insert({declared - before, recorded - declared});

@@ -10,7 +10,7 @@ namespace {
 
 using namespace catoptric;
 
-constexpr graph::Limits kLimits{.max_layers = 1u << 20};
+constexpr graph::GraphLimits kLimits{.max_layers = 1u << 20};
 
 /// Adds the time per pass to the result, beside the time per graph.
 void count(benchmark::State& state, const graph::Graph& graph) {
@@ -34,7 +34,7 @@ void plan(benchmark::State& state) {
 
 void dump(benchmark::State& state) {
     const graph::Graph graph = test::reuse_frame(static_cast<std::uint32_t>(state.range(0)) - 3);
-    const graph::Plan plan = graph::plan(graph, kLimits, graph::plain_sizer());
+    const graph::GraphPlan plan = graph::plan(graph, kLimits, graph::plain_sizer());
     for (auto _ : state) benchmark::DoNotOptimize(graph::to_text(graph, plan));
     count(state, graph);
 }

@@ -1,6 +1,6 @@
 // Tests of sequences with a picture per frame, of progress messages without a terminal, of rounds,
 // and of the columns of rows.csv.
-#include "catoptric/sequence.hpp"
+#include "catoptric/file_sequence.hpp"
 #include "cli/program.hpp"
 #include "report/report.hpp"
 #include "support/refusal.hpp"
@@ -11,20 +11,20 @@
 namespace {
 
 using catoptric::Failure;
-using catoptric::cli::Sequence;
+using catoptric::cli::FileSequence;
 using testing::HasSubstr;
 using testing::Not;
 
 namespace fs = std::filesystem;
 
 TEST(SequenceName, FrameNumberReplacesThePlaceholder) {
-    EXPECT_EQ(Sequence::find("a{n}.png")->file(7), "a7.png");
-    EXPECT_EQ(Sequence::find("a{n:3}.png")->file(7), "a007.png");
-    EXPECT_EQ(Sequence::find("a{n:04}.exr")->file(12345), "a12345.exr");
-    EXPECT_EQ(Sequence::find("d/%d.png")->file(10), "d/10.png");
-    EXPECT_EQ(Sequence::find("%04d.png")->file(10), "0010.png");
-    EXPECT_FALSE(Sequence::find("100%.png"));
-    EXPECT_FALSE(Sequence::find("{a}.png"));
+    EXPECT_EQ(FileSequence::find("a{n}.png")->file(7), "a7.png");
+    EXPECT_EQ(FileSequence::find("a{n:3}.png")->file(7), "a007.png");
+    EXPECT_EQ(FileSequence::find("a{n:04}.exr")->file(12345), "a12345.exr");
+    EXPECT_EQ(FileSequence::find("d/%d.png")->file(10), "d/10.png");
+    EXPECT_EQ(FileSequence::find("%04d.png")->file(10), "0010.png");
+    EXPECT_FALSE(FileSequence::find("100%.png"));
+    EXPECT_FALSE(FileSequence::find("{a}.png"));
 }
 
 TEST_F(Cli, InvalidSequenceNameIsRefused) {

@@ -47,7 +47,7 @@ std::unique_ptr<RayQueryDevice> RayQueryDevice::open(std::string& reason) {
     result->instance_ = gpu::make_instance(true, {}, has_debug_utils);
     if (has_debug_utils) result->make_messenger();
     for (VkPhysicalDevice device : gpu::physical_devices(result->instance_)) {
-        const gpu::DeviceInfo info = gpu::describe(device);
+        const gpu::DeviceProperties info = gpu::describe(device);
         result->name_ = info.name + ", " + info.driver;
         if (info.missing.empty() && has_ray_query(device)) {
             result->physical_ = device;
@@ -94,7 +94,7 @@ void RayQueryDevice::make_device() {
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &ray_query};
     structure.accelerationStructure = true;
-    gpu::Features features;
+    gpu::DeviceFeatures features;
     features.v12.bufferDeviceAddress = true;
     features.v13.maintenance4 = true; // glslang's code for Vulkan 1.3 needs this feature
     features.v13.synchronization2 = true;

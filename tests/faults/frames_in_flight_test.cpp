@@ -10,7 +10,7 @@ class LostInFlight : public Faults {};
 
 graph::Graph frame() {
     graph::Graph graph;
-    const graph::Image image = graph.image({"image", Format::rgba8_unorm, 4, 4});
+    const graph::ImageHandle image = graph.image({"image", Format::rgba8_unorm, 4, 4});
     graph.pass("clear it")
         .writes(image, graph::Use::colour, graph::Clear{})
         .record([](graph::Commands&) {});
@@ -39,11 +39,11 @@ TEST_F(LostInFlight, WaitReportsTheLostDevice) {
             graph::Runner runner(device, pipelines, 3);
             std::vector<graph::Ticket> tickets;
             for (int i = 0; i < 3; ++i)
-                tickets.push_back(runner.submit(frame(), graph::Timing::isolated));
+                tickets.push_back(runner.submit(frame(), graph::PassTiming::isolated));
             const std::string first = what_of([&] { runner.wait(tickets[1]); });
             if (first.find("run frame 2 (passes 'clear it')") == std::string::npos) wrong += first;
             const std::string next = what_of(
-                [&] { runner.submit(frame(), graph::Timing::isolated); });
+                [&] { runner.submit(frame(), graph::PassTiming::isolated); });
             if (next != "the device was given up: " + first) wrong += next;
             if (!device.abandoned()) wrong += "not abandoned";
         });

@@ -75,7 +75,7 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     for (int i = 0; i < 4096; ++i)
         directions.emplace_back(vec3(normal(random), normal(random), normal(random)), 0.0f);
     gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
-                      gpu::BufferUse::plain);
+                      gpu::BufferUsage::plain);
     asked.write(std::span<const vec4>(directions));
 
     graph::Runner runner(device, pipelines);
@@ -84,7 +84,7 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     render::CaptureOptions options;
     options.face = 256, options.distance = Format::r32f;
     const render::Cubes cubes = test::add_black_captures(graph, inputs, options);
-    const graph::Buffer found = graph.buffer({"found", directions.size() * sizeof(vec4)});
+    const graph::BufferHandle found = graph.buffer({"found", directions.size() * sizeof(vec4)});
     graph.pass("look")
         .reads(cubes.colour, graph::Use::sampled)
         .reads(*cubes.distance, graph::Use::sampled)

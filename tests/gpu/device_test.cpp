@@ -22,13 +22,13 @@ TEST(Device, UnknownNameIsRefusedWithTheNearestName) {
 }
 
 TEST(Device, DeviceIsChosenByIndexOrPartOfItsName) {
-    const gpu::DeviceInfo first = gpu::list_devices().front();
+    const gpu::DeviceProperties first = gpu::list_devices().front();
     EXPECT_EQ(gpu::Device({.wanted = "0"}).info().name, first.name);
     EXPECT_EQ(gpu::Device({.wanted = first.name.substr(0, 4)}).info().name, first.name);
 }
 
 TEST(Device, ListNamesDriverVersionAndThreads) {
-    for (const gpu::DeviceInfo& info : gpu::list_devices()) {
+    for (const gpu::DeviceProperties& info : gpu::list_devices()) {
         EXPECT_FALSE(info.name.empty());
         EXPECT_FALSE(info.driver.empty());
         EXPECT_EQ(info.api.substr(0, 2), "1.");
@@ -47,7 +47,7 @@ TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
     // All images of 1 GiB together need more memory than the device has.
     const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
     for (std::uint64_t i = 0; i < count; ++i) {
-        const graph::Image image = graph.image(
+        const graph::ImageHandle image = graph.image(
             {"huge" + std::to_string(i), Format::rgba32f, 8192, 8192});
         graph.pass("fill" + std::to_string(i))
             .writes(image, graph::Use::colour, graph::Clear{})

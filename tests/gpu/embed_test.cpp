@@ -53,7 +53,7 @@ public:
     }
     VkImage image() const { return image_.image; }
     measure::Picture read(VkImageLayout left_in) {
-        gpu::Buffer buffer(device_, "seen", 4 * size_.x * size_.y, gpu::BufferUse::read_back);
+        gpu::Buffer buffer(device_, "seen", 4 * size_.x * size_.y, gpu::BufferUsage::read_back);
         device_.submit_now("look at a target", [&](VkCommandBuffer commands) {
             VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
             barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;

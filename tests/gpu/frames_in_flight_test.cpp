@@ -9,10 +9,10 @@ using test::expect_refused;
 
 /// Adds a frame of three passes. The frame computes a new `kept` image from that of the frame
 /// before, through an image `between`.
-graph::Image add_frame(graph::Graph& graph, int frame) {
-    const graph::Image kept = test::add_image(graph, "kept");
-    const graph::Image between = test::add_image(graph, "between");
-    const graph::Image out = test::add_image(graph, "out");
+graph::ImageHandle add_frame(graph::Graph& graph, int frame) {
+    const graph::ImageHandle kept = test::add_image(graph, "kept");
+    const graph::ImageHandle between = test::add_image(graph, "between");
+    const graph::ImageHandle out = test::add_image(graph, "out");
     const auto number = static_cast<float>(frame);
     test::add_step(graph, "first", graph.previous(kept), between, number);
     test::add_step(graph, "second", between, kept, 2 * number);
@@ -35,7 +35,7 @@ TEST_P(InFlight, FramesInFlightEqualFramesOneByOne) {
     constexpr int kFrames = 12;
     graph::Runner runner(test::bench().device, test::bench().pipelines, GetParam());
     std::vector<float> kept(test::kWidth * test::kHeight, 0.0f);
-    std::vector<std::pair<graph::Ticket, graph::Image>> waiting;
+    std::vector<std::pair<graph::Ticket, graph::ImageHandle>> waiting;
     int read = 0;
     const auto read_oldest = [&] {
         const auto [ticket, image] = waiting.front();
@@ -48,8 +48,8 @@ TEST_P(InFlight, FramesInFlightEqualFramesOneByOne) {
     for (int frame = 1; frame <= kFrames; ++frame) {
         if (waiting.size() == GetParam()) read_oldest();
         graph::Graph graph(runner.history());
-        const graph::Image out = add_frame(graph, frame);
-        const auto timing = frame % 2 ? graph::Timing::pipelined : graph::Timing::isolated;
+        const graph::ImageHandle out = add_frame(graph, frame);
+        const auto timing = frame % 2 ? graph::PassTiming::pipelined : graph::PassTiming::isolated;
         waiting.emplace_back(runner.submit(graph, timing), out);
     }
     while (!waiting.empty()) read_oldest();
@@ -62,20 +62,20 @@ TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
     std::vector<graph::Ticket> tickets;
     for (std::uint32_t frame = 1; frame <= GetParam(); ++frame) {
         graph::Graph graph;
-        const graph::Image image = test::add_image(graph, "image");
+        const graph::ImageHandle image = test::add_image(graph, "image");
         test::add_start(graph, image, 1);
         graph.mark_output(image);
         // Each frame has one pass more than the frame before.
         for (std::uint32_t i = 1; i < frame; ++i) {
-            const graph::Image next = test::add_image(graph, "image" + std::to_string(i));
+            const graph::ImageHandle next = test::add_image(graph, "image" + std::to_string(i));
             test::add_step(graph, "step" + std::to_string(i), image, next, 1);
             graph.mark_output(next);
         }
-        tickets.push_back(runner.submit(graph, graph::Timing::isolated));
+        tickets.push_back(runner.submit(graph, graph::PassTiming::isolated));
         EXPECT_EQ(tickets.back().frame, frame);
     }
     for (std::uint32_t frame = GetParam(); frame >= 1; --frame) { // read the newest frame first
-        const graph::FrameTimes& times = runner.wait(tickets[frame - 1]);
+        const graph::GraphFrameTimes& times = runner.wait(tickets[frame - 1]);
         EXPECT_EQ(times.passes.size(), frame);
         EXPECT_GT(times.record_ms, 0);
         EXPECT_GT(times.compile_ms, 0);
@@ -87,18 +87,18 @@ TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
 TEST(InFlight, ReadingAFrameWhoseSlotWasReusedIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
     std::vector<graph::Ticket> tickets;
-    graph::Image out;
+    graph::ImageHandle out;
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
         out = add_frame(graph, frame);
-        tickets.push_back(runner.submit(graph, graph::Timing::pipelined));
+        tickets.push_back(runner.submit(graph, graph::PassTiming::pipelined));
     }
     expect_refused([&] { runner.wait(tickets[0]); }, Failure::internal,
                    {"frame 1 is gone: its place was taken by frame 3, with 2 in flight"});
     expect_refused([&] { runner.wait({4}); }, Failure::internal,
                    {"frame 4 is asked for, but 3 were submitted"});
     EXPECT_NO_THROW(runner.read(tickets[1], out));
-    constexpr graph::Image kKept{.id = 0, .first_layer = 0, .layer_count = 1};
+    constexpr graph::ImageHandle kKept{.id = 0, .first_layer = 0, .layer_count = 1};
     expect_refused([&] { runner.read(tickets[1], kKept); }, Failure::internal,
                    {"image 'kept' of frame 2 is read after frame 3 was submitted"});
     EXPECT_NO_THROW(runner.read(tickets[2], kKept));
@@ -116,17 +116,17 @@ TEST(InFlight, RunnerCanBeDestroyedWithFramesInFlight) {
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
         add_frame(graph, frame);
-        runner.submit(graph, graph::Timing::pipelined);
+        runner.submit(graph, graph::PassTiming::pipelined);
     }
 }
 
 /// Adds a chain of `kind` passes and returns its last image. The number of passes and images makes
 /// the shape of the graph.
-graph::Image add_shape(graph::Graph& graph, int kind) {
-    graph::Image last = test::add_image(graph, "start");
+graph::ImageHandle add_shape(graph::Graph& graph, int kind) {
+    graph::ImageHandle last = test::add_image(graph, "start");
     test::add_start(graph, last, 1);
     for (int i = 0; i < kind; ++i) {
-        const graph::Image next = test::add_image(graph, "next" + std::to_string(i));
+        const graph::ImageHandle next = test::add_image(graph, "next" + std::to_string(i));
         test::add_step(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
         last = next;
     }
@@ -145,7 +145,7 @@ TEST(Shapes, TheLastEightShapesAreNotPlannedAgain) {
     for (int round = 0; round < 4; ++round)
         for (int kind = 0; kind < 8; ++kind) {
             graph::Graph graph;
-            const graph::Image last = add_shape(graph, kind);
+            const graph::ImageHandle last = add_shape(graph, kind);
             test::run(runner, graph);
             EXPECT_EQ(test::read_as<float>(runner, last), expected_of_shape(kind));
         }
@@ -166,7 +166,7 @@ TEST(Shapes, ShapeDependsOnAllDeclarationsExceptBodiesAndClearValues) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     const auto frame = [&](const std::string& name, float red) {
         graph::Graph graph;
-        const graph::Image image = graph.image({"image", Format::rgba32f, 2, 1});
+        const graph::ImageHandle image = graph.image({"image", Format::rgba32f, 2, 1});
         graph.pass(name)
             .writes(image, graph::Use::colour, graph::Clear{red, 0, 0, 1})
             .record([](graph::Commands&) {});
@@ -186,7 +186,7 @@ TEST(Shapes, InvalidGraphOfAPlannedShapeIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     for (const bool wrong : {false, true}) {
         graph::Graph graph;
-        const graph::Image image = test::add_image(graph, "image");
+        const graph::ImageHandle image = test::add_image(graph, "image");
         graph::PassBuilder pass = graph.pass("clear").writes(image, graph::Use::colour,
                                                              graph::Clear{});
         if (!wrong) pass.record([](graph::Commands&) {});

@@ -14,8 +14,8 @@ constexpr std::uint32_t kTurns = 7;
 std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Buffer counts = graph.buffer({"counts", 16}),
-                        arguments = graph.buffer({"arguments", 16});
+    const graph::BufferHandle counts = graph.buffer({"counts", 16}),
+                              arguments = graph.buffer({"arguments", 16});
     graph.pass("fill")
         .writes(counts, graph::Use::copy_to)
         .writes(arguments, graph::Use::copy_to)

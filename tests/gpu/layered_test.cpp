@@ -34,10 +34,10 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
     const std::uint32_t mirrors = gpu_scene.mirror_count();
-    const graph::Image colour = graph.image(
+    const graph::ImageHandle colour = graph.image(
         {"colour", Format::rgba16f, face, face, 6 * mirrors, true});
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
-        const graph::Image depth = graph.image(
+        const graph::ImageHandle depth = graph.image(
             {"depth" + std::to_string(mirror), Format::d32f, face, face, 6, true});
         graph.pass("capture" + std::to_string(mirror))
             .writes(colour.layers(6 * mirror, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})

@@ -93,7 +93,7 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
     constexpr std::size_t kWords = 128;
     std::vector<std::uint32_t> words;
     for (std::size_t i = 0; i < kWords; ++i) words.push_back(word(i));
-    gpu::Buffer input(device, "input", 4 * kWords, gpu::BufferUse::plain);
+    gpu::Buffer input(device, "input", 4 * kWords, gpu::BufferUsage::plain);
     input.write(std::span<const std::uint32_t>(words));
     std::vector<std::uint32_t> expected;
     std::vector<std::string> names;
@@ -105,7 +105,7 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
 
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
-    const graph::Buffer output = graph.buffer({"output", 4 * expected.size()});
+    const graph::BufferHandle output = graph.buffer({"output", 4 * expected.size()});
     graph.pass("layout")
         .writes(output, graph::Use::storage_write)
         .record([&](graph::Commands& commands) {

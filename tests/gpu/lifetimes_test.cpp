@@ -17,13 +17,13 @@ const graph::ImageDesc kDesc{"cubes", Format::r32f, kWidth, kHeight};
 /// Returns the number of passes that ran.
 std::size_t show(graph::Runner& runner, float stamp, std::vector<float>& shown) {
     graph::Graph graph(runner.history());
-    const graph::Image cubes = graph.persistent(kDesc);
+    const graph::ImageHandle cubes = graph.persistent(kDesc);
     const auto number = static_cast<std::uint64_t>(stamp);
     if (!graph.holds_content(cubes, number)) {
         add_start(graph, cubes, stamp);
         graph.set_content_hash(cubes, number);
     }
-    const graph::Image out = test::add_image(graph, "out");
+    const graph::ImageHandle out = test::add_image(graph, "out");
     add_step(graph, "view", cubes, out, 1);
     graph.mark_output(out);
     const std::size_t passes = test::run(runner, graph).passes.size();
@@ -55,7 +55,7 @@ TEST(Kept, ImageStaysThroughFramesThatDoNotUseIt) {
     EXPECT_EQ(show(runner, 2, shown), 2u);
     for (int frame = 0; frame < 3; ++frame) {
         graph::Graph other;
-        const graph::Image image = test::add_image(other, "other" + std::to_string(frame));
+        const graph::ImageHandle image = test::add_image(other, "other" + std::to_string(frame));
         add_start(other, image, 9);
         other.mark_output(image);
         test::run(runner, other);
@@ -70,9 +70,9 @@ TEST(Kept, LayersAreWrittenOneByOne) {
     desc.layers = 3;
     for (std::uint32_t frame = 0; frame < 5; ++frame) {
         graph::Graph graph(runner.history());
-        const graph::Image cubes = graph.persistent(desc);
+        const graph::ImageHandle cubes = graph.persistent(desc);
         for (std::uint32_t layer = 0; layer < 3; ++layer) {
-            const graph::Image part = cubes.layers(layer, 1);
+            const graph::ImageHandle part = cubes.layers(layer, 1);
             EXPECT_EQ(graph.holds_content(part, layer), layer < frame);
             if (layer != frame) continue;
             graph.pass("fill").writes(part, Use::storage_write).record([=](graph::Commands& c) {
@@ -118,13 +118,13 @@ TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
         const bool first = frame == 0;
         // The first frame writes the image, and later frames sample it. Each frame declares that
         // the next frame samples the image, which sets its layout.
-        const graph::Image image = graph.import(
+        const graph::ImageHandle image = graph.import(
             desc, &outside, first ? std::nullopt : std::optional(Use::sampled), Use::sampled);
-        const graph::Image out = test::add_image(graph, "out");
+        const graph::ImageHandle out = test::add_image(graph, "out");
         if (first) add_start(graph, image, 4);
         add_step(graph, "view", image, out, 5);
         graph.mark_output(out);
-        const graph::Ticket ticket = runner.submit(graph, graph::Timing::pipelined);
+        const graph::Ticket ticket = runner.submit(graph, graph::PassTiming::pipelined);
         std::vector<std::byte> bytes = runner.read(ticket, out);
         std::vector<float> values(bytes.size() / sizeof(float));
         std::memcpy(values.data(), bytes.data(), bytes.size());
@@ -140,7 +140,7 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
     std::vector<gpu::Buffer> targets;
     for (std::uint32_t i = 0; i < kSlots; ++i)
         targets.emplace_back(device, "read-back", kWidth * kHeight * sizeof(float),
-                             gpu::BufferUse::read_back);
+                             gpu::BufferUsage::read_back);
     std::vector<graph::Ticket> tickets;
     const auto expect_read = [&](std::uint32_t frame) {
         runner.wait(tickets[frame]);
@@ -152,16 +152,16 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
         if (frame >= kSlots) expect_read(frame - kSlots);
         graph::Graph graph;
-        const graph::Image image = test::add_image(graph, "image");
+        const graph::ImageHandle image = test::add_image(graph, "image");
         const gpu::Buffer& target = targets[frame % kSlots];
-        const graph::Buffer out = graph.import({target.name(), target.bytes()}, &target);
+        const graph::BufferHandle out = graph.import({target.name(), target.bytes()}, &target);
         add_start(graph, image, static_cast<float>(frame));
         graph.pass("copy")
             .reads(image, Use::copy_from)
             .writes(out, Use::copy_to)
             .record([=](graph::Commands& commands) { commands.copy(image, out); });
         // The frame has no output. The imported buffer alone keeps the passes.
-        tickets.push_back(runner.submit(graph, graph::Timing::pipelined));
+        tickets.push_back(runner.submit(graph, graph::PassTiming::pipelined));
     }
     for (std::uint32_t frame = kFrames - kSlots; frame < kFrames; ++frame) expect_read(frame);
     EXPECT_EQ(runner.plans_made(), 1u);
@@ -170,7 +170,7 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
 TEST(Imported, ImageWithoutASourceIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Image image = graph.import(kDesc, nullptr, std::nullopt, Use::sampled);
+    const graph::ImageHandle image = graph.import(kDesc, nullptr, std::nullopt, Use::sampled);
     add_start(graph, image, 1);
     expect_refused([&] { test::run(runner, graph); }, Failure::internal,
                    {"image 'cubes' is imported from nowhere"});
@@ -182,7 +182,7 @@ TEST(Mips, EachMipIsComputedFromTheOneBefore) {
         graph::Graph graph;
         graph::ImageDesc desc = kDesc;
         desc.mips = 4;
-        const graph::Image image = graph.image(desc);
+        const graph::ImageHandle image = graph.image(desc);
         add_start(graph, image.mip(0), 2);
         for (std::uint32_t m = 1; m < desc.mips; ++m)
             add_step(graph, "mip" + std::to_string(m), image.mip(m - 1), image.mip(m), 3);
@@ -211,12 +211,13 @@ TEST(Mips, MipsAreSampledAsOneImage) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     for (const float lod : {0.0f, 1.0f, 1.5f, 2.25f, 9.0f}) {
         graph::Graph graph;
-        const graph::Image image = graph.image({"pyramid", Format::r16f, 16, 16, 1, false, 5});
+        const graph::ImageHandle image = graph.image(
+            {"pyramid", Format::r16f, 16, 16, 1, false, 5});
         for (std::uint32_t m = 0; m < 5; ++m)
             graph.pass("mip" + std::to_string(m))
                 .writes(image.mip(m), Use::colour, graph::Clear{10.0f * static_cast<float>(m)})
                 .record([](graph::Commands&) {});
-        const graph::Image out = test::add_image(graph, "out");
+        const graph::ImageHandle out = test::add_image(graph, "out");
         graph.pass("look")
             .reads(image, Use::sampled)
             .writes(out, Use::storage_write)
@@ -236,8 +237,8 @@ TEST(Mips, MipsAreSampledAsOneImage) {
 TEST(Unread, AttachmentsThatAreNotStoredDoNotChangeThePicture) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Image colour = graph.image({"colour", Format::rgba32f, 8, 8});
-    const graph::Image depth = graph.image({"depth", Format::d32f, 8, 8});
+    const graph::ImageHandle colour = graph.image({"colour", Format::rgba32f, 8, 8});
+    const graph::ImageHandle depth = graph.image({"depth", Format::d32f, 8, 8});
     graph.pass("draw")
         .writes(colour, Use::colour, graph::Clear{1, 2, 3, 4})
         .writes(depth, Use::depth, graph::Clear{})
@@ -256,21 +257,21 @@ TEST(Unread, UnreadImageIsWrittenAgainInTheNextFrame) {
     graph::Runner runner(test::bench().device, test::bench().pipelines, 3);
     for (int frame = 0; frame < 6; ++frame) {
         graph::Graph graph;
-        const graph::Image unread = test::add_image(graph, "unread");
-        const graph::Image out = test::add_image(graph, "out");
+        const graph::ImageHandle unread = test::add_image(graph, "unread");
+        const graph::ImageHandle out = test::add_image(graph, "out");
         graph.pass("both")
             .writes(unread, Use::storage_write)
             .writes(out, Use::storage_write)
             .record([=](graph::Commands& commands) {
                 commands.use(gpu::ComputeState{"tests/start.comp", {}});
-                for (const graph::Image& after : {unread, out}) {
+                for (const graph::ImageHandle& after : {unread, out}) {
                     commands.bind("after", after);
                     commands.push(1.0f);
                     commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
                 }
             });
         graph.mark_output(out);
-        runner.submit(graph, graph::Timing::pipelined);
+        runner.submit(graph, graph::PassTiming::pipelined);
     }
 }
 
@@ -282,15 +283,15 @@ TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
     for (int frame = 0; frame < 2000; ++frame) {
         const int kind = frame % 5;
         graph::Graph graph(runner.history());
-        const graph::Image last = graph.image({"last", Format::rgba16f, 64u << kind, 64});
-        const graph::Image out = graph.image({"out", Format::rgba16f, 64u << (4 - kind), 64});
-        for (const graph::Image& image : {last, out})
+        const graph::ImageHandle last = graph.image({"last", Format::rgba16f, 64u << kind, 64});
+        const graph::ImageHandle out = graph.image({"out", Format::rgba16f, 64u << (4 - kind), 64});
+        for (const graph::ImageHandle& image : {last, out})
             graph.pass("clear/" + graph.images()[image.id].name)
                 .reads(graph.previous(last), Use::sampled)
                 .writes(image, Use::colour, graph::Clear{})
                 .record([](graph::Commands&) {});
         if (kind == 3) {
-            const graph::Image kept = graph.persistent({"kept", Format::rgba16f, 64, 64});
+            const graph::ImageHandle kept = graph.persistent({"kept", Format::rgba16f, 64, 64});
             if (!graph.holds_content(kept, 1)) {
                 graph.pass("keep")
                     .writes(kept, Use::colour, graph::Clear{})
@@ -299,7 +300,7 @@ TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
             }
         }
         graph.mark_output(out);
-        runner.submit(graph, graph::Timing::pipelined);
+        runner.submit(graph, graph::PassTiming::pipelined);
         if (frame == 9) after_two_rounds = runner.memory_bytes();
         // Memory is compared every fifth frame, because an image that the next frame reads has the
         // size of the present shape.

@@ -12,7 +12,7 @@ using namespace catoptric;
 std::uint32_t turns_of(std::uint32_t wanted) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Buffer counts = graph.buffer({"counts", 16});
+    const graph::BufferHandle counts = graph.buffer({"counts", 16});
     graph.pass("spin")
         .writes(counts, graph::Use::storage_write)
         .record([=](graph::Commands& commands) {
@@ -34,7 +34,7 @@ TEST(LoopLimit, LongLoopsRunOrStopAtTheKnownLimit) {
     constexpr std::uint32_t kWanted = 70000, kLimit = 65535;
     const std::uint32_t turns = turns_of(kWanted);
     RecordProperty("turns", static_cast<int>(turns));
-    const gpu::DeviceInfo& info = test::bench().device.info();
+    const gpu::DeviceProperties& info = test::bench().device.info();
     std::cout << "[ MEASURED ] " << turns << " of " << kWanted << " turns on " << info.name << ", "
               << info.driver << "\n";
     if (turns == kWanted) GTEST_SKIP() << "this device does not stop loops";

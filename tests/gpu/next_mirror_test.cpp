@@ -33,15 +33,15 @@ std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
                             const std::vector<MirrorRay>& rays, bool by_tree) {
     auto& [device, pipelines] = test::bench();
     gpu::Buffer input, mirrors, tree, frame;
-    upload(device, input, "rays", rays, gpu::BufferUse::plain);
-    upload(device, mirrors, "probes", render::texels_of(probes), gpu::BufferUse::texels);
-    upload(device, tree, "tree", render::mirror_tree(probes), gpu::BufferUse::texels);
+    upload(device, input, "rays", rays, gpu::BufferUsage::plain);
+    upload(device, mirrors, "probes", render::texels_of(probes), gpu::BufferUsage::texels);
+    upload(device, tree, "tree", render::mirror_tree(probes), gpu::BufferUsage::texels);
     const auto count = static_cast<std::uint32_t>(probes.size());
     upload(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},
-           gpu::BufferUse::uniform);
+           gpu::BufferUsage::uniform);
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
-    const graph::Buffer out = graph.buffer({"answers", rays.size() * sizeof(Answer)});
+    const graph::BufferHandle out = graph.buffer({"answers", rays.size() * sizeof(Answer)});
     graph.pass("next_mirror")
         .writes(out, graph::Use::storage_write)
         .record([&](graph::Commands& commands) {

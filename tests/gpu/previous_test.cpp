@@ -13,7 +13,7 @@ TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
     std::vector<float> expected(kWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 4; ++frame) {
         graph::Graph graph(runner.history());
-        const graph::Image image = add_image(graph, "kept");
+        const graph::ImageHandle image = add_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
         add_step(graph, "step", graph.previous(image), image, static_cast<float>(frame));
         graph.mark_output(image);
@@ -28,7 +28,7 @@ TEST(Previous, HistoryBelongsToItsRunner) {
         graph::Runner runner(test::bench().device, test::bench().pipelines);
         EXPECT_TRUE(runner.history().previous.empty());
         graph::Graph graph(runner.history());
-        const graph::Image image = add_image(graph, "kept");
+        const graph::ImageHandle image = add_image(graph, "kept");
         add_step(graph, "step", graph.previous(image), image, 5);
         graph.mark_output(image);
         test::run(runner, graph);
@@ -43,11 +43,11 @@ TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
         if (frame == 2) { // one image more, declared first, so the number of every image changes
-            const graph::Image other = add_image(graph, "other");
+            const graph::ImageHandle other = add_image(graph, "other");
             add_start(graph, other, 1);
             graph.mark_output(other);
         }
-        const graph::Image image = add_image(graph, "kept");
+        const graph::ImageHandle image = add_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
         add_step(graph, "step", graph.previous(image), image, 2);
         graph.mark_output(image);
@@ -59,12 +59,12 @@ TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
 
 /// Adds a chain of `length` steps. With `apart` all images are outputs, so none share memory.
 /// Otherwise only the last image is an output.
-graph::Image add_chain(graph::Graph& graph, int length, bool apart) {
-    graph::Image last = add_image(graph, "image0");
+graph::ImageHandle add_chain(graph::Graph& graph, int length, bool apart) {
+    graph::ImageHandle last = add_image(graph, "image0");
     add_start(graph, last, 7);
     if (apart) graph.mark_output(last);
     for (int i = 1; i <= length; ++i) {
-        const graph::Image next = add_image(graph, "image" + std::to_string(i));
+        const graph::ImageHandle next = add_image(graph, "image" + std::to_string(i));
         add_step(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
         if (apart) graph.mark_output(next);
         last = next;
@@ -80,9 +80,10 @@ TEST(Aliasing, ImagesThatShareMemoryEqualImagesApart) {
         graph::Runner runner(test::bench().device, test::bench().pipelines);
         for (int frame = 0; frame < 3; ++frame) { // later frames reuse memory
             graph::Graph graph;
-            const graph::Image last = add_chain(graph, 9, apart);
+            const graph::ImageHandle last = add_chain(graph, 9, apart);
             bytes[apart] = runner.compiled(graph).bytes;
-            runner.run(graph, frame == 1 ? graph::Timing::pipelined : graph::Timing::isolated);
+            runner.run(graph,
+                       frame == 1 ? graph::PassTiming::pipelined : graph::PassTiming::isolated);
             found[apart] = test::read_as<float>(runner, last);
         }
     }

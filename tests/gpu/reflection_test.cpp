@@ -16,7 +16,7 @@ namespace {
 
 using namespace catoptric;
 using gpu::BindingKind;
-using gpu::ImageShape;
+using gpu::ImageViewType;
 
 gpu::Reflection reflection(const char* name) {
     return gpu::reflect(name, gpu::find_shader(name).words);
@@ -92,7 +92,7 @@ TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
 TEST(Reflection, ShapesOfImagesAreFound) {
     const gpu::Reflection parallax = reflection("reflect/parallax.frag");
     ASSERT_TRUE(find(parallax, "colour_cubes") && find(parallax, "distance_cubes"));
-    EXPECT_EQ(find(parallax, "colour_cubes")->shape, ImageShape::cube_array);
+    EXPECT_EQ(find(parallax, "colour_cubes")->shape, ImageViewType::cube_array);
     EXPECT_EQ(find(parallax, "colour_cubes")->kind, BindingKind::texture);
     EXPECT_EQ(find(parallax, "colour_cubes")->count, shared::kMostArrays);
     ASSERT_TRUE(find(reflection("reflect/planar.frag"), "mirrored"));
@@ -100,7 +100,7 @@ TEST(Reflection, ShapesOfImagesAreFound) {
               BindingKind::sampled_image);
     const gpu::Reflection diffuse = reflection("diffuse.frag");
     ASSERT_TRUE(find(diffuse, "shadow_map"));
-    EXPECT_EQ(find(diffuse, "shadow_map")->shape, ImageShape::flat_array);
+    EXPECT_EQ(find(diffuse, "shadow_map")->shape, ImageViewType::flat_array);
     EXPECT_EQ(reflection("compose.frag").push_bytes, 4u);
 }
 
@@ -135,10 +135,10 @@ TEST(Specialise, CodeUnreachableWithTheConstantsIsRemoved) {
 
 /// A graph of one dispatch into a buffer of 16 words.
 void dispatch(const gpu::ComputeState& state,
-              const std::function<void(graph::Commands&, graph::Buffer)>& prepare) {
+              const std::function<void(graph::Commands&, graph::BufferHandle)>& prepare) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Buffer buffer = graph.buffer({"counts", 64});
+    const graph::BufferHandle buffer = graph.buffer({"counts", 64});
     graph.pass("lonely")
         .writes(buffer, graph::Use::storage_write)
         .record([&](graph::Commands& commands) {
@@ -154,7 +154,7 @@ TEST(Binding, UnboundNameIsRefusedWithPassAndShader) {
     test::expect_refused(
         [] {
             dispatch({"tests/spin.comp", {}},
-                     [](graph::Commands& commands, graph::Buffer) { commands.push(1u); });
+                     [](graph::Commands& commands, graph::BufferHandle) { commands.push(1u); });
         },
         Failure::internal, {"pass 'lonely'", "nothing is bound to 'Counts'", "tests/spin.comp"});
 }
@@ -162,7 +162,7 @@ TEST(Binding, UnboundNameIsRefusedWithPassAndShader) {
 TEST(Binding, ImageBoundAsABufferIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Image image = graph.image({"image", Format::r32f, 8, 8});
+    const graph::ImageHandle image = graph.image({"image", Format::r32f, 8, 8});
     graph.pass("mixed")
         .writes(image, graph::Use::storage_write)
         .record([=](graph::Commands& commands) {
@@ -179,8 +179,8 @@ TEST(Binding, ImageBoundAsABufferIsRefused) {
 TEST(Binding, UndeclaredResourceIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Buffer declared = graph.buffer({"declared", 64}),
-                        other = graph.buffer({"other", 64});
+    const graph::BufferHandle declared = graph.buffer({"declared", 64}),
+                              other = graph.buffer({"other", 64});
     graph.pass("sly")
         .writes(declared, graph::Use::storage_write)
         .record([=](graph::Commands& commands) { commands.bind("Counts", other); });
@@ -192,10 +192,11 @@ TEST(Binding, UndeclaredResourceIsRefused) {
 TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
     test::expect_refused(
         [] {
-            dispatch({"tests/spin.comp", {}}, [](graph::Commands& commands, graph::Buffer buffer) {
-                commands.bind("Counts", buffer);
-                commands.push(uvec2(1, 2));
-            });
+            dispatch({"tests/spin.comp", {}},
+                     [](graph::Commands& commands, graph::BufferHandle buffer) {
+                         commands.bind("Counts", buffer);
+                         commands.push(uvec2(1, 2));
+                     });
         },
         Failure::internal, {"pass 'lonely'", "wants 4 bytes of push constants, got 8"});
 }
@@ -203,7 +204,8 @@ TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
 TEST(Binding, UnknownConstantIsRefused) {
     test::expect_refused(
         [] {
-            dispatch({"tests/spin.comp", {{"speed", 1u}}}, [](graph::Commands&, graph::Buffer) {});
+            dispatch({"tests/spin.comp", {{"speed", 1u}}},
+                     [](graph::Commands&, graph::BufferHandle) {});
         },
         Failure::internal, {"tests/spin.comp", "has no constant 'speed'"});
 }

@@ -197,7 +197,7 @@ std::vector<std::uint32_t> words(const gpu::Buffer& buffer, std::size_t count) {
 /// The buffer that a slot binds must keep its content until that slot writes again.
 TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kSlots = 3, kWords = 9000;
-    render::Resident list("list", gpu::BufferUse::plain, kSlots);
+    render::Resident list("list", gpu::BufferUsage::plain, kSlots);
     std::vector<std::uint32_t> now(kWords, 1);
     list.set(now);
     for (std::size_t slot = 0; slot < kSlots; ++slot) list.write(device(), slot);
@@ -217,7 +217,7 @@ TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
 }
 
 TEST(Resident, OnlyChangedPartsOfABufferAreWritten) {
-    render::Resident list("list", gpu::BufferUse::plain, 1);
+    render::Resident list("list", gpu::BufferUsage::plain, 1);
     std::vector<std::uint32_t> now(100000, 1);
     list.set(now);
     EXPECT_EQ(list.write(device(), 0), 1u);

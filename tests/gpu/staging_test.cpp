@@ -23,7 +23,7 @@ TEST_P(Staging, BufferReturnsTheWrittenData) {
     ASSERT_EQ(device().staged(), GetParam());
     std::vector<std::uint32_t> words(1000);
     std::iota(words.begin(), words.end(), 17u);
-    gpu::Buffer buffer(device(), "words", 4 * words.size(), gpu::BufferUse::plain);
+    gpu::Buffer buffer(device(), "words", 4 * words.size(), gpu::BufferUsage::plain);
     buffer.write(std::span<const std::uint32_t>(words));
     const std::vector<std::uint32_t> part{1, 2, 3};
     buffer.write(4 * 100, std::as_bytes(std::span(part)));
@@ -34,7 +34,7 @@ TEST_P(Staging, BufferReturnsTheWrittenData) {
 }
 
 TEST_P(Staging, WriteBeyondTheEndIsRefused) {
-    gpu::Buffer buffer(device(), "short", 32, gpu::BufferUse::plain);
+    gpu::Buffer buffer(device(), "short", 32, gpu::BufferUsage::plain);
     const std::vector<std::uint32_t> words(5);
     test::expect_refused([&] { buffer.write(16, std::as_bytes(std::span(words))); },
                          Failure::internal, {"buffer 'short' has 32 bytes", "[16, 36)"});
@@ -44,9 +44,9 @@ TEST_P(Staging, WriteBeyondTheEndIsRefused) {
 /// Tests the limit on texels, which is checked before memory is allocated. The limit counts texels,
 /// whether a texel is one word or four floats.
 TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
-    for (const auto& [use, bytes] : {std::pair{gpu::BufferUse::words, 4u},
-                                     {gpu::BufferUse::quads, 16u},
-                                     {gpu::BufferUse::texels, 16u}}) {
+    for (const auto& [use, bytes] : {std::pair{gpu::BufferUsage::words, 4u},
+                                     {gpu::BufferUsage::quads, 16u},
+                                     {gpu::BufferUsage::texels, 16u}}) {
         const std::uint64_t most = device().most_texels(bytes);
         test::expect_refused([&] { gpu::Buffer(device(), "list", (most + 1) * bytes, use); },
                              Failure::exhausted,
@@ -57,7 +57,7 @@ TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
 
 TEST_P(Staging, EmptyBufferCanBeMadeAndWritten) {
     gpu::Buffer buffer;
-    gpu::upload(device(), buffer, "empty", std::vector<float>{}, gpu::BufferUse::plain);
+    gpu::upload(device(), buffer, "empty", std::vector<float>{}, gpu::BufferUsage::plain);
     EXPECT_TRUE(buffer.handle());
     EXPECT_GE(buffer.bytes(), 16u);
 }
@@ -65,9 +65,9 @@ TEST_P(Staging, EmptyBufferCanBeMadeAndWritten) {
 TEST_P(Staging, UploadGrowsTheBuffer) {
     gpu::Buffer buffer;
     gpu::upload(device(), buffer, "list", std::vector<std::uint32_t>(10, 5u),
-                gpu::BufferUse::plain);
+                gpu::BufferUsage::plain);
     std::vector<std::uint32_t> longer(100, 9u);
-    gpu::upload(device(), buffer, "list", longer, gpu::BufferUse::plain);
+    gpu::upload(device(), buffer, "list", longer, gpu::BufferUsage::plain);
     ASSERT_EQ(buffer.bytes(), 400u);
     EXPECT_EQ(std::memcmp(buffer.read().data(), longer.data(), 400), 0);
 }
@@ -76,14 +76,14 @@ TEST_P(Staging, UploadGrowsTheBuffer) {
 TEST_P(Staging, LargeWritesArriveWhole) {
     std::vector<std::uint32_t> words(10'000'003);
     std::iota(words.begin(), words.end(), 3u);
-    gpu::Buffer buffer(device(), "large", 4 * words.size(), gpu::BufferUse::plain);
+    gpu::Buffer buffer(device(), "large", 4 * words.size(), gpu::BufferUsage::plain);
     buffer.write(std::span<const std::uint32_t>(words));
     EXPECT_EQ(std::memcmp(buffer.read().data(), words.data(), 4 * words.size()), 0);
 }
 
 TEST_P(Staging, OverlappingWritesHappenInOrder) {
     std::vector<std::uint32_t> expected(1000, 0u);
-    gpu::Buffer buffer(device(), "list", 4 * expected.size(), gpu::BufferUse::plain);
+    gpu::Buffer buffer(device(), "list", 4 * expected.size(), gpu::BufferUsage::plain);
     buffer.write(std::span<const std::uint32_t>(expected));
     for (std::uint32_t k = 0; k < 200; ++k) {
         const std::size_t first = 3 * k, count = 400 - 2 * k;
@@ -100,14 +100,14 @@ TEST_P(Staging, OverlappingWritesHappenInOrder) {
 /// device are finished first.
 TEST_P(Staging, BufferCanBeDestroyedRightAfterAWrite) {
     const std::vector<std::uint32_t> words(50'000, 7u);
-    gpu::Buffer kept(device(), "kept", 4 * words.size(), gpu::BufferUse::plain);
+    gpu::Buffer kept(device(), "kept", 4 * words.size(), gpu::BufferUsage::plain);
     for (int k = 0; k < 5; ++k) {
-        gpu::Buffer gone(device(), "gone", 4 * words.size(), gpu::BufferUse::plain);
+        gpu::Buffer gone(device(), "gone", 4 * words.size(), gpu::BufferUsage::plain);
         gone.write(std::span<const std::uint32_t>(words));
         if (k % 2) device().submit_uploads();
         gpu::Buffer other = std::move(gone);
         other = {};
-        other = gpu::Buffer(device(), "other", 4 * words.size(), gpu::BufferUse::plain);
+        other = gpu::Buffer(device(), "other", 4 * words.size(), gpu::BufferUsage::plain);
         other.write(std::span<const std::uint32_t>(words));
     }
     kept.write(std::span<const std::uint32_t>(words));
@@ -127,7 +127,7 @@ TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
         graph::Graph graph;
         const render::FrameInputs inputs{gpu_scene, {48, 32}, ""};
         const render::Lighting lighting{render::add_shadow(graph, inputs, 64)};
-        const graph::Image hdr = render::add_view(graph, inputs, lighting, {}).hdr;
+        const graph::ImageHandle hdr = render::add_view(graph, inputs, lighting, {}).hdr;
         graph.mark_output(hdr);
         test::run(runner, graph);
         return test::read_as<float>(runner, hdr);

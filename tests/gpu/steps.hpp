@@ -12,12 +12,12 @@ using graph::Use;
 
 constexpr std::uint32_t kWidth = 40, kHeight = 24;
 
-inline graph::Image add_image(graph::Graph& graph, const std::string& name) {
+inline graph::ImageHandle add_image(graph::Graph& graph, const std::string& name) {
     return graph.image({name, Format::r32f, kWidth, kHeight});
 }
 
 /// Adds a pass that sets each texel of `after` to number * (1 + the texel's index).
-inline void add_start(graph::Graph& graph, graph::Image after, float number) {
+inline void add_start(graph::Graph& graph, graph::ImageHandle after, float number) {
     graph.pass("start/" + graph.images()[after.id].name)
         .writes(after, Use::storage_write)
         .record([=](graph::Commands& commands) {
@@ -28,8 +28,8 @@ inline void add_start(graph::Graph& graph, graph::Image after, float number) {
         });
 }
 
-inline void add_step(graph::Graph& graph, const std::string& name, graph::Image before,
-                     graph::Image after, float number) {
+inline void add_step(graph::Graph& graph, const std::string& name, graph::ImageHandle before,
+                     graph::ImageHandle after, float number) {
     graph.pass(name)
         .reads(before, Use::sampled)
         .writes(after, Use::storage_write)

@@ -54,15 +54,15 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
 
     auto& [device, pipelines] = test::bench();
     gpu::Buffer surface_list, probe_list, detail_list, attribute_list, texture_list;
-    using gpu::BufferUse;
-    upload(device, surface_list, "surfaces", render::texels_of(surfaces), BufferUse::texels);
-    upload(device, probe_list, "probes", render::texels_of(probes), BufferUse::texels);
-    upload(device, detail_list, "details", details, BufferUse::quads);
-    upload(device, attribute_list, "attributes", attributes, BufferUse::texels);
-    upload(device, texture_list, "texels", texels, BufferUse::words);
+    using gpu::BufferUsage;
+    upload(device, surface_list, "surfaces", render::texels_of(surfaces), BufferUsage::texels);
+    upload(device, probe_list, "probes", render::texels_of(probes), BufferUsage::texels);
+    upload(device, detail_list, "details", details, BufferUsage::quads);
+    upload(device, attribute_list, "attributes", attributes, BufferUsage::texels);
+    upload(device, texture_list, "texels", texels, BufferUsage::words);
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
-    const graph::Buffer output = graph.buffer({"output", 4 * expected.size()});
+    const graph::BufferHandle output = graph.buffer({"output", 4 * expected.size()});
     graph.pass("texels")
         .writes(output, graph::Use::storage_write)
         .record([&](graph::Commands& commands) {

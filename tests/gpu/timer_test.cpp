@@ -92,7 +92,7 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
     std::vector<double> one, four;
     for (int frame = 0; frame < 9; ++frame) {
         graph::Graph graph;
-        const graph::Buffer counts = graph.buffer({"counts", 4 * 4 * kGroups});
+        const graph::BufferHandle counts = graph.buffer({"counts", 4 * 4 * kGroups});
         graph.pass("clear")
             .writes(counts, graph::Use::copy_to)
             .record([=](graph::Commands& commands) { commands.fill(counts, 0); });
@@ -108,9 +108,9 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
                 });
         }
         graph.mark_output(counts);
-        const graph::FrameTimes times = test::run(runner, graph);
+        const graph::GraphFrameTimes times = test::run(runner, graph);
         if (frame < 2) continue;
-        for (const graph::PassTime& pass : times.passes) {
+        for (const graph::GraphPassTime& pass : times.passes) {
             if (pass.name.starts_with("one")) one.push_back(pass.ms());
             if (pass.name.starts_with("four")) four.push_back(pass.ms());
         }

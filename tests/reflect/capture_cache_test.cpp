@@ -27,7 +27,7 @@ protected:
         outputs_ = reflect::add_frame(graph, {scene_, kSize, ""}, assignment,
                                       {model_, kept_, &comparisons_, most_});
         graph.mark_output(outputs_.hdr);
-        runner_.run(graph, graph::Timing::isolated);
+        runner_.run(graph, graph::PassTiming::isolated);
         kept_ = outputs_.kept;
         if (learns_) render::learn(kept_, [](std::uint64_t) { return true; });
         Names names;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace catoptric;
 
-graph::Image image_called(const graph::Graph& graph, const std::string& name) {
+graph::ImageHandle image_called(const graph::Graph& graph, const std::string& name) {
     const auto& images = graph.images();
     const auto found = std::ranges::find(images, name, &graph::ImageDesc::name);
     if (found == images.end()) throw std::runtime_error("no image " + name);
@@ -57,13 +57,13 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     const reflect::Choice choice = reflect::parse_choice(technique);
     test::add_technique(graph, inputs, technique);
-    const graph::Image pyramid = image_called(graph, "pyramid"),
-                       colour = image_called(graph, "capture/cubes.colour");
-    const graph::Image distance = image_called(graph, "capture/cubes.distance");
+    const graph::ImageHandle pyramid = image_called(graph, "pyramid"),
+                             colour = image_called(graph, "capture/cubes.colour");
+    const graph::ImageHandle distance = image_called(graph, "capture/cubes.distance");
     gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
-                      gpu::BufferUse::plain);
+                      gpu::BufferUsage::plain);
     asked.write(std::span<const vec4>(directions));
-    std::array<graph::Buffer, 2> found;
+    std::array<graph::BufferHandle, 2> found;
     for (int i = 0; i < 2; ++i) {
         found[i] = graph.buffer({"found" + std::to_string(i), directions.size() * sizeof(vec4)});
         graph.pass("look" + std::to_string(i))

@@ -89,8 +89,8 @@ scene::Scene showing(scene::Mesh mesh, const scene::Material& material) {
 }
 
 /// Returns the largest difference of a channel from `wanted(u, v)`, with u and v from 0 to 1.
-template <typename ResolvedScene>
-double surfaces_farthest(const measure::Picture& picture, ResolvedScene&& wanted) {
+template <typename Wanted>
+double surfaces_farthest(const measure::Picture& picture, Wanted&& wanted) {
     double result = 0;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {

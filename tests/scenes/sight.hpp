@@ -41,7 +41,7 @@ public:
 
 private:
     struct Met {
-        bvh::Hit<float> hit;
+        bvh::RayHit<float> hit;
         vec4 uv{0};
         float alpha = 1;
     };

@@ -42,11 +42,11 @@ inline Layers captured(const scene::Scene& scene, render::CaptureOptions options
     if (options.distance == Format::r8_unorm)
         options.stored_unit = gpu_scene.space().length(range_world);
     const render::Cubes cubes = add_black_captures(graph, inputs, options);
-    for (const std::optional<graph::Image>& image :
+    for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
         if (image) graph.mark_output(*image);
     run(runner, graph);
-    const auto read = [&](graph::Image colour, graph::Image distance) {
+    const auto read = [&](graph::ImageHandle colour, graph::ImageHandle distance) {
         return Captured{options.face, runner.read(colour), runner.read(distance),
                         gpu_scene.space()};
     };

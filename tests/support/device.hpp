@@ -91,8 +91,8 @@ inline app::Engine& engine(bool layered = true) {
 inline bool has_float_colour() { return bench().device.filters_floats(); }
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
-inline graph::FrameTimes run(graph::Runner& runner, const graph::Graph& graph,
-                             graph::Timing timing = graph::Timing::isolated) {
+inline graph::GraphFrameTimes run(graph::Runner& runner, const graph::Graph& graph,
+                                  graph::PassTiming timing = graph::PassTiming::isolated) {
     return runner.run(graph, timing);
 }
 

@@ -20,19 +20,19 @@ inline graph::Graph reuse_frame(std::uint32_t mirrors) {
     const auto add = [&](const std::string& name, Format format, std::uint32_t layers, bool cube) {
         return g.image({name, format, 64, 64, layers, cube});
     };
-    const graph::Image shadow = add("shadow", Format::d32f, 5, false);
-    const graph::Image cubes = add("cubes", Format::rgba16f, 6 * mirrors, true);
-    const graph::Image distance = add("distance", Format::r32f, 6 * mirrors, true);
-    const graph::Image hdr = add("hdr", Format::rgba32f, 1, false);
-    const graph::Image view_depth = add("view.depth", Format::d32f, 1, false);
-    const graph::Image display = add("display", Format::rgba8_unorm, 1, false);
+    const graph::ImageHandle shadow = add("shadow", Format::d32f, 5, false);
+    const graph::ImageHandle cubes = add("cubes", Format::rgba16f, 6 * mirrors, true);
+    const graph::ImageHandle distance = add("distance", Format::r32f, 6 * mirrors, true);
+    const graph::ImageHandle hdr = add("hdr", Format::rgba32f, 1, false);
+    const graph::ImageHandle view_depth = add("view.depth", Format::d32f, 1, false);
+    const graph::ImageHandle display = add("display", Format::rgba8_unorm, 1, false);
     g.pass("shadow", graph::Tag::scene)
         .writes(shadow, Use::depth, kBlack)
         .layers(5)
         .record(nothing);
     for (std::uint32_t n = 0; n < mirrors; ++n) {
         const std::string name = "capture/" + std::to_string(n + 1);
-        const graph::Image depth = add(name + ".depth", Format::d32f, 6, true);
+        const graph::ImageHandle depth = add(name + ".depth", Format::d32f, 6, true);
         g.pass(name, graph::Tag::scene)
             .reads(shadow, Use::sampled)
             .reads(g.previous(cubes), Use::sampled)

@@ -8,7 +8,7 @@ namespace test {
 inline constexpr catoptric::graph::Clear kBlack{};
 inline void nothing(catoptric::graph::Commands&) {}
 /// Returns the plan of a graph whose images all have the bytes that `plain_sizer` states.
-inline catoptric::graph::Plan planned(const catoptric::graph::Graph& graph) {
+inline catoptric::graph::GraphPlan planned(const catoptric::graph::Graph& graph) {
     return catoptric::graph::plan(graph, {}, catoptric::graph::plain_sizer());
 }
 

@@ -63,9 +63,9 @@ class Kernel {
 public:
     explicit Kernel(bvh::Bvh hierarchy)
         : hierarchy_(std::move(hierarchy)), runner_(bench().device, bench().pipelines) {
-        upload(bench().device, nodes_, "nodes", hierarchy_.nodes, gpu::BufferUse::texels);
+        upload(bench().device, nodes_, "nodes", hierarchy_.nodes, gpu::BufferUsage::texels);
         upload(bench().device, triangles_, "triangles", hierarchy_.triangles,
-               gpu::BufferUse::texels);
+               gpu::BufferUsage::texels);
     }
     explicit Kernel(std::span<const bvh::Triangle> triangles) : Kernel(bvh::build(triangles)) {}
 
@@ -100,7 +100,7 @@ private:
         constants.emplace_back("exact_spheres", has_balls() ? 1u : 0u);
         upload(bench().device, lows_, "lows",
                lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
-               gpu::BufferUse::plain);
+               gpu::BufferUsage::plain);
         return run<KernelHit>("tests/kernel.comp", constants, "Rays", rays, "Hits",
                               std::array{size_of(rays), skipped, occluded});
     }
@@ -119,9 +119,9 @@ private:
     template <typename Out, typename In, typename Push>
     std::vector<Out> run(const char* shader, const gpu::Constants& constants, const char* input,
                          const std::vector<In>& in, const char* output, const Push& push) {
-        upload(bench().device, input_, "input", in, gpu::BufferUse::plain);
+        upload(bench().device, input_, "input", in, gpu::BufferUsage::plain);
         graph::Graph graph;
-        const graph::Buffer out = graph.buffer({"output", in.size() * sizeof(Out)});
+        const graph::BufferHandle out = graph.buffer({"output", in.size() * sizeof(Out)});
         graph.pass("kernel")
             .writes(out, graph::Use::storage_write)
             .record([&](graph::Commands& commands) {

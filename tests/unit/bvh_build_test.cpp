@@ -14,36 +14,37 @@ namespace {
 
 using test::expect_sound, test::same, test::soup;
 
-std::vector<Reference> references(std::span<const Triangle> triangles) {
-    std::vector<Reference> result;
+std::vector<TriangleReference> references(std::span<const Triangle> triangles) {
+    std::vector<TriangleReference> result;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Box box = box_of(triangles[i].a, triangles[i].b, triangles[i].c, 0);
+        const BoundingBox box = box_of(triangles[i].a, triangles[i].b, triangles[i].c, 0);
         result.push_back({lanes(box.lo, id_word(i)), lanes(box.hi, 0)});
     }
     return result;
 }
 
 /// Returns the cost of references in one node: half the area of their bounds times their number.
-double cost_of(std::span<const Reference> references) {
+double cost_of(std::span<const TriangleReference> references) {
     Bounds<double> box;
-    for (const Reference& r : references)
+    for (const TriangleReference& r : references)
         box.add(Bounds<double>{dvec3(vector(r.lo)), dvec3(vector(r.hi))});
     return box.area() / 2 * static_cast<double>(references.size());
 }
 
-double cost_of(std::span<const Reference> references, std::size_t middle) {
+double cost_of(std::span<const TriangleReference> references, std::size_t middle) {
     return cost_of(references.first(middle)) + cost_of(references.subspan(middle));
 }
 
-std::vector<Reference> sorted(std::vector<Reference> references, int axis) {
-    std::ranges::stable_sort(references, {}, [&](const Reference& r) { return r.centre()[axis]; });
+std::vector<TriangleReference> sorted(std::vector<TriangleReference> references, int axis) {
+    std::ranges::stable_sort(references, {},
+                             [&](const TriangleReference& r) { return r.centre()[axis]; });
     return references;
 }
 
 TEST(BvhDivision, SweepFindsTheCheapestDivision) {
     for (unsigned seed = 1; seed <= 200; ++seed) {
         const std::size_t count = 2 + seed % (kSweepCount - 1), most = count - seed % 2;
-        std::vector<Reference> few = references(soup(count, seed));
+        std::vector<TriangleReference> few = references(soup(count, seed));
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis)
             for (std::size_t middle = 1; middle < count; ++middle)
@@ -61,17 +62,19 @@ TEST(BvhDivision, SweepFindsTheCheapestDivision) {
 TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const std::size_t count = 50 * seed, most = seed % 2 == 0 ? count : 3 * count / 4;
-        std::vector<Reference> all = references(soup(count, seed));
-        Part part;
-        for (const Reference& r : all) part.add(r);
+        std::vector<TriangleReference> all = references(soup(count, seed));
+        ReferenceRange part;
+        for (const TriangleReference& r : all) part.add(r);
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
-            const std::vector<Reference> along = sorted(all, axis);
+            const std::vector<TriangleReference> along = sorted(all, axis);
             for (int plane = 1; plane < kBinCount; ++plane) {
                 const double lo = double{part.centres.lo[axis]}, hi = double{part.centres.hi[axis]},
                              place = lo + (hi - lo) * plane / kBinCount;
-                const auto middle = static_cast<std::size_t>(std::ranges::count_if(
-                    along, [&](const Reference& r) { return double{r.centre()[axis]} < place; }));
+                const auto middle = static_cast<std::size_t>(
+                    std::ranges::count_if(along, [&](const TriangleReference& r) {
+                        return double{r.centre()[axis]} < place;
+                    }));
                 if (middle > 0 && middle < count && std::max(middle, count - middle) <= most)
                     least = std::min(least, cost_of(along, middle));
             }
@@ -81,18 +84,19 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
         const std::optional<Split> split = best_split(bins, most);
         ASSERT_TRUE(split);
         const std::size_t middle = bins.left_count(*split);
-        std::vector<Reference> sides(count);
+        std::vector<TriangleReference> sides(count);
         std::array<Extent, 2> centres;
         split->scatter(all, Binning(part.centres), {sides.data(), &sides[middle]}, centres);
         EXPECT_NEAR(cost_of(sides, middle), least, 1e-6 * least);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
                                                       side == 0 ? middle : count - middle);
-            Part made;
-            for (const Reference& r : own) made.add(r);
+            ReferenceRange made;
+            for (const TriangleReference& r : own) made.add(r);
             EXPECT_EQ(bins.extents(*split)[side].box(), made.box.box());
             EXPECT_EQ(centres[side].box(), made.centres.box());
-            EXPECT_TRUE(std::ranges::is_sorted(own, {}, &Reference::triangle)) << "in their order";
+            EXPECT_TRUE(std::ranges::is_sorted(own, {}, &TriangleReference::triangle))
+                << "in their order";
         }
     }
 }
@@ -103,7 +107,7 @@ struct Input {
     const char* name;
     std::vector<Triangle> triangles;
     std::size_t kept;
-    Box core{};
+    BoundingBox core{};
 };
 
 std::vector<Input> inputs() {

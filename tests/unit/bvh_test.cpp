@@ -204,7 +204,7 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
         const Triangle& aim = triangles[random.below(triangles.size())];
         const float along = i % 4 == 0 ? 0 : random.between(0, 1);
         const vec3 target = i % 4 == 1 ? random.in_cube() : aim.a + along * (aim.b - aim.a);
-        Ray<Real> ray{Vec<Real>(origin), Vec<Real>(target - origin)};
+        Ray<Real> ray{Vec3<Real>(origin), Vec3<Real>(target - origin)};
         if (i % 8 == 0) ray.direction[i / 8 % 3] = i % 16 == 0 ? Real(0) : Real(-0.0);
         const Real t_max = i % 2 == 0 ? Real(test::kInfinity) : Real(random.between(0, 1.5f));
         const auto tree = closest_hit<Real>(bvh, ray, t_max);
@@ -439,8 +439,8 @@ TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
 
 /// Returns the smallest range of stored triangle data that contains all differences between two
 /// trees.
-Run bvh_run_of(const Bvh& before, const Bvh& after) {
-    Run run;
+IndexRange bvh_run_of(const Bvh& before, const Bvh& after) {
+    IndexRange run;
     for (std::size_t i = 0; i < after.triangles.size(); i += 3)
         if (std::memcmp(&before.triangles[i], &after.triangles[i], 3 * sizeof(vec4)) != 0)
             run = {run.end == 0 ? i : run.first, i + 3};

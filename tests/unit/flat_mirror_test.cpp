@@ -111,8 +111,8 @@ TEST(FlatMirror, FlatToleranceIsASixteenthOfAPixel) {
     EXPECT_NEAR(scene::flat_tolerance({.orthographic_height = 3}, {10, 600}), 2.0 / 600 / 16, 1e-9);
 }
 
-render::Eye eye_at(const dvec3& place, const dvec3& target) {
-    render::Eye eye;
+render::MirroredEye eye_at(const dvec3& place, const dvec3& target) {
+    render::MirroredEye eye;
     eye.view = render::camera_view({.eye = place, .target = target, .vertical_fov_degrees = 90}, {},
                                    {64, 64}, .1f);
     eye.place = place;
@@ -139,7 +139,7 @@ TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
     EXPECT_EQ(views[0].area, (graph::Area{15, 23, 24, 24}));
     // A point p lies in the mirrored view where the mirror image of p lies in the camera's view.
     const vec3 p(.3f, -.6f, 2), image(.3f, -.6f, -2);
-    const render::Eye eye = eye_at({.5, .25, 3}, {.5, .25, 0});
+    const render::MirroredEye eye = eye_at({.5, .25, 3}, {.5, .25, 0});
     const vec3 seen = image - eye.view.eye, mirrored = p - views[0].view.eye;
     EXPECT_NEAR(dot(eye.view.right, seen), dot(views[0].view.right, mirrored), 1e-5f);
     EXPECT_NEAR(dot(eye.view.down, seen), dot(views[0].view.down, mirrored), 1e-5f);
@@ -179,7 +179,7 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
     std::vector<std::optional<render::MirrorPlane>> corner; // the six walls of a box around the eye
     for (int face = 0; face < 6; ++face)
         corner.push_back(plane(scene::wall(face, dvec3(-1), dvec3(1)), 16));
-    const render::Eye eye = eye_at({.1, .2, -.3}, {1, 1, 1});
+    const render::MirroredEye eye = eye_at({.1, .2, -.3}, {1, 1, 1});
     for (int asked = 1; asked <= 3; ++asked) {
         int most = asked;
         const auto views = render::mirrored_views(eye, corner, {64, 64}, most);

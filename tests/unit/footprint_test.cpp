@@ -20,7 +20,7 @@ const double kPixel = 2 * std::tan(glm::radians(37.5) / 2) /
 
 /// Returns the pixels of a square picture from `eye` towards `target`, with the field of view of
 /// the built-in scene's camera.
-Pixels pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height = 512) {
+PixelGrid pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height = 512) {
     const scene::Camera camera{.eye = eye, .target = target, .vertical_fov_degrees = 37.5};
     return {camera_view(camera, Space{}, uvec2(height), 1), height};
 }
@@ -58,7 +58,7 @@ TEST(Footprint, FootprintOfAFlatOrFocusingMirrorIsThePixelAngle) {
 }
 
 TEST(Footprint, FaceEdgesEqualHandComputedValues) {
-    const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
+    const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
     EXPECT_NEAR(pixels.angle(1), kPixel, 1e-7 * kPixel);
     EXPECT_NEAR(face_need(kPixel), 1184.62, .01); // the face edge that a flat mirror needs
     // At the nearest point of a ball straight ahead, a reflected pixel covers 1 + 2 distance /
@@ -69,7 +69,7 @@ TEST(Footprint, FaceEdgesEqualHandComputedValues) {
 }
 
 TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
-    const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
+    const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
     // The expected angle lies between the two borders of a pixel in the middle row, at distance
     // `place` from the axis.
     for (const double place : {.0, .1, .3}) {
@@ -85,7 +85,7 @@ TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
 }
 
 TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
-    const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
+    const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
     EXPECT_EQ(sphere_need(pixels, {0, 0, -12}, 2), 0);
     EXPECT_EQ(sphere_need(pixels, {12, 0, 12}, 2), 0);
     EXPECT_GT(sphere_need(pixels, {5, 0, 12}, 2), 0) << "its rim is";

@@ -19,10 +19,10 @@ using Json = nlohmann::json;
 /// pass and a buffer.
 struct Dump : ::testing::Test {
     Graph g;
-    Image first = add("first"), second = add("second"), third = add("third");
-    Image kept = add("kept"), out = add("out"), unused = add("say \"no\"");
-    Buffer args = g.buffer({.name = "args", .bytes = 64});
-    Plan plan;
+    ImageHandle first = add("first"), second = add("second"), third = add("third");
+    ImageHandle kept = add("kept"), out = add("out"), unused = add("say \"no\"");
+    BufferHandle args = g.buffer({.name = "args", .bytes = 64});
+    GraphPlan plan;
 
     Dump() {
         const auto body = [](Commands&) {};
@@ -49,7 +49,7 @@ struct Dump : ::testing::Test {
         plan = graph::plan(g, {}, plain_sizer());
     }
 
-    Image add(const std::string& name) {
+    ImageHandle add(const std::string& name) {
         return g.image({.name = name, .width = 8, .height = 8, .layers = 2});
     }
 };
@@ -137,7 +137,7 @@ TEST_F(Dump, JsonListsPassesImagesAndBuffers) {
 
 TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
     const Graph g;
-    const Plan plan = graph::plan(g, {}, plain_sizer());
+    const GraphPlan plan = graph::plan(g, {}, plain_sizer());
     EXPECT_EQ(to_text(g, plan),
               "0 passes, scene_passes 0, 0 bytes (0 without sharing)\n\npasses\n");
     EXPECT_THAT(to_dot(g, plan), Not(HasSubstr("->")));

@@ -46,7 +46,7 @@ const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
 
 /// Returns a history in which layers [first, end) of image "cubes" have the content hash `stamp`.
 History held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
-    ContentHashes stamps(12);
+    LayerHashes stamps(12);
     stamps.set(first, end, stamp);
     return {.previous = {}, .persistent = {{"cubes", {kDesc, stamps}}}};
 }
@@ -54,14 +54,14 @@ History held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
 struct View {
     explicit View(History history = {}) : g(std::move(history)) {}
     Graph g;
-    Image cubes = g.persistent(kDesc);
-    Image out = g.image({.name = "out", .width = 8, .height = 8});
+    ImageHandle cubes = g.persistent(kDesc);
+    ImageHandle out = g.image({.name = "out", .width = 8, .height = 8});
 
-    void make(Image part, std::uint64_t stamp) {
+    void make(ImageHandle part, std::uint64_t stamp) {
         g.pass("make").writes(part, Use::colour, kBlack).layers(part.layer_count).record(nothing);
         g.set_content_hash(part, stamp);
     }
-    void view(Image part) {
+    void view(ImageHandle part) {
         g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
         g.mark_output(out);
     }
@@ -85,7 +85,7 @@ TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
     View first;
     first.make(first.cubes, 7);
     first.view(first.cubes);
-    const Plan made = planned(first.g);
+    const GraphPlan made = planned(first.g);
     EXPECT_THAT(texts(made.passes.at(0).barriers),
                 ElementsAre("image 0 mips [0,1) layers [0,12) sampled > colour! +1"));
     EXPECT_THAT(texts(made.last),
@@ -93,7 +93,7 @@ TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
                             "image 1 mips [0,1) layers [0,1) colour! > copy_from"));
     View second(held(0, 12, 7));
     second.view(second.cubes);
-    const Plan plan = planned(second.g);
+    const GraphPlan plan = planned(second.g);
     EXPECT_THAT(texts(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
     EXPECT_THAT(texts(plan.last),
@@ -106,7 +106,7 @@ TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
 TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
     View v(held(0, 12, 7));
     v.g.mark_output(v.cubes.layers(0, 6));
-    const Plan plan = planned(v.g);
+    const GraphPlan plan = planned(v.g);
     EXPECT_THAT(plan.passes, IsEmpty());
     EXPECT_THAT(plan.last, IsEmpty()); // the image is already readable
 }
@@ -114,7 +114,7 @@ TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
 TEST(PersistentImages, PassThatWritesAPersistentImageIsNotCulled) {
     View v;
     v.make(v.cubes.layers(6, 6), 7);
-    const Plan plan = planned(v.g);
+    const GraphPlan plan = planned(v.g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
 }
@@ -169,18 +169,18 @@ TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
 
 TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
     Graph g;
-    const Image texture = g.import(kDesc, nullptr, Use::sampled, Use::sampled);
-    const Image out = g.image({.name = "out"});
+    const ImageHandle texture = g.import(kDesc, nullptr, Use::sampled, Use::sampled);
+    const ImageHandle out = g.image({.name = "out"});
     g.pass("view").reads(texture, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
     g.mark_output(out);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(texts(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
     EXPECT_EQ(plan.last.size(), 1u);
     EXPECT_EQ(plan.images[0].bytes, 0u);
     EXPECT_EQ(plan.bytes, planned([] {
                               Graph alone;
-                              const Image image = alone.image({.name = "out"});
+                              const ImageHandle image = alone.image({.name = "out"});
                               alone.pass("view").writes(image, Use::colour, kBlack).record(nothing);
                               alone.mark_output(image);
                               return alone;
@@ -191,10 +191,10 @@ TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
 
 TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
     Graph g;
-    const Image window = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
+    const ImageHandle window = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
     // No output depends on the window.
     g.pass("show").writes(window, Use::colour, kBlack).record(nothing);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
     EXPECT_THAT(texts(plan.passes[0].barriers),
@@ -204,7 +204,7 @@ TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
 
 TEST(Imported, AllLayersEndInTheDeclaredUse) {
     Graph g;
-    const Image image = g.import(kDesc, nullptr, Use::copy_from, Use::sampled);
+    const ImageHandle image = g.import(kDesc, nullptr, Use::copy_from, Use::sampled);
     g.pass("some").writes(image.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
     EXPECT_THAT(texts(planned(g).last),
                 ElementsAre("image 0 mips [0,1) layers [0,6) colour! > sampled",
@@ -213,8 +213,8 @@ TEST(Imported, AllLayersEndInTheDeclaredUse) {
 
 TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
     Graph g;
-    const Image image = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
-    const Image out = g.image({.name = "out"});
+    const ImageHandle image = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
+    const ImageHandle out = g.image({.name = "out"});
     g.pass("view").reads(image, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
     EXPECT_THAT(graph_lifetime_refusal(g),
                 HasSubstr("pass 'view' reads 'window' [0,1) as sampled before any"));
@@ -222,12 +222,12 @@ TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
 
 TEST(Imported, ImportedResourceAsOutputIsRefused) {
     Graph g;
-    const Image image = g.import({.name = "window"}, nullptr, Use::sampled, Use::sampled);
+    const ImageHandle image = g.import({.name = "window"}, nullptr, Use::sampled, Use::sampled);
     g.mark_output(image);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "'window' [0,1) is wanted, but imported: read it where it comes from");
     Graph h;
-    const Buffer buffer = h.import(BufferDesc{.name = "back", .bytes = 4}, nullptr);
+    const BufferHandle buffer = h.import(BufferDesc{.name = "back", .bytes = 4}, nullptr);
     h.mark_output(buffer);
     EXPECT_EQ(graph_lifetime_refusal(h),
               "buffer 'back' is wanted, but imported: read it where it comes from");
@@ -235,13 +235,13 @@ TEST(Imported, ImportedResourceAsOutputIsRefused) {
 
 TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
     Graph g;
-    const Buffer list = g.import(BufferDesc{.name = "list", .bytes = 64}, nullptr);
-    const Buffer back = g.import(BufferDesc{.name = "back", .bytes = 64}, nullptr);
+    const BufferHandle list = g.import(BufferDesc{.name = "list", .bytes = 64}, nullptr);
+    const BufferHandle back = g.import(BufferDesc{.name = "back", .bytes = 64}, nullptr);
     g.pass("fill")
         .reads(list, Use::storage_read) // no pass of this frame writes the list
         .writes(back, Use::storage_write)
         .record(nothing);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_THAT(plan.passes[0].barriers, IsEmpty());
     EXPECT_THAT(texts(plan.last), ::testing::Contains("buffer storage_write! > copy_from"));
@@ -250,15 +250,16 @@ TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
 
 struct Mips : ::testing::Test {
     Graph g;
-    Image image = g.image({.name = "pyramid", .width = 8, .height = 4, .layers = 2, .mips = 4});
-    Image out = g.image({.name = "out", .width = 8, .height = 4});
+    ImageHandle image = g.image(
+        {.name = "pyramid", .width = 8, .height = 4, .layers = 2, .mips = 4});
+    ImageHandle out = g.image({.name = "out", .width = 8, .height = 4});
 
     void write(std::uint32_t mip) {
         PassBuilder pass = g.pass("mip" + std::to_string(mip));
         if (mip > 0) pass.reads(image.mip(mip - 1), Use::sampled);
         pass.writes(image.mip(mip), Use::storage_write).record(nothing);
     }
-    void view(Image part) {
+    void view(ImageHandle part) {
         g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
         g.mark_output(out);
     }
@@ -267,7 +268,7 @@ struct Mips : ::testing::Test {
 TEST_F(Mips, EachMipHasItsOwnBarriers) {
     for (std::uint32_t m = 0; m < 4; ++m) write(m);
     view(image);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(texts(plan.passes.at(2).barriers),
                 ElementsAre("image 0 mips [1,2) layers [0,2) storage_write! > sampled",
                             "image 0 mips [2,3) layers [0,2) nothing > storage_write!"));
@@ -323,7 +324,8 @@ TEST_F(Mips, OutputOfMipsOutOfRangeIsRefused) {
 }
 
 TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
-    const Image depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 4});
+    const ImageHandle depth = g.image(
+        {.name = "depth", .format = Format::d32f, .width = 8, .height = 4});
     g.pass("draw")
         .writes(image.mip(1).layers(0, 1), Use::colour, kBlack)
         .writes(depth, Use::depth, kBlack)
@@ -346,9 +348,10 @@ TEST_F(Mips, ReadingAndWritingOneMipInTheSamePassIsRefused) {
 
 TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
     Graph g;
-    const Image depth = g.image({.name = "depth", .format = Format::d32f, .layers = 2});
-    const Image a = g.image({.name = "a", .layers = 2}), b = g.image({.name = "b", .layers = 2});
-    const auto draw = [&](const std::string& name, Image colour, std::optional<Clear> clear) {
+    const ImageHandle depth = g.image({.name = "depth", .format = Format::d32f, .layers = 2});
+    const ImageHandle a = g.image({.name = "a", .layers = 2}),
+                      b = g.image({.name = "b", .layers = 2});
+    const auto draw = [&](const std::string& name, ImageHandle colour, std::optional<Clear> clear) {
         g.pass(name)
             .writes(colour, Use::colour, kBlack)
             .writes(depth, Use::depth, clear)
@@ -361,7 +364,7 @@ TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
     draw("third", a, kBlack);
     g.mark_output(a);
     g.mark_output(b);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 3u);
     // Bit 0: the colour of the first pass is written again before any read.
     EXPECT_EQ(plan.passes[0].unread, 1u);

@@ -68,7 +68,7 @@ Placement at(std::uint64_t offset, std::uint64_t bytes, std::uint32_t heap) {
 TEST(MemoryUsers, MemoryUsersAreThoseOfAllOverlappingPlacements) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         Draw draw(seed);
-        Plan plan;
+        GraphPlan plan;
         plan.heap_bytes = {100, 100};
         const std::uint32_t count = draw.below(20) + 1;
         for (std::uint32_t i = 0; i < count; ++i)
@@ -128,7 +128,7 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
     for (unsigned seed = 0; seed < 100; ++seed) {
         Draw draw(seed);
         Graph g;
-        std::vector<Image> images;
+        std::vector<ImageHandle> images;
         std::vector<std::pair<std::uint32_t, std::uint32_t>> lives;
         for (std::uint32_t i = 0; i < kImages; ++i) {
             images.push_back(
@@ -136,7 +136,7 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
             const std::uint32_t first = draw.below(kPasses);
             lives.emplace_back(first, first + draw.below(kPasses - first));
         }
-        const Buffer out = g.buffer({.name = "out", .bytes = 4});
+        const BufferHandle out = g.buffer({.name = "out", .bytes = 4});
         for (std::uint32_t p = 0; p < kPasses; ++p) {
             PassBuilder pass = g.pass("p" + std::to_string(p));
             pass.writes(out, p == 0 ? Use::storage_write : Use::storage);
@@ -149,11 +149,11 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
         g.mark_output(out);
         const Sizer sizer{.image =
                               [](const ImageDesc& desc) {
-                                  return Requirements{
+                                  return MemoryRequirements{
                                       .bytes = desc.width, .alignment = 2, .heap = 0};
                               },
                           .buffer = plain_sizer().buffer};
-        const Plan found = plan(g, {}, sizer);
+        const GraphPlan found = plan(g, {}, sizer);
         std::vector<std::uint32_t> order(kImages);
         for (std::uint32_t i = 0; i < kImages; ++i) order[i] = i;
         std::ranges::stable_sort(order, std::greater<>(),
@@ -170,7 +170,7 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
 TEST(LargeFrames, CapturesShareTheMemoryOfOneDepthImage) {
     constexpr std::uint32_t kMirrors = 200;
     const Graph g = test::reuse_frame(kMirrors);
-    const Plan found = plan(g, {}, plain_sizer());
+    const GraphPlan found = plan(g, {}, plain_sizer());
     ASSERT_EQ(found.passes.size(), kMirrors + 3);
     for (std::uint32_t n = 0; n < kMirrors; ++n)
         EXPECT_EQ(found.images[6 + n].offset, found.images[6].offset);

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 constexpr std::uint32_t kFace = 64;
 
-std::vector<std::string> names_of(const Graph& graph, const Plan& plan) {
+std::vector<std::string> names_of(const Graph& graph, const GraphPlan& plan) {
     std::vector<std::string> names;
     for (const PlannedPass& pass : plan.passes) names.push_back(graph.passes()[pass.pass].name);
     return names;
@@ -51,13 +51,13 @@ std::string graph_plan_text(const Barrier& b) {
     return out;
 }
 
-std::vector<std::string> barriers_of(const Plan& plan, std::size_t pass) {
+std::vector<std::string> barriers_of(const GraphPlan& plan, std::size_t pass) {
     std::vector<std::string> all;
     for (const Barrier& b : plan.passes.at(pass).barriers) all.push_back(graph_plan_text(b));
     return all;
 }
 
-std::vector<std::string> last_barriers(const Plan& plan) {
+std::vector<std::string> last_barriers(const GraphPlan& plan) {
     std::vector<std::string> all;
     for (const Barrier& b : plan.last) all.push_back(graph_plan_text(b));
     return all;
@@ -70,14 +70,14 @@ struct Frame {
         g.pass("shadow", Tag::scene).writes(shadow, Use::depth, kBlack).record(nothing);
     }
 
-    Image cubes(const std::string& name) {
+    ImageHandle cubes(const std::string& name) {
         return g.image(
             {.name = name, .width = kFace, .height = kFace, .layers = 6 * mirrors, .cube = true});
     }
 
     /// Adds one scene pass per mirror. The pass draws the mirror's capture into `target` and may
     /// read `source`.
-    void capture(const std::string& name, Image target, std::optional<Image> source) {
+    void capture(const std::string& name, ImageHandle target, std::optional<ImageHandle> source) {
         for (std::uint32_t n = 0; n < mirrors; ++n) {
             PassBuilder pass = g.pass(name + "/" + std::to_string(n), Tag::scene);
             pass.reads(shadow, Use::sampled);
@@ -89,7 +89,7 @@ struct Frame {
         }
     }
 
-    void view(Image source) {
+    void view(ImageHandle source) {
         g.pass("view", Tag::scene)
             .reads(shadow, Use::sampled)
             .reads(source, Use::sampled)
@@ -101,11 +101,13 @@ struct Frame {
 
     std::uint32_t mirrors;
     Graph g;
-    Image shadow = g.image({.name = "shadow", .format = Format::d32f, .width = 32, .height = 32});
-    Image depth = g.image(
+    ImageHandle shadow = g.image(
+        {.name = "shadow", .format = Format::d32f, .width = 32, .height = 32});
+    ImageHandle depth = g.image(
         {.name = "depth", .format = Format::d32f, .width = kFace, .height = kFace, .layers = 6});
-    Image hdr = g.image({.name = "hdr", .width = 32, .height = 32});
-    Image ldr = g.image({.name = "ldr", .format = Format::rgba8_unorm, .width = 32, .height = 32});
+    ImageHandle hdr = g.image({.name = "hdr", .width = 32, .height = 32});
+    ImageHandle ldr = g.image(
+        {.name = "ldr", .format = Format::rgba8_unorm, .width = 32, .height = 32});
 };
 
 /// The frame of the seed report's part one: each bounce captures all mirrors again, with the
@@ -120,7 +122,7 @@ struct NaiveFrame : Frame {
         }
         view(images.back());
     }
-    std::vector<Image> images;
+    std::vector<ImageHandle> images;
 };
 
 /// The frame of the seed report's part two: each mirror is captured once, and deeper bounces come
@@ -130,14 +132,14 @@ struct ReuseFrame : Frame {
         capture("capture", captured, g.previous(captured));
         view(captured);
     }
-    Image captured = cubes("cubes");
+    ImageHandle captured = cubes("cubes");
 };
 
 TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
     for (const int mirrors : {1, 2, 4})
         for (const int bounces : {1, 2, 3, 7}) {
             const NaiveFrame frame(mirrors, bounces);
-            const Plan plan = planned(frame.g);
+            const GraphPlan plan = planned(frame.g);
             EXPECT_EQ(plan.scene_passes, mirrors * bounces + 2);
             EXPECT_THAT(plan.culled, IsEmpty());
             EXPECT_THAT(replay(frame.g, plan, plain_sizer()), IsEmpty());
@@ -147,7 +149,7 @@ TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
 TEST(GraphPlan, NaiveFrameUsesTheMemoryOfTwoCubeImages) {
     for (const int bounces : {2, 3, 4, 8}) {
         const NaiveFrame frame(4, bounces);
-        const Plan plan = planned(frame.g);
+        const GraphPlan plan = planned(frame.g);
         std::set<std::uint64_t> offsets;
         for (std::size_t k = 0; k < frame.images.size(); ++k) {
             offsets.insert(plan.images[frame.images[k].id].offset);
@@ -162,7 +164,7 @@ TEST(GraphPlan, NaiveFrameUsesTheMemoryOfTwoCubeImages) {
 
 TEST(GraphPlan, ReusedMemoryWaitsForItsLastReader) {
     const NaiveFrame frame(1, 3);
-    const Plan plan = planned(
+    const GraphPlan plan = planned(
         frame.g); // passes: shadow, capture0, capture1, capture2, view, compose
     EXPECT_THAT(barriers_of(plan, 3), ::testing::Contains("image 6 [0,6] nothing > colour!/raster "
                                                           "+sampled/raster"));
@@ -170,14 +172,14 @@ TEST(GraphPlan, ReusedMemoryWaitsForItsLastReader) {
 
 TEST(GraphPlan, ReuseFrameRendersTheSceneOncePerMirror) {
     const ReuseFrame frame(4);
-    const Plan plan = planned(frame.g);
+    const GraphPlan plan = planned(frame.g);
     EXPECT_EQ(plan.scene_passes, 6);
     EXPECT_THAT(replay(frame.g, plan, plain_sizer()), IsEmpty());
 }
 
 TEST(GraphPlan, HistoryImageHasTwoCopiesAndSharesNoMemory) {
     const ReuseFrame frame(4);
-    const Plan plan = planned(frame.g);
+    const GraphPlan plan = planned(frame.g);
     const Placement& cubes = plan.images[frame.captured.id];
     EXPECT_TRUE(cubes.alone);
     EXPECT_EQ(cubes.bytes, 2u * 24 * kFace * kFace * 8);
@@ -188,7 +190,7 @@ TEST(GraphPlan, HistoryImageHasTwoCopiesAndSharesNoMemory) {
 
 TEST(GraphPlan, HistoryImageIsReadWithoutABarrierAndLeftReadable) {
     const ReuseFrame frame(2);
-    const Plan plan = planned(frame.g);
+    const GraphPlan plan = planned(frame.g);
     for (const PlannedPass& pass : plan.passes)
         for (const Barrier& b : pass.barriers) EXPECT_FALSE(b.previous) << graph_plan_text(b);
     EXPECT_THAT(last_barriers(plan), ElementsAre("image 3 [0,1] colour!/raster > copy_from",
@@ -197,8 +199,8 @@ TEST(GraphPlan, HistoryImageIsReadWithoutABarrierAndLeftReadable) {
 
 TEST(GraphPlan, HistoryContainsOnlyImagesOfThePreviousFrame) {
     Graph g(History{.previous = {"cubes"}, .persistent = {}});
-    const Image cubes = g.image({.name = "cubes"});
-    const Image other = g.image({.name = "other"});
+    const ImageHandle cubes = g.image({.name = "cubes"});
+    const ImageHandle other = g.image({.name = "other"});
     EXPECT_TRUE(g.has_history(cubes));
     EXPECT_FALSE(g.has_history(other));
 }
@@ -206,20 +208,20 @@ TEST(GraphPlan, HistoryContainsOnlyImagesOfThePreviousFrame) {
 /// A graph with four images of equal size and a buffer. Each test adds its own passes.
 struct SmallGraph : ::testing::Test {
     Graph g;
-    Image a = add("a"), b = add("b"), c = add("c"), d = add("d");
-    Buffer args = g.buffer({.name = "args", .bytes = 64});
+    ImageHandle a = add("a"), b = add("b"), c = add("c"), d = add("d");
+    BufferHandle args = g.buffer({.name = "args", .bytes = 64});
 
-    Image add(const std::string& name) {
+    ImageHandle add(const std::string& name) {
         return g.image({.name = name, .width = 8, .height = 8, .layers = 4});
     }
-    PassBuilder fill(const std::string& name, Image image) {
+    PassBuilder fill(const std::string& name, ImageHandle image) {
         return g.pass(name).writes(image, Use::colour, kBlack).layers(image.layer_count);
     }
 };
 
 TEST_F(SmallGraph, GraphWithoutOutputsHasNoPasses) {
     fill("a", a).record(nothing);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(plan.passes, IsEmpty());
     EXPECT_EQ(plan.bytes, 0u);
     EXPECT_FALSE(plan.images[a.id].used);
@@ -230,7 +232,7 @@ TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
     fill("b", b).reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
     fill("c", c).reads(a, Use::sampled).record(nothing);
     g.mark_output(c);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(names_of(g, plan), ElementsAre("a", "c"));
     ASSERT_EQ(plan.culled.size(), 1u);
     EXPECT_EQ(plan.culled[0].pass, 1u);
@@ -288,7 +290,7 @@ TEST_F(SmallGraph, HistoryThatFeedsOnlyItselfIsCulled) {
     fill("loop", a).reads(g.previous(a), Use::sampled).record(nothing);
     fill("view", c).record(nothing);
     g.mark_output(c);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(names_of(g, plan), ElementsAre("view"));
     EXPECT_FALSE(plan.images[a.id].used);
     EXPECT_EQ(plan.bytes, 4u * 64 * 8);
@@ -300,7 +302,7 @@ TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
     fill("b", b).reads(a, Use::sampled).record(nothing);
     fill("c", c).reads(b, Use::sampled).record(nothing);
     g.mark_output(c);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_EQ(plan.images[a.id].first, 0u);
     EXPECT_EQ(plan.images[a.id].last, 1u);
     EXPECT_EQ(plan.images[b.id].first, 1u);
@@ -317,9 +319,10 @@ TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
     g.mark_output(d);
     Sizer sizer = plain_sizer();
     sizer.image = [](const ImageDesc& desc) {
-        return Requirements{.bytes = 100, .alignment = 64, .heap = desc.name == "c" ? 3u : 1u};
+        return MemoryRequirements{
+            .bytes = 100, .alignment = 64, .heap = desc.name == "c" ? 3u : 1u};
     };
-    const Plan plan = graph::plan(g, {}, sizer);
+    const GraphPlan plan = graph::plan(g, {}, sizer);
     EXPECT_THAT(plan.heap_bytes,
                 ElementsAre(0u, 356u, 0u, 100u)); // image a at 0, b at 128, d at 256
     EXPECT_EQ(plan.images[c.id].heap, 3u);
@@ -332,7 +335,7 @@ TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     g.mark_output(b);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 0), ElementsAre("image 0 [0,4] nothing > colour!/raster"));
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 1 [0,4] nothing > colour!/raster",
                                                   "image 0 [0,4] colour!/raster > sampled/raster"));
@@ -356,7 +359,7 @@ TEST_F(SmallGraph, ReadInAnotherStageWaitsForTheFirstReader) {
     g.mark_output(a);
     g.mark_output(b);
     g.mark_output(args);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > sampled"));
     EXPECT_THAT(barriers_of(plan, 3),
                 ElementsAre("image 0 [0,4] sampled/raster > colour!/raster +sampled"));
@@ -370,7 +373,7 @@ TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
     g.mark_output(b);
     g.mark_output(c);
     g.mark_output(d);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > copy_from",
                                                   "image 2 [0,4] nothing > copy_to!"));
     EXPECT_THAT(barriers_of(plan, 3), ElementsAre("image 3 [0,4] nothing > colour!/raster",
@@ -382,7 +385,7 @@ TEST_F(SmallGraph, WriteAfterWriteNeedsABarrier) {
     g.pass("blur").writes(a, Use::storage).record(nothing);
     g.pass("again").writes(a, Use::storage).record(nothing);
     g.mark_output(a);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] colour!/raster > storage!"));
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] storage! > storage!"));
 }
@@ -392,7 +395,7 @@ TEST_F(SmallGraph, BarriersMergeLayersOfEqualUse) {
     g.pass("high").writes(a.layers(2, 2), Use::storage_write).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     g.mark_output(b);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 1 [0,4] nothing > colour!/raster",
                                                   "image 0 [0,2] colour!/raster > sampled/raster",
                                                   "image 0 [2,2] storage_write! > sampled/raster"));
@@ -436,7 +439,7 @@ TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
     g.mark_output(a);
     g.mark_output(b);
     g.mark_output(args);
-    const Plan plan = planned(g);
+    const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 0), IsEmpty());
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] nothing > colour!/raster",
                                                   "buffer 0 [0,1] storage_write! > "
@@ -472,7 +475,7 @@ TEST_F(SmallGraph, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
 }
 
 TEST(PlainSizer, SizerCountsTexelsAndPadsTo256Bytes) {
-    const Requirements image = plain_sizer().image(
+    const MemoryRequirements image = plain_sizer().image(
         {.name = "x", .format = Format::rgba16f, .width = 5, .height = 3, .layers = 6});
     EXPECT_EQ(image.bytes, 768u); // 720 bytes, padded to a multiple of 256
     EXPECT_EQ(image.alignment, 256u);

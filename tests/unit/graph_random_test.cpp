@@ -17,14 +17,14 @@ constexpr unsigned kGraphs = 500;
 Sizer awkward_sizer() {
     return {.image =
                 [](const ImageDesc& desc) {
-                    return Requirements{.bytes = std::uint64_t{desc.layers} * 1000 *
-                                                 bytes_per_texel(desc.format),
-                                        .alignment = desc.layers % 2 ? 256u : 96u,
-                                        .heap = is_depth(desc.format) ? 2u : 0u};
+                    return MemoryRequirements{.bytes = std::uint64_t{desc.layers} * 1000 *
+                                                       bytes_per_texel(desc.format),
+                                              .alignment = desc.layers % 2 ? 256u : 96u,
+                                              .heap = is_depth(desc.format) ? 2u : 0u};
                 },
             .buffer =
                 [](const BufferDesc& desc) {
-                    return Requirements{.bytes = desc.bytes, .alignment = 64, .heap = 0};
+                    return MemoryRequirements{.bytes = desc.bytes, .alignment = 64, .heap = 0};
                 }};
 }
 
@@ -35,13 +35,13 @@ struct Sample {
         right = plan(graph, {}, sizer);
     }
     /// Expects that the replay reports an error in the broken plan `wrong`.
-    void expect_refused(const Plan& wrong, const std::string& mistake) const {
+    void expect_refused(const GraphPlan& wrong, const std::string& mistake) const {
         EXPECT_THAT(replay(graph, wrong, sizer), Not(IsEmpty())) << mistake << "\n"
                                                                  << to_text(graph, right);
     }
     Sizer sizer;
     Graph graph;
-    Plan right;
+    GraphPlan right;
 };
 
 /// Calls `test` with the random graph of every seed.
@@ -55,10 +55,10 @@ void for_each_sample(const Test& test) {
 
 /// Calls `test` for every barrier of the plan, with a copy of the plan that `test` may break.
 template <typename Test>
-void for_each_barrier(const Plan& right, const Test& test) {
+void for_each_barrier(const GraphPlan& right, const Test& test) {
     for (std::size_t p = 0; p < right.passes.size(); ++p)
         for (std::size_t b = 0; b < right.passes[p].barriers.size(); ++b) {
-            Plan wrong = right;
+            GraphPlan wrong = right;
             test(wrong, wrong.passes[p].barriers, b);
         }
 }
@@ -72,7 +72,7 @@ TEST(RandomGraphs, PlansOfRandomGraphsReplayWithoutErrors) {
 TEST(RandomGraphs, ReplayDetectsAMissingBarrier) {
     for_each_sample([](const Sample& sample) {
         for_each_barrier(sample.right,
-                         [&](Plan& wrong, std::vector<Barrier>& barriers, std::size_t b) {
+                         [&](GraphPlan& wrong, std::vector<Barrier>& barriers, std::size_t b) {
                              barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(b));
                              sample.expect_refused(wrong, "without barrier " + std::to_string(b));
                          });
@@ -81,7 +81,7 @@ TEST(RandomGraphs, ReplayDetectsAMissingBarrier) {
 
 TEST(RandomGraphs, ReplayDetectsAMissingReaderOfABarrier) {
     for_each_sample([](const Sample& sample) {
-        for_each_barrier(sample.right, [&](Plan& wrong, std::vector<Barrier>& barriers,
+        for_each_barrier(sample.right, [&](GraphPlan& wrong, std::vector<Barrier>& barriers,
                                            std::size_t b) {
             // Skips barriers with redundant readers. A wait for the last user of memory includes
             // earlier users, and no pass writes to images of the previous frame.
@@ -96,7 +96,7 @@ TEST(RandomGraphs, ReplayDetectsAMissingReaderOfABarrier) {
 TEST(RandomGraphs, ReplayDetectsAMissingPass) {
     for_each_sample([](const Sample& sample) {
         for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
-            Plan wrong = sample.right;
+            GraphPlan wrong = sample.right;
             wrong.culled.push_back({wrong.passes[p].pass, "mistake"});
             wrong.passes.erase(wrong.passes.begin() + static_cast<std::ptrdiff_t>(p));
             sample.expect_refused(wrong, "without pass " + std::to_string(p));
@@ -108,7 +108,7 @@ TEST(RandomGraphs, ReplayDetectsOverlappingMemory) {
     for_each_sample([](const Sample& sample) {
         for (std::size_t i = 0; i < sample.right.images.size(); ++i) {
             if (sample.right.images[i].offset == 0) continue;
-            Plan wrong = sample.right;
+            GraphPlan wrong = sample.right;
             wrong.images[i].offset = 0; // another image needs this memory at the same time
             wrong.images[i].heap = sample.right.images[i].heap;
             sample.expect_refused(wrong, "with image " + std::to_string(i) + " at 0");
@@ -131,7 +131,7 @@ TEST(RandomGraphs, ReplayDetectsAnAttachmentThatIsNotStored) {
                     ++unread;
                     continue;
                 }
-                Plan wrong = sample.right;
+                GraphPlan wrong = sample.right;
                 wrong.passes[p].unread |= 1u << i;
                 sample.expect_refused(wrong, "without attachment " + std::to_string(i));
             }
@@ -147,7 +147,7 @@ TEST(RandomGraphs, RandomGraphsUseEveryFeatureOfPlans) {
     for (unsigned seed = 0; seed < kGraphs; ++seed) {
         std::mt19937 random(seed);
         const Graph graph = random_graph(random);
-        const Plan plan = graph::plan(graph, {}, plain_sizer());
+        const GraphPlan plan = graph::plan(graph, {}, plain_sizer());
         culled += plan.culled.empty() ? 0 : 1;
         empty += plan.passes.empty() ? 1 : 0;
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)

@@ -124,7 +124,7 @@ TEST(Judge, TiedRowsShareTheirPlaces) {
     const measure::Comparison made = report::sample::comparison(
         {exact(10, 1), about(11, 1), exact(5, 1), exact(30, 1)});
     const auto places = [&](std::size_t i) {
-        const measure::Places found = measure::places_in_time(made, made.rows[i]);
+        const measure::PlaceRange found = measure::places_in_time(made, made.rows[i]);
         return std::pair(found.first, found.last);
     };
     EXPECT_EQ(places(0), (std::pair<std::size_t, std::size_t>(2, 3)));

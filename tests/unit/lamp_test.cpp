@@ -228,10 +228,10 @@ TEST(Topology, PositionsWithinRoundingErrorsAreMerged) {
 
 TEST(Topology, TriangleWithARepeatedCornerHasNoSides) {
     const std::vector<Corners> triangles{{0, 1, 2}, {2, 1, 1}, {3, 1, 2}};
-    const std::vector<Side> sides = sides_of(triangles);
+    const std::vector<TriangleEdge> sides = sides_of(triangles);
     EXPECT_EQ(sides.size(), 6u);
     std::size_t shared = 0;
-    for_each_edge(sides, [&](std::span<const Side> edge) { shared += edge.size() == 2; });
+    for_each_edge(sides, [&](std::span<const TriangleEdge> edge) { shared += edge.size() == 2; });
     EXPECT_EQ(shared, 1u);
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 using namespace catoptric;
 
-constexpr render::Limits kRoomy{1u << 27, 1u << 27, 1u << 30, 1ull << 31};
+constexpr render::GeometryLimits kRoomy{1u << 27, 1u << 27, 1u << 30, 1ull << 31};
 
-std::string limits_refusal(const render::Amounts& amounts, const render::Limits& limits) {
+std::string limits_refusal(const render::Amounts& amounts, const render::GeometryLimits& limits) {
     return test::refusal(Failure::exhausted, [&] { render::check_limits("s", amounts, limits); });
 }
 
@@ -33,7 +33,7 @@ TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
     map.size = {8, 4};
     map.texels.resize(32);
     room.environment = std::make_shared<const scene::Environment>(map);
-    render::Limits limits = kRoomy;
+    render::GeometryLimits limits = kRoomy;
     const render::Amounts amounts = render::amounts_of(room);
     EXPECT_EQ(amounts.environment_texels, 32u);
     limits.texels = 63;
@@ -85,7 +85,7 @@ TEST(Limits, CopiesThatShareAMeshCountOnce) {
     flattened.objects.back().world_from_object = dmat4(1, 0, 0, 0, 1, 1e-3, 0, 0, 0, 0, 1, 0, 0, 0,
                                                        0, 1);
     EXPECT_EQ(render::amounts_of(flattened).triangles, room.triangles + 2 * 4096);
-    render::Limits tight = kRoomy;
+    render::GeometryLimits tight = kRoomy;
     tight.memory_bytes = 1 << 20;
     EXPECT_NO_THROW(render::check_limits("s", many, tight));
     EXPECT_THROW(render::check_limits("s", few, tight), Error);
@@ -105,7 +105,7 @@ TEST(Limits, AmountsEqualTheStoredGeometry) {
 
 TEST(Limits, ErrorsNameWantedAndAllowedAmounts) {
     const render::Amounts one{.vertices = 100, .triangles = 100, .objects = 100, .mirrors = 100};
-    render::Limits limits = kRoomy;
+    render::GeometryLimits limits = kRoomy;
     limits.texels = 299;
     EXPECT_EQ(limits_refusal(one, limits),
               "scene 's' wants 300 texels of triangles, the device allows 299");

@@ -27,7 +27,7 @@ private:
         return static_cast<std::uint32_t>(random_()) % count;
     }
     bool chance(std::uint32_t percent) { return below(100) < percent; }
-    bool is_depth(const Image& image) const {
+    bool is_depth(const ImageHandle& image) const {
         return catoptric::is_depth(graph_.images()[image.id].format);
     }
 
@@ -51,12 +51,12 @@ private:
         }
     }
 
-    bool is_written(const Image& image) const {
+    bool is_written(const ImageHandle& image) const {
         const auto first = written_[image.id].begin() + image.first_layer;
         return std::all_of(first, first + image.layer_count, [](bool w) { return w; });
     }
 
-    Image part_of(const Image& image) {
+    ImageHandle part_of(const ImageHandle& image) {
         const std::uint32_t first = below(image.layer_count);
         return image.layers(first, below(image.layer_count - first) + 1);
     }
@@ -65,7 +65,8 @@ private:
         PassBuilder pass = graph_.pass("p" + std::to_string(number),
                                        chance(40) ? Tag::scene : Tag::none);
         touched_.assign(images_.size(), false);
-        const Image target = part_of(images_[below(static_cast<std::uint32_t>(images_.size()))]);
+        const ImageHandle target = part_of(
+            images_[below(static_cast<std::uint32_t>(images_.size()))]);
         touched_[target.id] = true;
         const bool raster = is_depth(target) || chance(40);
         const bool copy = !raster && chance(30);
@@ -84,15 +85,15 @@ private:
         std::fill_n(written_[target.id].begin() + target.first_layer, target.layer_count, true);
     }
 
-    void add_attachments(PassBuilder& pass, const Image& target) {
+    void add_attachments(PassBuilder& pass, const ImageHandle& target) {
         const Use use = is_depth(target) ? Use::depth : Use::colour;
         std::optional<Clear> clear;
         if (!is_written(target) || chance(60)) clear = Clear{};
         pass.writes(target, use, clear).layers(target.layer_count);
         if (use == Use::depth || chance(50)) return;
-        for (const Image& image : images_) { // attaches a depth image for the depth test
+        for (const ImageHandle& image : images_) { // attaches a depth image for the depth test
             if (!is_depth(image) || image.layer_count < target.layer_count) continue;
-            const Image depth = image.layers(0, target.layer_count);
+            const ImageHandle depth = image.layers(0, target.layer_count);
             if (!is_written(depth)) continue;
             touched_[image.id] = true;
             pass.reads(depth, Use::depth);
@@ -100,14 +101,15 @@ private:
         }
     }
 
-    Use read_use(const Image& image, bool copy) {
+    Use read_use(const ImageHandle& image, bool copy) {
         if (copy) return Use::copy_from;
         return !is_depth(image) && chance(30) ? Use::storage_read : Use::sampled;
     }
 
     void add_reads(PassBuilder& pass, bool copy) {
         for (std::uint32_t n = below(7); n > 0; --n) {
-            const Image image = part_of(images_[below(static_cast<std::uint32_t>(images_.size()))]);
+            const ImageHandle image = part_of(
+                images_[below(static_cast<std::uint32_t>(images_.size()))]);
             if (touched_[image.id]) continue;
             if (is_written(image)) {
                 touched_[image.id] = true;
@@ -121,9 +123,9 @@ private:
 
     /// Adds a read of the target image: of layers that the pass does not write, or of the previous
     /// frame.
-    void add_disjoint_read(PassBuilder& pass, const Image& target, bool copy) {
+    void add_disjoint_read(PassBuilder& pass, const ImageHandle& target, bool copy) {
         if (target.first_layer == 0) return;
-        const Image rest = images_[target.id].layers(0, target.first_layer);
+        const ImageHandle rest = images_[target.id].layers(0, target.first_layer);
         if (is_written(rest) && chance(50))
             pass.reads(rest, read_use(rest, copy));
         else if (chance(10))
@@ -157,11 +159,11 @@ private:
     }
 
     void mark_output() {
-        for (const Image& image : images_) {
-            const Image part = part_of(image);
+        for (const ImageHandle& image : images_) {
+            const ImageHandle part = part_of(image);
             if (is_written(part) && chance(15)) graph_.mark_output(part);
         }
-        for (const Image& image : images_) // so that most graphs have an output
+        for (const ImageHandle& image : images_) // so that most graphs have an output
             if (graph_.output_images().empty() && is_written(image.layers(0, 1)))
                 graph_.mark_output(image.layers(0, 1));
         for (std::uint32_t b = 0; b < buffers_.size(); ++b)
@@ -170,8 +172,8 @@ private:
 
     std::mt19937& random_;
     Graph graph_;
-    std::vector<Image> images_;
-    std::vector<Buffer> buffers_;
+    std::vector<ImageHandle> images_;
+    std::vector<BufferHandle> buffers_;
     std::vector<std::vector<bool>> written_;
     std::vector<bool> buffer_written_;
     std::vector<bool> touched_; // images that the current pass uses

@@ -32,7 +32,7 @@ struct Event {
 
 class Replay {
 public:
-    Replay(const Graph& graph, const Plan& plan, const Sizer& sizer)
+    Replay(const Graph& graph, const GraphPlan& plan, const Sizer& sizer)
         : graph_(graph), plan_(plan), sizer_(sizer) {
         const Touch raster{.nothing = false, .use = Use::sampled, .write = false, .raster = true};
         Touch compute = raster;
@@ -137,16 +137,16 @@ private:
 
     bool must_be_alone(const Cell& cell) const {
         if (cell.kind == Kind::buffer)
-            return std::ranges::count(graph_.output_buffers(), cell.id, &Buffer::id) > 0;
+            return std::ranges::count(graph_.output_buffers(), cell.id, &BufferHandle::id) > 0;
         return (graph_.lifetime(cell.id) == Lifetime::previous) ||
-               std::ranges::count(graph_.output_images(), cell.id, &Image::id) > 0;
+               std::ranges::count(graph_.output_images(), cell.id, &ImageHandle::id) > 0;
     }
 
     void check_size(const Cell& cell) {
         const Placement& p = placement(cell);
         const bool is_buffer = cell.kind == Kind::buffer;
-        const Requirements wanted = is_buffer ? sizer_.buffer(graph_.buffers()[cell.id])
-                                              : sizer_.image(graph_.images()[cell.id]);
+        const MemoryRequirements wanted = is_buffer ? sizer_.buffer(graph_.buffers()[cell.id])
+                                                    : sizer_.image(graph_.images()[cell.id]);
         std::uint64_t bytes = wanted.bytes;
         if (!is_buffer && (graph_.lifetime(cell.id) == Lifetime::previous)) {
             const std::uint64_t padding = wanted.alignment - 1;
@@ -274,7 +274,7 @@ private:
     }
 
     const Graph& graph_;
-    const Plan& plan_;
+    const GraphPlan& plan_;
     const Sizer& sizer_;
     std::string where_ = "memory";
     std::vector<std::string> faults_;
@@ -285,7 +285,7 @@ private:
 
 } // namespace
 
-std::vector<std::string> replay(const Graph& graph, const Plan& plan, const Sizer& sizer) {
+std::vector<std::string> replay(const Graph& graph, const GraphPlan& plan, const Sizer& sizer) {
     return Replay(graph, plan, sizer).run();
 }
 

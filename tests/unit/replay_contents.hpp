@@ -81,12 +81,12 @@ private:
 
 /// Returns the cells (image layers and buffers) whose contents matter after a frame: all outputs,
 /// and the images whose contents of the last frame the plan's passes read.
-inline std::vector<Cell> outcome_cells(const Graph& graph, const Plan& plan) {
+inline std::vector<Cell> outcome_cells(const Graph& graph, const GraphPlan& plan) {
     std::vector<Cell> cells;
-    for (const Image& image : graph.output_images())
+    for (const ImageHandle& image : graph.output_images())
         for (std::uint32_t l = 0; l < image.layer_count; ++l)
             cells.push_back({Kind::image, image.id, image.first_layer + l});
-    for (const Buffer& buffer : graph.output_buffers())
+    for (const BufferHandle& buffer : graph.output_buffers())
         cells.push_back({Kind::buffer, buffer.id, 0});
     for (const PlannedPass& planned : plan.passes)
         for (const CellUse& u : uses_of(graph.passes()[planned.pass]))

@@ -89,14 +89,14 @@ TEST(RequireFrustum, CaptureFacesThatMayShowABoxAreFound) {
 
 TEST(RequireFrustum, FrustumHoldsBoxesInThePicture) {
     scene::Camera camera{.eye = {0, 0, 0}, .target = {0, 0, 1}, .vertical_fov_degrees = 90};
-    const Picture wide(camera, {200, 100});
+    const PictureFrustum wide(camera, {200, 100});
     EXPECT_TRUE(wide.may_hold(around({0, 9, 10}, .1)));
     EXPECT_FALSE(wide.may_hold(around({0, 11, 10}, .1)));
     EXPECT_TRUE(wide.may_hold(around({19, 0, 10}, .1)));
     EXPECT_FALSE(wide.may_hold(around({21, 0, 10}, .1)));
     EXPECT_FALSE(wide.may_hold(around({0, 0, -1}, .5)));
     camera.orthographic_height = 4;
-    const Picture parallel(camera, {200, 100});
+    const PictureFrustum parallel(camera, {200, 100});
     EXPECT_TRUE(parallel.may_hold(around({0, 1.8, 100}, .1)));
     EXPECT_FALSE(parallel.may_hold(around({0, 2.2, 100}, .1)));
     EXPECT_TRUE(parallel.may_hold(around({3.8, 0, 100}, .1)));
@@ -175,7 +175,7 @@ TEST(RequireSight, NoMirrorIsCapturedIfNoneIsSeen) {
 
 TEST(RequireFrustum, FrustumTestsATriangleAndNotItsBounds) {
     const scene::Camera camera{.target = {0, 0, 1}, .vertical_fov_degrees = 90};
-    const Picture square(camera, {100, 100});
+    const PictureFrustum square(camera, {100, 100});
     // A triangle 10 in front of the eye, near a corner of the picture. Its bounds reach into the
     // picture, the triangle does not.
     const std::array<dvec3, 3> aslant{{{-14, 9, 10}, {-9, 15, 10}, {-14, 16, 10}}};
@@ -199,7 +199,7 @@ TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
     const Model model = required({now, scene::camera_at(gallery.cameras[0], 0)});
     const std::string text = to_text(model, now);
     EXPECT_THAT(text, testing::Not(HasSubstr("mirror 1 'large ball': in the camera's view")));
-    const Picture picture(gallery.cameras[0], {512, 512});
+    const PictureFrustum picture(gallery.cameras[0], {512, 512});
     const scene::Object& ball = now.objects[scene::mirrors(now)[0]];
     EXPECT_TRUE(picture.may_hold(scene::bounds(now, ball)));
 }
@@ -214,7 +214,7 @@ struct Found {
 /// that such a ray meets seen, captured and directly seen.
 void look_from_camera(const test::Tree& tree, const scene::Scene& scene, const Model& model,
                       test::Numbers& numbers, Found& found) {
-    const Picture picture(scene.cameras[0], {64, 64});
+    const PictureFrustum picture(scene.cameras[0], {64, 64});
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         for (int k = 0; k < 60; ++k) {

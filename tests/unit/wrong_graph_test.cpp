@@ -16,19 +16,20 @@ using ::testing::HasSubstr;
 /// Returns the error text of graph::plan. Fails the test if `plan` accepts the graph or fails in
 /// another way.
 std::string wrong_graph_refusal(const Graph& graph, Failure failure = Failure::internal,
-                                Limits limits = {}) {
+                                GraphLimits limits = {}) {
     return test::refusal(failure, [&] { plan(graph, limits, plain_sizer()); });
 }
 
 /// Holds a graph with images and a buffer. Each test adds passes with one mistake.
 struct WrongGraph : ::testing::Test {
     Graph g;
-    Image cubes = g.image({.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
-    Image out = g.image({.name = "out", .width = 8, .height = 8});
-    Image depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 8});
-    Buffer args = g.buffer({.name = "args", .bytes = 64});
+    ImageHandle cubes = g.image(
+        {.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
+    ImageHandle out = g.image({.name = "out", .width = 8, .height = 8});
+    ImageHandle depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 8});
+    BufferHandle args = g.buffer({.name = "args", .bytes = 64});
 
-    void make(Image image) {
+    void make(ImageHandle image) {
         g.pass("make").writes(image, Use::colour, kBlack).layers(image.layer_count).record(nothing);
     }
 };
@@ -200,7 +201,7 @@ TEST_F(WrongGraph, OutputOfThePreviousFrameIsRefused) {
 
 TEST_F(WrongGraph, OutputOfAnotherGraphIsRefused) {
     make(out);
-    g.mark_output(Image{.id = 9, .layer_count = 1});
+    g.mark_output(ImageHandle{.id = 9, .layer_count = 1});
     EXPECT_EQ(wrong_graph_refusal(g), "image number 9 is wanted, but the graph has 3");
 }
 
@@ -233,7 +234,7 @@ TEST_F(WrongGraph, WriteToThePreviousFrameIsRefused) {
 
 TEST_F(WrongGraph, PreviousOfAnotherGraphIsRefused) {
     try {
-        g.previous(Image{.id = 9});
+        g.previous(ImageHandle{.id = 9});
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(), "previous() of image number 9, but the graph has 3 images");
@@ -258,12 +259,12 @@ TEST_F(WrongGraph, EmptyLayerRangeIsRefused) {
 }
 
 TEST_F(WrongGraph, ImageOfAnotherGraphIsRefused) {
-    g.pass("a").writes(Image{.id = 3, .layer_count = 1}, Use::storage_write).record(nothing);
+    g.pass("a").writes(ImageHandle{.id = 3, .layer_count = 1}, Use::storage_write).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names image number 3, but the graph has 3");
 }
 
 TEST_F(WrongGraph, BufferOfAnotherGraphIsRefused) {
-    g.pass("a").writes(Buffer{1}, Use::storage_write).record(nothing);
+    g.pass("a").writes(BufferHandle{1}, Use::storage_write).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names buffer number 1, but the graph has 1");
 }
 
@@ -275,7 +276,7 @@ TEST_F(WrongGraph, AttachmentWithAnotherLayerCountIsRefused) {
 }
 
 TEST_F(WrongGraph, AttachmentsOfDifferentSizesAreRefused) {
-    const Image small = g.image({.name = "small", .width = 8, .height = 4});
+    const ImageHandle small = g.image({.name = "small", .width = 8, .height = 4});
     g.pass("view")
         .writes(small, Use::colour, kBlack)
         .writes(depth, Use::depth, kBlack)
@@ -286,7 +287,8 @@ TEST_F(WrongGraph, AttachmentsOfDifferentSizesAreRefused) {
 }
 
 TEST_F(WrongGraph, TwoDepthAttachmentsAreRefused) {
-    const Image other = g.image({.name = "other", .format = Format::d32f, .width = 8, .height = 8});
+    const ImageHandle other = g.image(
+        {.name = "other", .format = Format::d32f, .width = 8, .height = 8});
     g.pass("view")
         .writes(other, Use::depth, kBlack)
         .writes(depth, Use::depth, kBlack)
@@ -481,12 +483,12 @@ TEST_F(WrongGraph, MemoryOverTheAllocationLimitIsRefused) {
 TEST_F(WrongGraph, GraphAtEveryLimitIsAccepted) {
     make(cubes);
     g.mark_output(cubes);
-    const Limits limits{.max_size_2d = 8,
-                        .max_size_cube = 8,
-                        .max_layers = 24,
-                        .max_framebuffer_layers = 24,
-                        .max_memory = 12288,
-                        .max_allocation = 12288};
+    const GraphLimits limits{.max_size_2d = 8,
+                             .max_size_cube = 8,
+                             .max_layers = 24,
+                             .max_framebuffer_layers = 24,
+                             .max_memory = 12288,
+                             .max_allocation = 12288};
     EXPECT_EQ(plan(g, limits, plain_sizer()).bytes, 12288u);
 }
 

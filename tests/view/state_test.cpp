@@ -222,13 +222,13 @@ TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
 }
 
 TEST(ViewSettings, SettingsAreReadAsTheyWereWritten) {
-    const Settings settings{
+    const ViewerSettings settings{
         .window = {800, 600}, .shows_panels = false, .flies = true, .speed = -.5, .gain = 16};
     EXPECT_EQ(settings_of(text_of(settings)), settings);
     for (const char* text :
          {"", "[]", "{\"width\": -4, \"height\": 5}", "{\"gain\": 3}", "{\"speed\": \"x\"}",
           "{\"speed\": 1e999, \"panels\": 7}", "{\"width\": 99999, \"height\": 3}"})
-        EXPECT_EQ(settings_of(text), Settings()) << text;
+        EXPECT_EQ(settings_of(text), ViewerSettings()) << text;
 }
 
 TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {

@@ -24,8 +24,8 @@ protected:
     /// exit code.
     static int view(Words words, const Driver& driver = {}) {
         words.insert(words.end(), {"--validate", "-q"});
-        Options options;
-        parse(words, [&](const Options& parsed) {
+        ViewOptions options;
+        parse(words, [&](const ViewOptions& parsed) {
             options = parsed;
             return 0;
         })();

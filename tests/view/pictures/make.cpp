@@ -64,7 +64,7 @@ int make(const std::filesystem::path& folder) {
     std::size_t frames = 0;
     for (const Shot& one : kShots) frames += one.frames;
     return parse({"--frames", std::to_string(frames), "--time", "0.4"},
-                 [&](const Options& options) { return run(options, driver); })();
+                 [&](const ViewOptions& options) { return run(options, driver); })();
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "render/changes.hpp"
+#include "render/scene_changes.hpp"
 
 #include <algorithm>
 
@@ -33,15 +33,15 @@ bool same_kind(const scene::Material& a, scene::Material b) {
 
 } // namespace
 
-Changes Seen::take_over(const scene::Scene& now, bool anew) {
-    Changes changes;
+SceneChanges SceneChangeTracker::take_over(const scene::Scene& now, bool anew) {
+    SceneChanges changes;
     changes.layout = anew || objects_.size() != now.objects.size();
     const std::size_t known = objects_.size();
     objects_.resize(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const scene::Object& object = now.objects[i];
         const scene::Material& material = now.materials[object.material];
-        Object& seen = objects_[i];
+        ObjectState& seen = objects_[i];
         const bool moved = seen.world_from_object != object.world_from_object;
         const bool is_new = i >= known;
         const bool repainted = is_new || materials_[seen.material] != material;

@@ -8,7 +8,7 @@
 namespace catoptric::render {
 
 /// The differences between a scene and the scene of the update before.
-struct Changes {
+struct SceneChanges {
     bool layout = false;    ///< the objects differ in number or kind
     bool materials = false; ///< materials or exact spheres changed
     bool lights = false;
@@ -17,20 +17,20 @@ struct Changes {
 };
 
 /// The state of a scene's objects at the last update.
-class Seen {
+class SceneChangeTracker {
 public:
     /// Returns the differences from the scene of the last call, then stores `now` in its place.
     /// `anew`: report everything as changed.
-    Changes take_over(const scene::Scene& now, bool anew);
+    SceneChanges take_over(const scene::Scene& now, bool anew);
 
 private:
-    struct Object {
+    struct ObjectState {
         std::size_t mesh = 0, material = 0;
         dmat4 world_from_object{1};
         std::optional<scene::Sphere> sphere;
         bool seen_by_camera = true, mirror = false;
     };
-    std::vector<Object> objects_;
+    std::vector<ObjectState> objects_;
     std::vector<scene::Material> materials_;
     std::vector<scene::Punctual> punctual_;
 };

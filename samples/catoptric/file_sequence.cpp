@@ -1,4 +1,4 @@
-#include "sequence.hpp"
+#include "file_sequence.hpp"
 
 #include "core/error.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace catoptric::cli {
 
-std::optional<Sequence> Sequence::find(const std::string& name) {
+std::optional<FileSequence> FileSequence::find(const std::string& name) {
     static const std::regex kPlace(R"(\{n(?::0?([1-9]))?\}|%(?:0?([1-9]))?d)");
     std::smatch place;
     const bool found = std::regex_search(name, place, kPlace);
@@ -21,14 +21,14 @@ std::optional<Sequence> Sequence::find(const std::string& name) {
           "'");
     if (!found) return std::nullopt;
     const std::string digits = place[1].str() + place[2].str();
-    Sequence sequence;
+    FileSequence sequence;
     sequence.before_ = place.prefix().str();
     sequence.after_ = rest;
     sequence.digits_ = digits.empty() ? 0 : std::stoi(digits);
     return sequence;
 }
 
-std::string Sequence::file(int number) const {
+std::string FileSequence::file(int number) const {
     return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
 }
 

@@ -19,7 +19,7 @@ struct PersistentImage {
     std::uint64_t bytes = 0; ///< bytes of `memory`
     std::size_t last = 0;    ///< index of the copy that holds the last frame
     bool valid = false;      ///< whether a last frame exists
-    ContentHashes stamps;    ///< content hashes of a persistent image
+    LayerHashes stamps;      ///< content hashes of a persistent image
 
     Physical& copy(bool previous) {
         return lifetime == Lifetime::persistent ? copies[0] : copies[previous ? last : 1 - last];
@@ -35,10 +35,10 @@ struct Resources {
 };
 
 /// A shape with its plan and, once it has run, the resources that it runs with.
-struct Compiled {
+struct CompiledGraph {
     Graph outline; ///< without bodies
     std::uint64_t hash = 0;
-    Plan plan;
+    GraphPlan plan;
     bool ran = false; ///< whether it has run; its memory needs count only then
 
     Resources shared;                         ///< resources that live within a frame
@@ -57,15 +57,15 @@ struct Compiled {
     bool is_owned(std::uint32_t image) const {
         return plan.images[image].used && outline.lifetime(image) != Lifetime::imported;
     }
-    bool is_owned(Buffer buffer) const {
+    bool is_owned(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
     /// Returns the device image that stands for `image` in a frame of the slot.
-    Physical& physical(Image image, std::size_t slot) {
+    Physical& physical(ImageHandle image, std::size_t slot) {
         if (PersistentImage* const k = kept[image.id]) return k->copy(image.previous);
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];
     }
-    VkBuffer buffer(Buffer buffer, std::size_t slot) const {
+    VkBuffer buffer(BufferHandle buffer, std::size_t slot) const {
         return (plan.buffers[buffer.id].alone ? own[slot] : shared).buffers[buffer.id];
     }
 };

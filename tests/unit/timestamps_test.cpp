@@ -7,7 +7,7 @@ namespace {
 
 using catoptric::graph::milliseconds_since_first;
 
-TEST(ContentHashes, TimestampsCountFromTheFirst) {
+TEST(Timestamps, CountFromTheFirst) {
     const std::uint64_t stamps[] = {1'000'000, 1'000'000, 3'500'000};
     EXPECT_EQ(milliseconds_since_first(stamps, 64, 1), (std::vector<double>{0, 0, 2.5}));
     EXPECT_EQ(milliseconds_since_first(stamps, 64, 10), (std::vector<double>{0, 0, 25}));
@@ -15,13 +15,13 @@ TEST(ContentHashes, TimestampsCountFromTheFirst) {
 }
 
 // A frame on a slow device can take longer than 2^32 ns = 4.3 s.
-TEST(ContentHashes, TimestampsAreNotCutToThirtyTwoBits) {
+TEST(Timestamps, AreNotCutToThirtyTwoBits) {
     const std::uint64_t stamps[] = {5, 5 + (std::uint64_t{10} << 32)};
     EXPECT_EQ(milliseconds_since_first(stamps, 64, 1)[1], 10 * 4294.967296);
     EXPECT_EQ(milliseconds_since_first(stamps, 48, 1)[1], 10 * 4294.967296);
 }
 
-TEST(ContentHashes, TimestampsSurviveAWrapOfTheirValidBits) {
+TEST(Timestamps, SurviveAWrapOfTheirValidBits) {
     const std::uint64_t stamps[] = {(std::uint64_t{1} << 36) - 1'000'000, 2'000'000};
     EXPECT_EQ(milliseconds_since_first(stamps, 36, 1), (std::vector<double>{0, 3}));
     // Bits above the valid ones are not part of the time.
