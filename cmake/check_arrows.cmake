@@ -7,7 +7,7 @@ foreach(file IN LISTS files)
     file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]+[\"<](catoptric/|\\.\\./)?([a-z]+)/[a-z_]+\\.hpp[\">]")
     foreach(line IN LISTS lines)
         string(REGEX REPLACE ".*[\"<](catoptric/|\\.\\./)?([a-z]+)/.*" "\\2" other "${line}")
-        if(IS_DIRECTORY ${ENGINE}/${other} AND NOT other IN_LIST uses)
+        if((IS_DIRECTORY ${ENGINE}/${other} OR IS_DIRECTORY ${ENGINE}/../samples/${other}) AND NOT other IN_LIST uses)
             message(FATAL_ERROR "${file}: layer '${LAYER}' includes '${other}', "
                 "but may only include: ${uses}\n  ${line}")
         endif()

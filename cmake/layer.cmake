@@ -1,4 +1,5 @@
-# layer(NAME USES other... ): declares engine/NAME as an object library of every source in the folder. USES lists the
+# layer(NAME [IN samples] USES other... ): declares engine/NAME as an object library of every source in the folder, and
+# makes it part of the library. A layer in samples/ is part of programs only. USES lists the
 # layers whose headers the sources may include. Any other include stops the build (cmake/check_arrows.cmake). With
 # CATOPTRIC_UNITY a dozen sources of a layer are compiled at a time, which takes an eighth of the time. Names in unnamed
 # namespaces must then differ within the layer. A source that registers a row of a table (technique, metric, property)
@@ -26,8 +27,11 @@ function(compile_in_groups target)
 endfunction()
 
 function(layer name)
-    cmake_parse_arguments(arg "" "" "USES;LINK" ${ARGN})
-    set(folder ${PROJECT_SOURCE_DIR}/engine/${name})
+    cmake_parse_arguments(arg "" "IN" "USES;LINK" ${ARGN})
+    if(NOT arg_IN)
+        set(arg_IN engine)
+    endif()
+    set(folder ${PROJECT_SOURCE_DIR}/${arg_IN}/${name})
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
     file(GLOB headers CONFIGURE_DEPENDS ${folder}/*.hpp)
     set(target catoptric_${name})
@@ -48,9 +52,13 @@ function(layer name)
             endif()
         endforeach()
     endif()
-    target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/engine FILES ${headers})
+    target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/${arg_IN} FILES ${headers})
     set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     target_link_libraries(${target} PUBLIC catoptric_options glm::glm PRIVATE catoptric_warnings ${arg_LINK})
-    set_property(GLOBAL APPEND PROPERTY CATOPTRIC_LAYERS ${name})
+    if(arg_IN STREQUAL engine)
+        set_property(GLOBAL APPEND PROPERTY CATOPTRIC_LAYERS ${name})
+    else()
+        set_property(GLOBAL APPEND PROPERTY CATOPTRIC_PROGRAM_LAYERS ${name})
+    endif()
 endfunction()

@@ -21,6 +21,8 @@ endif()
 # library hides.
 function(program target)
     get_property(layers GLOBAL PROPERTY CATOPTRIC_LAYERS)
+    get_property(program_layers GLOBAL PROPERTY CATOPTRIC_PROGRAM_LAYERS)
+    list(APPEND layers ${program_layers})
     list(TRANSFORM layers PREPEND catoptric_)
     target_link_libraries(${target} PRIVATE ${layers} catoptric_options catoptric_warnings)
     add_dependencies(${target} catoptric_images)

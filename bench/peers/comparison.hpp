@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/bench_subjects.hpp"
+#include "benchmark/bench_subjects.hpp"
 #include "peer_scene.hpp"
 
 #include <string>

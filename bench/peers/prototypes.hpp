@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/bench.hpp"
+#include "benchmark/bench.hpp"
 #include "measure/picture.hpp"
 #include "peer_scene.hpp"
 

@@ -65,7 +65,7 @@ void write_dielectric(GltfWriter& writer, const Material& material, tinygltf::Ma
 }
 
 /// Writes the factors of extensions that differ from the defaults of Material.
-void write_factors(Writer& writer, const Material& material, tinygltf::Material& to) {
+void write_factors(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
     const Material usual;
     for (const auto& [name, member, extension, key, gltf_default] : kMaterialFactors) {
         if (extension == kCoreFactors || material.*member == usual.*member) continue;

@@ -1,11 +1,11 @@
 // catoptric bench: measures the cost of frames and of their preparation, and compares runs or
 // builds.
-#include "app/bench_subjects.hpp"
 #include "app/compare.hpp"
 #include "app/device_facts.hpp"
 #include "bench_against.hpp"
 #include "bench_table.hpp"
 #include "bench_tune.hpp"
+#include "benchmark/bench_subjects.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "options.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/tune.hpp"
+#include "benchmark/tune.hpp"
 #include "options.hpp"
 
 #include <string>

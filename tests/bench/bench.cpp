@@ -4,7 +4,7 @@
 //   catoptric_bench [ROUNDS]        compares ways to organise shaders and passes
 //   catoptric_bench rules [ROUNDS]  measures the cost of each rule of docs/robustness.md
 //   catoptric_bench repeats TIMES ROW ROW...   counts how often a comparison calls rows different
-#include "app/bench_subjects.hpp"
+#include "benchmark/bench_subjects.hpp"
 #include "measure/statistics.hpp"
 #include "render/nearest.hpp"
 #include "repeats.hpp"

@@ -3,7 +3,7 @@
 // run on a second driver.
 //   catoptric_ray_query [ROUNDS]   at least 6 rounds; exit code 69 if no device has ray queries
 #include "drivers/ray_query.hpp"
-#include "app/bench_subjects.hpp"
+#include "benchmark/bench_subjects.hpp"
 #include "drivers/witness_rays.hpp"
 #include "measure/statistics.hpp"
 #include "scene/load.hpp"

@@ -1,6 +1,6 @@
 // Tests of how benchmarks are measured: the order in which benchmarks take turns, and the processor
 // usage that is counted.
-#include "app/bench.hpp"
+#include "benchmark/bench.hpp"
 
 #include "core/error.hpp"
 

@@ -128,8 +128,8 @@ TEST(Tables, RegisteredSceneIsFoundByName) {
     for (const scene::BuiltIn& scene : scene::built_in_scenes()) names.push_back(scene.name);
     EXPECT_EQ(names.front(), "cornell-mirrors");
     EXPECT_EQ(names.back(), "test-only");
-    EXPECT_THAT(names, testing::IsSupersetOf({"cornell-mirrors-closed", "flat", "room", "gallery",
-                                              "courtyard"}));
+    EXPECT_THAT(names, testing::IsSupersetOf(
+                           {"cornell-mirrors-closed", "flat", "room", "gallery", "courtyard"}));
 }
 
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {

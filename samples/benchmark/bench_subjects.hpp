@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/bench.hpp"
 #include "app/run.hpp"
+#include "benchmark/bench.hpp"
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "app/bench.hpp"
+#include "benchmark/bench.hpp"
 
 #include "app/engine.hpp"
 #include "app/processor.hpp"

@@ -1,8 +1,8 @@
-#include "app/tune.hpp"
+#include "benchmark/tune.hpp"
 
-#include "app/bench_subjects.hpp"
 #include "app/embedding.hpp"
 #include "app/profile.hpp"
+#include "benchmark/bench_subjects.hpp"
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "app/bench_subjects.hpp"
+#include "benchmark/bench_subjects.hpp"
 
 #include "app/rays.hpp"
 #include "core/error.hpp"
