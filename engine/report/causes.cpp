@@ -1,7 +1,7 @@
-#include "report/causes.hpp"
+
+#include "report/tables.hpp"
 
 #include "core/error.hpp"
-#include "report/tables.hpp"
 #include "report/text.hpp"
 
 #include <algorithm>
@@ -39,12 +39,6 @@ constexpr CauseLine kLines[] = {
      true},
     {"bound", [](const Cause& cause, double whole) { return cause.alone / whole; }, false}};
 
-/// Returns a share in percent, without a minus sign before 0.
-std::string percent_number(double part) {
-    const std::string text = fixed(100 * part, 1);
-    return text == "-0.0" ? "0.0" : text;
-}
-
 std::vector<std::string> cells_of(const CauseLine& line, const Causes& causes) {
     std::vector<std::string> cells{line.name};
     double sum = 0;
@@ -53,9 +47,9 @@ std::vector<std::string> cells_of(const CauseLine& line, const Causes& causes) {
         const bool is_there = cause != causes.list.end();
         const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
         if (is_there) sum += part;
-        cells.push_back(percent_number(part));
+        cells.push_back(fixed(100 * part, 1));
     }
-    cells.push_back(line.adds_up ? percent_number(sum) : std::string());
+    cells.push_back(line.adds_up ? fixed(100 * sum, 1) : std::string());
     cells.emplace_back();
     return cells;
 }
@@ -81,9 +75,7 @@ measure::Picture cause_picture(const Row& row) {
 
 Table cause_table(const Comparison& comparison) {
     Table table{"Error by cause",
-                {{"Row", false}, {"Over", false}},
-                {},
-                {},
+                {text_column("Row"), text_column("Over")},
                 "Share of a row's squared error over the mirrors, in %, over all of their pixels, "
                 "and what of it lies in those whose reflected ray meets no second mirror and in "
                 "the others. First goes what distances lose in storage (storage format), then what "
@@ -99,16 +91,16 @@ Table cause_table(const Comparison& comparison) {
                 "light edges: share of the squared error in pixels that looked within a texel of a "
                 "light's outline."};
     for (const CauseColour& colour : cause_colours())
-        table.columns.push_back({fmt::format("{} ({})", colour.cause, colour.name)});
-    table.columns.push_back({"Sum"});
-    table.columns.push_back({"At light edges"});
+        table.columns.emplace_back(fmt::format("{} ({})", colour.cause, colour.name));
+    table.columns.emplace_back("Sum");
+    table.columns.emplace_back("At light edges");
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
         for (const CauseLine& line : kLines) {
             std::vector<std::string> cells = cells_of(line, *row.causes);
             cells.insert(cells.begin(), &line == kLines ? row.label : std::string());
             if (&line == kLines)
-                cells.back() = percent_number(row.light_edges ? row.light_edges->share : NAN);
+                cells.back() = fixed(row.light_edges ? 100 * row.light_edges->share : NAN, 1);
             table.rows.push_back(std::move(cells));
         }
     }

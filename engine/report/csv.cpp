@@ -49,34 +49,19 @@ struct Field {
 /// The fields of a row.
 class CsvLine {
 public:
-    void add(std::string name, std::string text) {
+    void add(std::string name, std::string text, bool in_table = true) {
         fields.push_back({std::move(name), std::move(text), in_table});
     }
-    void add(std::string name, double value) { add(std::move(name), text_of(value)); }
-    template <std::integral Number>
-    void add(std::string name, Number value) {
-        add(std::move(name), fmt::format("{}", value));
+    void add(std::string name, double value, bool in_table = true) {
+        add(std::move(name), text_of(value), in_table);
     }
-    void add(const std::string& name, const measure::Value& value);
+    void add(const std::string& name, const measure::Value& value, bool in_table);
+    /// Adds one field for each axis.
+    void add(const std::string& name, std::string_view axes, const dvec3& values, bool in_table) {
+        for (int i = 0; i < 3; ++i) add(name + "_" + axes[i], values[i], in_table);
+    }
 
     std::vector<Field> fields;
-    bool in_table = true; ///< value of Field::in_table for the fields that are added next
-};
-
-/// Sets CsvLine::in_table until the end of a block. Inside a block that is left out, fields stay
-/// left out.
-class InTable {
-public:
-    InTable(CsvLine& line, bool shown) : line_(line), before_(line.in_table) {
-        line.in_table = before_ && shown;
-    }
-    ~InTable() { line_.in_table = before_; }
-    InTable(const InTable&) = delete;
-    InTable& operator=(const InTable&) = delete;
-
-private:
-    CsvLine& line_;
-    bool before_;
 };
 
 /// Returns a list of numbers as one field, separated by spaces.
@@ -90,43 +75,39 @@ std::string list_text(const std::vector<double>& list) {
 struct Adds {
     CsvLine& line;
     const std::string& name;
+    bool in_table;
 
-    void operator()(std::monostate) const { line.add(name, std::string()); }
-    void operator()(bool mark) const { line.add(name, int{mark}); }
-    void operator()(double value) const { line.add(name, value); }
-    void operator()(const dvec3& colour) const {
-        line.add(name + "_r", colour.x);
-        line.add(name + "_g", colour.y);
-        line.add(name + "_b", colour.z);
-    }
+    void operator()(std::monostate) const { line.add(name, std::string(), in_table); }
+    void operator()(double value) const { line.add(name, value, in_table); }
+    void operator()(const dvec3& colour) const { line.add(name, "rgb", colour, in_table); }
     void operator()(const measure::PixelPosition& place) const {
-        const auto text = [&](int value) { return place.x < 0 ? "" : std::to_string(value); };
-        line.add(name + "_x", text(place.x));
-        line.add(name + "_y", text(place.y));
+        constexpr double kNone = measure::Difference::kNone;
+        line.add(name + "_x", place.x < 0 ? kNone : place.x, in_table);
+        line.add(name + "_y", place.x < 0 ? kNone : place.y, in_table);
     }
     void operator()(const measure::Summary& times) const {
-        line.add(name + "_median", times.median);
-        line.add(name + "_ci95_low", times.ci95.low);
-        line.add(name + "_ci95_high", times.ci95.high);
-        const InTable more(line, false);
-        line.add(name + "_p05", times.p05);
-        line.add(name + "_p95", times.p95);
-        line.add(name + "_mad", times.mad);
-        line.add(name + "_n", times.n);
-        line.add(name + "_rounds", list_text(times.rounds));
-        line.add(name + "_samples", list_text(times.samples));
+        line.add(name + "_median", times.median, in_table);
+        line.add(name + "_ci95_low", times.ci95.low, in_table);
+        line.add(name + "_ci95_high", times.ci95.high, in_table);
+        line.add(name + "_p05", times.p05, false);
+        line.add(name + "_p95", times.p95, false);
+        line.add(name + "_mad", times.mad, false);
+        line.add(name + "_n", static_cast<double>(times.n), false);
+        line.add(name + "_rounds", list_text(times.rounds), false);
+        line.add(name + "_samples", list_text(times.samples), false);
     }
-    void operator()(const std::vector<double>& list) const { line.add(name, list_text(list)); }
+    void operator()(const std::vector<double>& list) const {
+        line.add(name, list_text(list), in_table);
+    }
     void operator()(const std::vector<measure::Parts>& list) const {
-        const InTable more(line, false);
         for (const measure::Parts& parts : list)
             for (const auto& [what, value] : parts.values)
-                line.add(name + "_" + parts.name + "_" + std::string(what), value);
+                line.add(name + "_" + parts.name + "_" + std::string(what), value, false);
     }
 };
 
-void CsvLine::add(const std::string& name, const measure::Value& value) {
-    std::visit(Adds{*this, name}, value);
+void CsvLine::add(const std::string& name, const measure::Value& value, bool in_table) {
+    std::visit(Adds{*this, name, in_table}, value);
 }
 
 /// Returns whether the report's table of rows has a column of this metric.
@@ -136,14 +117,14 @@ bool is_in_rows_table(const measure::Metric& quantity) {
     });
 }
 
-/// Adds the metrics of a difference over one mask. `is_main` is true for the mask of which the
-/// table shows all metrics of differences.
-void add(CsvLine& line, const std::string& mask, const measure::Difference& error, bool is_main) {
-    for (const measure::Metric& quantity : measure::difference_metrics()) {
-        const InTable shown(line,
-                            is_in_rows_table(quantity) && (is_main || quantity.each_mask_in_table));
-        line.add(mask + "_" + std::string(quantity.name), measure::value_of(quantity, error));
-    }
+/// Adds the metrics of a difference over one mask. Those that `is_in_table` accepts are columns of
+/// the table.
+template <class Predicate>
+void add(CsvLine& line, const std::string& mask, const measure::Difference& error,
+         Predicate is_in_table) {
+    for (const measure::Metric& quantity : measure::difference_metrics())
+        line.add(mask + "_" + std::string(quantity.name), measure::value_of(quantity, error),
+                 is_in_table(quantity));
 }
 
 /// Adds the errors over all masks and over single mirrors. Each line has columns of `mirrors`
@@ -151,12 +132,14 @@ void add(CsvLine& line, const std::string& mask, const measure::Difference& erro
 void add_errors(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     for (const measure::RowMask& mask : measure::masks())
         if (measure::has_columns(mask, comparison))
-            add(line, std::string(mask.name), row.*mask.error, mask.title.empty());
-    const InTable more(line, false);
+            add(line, std::string(mask.name), row.*mask.error, [&](const measure::Metric& metric) {
+                return is_in_rows_table(metric) &&
+                       (mask.title.empty() || metric.each_mask_in_table);
+            });
     for (std::size_t i = 0; i < mirrors; ++i)
         add(line, "mirror_" + std::to_string(MirrorId::at(i).number()),
             i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{},
-            false);
+            [](const measure::Metric&) { return false; });
 }
 
 void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
@@ -165,8 +148,7 @@ void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, st
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
-            const InTable shown(line, is_in_rows_table(quantity));
-            line.add(name, measure::value_of(quantity, row));
+            line.add(name, measure::value_of(quantity, row), is_in_rows_table(quantity));
         } else if (!std::exchange(has_errors, true)) {
             add_errors(line, comparison, row, mirrors);
         }
@@ -185,17 +167,11 @@ void add_views(CsvLine& line, const Comparison& comparison, const Row& row) {
         line.add(name + "_low", over.ci95.low);
         line.add(name + "_high", over.ci95.high);
     }
-    line.add("views", row.views.size());
+    line.add("views", static_cast<double>(row.views.size()));
     const measure::View* worst = row.worst ? &comparison.views.at(row.worst->view) : nullptr;
     line.add("worst_view", worst ? std::to_string(row.worst->view) : "");
     line.add("worst_view_camera", worst ? worst->camera.name : "");
     line.add("worst_view_time", worst ? worst->time : NAN);
-}
-
-void add_point(CsvLine& line, const std::string& name, const dvec3& point) {
-    line.add(name + "_x", point.x);
-    line.add(name + "_y", point.y);
-    line.add(name + "_z", point.z);
 }
 
 /// Adds the fields that distinguish the rows of this run from those of other runs.
@@ -204,35 +180,35 @@ void add_identity(CsvLine& line, const Comparison& comparison, const Row& row) {
     line.add("device", comparison.device.name);
     line.add("driver", comparison.device.driver);
     line.add("date", comparison.date);
-    const InTable more(line, false);
-    line.add("plan", row.label);
-    line.add("scene_hash", comparison.scene.hash);
-    line.add("scene_triangles", comparison.scene.triangles);
-    line.add("scene_mirrors", comparison.scene.mirrors);
+    const auto add = [&](const char* name, const auto& value) { line.add(name, value, false); };
+    add("plan", row.label);
+    add("scene_hash", comparison.scene.hash);
+    add("scene_triangles", static_cast<double>(comparison.scene.triangles));
+    add("scene_mirrors", static_cast<double>(comparison.scene.mirrors));
     const measure::CameraFacts& camera = comparison.scene.camera;
-    line.add("camera", camera.name);
-    add_point(line, "camera_eye", camera.eye);
-    add_point(line, "camera_target", camera.target);
-    add_point(line, "camera_up", camera.up);
-    line.add("camera_vertical_fov_degrees", camera.vertical_fov_degrees);
-    line.add("time", comparison.time);
-    line.add("width", comparison.width);
-    line.add("height", comparison.height);
-    line.add("ambient", comparison.ambient);
-    line.add("exposure", comparison.exposure);
-    line.add("frames", comparison.frames);
-    line.add("warmup", comparison.warmup);
-    line.add("rounds", comparison.rounds);
-    line.add("load_start", comparison.load_start);
-    line.add("load_end", comparison.load_end);
-    line.add("timing", comparison.timing);
-    line.add("together", int{comparison.together});
-    line.add("reference", comparison.reference_label);
-    line.add("device_type", comparison.device.type);
-    line.add("threads", comparison.device.threads);
-    line.add("api", comparison.device.api);
-    line.add("version", comparison.version);
-    line.add("commit", comparison.commit);
+    add("camera", camera.name);
+    line.add("camera_eye", "xyz", camera.eye, false);
+    line.add("camera_target", "xyz", camera.target, false);
+    line.add("camera_up", "xyz", camera.up, false);
+    add("camera_vertical_fov_degrees", camera.vertical_fov_degrees);
+    add("time", comparison.time);
+    add("width", comparison.width);
+    add("height", comparison.height);
+    add("ambient", comparison.ambient);
+    add("exposure", comparison.exposure);
+    add("frames", comparison.frames);
+    add("warmup", comparison.warmup);
+    add("rounds", comparison.rounds);
+    add("load_start", comparison.load_start);
+    add("load_end", comparison.load_end);
+    add("timing", comparison.timing);
+    add("together", comparison.together);
+    add("reference", comparison.reference_label);
+    add("device_type", comparison.device.type);
+    add("threads", comparison.device.threads);
+    add("api", comparison.device.api);
+    add("version", comparison.version);
+    add("commit", comparison.commit);
 }
 
 CsvLine line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) {
@@ -242,51 +218,42 @@ CsvLine line_of(const Comparison& comparison, const Row& row, std::size_t mirror
     line.add("settings", settings_text(row));
     line.add("model", row.model);
     const measure::PlaceRange places = measure::places_in_time(comparison, row);
-    line.add("place_first", places.first);
-    line.add("place_last", places.last);
+    line.add("place_first", static_cast<double>(places.first));
+    line.add("place_last", static_cast<double>(places.last));
     add_figures(line, comparison, row, mirrors);
     add_views(line, comparison, row);
     line.add("image", image_path(comparison, row.image + ".png"));
-    line.add("on_front", int{measure::on_front(comparison, row)});
-    line.add("is_reference", int{row.is_reference});
+    line.add("on_front", measure::on_front(comparison, row));
+    line.add("is_reference", row.is_reference);
     add_identity(line, comparison, row);
     line.add("incomplete", incomplete_text(comparison));
     return line;
 }
 
-/// Ordered columns of all lines. A column that only some lines have comes after the column that
+/// Adds the columns of a line. A column that only some lines have comes after the column that
 /// precedes it there.
-class Columns {
-public:
-    explicit Columns(CsvColumns which) : which_(which) {}
-    void add(const CsvLine& line) {
-        std::size_t at = 0;
-        for (const Field& field : line.fields) {
-            if (which_ == CsvColumns::table && !field.in_table) continue;
-            const auto found = std::ranges::find(names_, field.name);
-            if (found != names_.end())
-                at = static_cast<std::size_t>(found - names_.begin()) + 1;
-            else
-                names_.insert(names_.begin() + static_cast<std::ptrdiff_t>(at++), field.name);
-        }
+void add_columns(std::vector<std::string>& columns, const CsvLine& line, CsvColumns which) {
+    auto at = columns.begin();
+    for (const Field& field : line.fields) {
+        if (which == CsvColumns::table && !field.in_table) continue;
+        const auto found = std::ranges::find(columns, field.name);
+        at = (found != columns.end() ? found : columns.insert(at, field.name)) + 1;
     }
-    std::string header() const {
-        std::vector<std::string> cells;
-        for (const std::string& name : names_) cells.push_back(csv_field(name));
-        return joined(cells, ",") + "\r\n";
-    }
-    std::string text_of(const CsvLine& line) const {
-        std::unordered_map<std::string, std::string> fields;
-        for (const Field& field : line.fields) fields.emplace(field.name, field.text);
-        std::vector<std::string> cells;
-        for (const std::string& name : names_) cells.push_back(csv_field(fields[name]));
-        return joined(cells, ",") + "\r\n";
-    }
+}
 
-private:
-    CsvColumns which_;
-    std::vector<std::string> names_;
-};
+std::string text_of(const std::vector<std::string>& cells) {
+    std::vector<std::string> escaped;
+    for (const std::string& cell : cells) escaped.push_back(csv_field(cell));
+    return joined(escaped, ",") + "\r\n";
+}
+
+std::string text_of(const CsvLine& line, const std::vector<std::string>& columns) {
+    std::unordered_map<std::string, std::string> fields;
+    for (const Field& field : line.fields) fields.emplace(field.name, field.text);
+    std::vector<std::string> cells;
+    for (const std::string& name : columns) cells.push_back(fields[name]);
+    return text_of(cells);
+}
 
 } // namespace
 
@@ -300,18 +267,18 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
         for (const Row& row : comparison->rows)
             mirrors = std::max(mirrors, row.error_per_mirror.size());
     std::vector<CsvLine> lines;
-    Columns columns(which);
+    std::vector<std::string> columns;
     for (const Comparison* comparison : comparisons) {
         // An empty row gives all columns of values without parts.
-        columns.add(line_of(*comparison, Row{}, mirrors));
+        add_columns(columns, line_of(*comparison, Row{}, mirrors), which);
         for (const Row& row : comparison->rows) lines.push_back(line_of(*comparison, row, mirrors));
         if (comparison->complete || !comparison->rows.empty()) continue;
         lines.emplace_back(); // a line with only this field
         lines.back().add("incomplete", incomplete_text(*comparison));
     }
-    for (const CsvLine& line : lines) columns.add(line);
-    std::string csv = columns.header();
-    for (const CsvLine& line : lines) csv += columns.text_of(line);
+    for (const CsvLine& line : lines) add_columns(columns, line, which);
+    std::string csv = text_of(columns);
+    for (const CsvLine& line : lines) csv += text_of(line, columns);
     return csv;
 }
 

@@ -85,17 +85,13 @@ std::vector<std::string> cautions(const Comparison& comparison) {
     if (!comparison.complete) list.push_back("Incomplete, " + incomplete_text(comparison) + ".");
     if (comparison.device.type == "cpu")
         list.push_back(
-            "This device is a processor: \"GPU time\" here is processor time of its "
-            "software driver, and what it says of speed holds for such a device, not for "
-            "a graphics card.");
-    if (const std::vector<const Row*> noisy = measure::noisy_rows(comparison); !noisy.empty()) {
-        std::vector<std::string> labels;
-        for (const Row* row : noisy) labels.push_back(row->label);
+            "This device is a processor: \"GPU time\" here is processor time of its software "
+            "driver, and what it says of speed holds for such a device, not for a graphics card.");
+    if (const std::vector<const Row*> noisy = measure::noisy_rows(comparison); !noisy.empty())
         list.push_back(
             fmt::format("Noisy: {} of {} rows had to wait for a processor, others were at work "
                         "beside, and these times are not to be trusted: {}.",
-                        noisy.size(), comparison.rows.size(), joined(labels, ", ")));
-    }
+                        noisy.size(), comparison.rows.size(), labels_of(noisy)));
     if (comparison.together)
         list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
     for (const Row& row : comparison.rows)

@@ -1,8 +1,8 @@
-#include "report/findings.hpp"
+#include "report/tables.hpp"
 
 #include "measure/findings.hpp"
+#include "measure/judge.hpp"
 #include "measure/seed_report.hpp"
-#include "report/lag_tables.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
@@ -35,13 +35,12 @@ std::string interval_text(const measure::Interval& ratio) {
 Sentence not_drawn(const Comparison& comparison) {
     const auto finding = measure::find_not_drawn(comparison);
     if (!finding) return {};
-    std::vector<std::string> tracing;
-    for (const Row* row : finding->tracing) tracing.push_back(row->label);
+    const std::string tracing = labels_of(finding->tracing);
     return fmt::format(
         "Not drawn: {} of the pixels show smooth surfaces that are no mirrors, and no row{} draws "
         "what they reflect. Over these pixels the other rows' FLIP is {} at best ({}). "
         "--dielectric-mirrors makes mirrors of such surfaces.",
-        percent(finding->share), tracing.empty() ? "" : " but " + joined(tracing, ", "),
+        percent(finding->share), tracing.empty() ? "" : " but " + tracing,
         error_text(finding->best->error_dielectrics.flip), finding->best->label);
 }
 
@@ -49,12 +48,10 @@ std::string clear_verdict(const measure::ClearFinding& finding) {
     switch (finding.verdict) {
     case measure::ClearFinding::ClearVerdict::slower_without:
         return "part one is slower without any clear, so clearing alone does not explain the order "
-               "on "
-               "this device";
+               "on this device";
     case measure::ClearFinding::ClearVerdict::too_little:
         return "added to part one that still leaves it no slower than part two, so clearing alone "
-               "does "
-               "not explain the report's order on this device";
+               "does not explain the report's order on this device";
     case measure::ClearFinding::ClearVerdict::explains: break;
     }
     return fmt::format(
@@ -69,10 +66,9 @@ Sentence clears(const Comparison& comparison) {
     if (!finding) return {};
     const char* order = finding->one_is_slower ? "slower than" : "not slower than";
     std::string text = fmt::format("Clears: the report's part one without inter-reflections took "
-                                   "{:.1f} ms more than its part two "
-                                   "({:.1f} against {:.1f} ms), which it puts down to clearing the "
-                                   "cube maps. Here part one, {}, "
-                                   "is {} part two ({})",
+                                   "{:.1f} ms more than its part two ({:.1f} against {:.1f} ms), "
+                                   "which it puts down to clearing the cube maps. Here part one, "
+                                   "{}, is {} part two ({})",
                                    measure::kSeedClearMs, kSeedPartOne.ms, kSeedPartTwo.ms,
                                    finding->one->label, order,
                                    both_times(*finding->one, *finding->two));
@@ -148,8 +144,7 @@ Sentence ray_tracing(const Comparison& comparison) {
     if (!finding) return {};
     const Row &three = *finding->three, &traced = *finding->traced;
     std::string text = fmt::format("Ray tracing: in the report it takes {:.1f} times as long as "
-                                   "part three ({:.1f} against {:.1f} "
-                                   "ms); here {} takes ",
+                                   "part three ({:.1f} against {:.1f} ms); here {} takes ",
                                    measure::kSeedRayTraceRatio, kSeedRayTrace.ms, kSeedPartThree.ms,
                                    traced.label);
     const std::string times = both_times(traced, three);
@@ -159,6 +154,39 @@ Sentence ray_tracing(const Comparison& comparison) {
         text += ms_text(finding->ratio) + " times as long" + interval_text(finding->ratio_ci95) +
                 " as " + three.label + " (" + times + ")";
     return text + ".";
+}
+
+std::string figures(const Row& row) {
+    return fmt::format("{} ({} ms, FLIP {})", row.label, ms_text(row.time_ms().median),
+                       error_text(row.error.flip));
+}
+
+std::string figures_of(const std::vector<const Row*>& rows) {
+    std::vector<std::string> texts;
+    for (const Row* row : rows) texts.push_back(figures(*row));
+    return joined(texts, "; ");
+}
+
+/// Returns whether ray tracing beats the other rows. Empty if only one of the two kinds is there.
+std::string tracing_in_words(const measure::TracingVerdict& verdict) {
+    if (verdict.others == 0 || !verdict.any_traced) return "";
+    if (verdict.unbeaten.size() == verdict.others) return "no ray-traced row beats any other row";
+    if (!verdict.unbeaten.empty())
+        return fmt::format("ray tracing beats {} of the {} other rows: all but {}",
+                           verdict.others - verdict.unbeaten.size(), verdict.others,
+                           labels_of(verdict.unbeaten, ", "));
+    return fmt::format("ray tracing beats every other row, {} of {}", verdict.others,
+                       verdict.others);
+}
+
+/// Returns the fastest and the closest rows in words.
+std::string ends_in_words(const Comparison& comparison) {
+    const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
+    if (fastest.empty()) return "no row could be judged";
+    std::string text = "fastest is " + labels_of(fastest, " or ");
+    if (const Row* closest = measure::closest_row(comparison))
+        text += ", closest is " + figures(*closest);
+    return text;
 }
 
 } // namespace
@@ -185,6 +213,35 @@ std::vector<std::string> findings(const Comparison& comparison) {
         if (const Sentence sentence = say(comparison)) list.push_back(*sentence);
     }
     return list;
+}
+
+std::string verdict_in_words(const Comparison& comparison) {
+    const std::string tracing = tracing_in_words(measure::tracing_verdict(comparison));
+    return "On this device, " + comparison.device.name + ", " +
+           (tracing.empty() ? ends_in_words(comparison) : tracing) + ".";
+}
+
+std::vector<std::string> front_in_words(const Comparison& comparison) {
+    const measure::Ranking standing = measure::ranking_of(comparison);
+    if (standing.front.empty()) return {"No row could be judged, so there is no front."};
+    std::vector<std::string> words{
+        "On the front, by median time: " + figures_of(standing.front) +
+        ". A row beats another where it is faster (the ratio of their times, round by round, is "
+        "below 1 with 95 % confidence) and no farther off, or closer and not slower. Where that "
+        "interval holds 1, or is not known, times are a tie."};
+    for (const auto& [winner, losers] : standing.wins)
+        words.push_back(winner->label + " beats " + figures_of(losers) + ".");
+    if (!standing.beaten_by_beaten.empty())
+        words.push_back("Beaten only by rows that are beaten themselves: " +
+                        figures_of(standing.beaten_by_beaten) + ".");
+    if (!standing.black.empty())
+        words.push_back(
+            "Not on the front and not beaten, since their mirrors are black: " +
+            figures_of(standing.black) +
+            ". Their time is a lower bound for any technique that draws the same scene.");
+    if (!standing.not_judged.empty())
+        words.push_back("Not judged: " + labels_of(standing.not_judged, "; ") + ".");
+    return words;
 }
 
 } // namespace catoptric::report

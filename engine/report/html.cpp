@@ -1,15 +1,11 @@
 // Writes report.html: one self-contained page without script.
+#include "report/html.hpp"
 #include "measure/heat.hpp"
 #include "measure/judge.hpp"
-#include "report/causes.hpp"
-#include "report/findings.hpp"
-#include "report/html_text.hpp"
-#include "report/lag_tables.hpp"
 #include "report/plot.hpp"
 #include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
-#include "report/views.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +22,10 @@ std::string cell(const Column& column, const char* tag, const char* scope,
                        content, tag);
 }
 
+std::string section(const std::string& title, const std::string& content) {
+    return "<section><h2>" + title + "</h2>" + content + "</section>\n";
+}
+
 /// Returns the anchor in the page at which the pictures of a row stand.
 std::string anchor_of(const Comparison& comparison, std::size_t row) {
     return fmt::format("{}row-{}", section_of(comparison), row);
@@ -37,10 +37,9 @@ std::string to_html(const Table& table, const std::string& look,
                     const Comparison* linked = nullptr) {
     if (table.rows.empty()) return "";
     const std::string title = html_escaped(table.title);
-    std::string html = fmt::format(
-        "<section><h2>{0}</h2><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-        "aria-label=\"{0}\"><table class=\"{1}\"><thead><tr>",
-        title, look);
+    std::string html = fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                                   "aria-label=\"{}\"><table class=\"{}\"><thead><tr>",
+                                   title, look);
     for (const Column& column : table.columns)
         html += cell(column, "th", " scope=\"col\"", html_escaped(column.name));
     html += "</tr></thead><tbody>";
@@ -56,8 +55,8 @@ std::string to_html(const Table& table, const std::string& look,
         }
         html += "</tr>";
     }
-    return html + "</tbody></table></div><p class=\"note\">" + html_escaped(table.note) +
-           "</p></section>\n";
+    return section(title, html + "</tbody></table></div><p class=\"note\">" +
+                              html_escaped(table.note) + "</p>");
 }
 
 std::string html_list(const std::vector<std::string>& sentences) {
@@ -90,31 +89,21 @@ std::string headlines(const Comparison& comparison) {
     return html + "</dl>";
 }
 
-std::string figure(const measure::Picture& size, const std::string& png, const std::string& alt,
-                   const std::string& caption) {
-    if (png.empty()) return "";
-    return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
-                       "<figcaption>{}</figcaption></figure>",
-                       size.width, size.height, html_escaped(alt), data_uri(png),
-                       html_escaped(caption));
-}
-
-std::string number_attribute(const char* name, const std::string& value) {
-    return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
-}
-
 std::string numbers(const Row& row) {
-    return "<dl class=\"numbers\">" + number_attribute("ms", ms_text(row.time_ms().median)) +
-           number_attribute("FPS", fps_text(row.time_ms().median)) +
-           number_attribute("FLIP", error_text(row.error.flip)) +
-           number_attribute("off, %", fixed(100 * row.error.off, 2)) +
-           number_attribute("MAE", error_text(row.error.mae)) +
-           number_attribute("rmse", error_text(row.error.rmse)) +
-           number_attribute("FLIP, 1st order", error_text(row.error_first_order.flip)) +
-           number_attribute("PSNR dB",
-                            row.error.psnr ? fixed(*row.error.psnr, 1) : std::string(kNothing)) +
-           number_attribute("Scene passes", std::to_string(row.scene_passes)) +
-           number_attribute("MiB", mebibytes(row.memory_bytes)) + "</dl>";
+    const double ms = row.time_ms().median;
+    std::string html = "<dl class=\"numbers\">";
+    for (const auto& [name, value] :
+         {std::pair("ms", ms_text(ms)), std::pair("FPS", fps_text(ms)),
+          std::pair("FLIP", error_text(row.error.flip)),
+          std::pair("off, %", fixed(100 * row.error.off, 2)),
+          std::pair("MAE", error_text(row.error.mae)),
+          std::pair("rmse", error_text(row.error.rmse)),
+          std::pair("FLIP, 1st order", error_text(row.error_first_order.flip)),
+          std::pair("PSNR dB", fixed(row.error.psnr.value_or(NAN), 1)),
+          std::pair("Scene passes", std::to_string(row.scene_passes)),
+          std::pair("MiB", mebibytes(row.memory_bytes))})
+        html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
+    return html + "</dl>";
 }
 
 std::string details(const Row& row) {
@@ -145,24 +134,27 @@ std::string article(const Comparison& comparison, const EncodedPictures& encoded
           std::pair(row.noisy, "noisy")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
-            figure(row.display, encoded.rows[index].picture, "Picture by " + row.label, "Picture") +
-            figure(row.display, encoded.rows[index].error,
+            figure(row.display.width, row.display.height, encoded.rows[index].picture,
+                   "Picture by " + row.label, "Picture") +
+            figure(row.display.width, row.display.height, encoded.rows[index].error,
                    "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
                        error_text(row.error.flip),
                    "FLIP error") +
-            figure(row.display, encoded.rows[index].causes,
+            figure(row.display.width, row.display.height, encoded.rows[index].causes,
                    "Pixels of " + row.label + " that are off, painted by their largest cause",
                    "Largest cause where it is off");
     return html + "</div>" + numbers(row) + details(row) + "</article>\n";
 }
 
+std::string css_colour(const vec3& colour) {
+    return fmt::format("rgb({:.0f} {:.0f} {:.0f})", colour.x * 255, colour.y * 255, colour.z * 255);
+}
+
 /// Returns the colour scale of the heat maps from 0 to 1.
 std::string heat_scale() {
     std::string stops;
-    for (int i = 0; i <= 8; ++i) {
-        const vec3 colour = measure::heat_colour(static_cast<float>(i) / 8) * 255.0F;
-        stops += fmt::format(",rgb({:.0f} {:.0f} {:.0f})", colour.x, colour.y, colour.z);
-    }
+    for (int i = 0; i <= 8; ++i)
+        stops += "," + css_colour(measure::heat_colour(static_cast<float>(i) / 8));
     return "<div class=\"scale\" style=\"background:linear-gradient(90deg" + stops +
            ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
 }
@@ -173,69 +165,61 @@ std::string cause_legend(const Comparison& comparison) {
                              [](const Row& row) { return row.causes.has_value(); }))
         return "";
     std::string html = "<ul class=\"legend\">";
-    for (const auto& [cause, name, colour] : cause_colours()) {
-        const vec3 byte = colour * 255.0F;
-        html += fmt::format(
-            "<li><span style=\"background:rgb({:.0f} {:.0f} {:.0f})\"></span>{}</li>", byte.x,
-            byte.y, byte.z, cause);
-    }
+    for (const CauseColour& one : cause_colours())
+        html += "<li><span style=\"background:" + css_colour(one.colour) + "\"></span>" +
+                std::string(one.cause) + "</li>";
     return html + "</ul>";
 }
 
 std::string pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html =
-        "<section><h2>Pictures</h2><div class=\"reference\">" +
-        figure(comparison.reference_display, encoded.reference,
-               "Reference picture by " + comparison.reference_label,
+        "<div class=\"reference\">" +
+        figure(comparison.reference_display.width, comparison.reference_display.height,
+               encoded.reference, "Reference picture by " + comparison.reference_label,
                "Reference: " + comparison.reference_label) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
         heat_scale() + cause_legend(comparison) + "</div></div><div class=\"rows\">";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i)
         html += article(comparison, encoded, i);
-    return html + "</div></section>\n";
+    return section("Pictures", html + "</div>");
 }
 
 /// Returns each row at its worst view. Empty if no views were drawn.
 std::string over_views(const Comparison& comparison, const EncodedPictures& encoded) {
     const Table table = views_table(comparison);
     if (table.rows.empty()) return "";
-    std::string html = to_html(table, "views") + "<section><h2>Apart and ties</h2>" +
-                       html_list(views_in_words(comparison)) +
-                       "</section><section><h2>Worst views</h2><p>Each row at its view of the "
-                       "largest FLIP, beside the reference.</p>";
+    std::string html = "<p>Each row at its view of the largest FLIP, beside the reference.</p>";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
         if (!row.worst) continue;
         const std::string where = view_text(comparison, *row.worst);
-        html += figure(row.worst->display, encoded.rows[i].worst,
+        html += figure(row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
                        row.label + ", to its right the reference, at " + where,
                        row.label + ": " + where);
     }
-    return html + "</section>\n";
+    return to_html(table, "views") + "<section><h2>Apart and ties</h2>" +
+           html_list(views_in_words(comparison)) + "</section>" + section("Worst views", html);
 }
 
 std::string front(const Comparison& comparison) {
-    std::string html = "<section><h2>Time against error</h2>";
-    const std::string drawing = plot(comparison);
-    if (!drawing.empty())
-        html +=
+    std::string html;
+    if (const std::string drawing = plot(comparison); !drawing.empty())
+        html =
             "<figure class=\"plot\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
             "aria-label=\"Plot\">" +
             drawing +
             "</div><figcaption>Lower left is better. Filled: on the Pareto front (dashed). "
-            "Squares: ray "
-            "traced. Bars: 95 % intervals of times; which rows tie, the places in the tables say. The lane below is error 0.</figcaption></figure>";
-    return html + html_list(front_in_words(comparison)) + "</section>\n";
+            "Squares: ray traced. Bars: 95 % intervals of times; which rows tie, the places in the "
+            "tables say. The lane below is error 0.</figcaption></figure>";
+    return section("Time against error", html + html_list(front_in_words(comparison)));
 }
 
 std::string circumstances(const Comparison& comparison) {
-    std::string html = "<section><h2>What was measured where</h2><dl class=\"facts\">";
-    for (const Fact& fact : facts(comparison)) {
-        const char* tag = fact.name == "Command" ? "code" : "span";
-        html += fmt::format("<dt>{}</dt><dd><{}>{}</{}></dd>", fact.name, tag,
-                            html_escaped(fact.value), tag);
-    }
-    return html + "</dl></section>\n";
+    std::string html = "<dl class=\"facts\">";
+    for (const Fact& fact : facts(comparison))
+        html += fmt::format("<dt>{0}</dt><dd><{1}>{2}</{1}></dd>", fact.name,
+                            fact.name == "Command" ? "code" : "span", html_escaped(fact.value));
+    return section("What was measured where", html + "</dl>");
 }
 
 } // namespace
@@ -250,6 +234,14 @@ std::string to_html(const Comparison& comparison) {
     EncodedPictures pictures;
     encode_new(pictures, comparison);
     return to_html(comparison, pictures);
+}
+
+std::string figure(int width, int height, const std::string& png, const std::string& alt,
+                   const std::string& caption) {
+    if (png.empty()) return "";
+    return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
+                       "<figcaption>{}</figcaption></figure>",
+                       width, height, html_escaped(alt), data_uri(png), html_escaped(caption));
 }
 
 std::string html_page(const std::string& title, const std::string& content) {
@@ -271,11 +263,9 @@ std::string html_section(const Comparison& comparison, const EncodedPictures& en
             front(comparison) +
             (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed") : "");
     const std::vector<std::string> sentences = findings(comparison);
-    if (!sentences.empty())
-        html += "<section><h2>" + findings_title(comparison) + "</h2>" + html_list(sentences) +
-                "</section>\n";
-    html += "<section><h2>Set-up, once</h2><p>" + html_escaped(setup_text(comparison.setup)) +
-            "</p></section>\n" + to_html(rows_table(comparison), "all", &comparison) +
+    if (!sentences.empty()) html += section(findings_title(comparison), html_list(sentences));
+    html += section("Set-up, once", "<p>" + html_escaped(setup_text(comparison.setup)) + "</p>") +
+            to_html(rows_table(comparison), "all", &comparison) +
             to_html(plan_table(comparison), "plans", &comparison) +
             over_views(comparison, encoded) +
             to_html(mirror_table(comparison), "mirrors", &comparison) +

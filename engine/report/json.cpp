@@ -1,5 +1,4 @@
-// Writes report.json. Only the files json*.cpp include the JSON library. New versions add fields
-// and never remove any.
+// Writes report.json.
 #include "report/json.hpp"
 
 #include "core/mirror_id.hpp"
@@ -18,6 +17,12 @@ Json number(double value) {
     if (std::abs(value) < kExact && value == std::trunc(value) && !std::signbit(value))
         return static_cast<std::int64_t>(value);
     return value;
+}
+
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
+
+Json numbers_json(const std::vector<double>& values) {
+    return list_json(values, [](double value) { return number(value); });
 }
 
 Json interval_json(const measure::Interval& interval) {
@@ -46,12 +51,6 @@ Json device_json(const DeviceFacts& device) {
 
 namespace {
 
-Json list_json(const std::vector<double>& list) {
-    Json json = Json::array();
-    for (const double value : list) json.push_back(number(value));
-    return json;
-}
-
 Json to_json(const measure::Summary& summary) {
     if (summary.n == 0) return nullptr; // never measured
     return {{"median", number(summary.median)},
@@ -59,18 +58,14 @@ Json to_json(const measure::Summary& summary) {
             {"p95", number(summary.p95)},
             {"mad", number(summary.mad)},
             {"ci95", interval_json(summary.ci95)},
-            {"rounds", list_json(summary.rounds)},
+            {"rounds", numbers_json(summary.rounds)},
             {"n", summary.n},
-            {"samples", list_json(summary.samples)}};
+            {"samples", numbers_json(summary.samples)}};
 }
 
-Json to_json(const std::vector<measure::Parts>& list) {
-    Json json = Json::array();
-    for (const measure::Parts& parts : list) {
-        Json one{{parts.kind, parts.name}};
-        for (const auto& [name, value] : parts.values) one[std::string(name)] = value_json(value);
-        json.push_back(std::move(one));
-    }
+Json to_json(const measure::Parts& parts) {
+    Json json{{parts.kind, parts.name}};
+    for (const auto& [name, value] : parts.values) json[std::string(name)] = value_json(value);
     return json;
 }
 
@@ -83,29 +78,26 @@ struct Writes {
         return place.x < 0 ? Json(nullptr) : Json::array({place.x, place.y});
     }
     Json operator()(const measure::Summary& times) const { return to_json(times); }
-    Json operator()(const std::vector<double>& list) const { return list_json(list); }
-    Json operator()(const std::vector<measure::Parts>& list) const { return to_json(list); }
+    Json operator()(const std::vector<double>& list) const { return numbers_json(list); }
+    Json operator()(const std::vector<measure::Parts>& list) const {
+        return list_json(list, [](const measure::Parts& parts) { return to_json(parts); });
+    }
 };
 
-/// Adds all metrics of a difference, without naming the mask.
-void add(Json& json, const measure::Difference& error) {
+/// Returns an object that begins with `json` and has all metrics of a difference.
+Json with_metrics(Json json, const measure::Difference& error) {
     for (const measure::Metric& quantity : measure::difference_metrics())
         json[std::string(quantity.name)] = value_json(measure::value_of(quantity, error));
+    return json;
 }
 
 void add_errors(Json& json, const Row& row) {
-    for (const measure::RowMask& mask : measure::masks()) {
-        Json error{{"mask", mask.name}};
-        add(error, row.*mask.error);
-        json[std::string(mask.field)] = std::move(error);
-    }
-    Json list = Json::array();
-    for (std::size_t i = 0; i < row.error_per_mirror.size(); ++i) {
-        Json error{{"mirror", MirrorId::at(i).number()}};
-        add(error, row.error_per_mirror[i]);
-        list.push_back(std::move(error));
-    }
-    json["error_per_mirror"] = std::move(list);
+    for (const measure::RowMask& mask : measure::masks())
+        json[std::string(mask.field)] = with_metrics({{"mask", mask.name}}, row.*mask.error);
+    Json& list = json["error_per_mirror"] = Json::array();
+    for (std::size_t i = 0; i < row.error_per_mirror.size(); ++i)
+        list.push_back(
+            with_metrics({{"mirror", MirrorId::at(i).number()}}, row.error_per_mirror[i]));
 }
 
 /// Adds a metric to an object of metrics. The object is null as long as none of its metrics has a
@@ -145,37 +137,19 @@ Json to_json(const std::vector<Setting>& settings) {
     return json;
 }
 
-} // namespace
-
-Json point_json(const dvec3& point) {
-    return Json::array({number(point.x), number(point.y), number(point.z)});
-}
-
-Json plan_json(const std::vector<PlanEntry>& plan) {
-    Json json = Json::array();
-    for (const PlanEntry& entry : plan)
-        json.push_back({{"mirror", entry.mirror},
-                        {"name", entry.name},
-                        {"technique", entry.technique},
-                        {"settings", to_json(entry.settings)},
-                        {"why", entry.why}});
-    return json;
-}
-
-namespace {
-
-Json to_json(const std::vector<measure::CulledWork>& list) {
-    Json json = Json::array();
-    for (const auto& [what, why, saves, error] : list)
-        json.push_back({{"what", what}, {"why", why}, {"saves", saves}, {"error", number(error)}});
-    return json;
+Json to_json(const measure::CulledWork& work) {
+    return {{"what", work.what},
+            {"why", work.why},
+            {"saves", work.saves},
+            {"error", number(work.error)}};
 }
 
 Json to_json(const Comparison& comparison, const Row& row) {
     Json json{{"technique", row.technique}, {"settings", to_json(row.settings)}};
     json["label"] = row.label;
     json["model"] = row.model;
-    json["left_out"] = to_json(row.left_out);
+    json["left_out"] = list_json(row.left_out,
+                                 [](const measure::CulledWork& work) { return to_json(work); });
     add_figures(json, row);
     json["views"] = views_json(comparison, row);
     json["plan"] = plan_json(row.plan);
@@ -185,7 +159,7 @@ Json to_json(const Comparison& comparison, const Row& row) {
 }
 
 Json to_json(const SetupFacts& setup) {
-    return {{"load_ms", setup.load_ms ? number(*setup.load_ms) : Json(nullptr)},
+    return {{"load_ms", number(setup.load_ms)},
             {"upload_ms", number(setup.upload_ms)},
             {"hierarchy_ms", number(setup.hierarchy_ms)},
             {"compile_ms", number(setup.compile_ms)},
@@ -214,6 +188,20 @@ void add_circumstances(Json& json, const Comparison& comparison) {
 
 } // namespace
 
+Json point_json(const dvec3& point) {
+    return Json::array({number(point.x), number(point.y), number(point.z)});
+}
+
+Json plan_json(const std::vector<PlanEntry>& plan) {
+    return list_json(plan, [](const PlanEntry& entry) {
+        return Json{{"mirror", entry.mirror},
+                    {"name", entry.name},
+                    {"technique", entry.technique},
+                    {"settings", to_json(entry.settings)},
+                    {"why", entry.why}};
+    });
+}
+
 Json times_json(const Row& row) {
     Json json = Json::object();
     for (const measure::Metric& quantity : measure::metrics())
@@ -239,8 +227,8 @@ Json document_of(const Comparison& comparison) {
     if (comparison.clear_ms) json["clear_ms"] = to_json(*comparison.clear_ms);
     json["model"] = comparison.model;
     json["views"] = views_json(comparison);
-    json["rows"] = Json::array();
-    for (const Row& row : comparison.rows) json["rows"].push_back(to_json(comparison, row));
+    json["rows"] = list_json(comparison.rows,
+                             [&](const Row& row) { return to_json(comparison, row); });
     json["pareto"] = comparison.pareto;
     if (comparison.lag) json["lag"] = to_json(*comparison.lag);
     return json;

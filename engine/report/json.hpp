@@ -6,7 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-// Parts of JSON files. Only the .cpp files that write JSON include this header.
+// Parts of JSON files. Only the .cpp files that write JSON include this header. New versions of a
+// file add fields and never remove any.
 namespace catoptric::report {
 
 using Json = nlohmann::ordered_json;
@@ -16,8 +17,18 @@ Json document_of(const Comparison& comparison);
 /// Returns the document as ASCII text that ends with a newline.
 std::string written(const Json& document);
 
-/// Returns a number: integers without a fraction, and null if JSON cannot hold the value.
+/// Return a number: integers without a fraction, and null if JSON cannot hold the value or if there
+/// is none.
 Json number(double value);
+Json number(const std::optional<double>& value);
+/// Returns a list with `entry` of each item.
+template <class List, class Entry>
+Json list_json(const List& list, Entry entry) {
+    Json json = Json::array();
+    for (const auto& item : list) json.push_back(entry(item));
+    return json;
+}
+Json numbers_json(const std::vector<double>& values);
 /// Returns the list [low, high], or null if the interval is not known.
 Json interval_json(const measure::Interval& interval);
 /// Describes a value for a message: "nothing", "a list", or its JSON in quotes.

@@ -9,24 +9,21 @@ Json camera_json(const measure::CameraFacts& camera) {
             {"eye", point_json(camera.eye)},
             {"target", point_json(camera.target)},
             {"up", point_json(camera.up)},
-            {"vertical_fov_degrees", is_flat ? Json(nullptr) : number(camera.vertical_fov_degrees)},
-            {"orthographic_height", is_flat ? number(camera.orthographic_height) : Json(nullptr)}};
+            {"vertical_fov_degrees", is_flat ? Json() : number(camera.vertical_fov_degrees)},
+            {"orthographic_height", is_flat ? number(camera.orthographic_height) : Json()}};
 }
 
 Json lights_json(const std::vector<LightFacts>& lights) {
-    Json list = Json::array();
-    for (const LightFacts& light : lights) {
+    return list_json(lights, [](const LightFacts& light) {
         const bool is_mesh = light.kind == "mesh";
-        list.push_back(
-            {{"kind", light.kind},
-             {"name", is_mesh ? Json(nullptr) : Json(light.name)},
-             {"position", light.kind == "directional" ? Json(nullptr) : point_json(light.position)},
-             {"direction",
-              light.direction == dvec3(0) ? Json(nullptr) : point_json(light.direction)},
-             {"emission", point_json(light.emission)},
-             {"area", is_mesh ? number(light.area) : Json(nullptr)}});
-    }
-    return list;
+        return Json{
+            {"kind", light.kind},
+            {"name", is_mesh ? Json() : Json(light.name)},
+            {"position", light.kind == "directional" ? Json() : point_json(light.position)},
+            {"direction", light.direction == dvec3(0) ? Json() : point_json(light.direction)},
+            {"emission", point_json(light.emission)},
+            {"area", is_mesh ? number(light.area) : Json()}};
+    });
 }
 
 Json environment_json(const std::optional<EnvironmentFacts>& environment) {
@@ -37,14 +34,12 @@ Json environment_json(const std::optional<EnvironmentFacts>& environment) {
 }
 
 Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported) {
-    Json list = Json::array();
-    for (const UnsupportedFeatureFacts& gap : unsupported)
-        list.push_back(
-            {{"id", gap.id},
-             {"count", gap.count},
-             {"first", gap.first},
-             {"pixel_share", gap.pixel_share ? number(*gap.pixel_share) : Json(nullptr)}});
-    return list;
+    return list_json(unsupported, [](const UnsupportedFeatureFacts& gap) {
+        return Json{{"id", gap.id},
+                    {"count", gap.count},
+                    {"first", gap.first},
+                    {"pixel_share", number(gap.pixel_share)}};
+    });
 }
 
 Json scene_json(const SceneFacts& scene) {

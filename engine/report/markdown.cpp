@@ -1,10 +1,7 @@
 #include "core/text.hpp"
-#include "report/findings.hpp"
-#include "report/lag_tables.hpp"
 #include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
-#include "report/views.hpp"
 
 #include <algorithm>
 

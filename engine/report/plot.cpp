@@ -2,24 +2,155 @@
 
 #include "measure/judge.hpp"
 #include "measure/rows.hpp"
-#include "report/html_text.hpp"
-#include "report/svg.hpp"
+#include "report/html.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace catoptric::report {
 
-using svg::grid_line, svg::kLetter, svg::kLine, svg::Scale, svg::text, svg::ticks;
-
 namespace {
 
-constexpr double kWidth = 860, kHeight = 470;
-// The lane holds error 0.
-constexpr double kLeft = 64, kRight = 836, kTop = 16, kLane = 380, kBottom = 424;
+/// Approximate letter width and line height of an 11 px label, pixels.
+constexpr double kLetter = 6.6, kLine = 13;
+
+/// Mapping from the logarithm of a value to pixels.
+struct Scale {
+    double low, high; ///< logarithms to base 10
+    double from, to;  ///< pixels
+    double operator()(double value) const {
+        return from + (std::log10(value) - low) / (high - low) * (to - from);
+    }
+};
+
+struct Tick {
+    double value, at; ///< `at`: place in pixels
+};
+
+/// Edges of a chart with room for its axes, in pixels. Values of 0 lie in a lane from `lane` to
+/// `bottom`, below the other values.
+struct Frame {
+    double width, height, left, right, top, lane, bottom;
+    double tick_gap;  ///< between a number of the y axis and the axis
+    double y_name_at; ///< x of the y axis's name
+    double zero() const { return (lane + bottom) / 2; }
+    /// Returns the lane and the axes with grid, numbers and names.
+    std::string axes(const std::vector<Tick>& x_ticks, const std::vector<Tick>& y_ticks,
+                     const std::string& x_name, const std::string& y_name) const;
+};
+
+/// Returns a scale that covers all values, which are positive, with a margin. A single value gets
+/// one decade.
+Scale log_scale(const std::vector<double>& values, double from, double to) {
+    if (values.empty()) return {-3, 0, from, to};
+    const auto [least, most] = std::ranges::minmax(values);
+    const double low = std::log10(least), high = std::log10(most);
+    const double air = high - low < 0.5 ? 0.5 - (high - low) / 2 : 0.08 * (high - low);
+    return {low - air, high + air, from, to};
+}
+
+/// Returns 1, 2 and 5 times the powers of ten inside the scale.
+std::vector<double> ticks(const Scale& scale) {
+    std::vector<double> values;
+    for (int decade = static_cast<int>(std::floor(scale.low)); decade <= scale.high; ++decade)
+        for (const double step : {1.0, 2.0, 5.0}) {
+            const double value = step * std::pow(10.0, decade);
+            const double place = std::log10(value);
+            if (place >= scale.low && place <= scale.high) values.push_back(value);
+        }
+    return values;
+}
+
+/// Returns the ticks of a scale with their places.
+std::vector<Tick> placed(const Scale& scale, const std::vector<double>& values) {
+    std::vector<Tick> list;
+    for (const double value : values) list.push_back({value, scale(value)});
+    return list;
+}
+
+std::string grid_line(double x0, double y0, double x1, double y1) {
+    return fmt::format(R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
+                       x0, y0, x1, y1);
+}
+
+/// Returns a text element. `anchor` is start, middle or end. `content` is not escaped.
+std::string svg_text(double x, double y, const char* anchor, std::string_view content) {
+    return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
+                       content);
+}
+
+std::string Frame::axes(const std::vector<Tick>& x_ticks, const std::vector<Tick>& y_ticks,
+                        const std::string& x_name, const std::string& y_name) const {
+    std::string svg = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
+                                  left, lane, right - left, bottom - lane);
+    for (const auto& [value, x] : x_ticks)
+        svg += grid_line(x, top, x, bottom) +
+               svg_text(x, bottom + 16, "middle", fmt::format("{:g}", value));
+    for (const auto& [value, y] : y_ticks)
+        svg += grid_line(left, y, right, y) +
+               svg_text(left - tick_gap, y + 4, "end", fmt::format("{:g}", value));
+    return svg + svg_text(left - tick_gap, zero() + 4, "end", "0") +
+           svg_text((left + right) / 2, bottom + 38, "middle", html_escaped(x_name)) +
+           fmt::format("<g transform=\"translate({} {}) rotate(-90)\">", y_name_at,
+                       (top + lane) / 2) +
+           svg_text(0, 0, "middle", html_escaped(y_name)) + "</g>";
+}
+
+// width, height, left, right, top, lane, bottom, tick_gap, y_name_at
+constexpr Frame kChart{500, 300, 66, 340, 12, 226, 250, 6, 12};
+constexpr std::size_t kMostTicks = 8;
+
+double x_place(const LinePlot& plot, double x) {
+    const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
+    const double first = along(plot.x.front()), last = along(plot.x.back());
+    return last > first
+               ? kChart.left + (along(x) - first) / (last - first) * (kChart.right - kChart.left)
+               : kChart.left;
+}
+
+double y_place(const Scale& scale, double y) { return y > 0 ? scale(y) : kChart.zero(); }
+
+std::vector<double> y_ticks(const Scale& scale) {
+    std::vector<double> values = ticks(scale);
+    if (values.size() > kMostTicks) // too many ticks: keep only powers of ten
+        std::erase_if(values, [](double value) {
+            const double place = std::log10(value);
+            return std::abs(place - std::round(place)) > 0.01;
+        });
+    return values;
+}
+
+std::string path_of(const LinePlot& plot, const PlotLine& line, const Scale& y, double opacity) {
+    std::string path;
+    for (std::size_t i = 0; i < line.y.size(); ++i)
+        if (std::isfinite(line.y[i]))
+            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L",
+                                x_place(plot, plot.x[i]), y_place(y, line.y[i]));
+    return fmt::format(R"(<path class="line" style="opacity:{:.2f}" d="{}"/>)", opacity, path);
+}
+
+/// Returns the names at the right ends of the lines. A name moves up if it would overlap another.
+std::string names(const LinePlot& plot, const Scale& y) {
+    std::vector<std::pair<double, std::string>> places;
+    for (const PlotLine& line : plot.lines)
+        if (!line.y.empty() && std::isfinite(line.y.back()))
+            places.emplace_back(y_place(y, line.y.back()), line.name);
+    std::ranges::stable_sort(places, std::greater(), &std::pair<double, std::string>::first);
+    std::string drawn;
+    double free = kChart.bottom + kLine;
+    for (const auto& [place, name] : places) {
+        free = std::min(place, free - kLine);
+        drawn += svg_text(kChart.right + 6, free + 4, "start", html_escaped(name));
+    }
+    return drawn;
+}
+
+// width, height, left, right, top, lane, bottom, tick_gap, y_name_at
+constexpr Frame kFrame{860, 470, 64, 836, 16, 380, 424, 8, 14};
 
 struct Point {
     double x, y;
@@ -39,34 +170,15 @@ bool can_be_placed(const Row& row) {
     return row.time_ms().median > 0 && std::isfinite(row.error.flip);
 }
 
-/// Returns the axes. If `moves` is true, times include host work.
-std::string axes(const Scale& x, const Scale& y, bool has_errors, bool moves) {
-    constexpr double kMiddle = (kLane + kBottom) / 2;
-    std::string svg = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
-                                  kLeft, kLane, kRight - kLeft, kBottom - kLane);
-    for (const double value : ticks(x))
-        svg += grid_line(x(value), kTop, x(value), kBottom) +
-               text(x(value), kBottom + 16, "middle", fmt::format("{:g}", value));
-    for (const double value : has_errors ? ticks(y) : std::vector<double>())
-        svg += grid_line(kLeft, y(value), kRight, y(value)) +
-               text(kLeft - 8, y(value) + 4, "end", fmt::format("{:g}", value));
-    svg += text(kLeft - 8, kMiddle + 4, "end", "0");
-    svg += text((kLeft + kRight) / 2, kBottom + 38, "middle",
-                moves ? "Time of a frame, host and GPU, median, ms"
-                      : "GPU time of a frame, median, ms");
-    svg += fmt::format("<g transform=\"translate(14 {}) rotate(-90)\">", (kTop + kLane) / 2);
-    return svg + text(0, 0, "middle", "FLIP over the mirrors") + "</g>";
-}
-
 /// Returns the front as a staircase: the least error for each time.
 std::string stairs(std::vector<Point> points) {
     std::erase_if(points, [](const Point& point) { return !point.front; });
     std::ranges::sort(
         points, [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y > b.y; });
     if (points.empty()) return "";
-    std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kTop);
+    std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kFrame.top);
     for (const Point& point : points) path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
-    return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kRight) + "\"/>";
+    return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kFrame.right) + "\"/>";
 }
 
 /// Returns the interval of a row's time as a line.
@@ -101,8 +213,8 @@ Box place_label(const Point& point, const std::vector<Box>& taken) {
             const double x = first != point.front ? point.x + 9 : point.x - 9 - width;
             const double y = point.y + rise * kLine;
             box = {x, y - kLine / 2, x + width, y + kLine / 2};
-            const bool inside = box.x0 >= kLeft && box.x1 <= kRight && box.y0 >= kTop &&
-                                box.y1 <= kBottom;
+            const bool inside = box.x0 >= kFrame.left && box.x1 <= kFrame.right &&
+                                box.y0 >= kFrame.top && box.y1 <= kFrame.bottom;
             if (inside &&
                 std::ranges::none_of(taken, [&](const Box& other) { return box.meets(other); }))
                 return box;
@@ -126,6 +238,27 @@ std::string labels(const std::vector<Point>& points) {
 
 } // namespace
 
+std::string line_plot(const LinePlot& plot) {
+    std::vector<double> positive;
+    bool any = false;
+    for (const PlotLine& line : plot.lines)
+        for (const double y : line.y) {
+            any |= std::isfinite(y);
+            if (std::isfinite(y) && y > 0) positive.push_back(y);
+        }
+    if (!any) return "";
+    const Scale y = log_scale(positive, kChart.lane - 6, kChart.top);
+    std::string drawn = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)",
+                                    kChart.width, kChart.height, html_escaped(plot.says));
+    std::vector<Tick> x_ticks;
+    for (const double value : plot.x_ticks) x_ticks.push_back({value, x_place(plot, value)});
+    drawn += kChart.axes(x_ticks, placed(y, y_ticks(y)), plot.x_name, plot.y_name);
+    const double count = static_cast<double>(plot.lines.size());
+    for (std::size_t k = 0; k < plot.lines.size(); ++k)
+        drawn += path_of(plot, plot.lines[k], y, 0.3 + 0.7 * static_cast<double>(k + 1) / count);
+    return drawn + names(plot, y) + "</svg>";
+}
+
 std::string plot(const Comparison& comparison) {
     std::vector<double> times, errors;
     for (const Row& row : comparison.rows) {
@@ -134,22 +267,27 @@ std::string plot(const Comparison& comparison) {
         if (row.error.flip > 0) errors.push_back(row.error.flip);
     }
     if (times.empty()) return "";
-    const Scale x = svg::log_scale(times, kLeft, kRight);
-    const Scale y = svg::log_scale(errors, kLane - 8, kTop);
+    const Scale x = log_scale(times, kFrame.left, kFrame.right);
+    const Scale y = log_scale(errors, kFrame.lane - 8, kFrame.top);
     std::vector<Point> points;
     for (const Row& row : comparison.rows) {
         if (!can_be_placed(row)) continue;
         const measure::Interval& ci95 = row.time_ms().ci95;
         points.push_back({x(row.time_ms().median),
-                          row.error.flip > 0 ? y(row.error.flip) : (kLane + kBottom) / 2,
-                          std::max(x(ci95.low), kLeft), std::min(x(ci95.high), kRight), &row,
-                          measure::on_front(comparison, row)});
+                          row.error.flip > 0 ? y(row.error.flip) : kFrame.zero(),
+                          std::max(x(ci95.low), kFrame.left), std::min(x(ci95.high), kFrame.right),
+                          &row, measure::on_front(comparison, row)});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"
         R"(against FLIP; the figures are in the table of every row">)",
-        kWidth, kHeight);
-    svg += axes(x, y, !errors.empty(), points.front().row->moves) + stairs(points);
+        kFrame.width, kFrame.height);
+    svg += kFrame.axes(placed(x, ticks(x)),
+                       placed(y, errors.empty() ? std::vector<double>() : ticks(y)),
+                       points.front().row->moves ? "Time of a frame, host and GPU, median, ms"
+                                                 : "GPU time of a frame, median, ms",
+                       "FLIP over the mirrors") +
+           stairs(points);
     for (const Point& point : points) svg += interval(point);
     for (const Point& point : points) svg += mark(point);
     return svg + labels(points) + "</svg>";

@@ -1,16 +1,34 @@
 #pragma once
 
 #include "report/comparison.hpp"
-#include "report/encoded.hpp"
 #include "report/write.hpp"
 
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 namespace catoptric::report {
+
+/// Pictures of a comparison as PNG. Each is encoded once, however often the page is written.
+struct EncodedPictures {
+    struct OfRow {
+        int pictured = -1;   ///< Row::pictured at the time of encoding
+        std::string picture; ///< picture as displayed
+        std::string error;   ///< heat map of its FLIP error; empty if it has none
+        std::string causes;  ///< picture by cause; empty if causes are not known
+        std::string worst;   ///< picture at its worst view so far; empty if no view was drawn
+        std::optional<std::size_t> worst_view;
+    };
+    std::string reference; ///< empty if the reference was not rendered
+    std::vector<OfRow> rows;
+};
+
+/// Encodes pictures that are new since the last call. Rows are added, show a later frame or get
+/// causes, and their worst views may change. Writes the new pictures into the folder `images`,
+/// unless it is empty.
+void encode_new(EncodedPictures& pictures, const Comparison& comparison,
+                const std::filesystem::path& images = {});
 
 /// Returns rows.csv of several comparisons under one header.
 std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which);
@@ -28,17 +46,9 @@ public:
     void write(const Comparison& comparison);
 
 private:
-    friend class ScenesWriter;
-    /// Encodes and writes the pictures that are new.
-    void write_pictures(const Comparison& comparison);
-
     std::filesystem::path folder_;
     CsvColumns csv_;
     EncodedPictures pictures_;
-    bool has_reference_ = false; ///< whether the reference's picture is written
-    std::vector<int> written_;   ///< by row: Row::pictured of the pictures that are written
-    std::set<std::size_t> rows_with_causes_;        ///< rows whose picture by cause is written
-    std::vector<std::optional<std::size_t>> worst_; ///< by row: view whose picture is written
 };
 
 /// Data of one report on several scenes.
@@ -70,15 +80,11 @@ public:
     const Scenes& scenes() const { return scenes_; }
 
 private:
-    struct Section {
-        explicit Section(const std::filesystem::path& folder) : writer(folder) {}
-        Writer writer; ///< writer of the scene's pictures
-        std::string html;
-    };
     std::filesystem::path folder_;
     CsvColumns csv_;
     Scenes scenes_;
-    std::vector<Section> sections_;
+    std::vector<EncodedPictures> pictures_; ///< by scene
+    std::vector<std::string> sections_;     ///< by scene: html_section
 };
 
 /// Returns the files that a writer may put into its folder, relative to it, for rows with these

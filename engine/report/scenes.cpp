@@ -1,6 +1,5 @@
 // Writes one report on several scenes.
-#include "report/encoded.hpp"
-#include "report/html_text.hpp"
+#include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/report.hpp"
 #include "report/text.hpp"
@@ -8,12 +7,6 @@
 #include <algorithm>
 
 namespace catoptric::report {
-
-namespace {
-
-std::string title_of(const Scenes& scenes) { return joined(scenes.asked, ", "); }
-
-} // namespace
 
 bool Scenes::is_complete() const {
     return list.size() == asked.size() && std::ranges::all_of(list, &Comparison::complete);
@@ -78,7 +71,7 @@ std::string to_html(const Scenes& scenes, const std::vector<std::string>& sectio
     content += "</ul></nav>\n";
     for (std::size_t i = 0; i < sections.size(); ++i)
         content += "<div id=\"" + section_of(scenes.list[i]) + "\">" + sections[i] + "</div>\n";
-    return html_page(title_of(scenes), content);
+    return html_page(joined(scenes.asked, ", "), content);
 }
 
 } // namespace catoptric::report

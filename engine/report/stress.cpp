@@ -1,7 +1,8 @@
 #include "report/stress.hpp"
 
 #include "core/file.hpp"
-#include "report/html_text.hpp"
+#include "report/html.hpp"
+#include "report/json.hpp"
 #include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -12,7 +13,34 @@ namespace catoptric::report {
 
 namespace {
 
-std::string figure(double value) { return fmt::format("{:.3g}", value); }
+Json to_json(const StressRow& row) {
+    Json json{{"id", row.id},
+              {"stimulus", row.stimulus},
+              {"property", row.property},
+              {"verdict", name_of(row.verdict)},
+              {"remark", row.remark}};
+    const StressCase* worst = row.worst();
+    json["measured"] = worst ? number(worst->measured) : Json();
+    json["threshold"] = worst ? number(worst->limit) : Json();
+    json["cases"] = list_json(row.cases, [](const StressCase& one) {
+        return Json{{"what", one.what},
+                    {"measured", number(one.measured)},
+                    {"threshold", number(one.limit)},
+                    {"holds", one.holds()},
+                    {"quality", one.is_quality}};
+    });
+    json["pictures"] = list_json(row.pictures, [](const StressPicture& picture) {
+        return "images/" + picture.name + ".png";
+    });
+    json["seconds"] = number(row.seconds);
+    json["not_run"] = list_json(row.not_run, [](const NotRun& part) {
+        return Json{{"what", part.what}, {"why", part.why}};
+    });
+    json["turned_red_by"] = row.turned_red_by;
+    return json;
+}
+
+std::string short_text(double value) { return fmt::format("{:.3g}", value); }
 
 /// Returns the worst case, the parts that are not covered and those that could not be run. If
 /// nothing was run, returns the reason.
@@ -30,21 +58,15 @@ std::string words_of(const StressRow& row) {
 /// Returns the table with one line a property: its worst case and the threshold.
 Table table_of(const Stress& stress) {
     Table table{"Properties",
-                {{"Id", false},
-                 {"Verdict", false},
-                 {"Measured"},
-                 {"Threshold"},
-                 {"Stimulus", false},
-                 {"Property", false},
-                 {"Worst case", false},
-                 {"Turned red by", false}},
-                {},
-                {},
-                {}};
+                {text_column("Id"), text_column("Verdict"), "Measured", "Threshold",
+                 text_column("Stimulus"), text_column("Property"), text_column("Worst case"),
+                 text_column("Turned red by")},
+                ""};
     for (const StressRow& row : stress.rows) {
         const StressCase* worst = row.worst();
-        table.rows.push_back({row.id, name_of(row.verdict), worst ? figure(worst->measured) : "–",
-                              worst ? figure(worst->limit) : "–", row.stimulus, row.property,
+        table.rows.push_back({row.id, name_of(row.verdict),
+                              worst ? short_text(worst->measured) : "–",
+                              worst ? short_text(worst->limit) : "–", row.stimulus, row.property,
                               words_of(row), row.turned_red_by});
     }
     return table;
@@ -65,6 +87,23 @@ std::string lead_of(const Stress& stress) {
 
 std::string incomplete_text(const Stress& stress) {
     return stress.complete ? "" : incomplete_text(stress.rows.size(), stress.asked, stress.stopped);
+}
+
+std::string to_json(const Stress& stress) {
+    Json json{{"schema", "catoptric/stress/1"},
+              {"version", stress.version},
+              {"commit", stress.commit},
+              {"command", stress.command},
+              {"complete", stress.complete}};
+    if (!stress.complete) {
+        json["incomplete"] = incomplete_text(stress);
+        json["rows_asked"] = stress.asked;
+    }
+    json["device"] = device_json(stress.device);
+    json["size"] = Json::array({stress.width, stress.height});
+    json["seed"] = stress.seed;
+    json["rows"] = list_json(stress.rows, [](const StressRow& row) { return to_json(row); });
+    return written(json);
 }
 
 std::string to_html(const Stress& stress) {
@@ -96,10 +135,8 @@ std::string to_html(const Stress& stress) {
     html += "</tbody></table></div></section>\n";
     for (const StressRow& row : stress.rows)
         for (const StressPicture& picture : row.pictures)
-            html += fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" "
-                                "src=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                                picture.width, picture.height, html_escaped(picture.name),
-                                data_uri(picture.png), html_escaped(picture.name));
+            html += figure(picture.width, picture.height, picture.png, picture.name, picture.name) +
+                    "\n";
     return html + "</main></body></html>\n";
 }
 

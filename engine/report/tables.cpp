@@ -10,6 +10,7 @@
 #include "report/text.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace catoptric::report {
 
@@ -21,13 +22,6 @@ std::string nothing() { return std::string(kNothing); }
 std::string interval_text(const measure::Summary& times, int decimals) {
     if (!times.ci95.is_known()) return nothing();
     return fixed(times.ci95.low, decimals) + "–" + fixed(times.ci95.high, decimals);
-}
-
-/// Returns the device's name without the driver's additions in brackets: "llvmpipe" for "llvmpipe
-/// (LLVM 15.0.6, 256 bits)".
-std::string short_device_name(const Comparison& comparison) {
-    const std::string& name = comparison.device.name;
-    return name.substr(0, name.find(" ("));
 }
 
 /// Returns places as "3" or "3–5".
@@ -69,14 +63,11 @@ std::vector<std::string> measured(const Comparison& comparison, const Row& row, 
 std::string seed_note(const Comparison& comparison) {
     std::string note =
         "Left: the seed report, frames per second in a browser on a GeForce GTX 770; R by its "
-        "formula "
-        "for four mirrors. Right: this run; R counted in the executed plan, a cube counted once, "
-        "draws "
-        "with every face; ms the median of the rounds' medians and its 95 % interval; place: from "
-        "the fastest, rows that tie share one; FPS = 1000 / ms; errors "
-        "against the reference over the pixels whose first hit is a mirror, off the share of these "
-        "in which a channel differs by more than .02; first order leaves out "
-        "mirrors seen in mirrors.";
+        "formula for four mirrors. Right: this run; R counted in the executed plan, a cube counted "
+        "once, draws with every face; ms the median of the rounds' medians and its 95 % interval; "
+        "place: from the fastest, rows that tie share one; FPS = 1000 / ms; errors against the "
+        "reference over the pixels whose first hit is a mirror, off the share of these in which a "
+        "channel differs by more than .02; first order leaves out mirrors seen in mirrors.";
     if (comparison.scene.mirrors != measure::kSeedMirrors)
         note += " This scene has " + std::to_string(comparison.scene.mirrors) +
                 " mirrors, so R cannot be the report's.";
@@ -106,14 +97,7 @@ std::string cell(const measure::MetricColumn& column, const measure::Value& valu
     if (const auto* mark = std::get_if<bool>(&value)) return *mark ? "yes" : "no";
     const auto* number = std::get_if<double>(&value);
     if (number == nullptr) return nothing(); // the value is more than one number
-    switch (column.style) {
-    case Style::fixed: return fixed(*number, column.decimals);
-    case Style::percent: return fixed(100 * *number, column.decimals);
-    case Style::mebibytes: return mebibytes(static_cast<std::uint64_t>(*number));
-    case Style::times: return fixed(*number, decimals);
-    case Style::own_times: return ms_text(*number);
-    default: return error_text(*number);
-    }
+    return number_text(*number, column, decimals);
 }
 
 /// Column of a metric. For metrics of a difference, `mask` is the mask of the column.
@@ -160,7 +144,7 @@ std::vector<FigureColumn> figure_columns(measure::MetricTable table, const Compa
 }
 
 void add_columns(Table& table, const std::vector<FigureColumn>& columns) {
-    for (const FigureColumn& column : columns) table.columns.push_back({column.title()});
+    for (const FigureColumn& column : columns) table.columns.emplace_back(column.title());
 }
 
 std::vector<std::string> cells_of(const Row& row, const std::vector<FigureColumn>& columns,
@@ -171,102 +155,136 @@ std::vector<std::string> cells_of(const Row& row, const std::vector<FigureColumn
     return cells;
 }
 
+/// Returns the technique as the user would write it. Knobs with default values are left out.
+std::string technique_text(const PlanEntry& entry) {
+    std::vector<std::string> changed;
+    for (const Setting& setting : entry.settings)
+        if (setting.changed) changed.push_back(setting.name + "=" + setting.text);
+    return entry.technique + (changed.empty() ? "" : ":" + joined(changed, ","));
+}
+
+struct Words {
+    std::string_view id, text;
+};
+
+constexpr Words kWords[] = {
+    {"normal-texture", "surfaces are as smooth as their triangles"},
+    {"occlusion-texture", "left out"},
+    {"clearcoat", "left out"},
+    {"sheen", "left out"},
+    {"anisotropy", "left out"},
+    {"iridescence", "left out"},
+    {"blend-as-mask", "there or not there, cut at half their alpha"},
+    {"specular-left-out", "drawn without a highlight: its diffuse part alone"},
+    {"indirect-left-out", "light from one diffuse surface to another is not computed; --ambient "
+                          "stands in for it"},
+    {"environment-unshadowed", "lit by the whole environment, whatever stands in its way"},
+    {"rough-metal", "drawn as diffuse with the metal's colour"},
+    {"rough-glass", "drawn as diffuse"},
+    {"glass-as-diffuse", "its diffuse part is drawn"},
+    {"glass-shadow", "glass casts the full shadow of an opaque surface"},
+    {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
+                          "--dielectric-mirrors makes mirrors of them"},
+    {"skin", "posed by its joints at rest"},
+    {"morph", "weights at their defaults"},
+    {"points-lines", "left out"},
+    {"other-animations", "left out; --animation chooses another"},
+    {"missing-image", "drawn with the factor alone"},
+    {"missing-material", "drawn grey"},
+    {"lights-left-out", "the strongest are kept"},
+    {"material-extension", "left out"},
+    {"added-studio", "lit by a built-in environment, since nothing else lights"},
+    {"added-camera", "seen from the front right and above, a closed room from inside"},
+};
+
 } // namespace
 
+std::string number_text(double value, const measure::MetricColumn& column, int decimals) {
+    using measure::Style;
+    switch (column.style) {
+    case Style::fixed: return fixed(value, column.decimals);
+    case Style::percent: return fixed(100 * value, column.decimals);
+    case Style::mebibytes: return mebibytes(static_cast<std::uint64_t>(value));
+    case Style::times: return fixed(value, decimals);
+    case Style::own_times: return ms_text(value);
+    default: return error_text(value);
+    }
+}
+
+Column text_column(const char* title) {
+    Column column(title);
+    column.is_number = false;
+    return column;
+}
+
 Table seed_table(const Comparison& comparison) {
+    // "llvmpipe" for "llvmpipe (LLVM 15.0.6, 256 bits)"
+    const std::string device = comparison.device.name.substr(0, comparison.device.name.find(" ("));
     Table table{"The seed report's Table 1, measured again",
-                {{"Implementation", false},
-                 {"i"},
-                 {"their R"},
-                 {"FPS, GTX 770"},
-                 {"ms, GTX 770"},
-                 {"Here", false},
-                 {"R"},
-                 {"Draws"},
-                 {"ms, " + short_device_name(comparison)},
-                 {"95 %"},
-                 {"Place"},
-                 {"FPS, " + short_device_name(comparison)},
-                 {"FLIP"},
-                 {"off, %"},
-                 {"MAE"},
-                 {"rmse"},
-                 {"FLIP, first order"}},
-                {},
-                {},
+                {text_column("Implementation"), "i", "their R", "FPS, GTX 770", "ms, GTX 770",
+                 text_column("Here"), "R", "Draws", "ms, " + device, "95 %", "Place",
+                 "FPS, " + device, "FLIP", "off, %", "MAE", "rmse", "FLIP, first order"},
                 seed_note(comparison)};
     const int decimals = ms_decimals(comparison);
     for (const measure::SeedRow& seed : measure::kSeedTable) {
-        std::vector<std::string> cells = theirs(seed);
-        const Row* row = ours(comparison, seed);
+        std::vector<std::string>& cells = table.rows.emplace_back(theirs(seed));
         std::vector<std::string> right{"not in this run"};
-        if (row != nullptr) right = measured(comparison, *row, decimals);
-        right.resize(table.columns.size() - cells.size(), nothing());
+        if (const Row* row = ours(comparison, seed)) right = measured(comparison, *row, decimals);
         cells.insert(cells.end(), right.begin(), right.end());
-        table.rows.push_back(std::move(cells));
+        cells.resize(table.columns.size(), nothing());
     }
     return table;
 }
 
 Table rows_table(const Comparison& comparison) {
     Table table{"Every row, times on " + comparison.device.name,
-                {{"Row", false}, {"Place"}},
-                {},
-                {},
+                {text_column("Row"), "Place"},
                 "A row's name leaves out knobs that nobody set. Place: in the order of time, from "
-                "the fastest; rows that tie share one. Without another word, errors "
-                "are over the pixels whose first hit is a mirror; off: a channel differs by more "
-                "than .02. rmse, light edges and rest: of pixels that looked within a texel of a "
-                "light's outline, and of the others; their squares add up to that of rmse. Longest "
-                "line: of pixels that are off, in pixels. wall: submit to fence; "
-                "cpu: of all the process's threads; record: filling the command buffer; MiB: the "
-                "frame's images."};
+                "the fastest; rows that tie share one. Without another word, errors are over the "
+                "pixels whose first hit is a mirror; off: a channel differs by more than .02. "
+                "rmse, light edges and rest: of pixels that looked within a texel of a light's "
+                "outline, and of the others; their squares add up to that of rmse. Longest line: "
+                "of pixels that are off, in pixels. wall: submit to fence; cpu: of all the "
+                "process's threads; record: filling the command buffer; MiB: the frame's images."};
     if (measure::find_not_drawn(comparison))
         table.note += " Smooth dielectrics: the pixels whose first hit reflects without being a "
                       "mirror.";
     const std::vector<FigureColumn> columns = figure_columns(measure::MetricTable::rows,
                                                              comparison);
     add_columns(table, columns);
-    table.columns.push_back({"Remark", false});
+    table.columns.push_back(text_column("Remark"));
     const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows) {
-        table.rows.push_back(cells_of(row, columns, decimals));
-        table.rows.back().insert(table.rows.back().begin() + 1,
-                                 places_text(measure::places_in_time(comparison, row)));
-        table.rows.back().push_back(remark(comparison, row));
+        std::vector<std::string>& cells = table.rows.emplace_back(cells_of(row, columns, decimals));
+        cells.insert(cells.begin() + 1, places_text(measure::places_in_time(comparison, row)));
+        cells.push_back(remark(comparison, row));
         table.marked.push_back(measure::on_front(comparison, row));
     }
     return table;
 }
 
 Table mirror_table(const Comparison& comparison) {
-    Table table{
-        "Mirror by mirror", {{"Row", false}}, {}, {}, "FLIP over the pixels of each mirror."};
+    Table table{"Mirror by mirror", {text_column("Row")}, "FLIP over the pixels of each mirror."};
     std::size_t mirrors = 0;
     for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
     for (std::size_t i = 0; i < mirrors; ++i)
-        table.columns.push_back({"Mirror " + std::to_string(MirrorId::at(i).number())});
+        table.columns.push_back("Mirror " + std::to_string(MirrorId::at(i).number()));
     for (const Row& row : comparison.rows) {
-        std::vector<std::string> cells{row.label};
+        std::vector<std::string>& cells = table.rows.emplace_back(1, row.label);
         for (const measure::Difference& error : row.error_per_mirror)
             cells.push_back(error_text(error.flip));
         cells.resize(mirrors + 1, nothing());
-        table.rows.push_back(std::move(cells));
     }
     return table;
 }
 
 Table lookup_table(const Comparison& comparison) {
     Table table{"Where mirrors looked",
-                {{"Row", false}},
-                {},
-                {},
+                {text_column("Row")},
                 "Angle between the looked-up and the true direction from the centre of the capture "
-                "that was looked into, over mirror pixels "
-                "whose reflected ray meets no second mirror, in whichever capture the row looked; "
-                "wrong object: "
-                "the capture shows another one there; unknown and miss: what the search says of "
-                "itself; traced: of "
+                "that was looked into, over mirror pixels whose reflected ray meets no second "
+                "mirror, in whichever capture the row looked; wrong object: the capture shows "
+                "another one there; unknown and miss: what the search says of itself; traced: of "
                 "all mirror pixels."};
     const std::vector<FigureColumn> columns = figure_columns(measure::MetricTable::lookup,
                                                              comparison);
@@ -274,6 +292,40 @@ Table lookup_table(const Comparison& comparison) {
     const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows)
         if (row.lookup) table.rows.push_back(cells_of(row, columns, decimals));
+    return table;
+}
+
+Table plan_table(const Comparison& comparison) {
+    Table table{"Mirror by mirror, what draws it",
+                {text_column("Row"), "Mirror", text_column("Name"), text_column("Technique"),
+                 text_column("Why")},
+                "Rows that are plans. Each of their mirrors has its own technique; the error of "
+                "such a row is not split by cause."};
+    for (const Row& row : comparison.rows) {
+        if (row.technique != "plan") continue;
+        for (const PlanEntry& entry : row.plan)
+            table.rows.push_back({row.label, std::to_string(entry.mirror), entry.name,
+                                  technique_text(entry), entry.why});
+    }
+    return table;
+}
+
+std::string gap_in_words(const std::string& id) {
+    const auto* const known = std::ranges::find(kWords, id, &Words::id);
+    return known == std::end(kWords) ? "" : std::string(known->text);
+}
+
+Table unsupported_table(const SceneFacts& scene) {
+    Table table{
+        "Added, approximated, left out",
+        {text_column("What"), "Count", "Pixels, %", text_column("First"), text_column("Instead")},
+        "What the scene says that is not shown so, and what was added to it, the largest "
+        "share of the picture first. Pixels: share of the picture that shows such a "
+        "material first; none where pixels cannot tell."};
+    for (const UnsupportedFeatureFacts& gap : scene.unsupported)
+        table.rows.push_back({gap.id, std::to_string(gap.count),
+                              gap.pixel_share ? fixed(100 * *gap.pixel_share, 1) : nothing(),
+                              gap.first, gap_in_words(gap.id)});
     return table;
 }
 

@@ -1,26 +1,37 @@
 #pragma once
 
+#include "measure/metric.hpp"
 #include "report/comparison.hpp"
 
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-// Tables of the report as text, before they become Markdown or HTML.
+// Tables and sentences of the report as text, before they become Markdown or HTML. A sentence is
+// left out if the comparison lacks the rows it needs.
 namespace catoptric::report {
 
 struct Column {
+    Column(std::string title) : name(std::move(title)) {}
+    Column(const char* title) : name(title) {}
     std::string name;
     bool is_number = true; ///< right-aligned
 };
+/// Returns a column of text.
+Column text_column(const char* title);
 
 struct Table {
     std::string title;
     std::vector<Column> columns;
-    std::vector<std::vector<std::string>> rows;
-    std::vector<bool> marked; ///< rows to highlight; empty or one entry a row
-    std::string note;         ///< meaning of the columns; may be empty
+    std::string note; ///< meaning of the columns; may be empty
+    std::vector<std::vector<std::string>> rows = {};
+    std::vector<bool> marked = {}; ///< rows to highlight; empty or one entry a row
 };
 
+/// Returns the text of a number in a metric's column. `decimals` is that of times in the table.
+std::string number_text(double value, const measure::MetricColumn& column, int decimals = 0);
 /// Returns a pipe table under its title. Its columns also line up as plain text. Empty if the table
 /// has no rows.
 std::string to_markdown(const Table& table);
@@ -43,6 +54,28 @@ Table unsupported_table(const SceneFacts& scene);
 std::string gap_in_words(const std::string& id);
 /// Returns the error by cause with four lines a row. Empty if no row has causes.
 Table cause_table(const Comparison& comparison);
+/// Returns each row's metrics over the mirrors in drawn views, as median and interval, and its
+/// worst view. Empty if no views were drawn.
+Table views_table(const Comparison& comparison);
+/// Returns the lag of each row at each speed. Empty if no lag was measured.
+Table lag_table(const Comparison& comparison);
+/// Returns the table of how many frames after a cut pass until the picture equals the still
+/// picture. Empty if no lag was measured.
+Table settling_table(const Comparison& comparison);
+
+/// Colour in which pictures show a cause.
+struct CauseColour {
+    std::string_view cause, name;
+    vec3 colour; ///< display space
+};
+
+/// Returns the colours of all causes, in the order of Causes::list. Colour-blind readers can tell
+/// them apart, too (Okabe, Ito).
+std::span<const CauseColour> cause_colours();
+
+/// Returns the row's picture, dark and grey. Each mirror pixel that is off has the colour of the
+/// cause with the largest part of its squared error. The row must have `causes`.
+measure::Picture cause_picture(const Row& row);
 
 /// Fact about the run: name and value.
 struct Fact {
@@ -55,5 +88,23 @@ std::string setup_text(const SetupFacts& setup);
 /// Returns cautions for the reader: a processor as device, a run cut short, rows measured together,
 /// warnings.
 std::vector<std::string> cautions(const Comparison& comparison);
+
+/// Returns the findings of a run. For the seed report's scene they include its statements about its
+/// Table 1 and figures 5 and 7.
+std::vector<std::string> findings(const Comparison& comparison);
+std::string findings_title(const Comparison& comparison);
+
+/// Returns one sentence that names the device and says whether ray tracing beats the other rows on
+/// it. If all rows are of one kind, it names the fastest and the closest row.
+std::string verdict_in_words(const Comparison& comparison);
+
+/// Returns what the run says about the seed report's "no difference" between its parts one and two,
+/// and which rows have no lag.
+std::optional<std::string> lag_in_words(const Comparison& comparison);
+/// Returns the order of the rows over drawn views by each headline metric, and which of them tie.
+std::vector<std::string> views_in_words(const Comparison& comparison);
+
+/// Returns the Pareto front in words: the rows on it, and which row beats each of the others.
+std::vector<std::string> front_in_words(const Comparison& comparison);
 
 } // namespace catoptric::report

@@ -87,4 +87,18 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
     return fmt::format("{}", fmt::join(parts, between));
 }
 
+std::string labels_of(const std::vector<const Row*>& rows, std::string_view between) {
+    std::vector<std::string> labels;
+    for (const Row* row : rows) labels.push_back(row->label);
+    return joined(labels, between);
+}
+
+std::string view_text(const Comparison& comparison, const measure::WorstView& worst) {
+    const measure::View& view = comparison.views.at(worst.view);
+    return fmt::format("view {} of {}: --camera {} --time {}", worst.view + 1,
+                       comparison.views.size(), view.camera.name, view.time);
+}
+
+std::string worst_image(const std::string& image) { return "worst-" + image + ".png"; }
+
 } // namespace catoptric::report

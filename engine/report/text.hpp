@@ -33,5 +33,11 @@ std::string incomplete_text(std::size_t rows, std::size_t asked,
 /// Returns the same for a comparison, its lag included. Empty if it is complete.
 std::string incomplete_text(const Comparison& comparison);
 std::string joined(const std::vector<std::string>& parts, std::string_view between);
+std::string labels_of(const std::vector<const Row*>& rows, std::string_view between = ", ");
+/// Returns "view 3 of 30: --camera ... --time ...", the options with which `render` shows the view
+/// again.
+std::string view_text(const Comparison& comparison, const measure::WorstView& worst);
+/// Returns the file name of a row's picture at its worst view, from its Row::image.
+std::string worst_image(const std::string& image);
 
 } // namespace catoptric::report

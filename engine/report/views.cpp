@@ -1,6 +1,8 @@
-#include "report/views.hpp"
-
+// Errors over drawn views: JSON, table and sentences.
 #include "measure/views.hpp"
+
+#include "report/json.hpp"
+#include "report/tables.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
@@ -23,14 +25,6 @@ std::vector<Figure> figures() {
     return list;
 }
 
-std::string number_text(double value, const measure::MetricColumn& column) {
-    switch (column.style) {
-    case measure::Style::fixed: return fixed(value, column.decimals);
-    case measure::Style::percent: return fixed(100 * value, column.decimals);
-    default: return error_text(value);
-    }
-}
-
 std::string cell(const Row& row, const Figure& figure) {
     const measure::OverViews over = measure::over_views(row, measure::masks().front(),
                                                         *figure.quantity);
@@ -45,12 +39,6 @@ std::string cell(const Row& row, const Figure& figure) {
 std::string_view title_of(const measure::Metric& quantity) {
     const std::string_view title = quantity.columns.front().title;
     return title.substr(0, title.find(','));
-}
-
-std::string labels_of(const std::vector<const Row*>& rows) {
-    std::vector<std::string> labels;
-    for (const Row* row : rows) labels.push_back(row->label);
-    return joined(labels, ", ");
 }
 
 std::string pairs_of(const measure::Order::Pairs& list) {
@@ -69,22 +57,45 @@ std::string ties_text(const measure::Order& order) {
     return text;
 }
 
-} // namespace
-
-std::string view_text(const Comparison& comparison, const measure::WorstView& worst) {
-    const measure::View& view = comparison.views.at(worst.view);
-    return fmt::format("view {} of {}: --camera {} --time {}", worst.view + 1,
-                       comparison.views.size(), view.camera.name, view.time);
+/// Returns all metrics that are one number, over one mask.
+Json figures_json(const Row& row, const measure::RowMask& mask) {
+    Json figures = Json::object();
+    for (const measure::Metric& quantity : measure::difference_metrics()) {
+        if (!measure::is_number(quantity)) continue;
+        const measure::OverViews over = measure::over_views(row, mask, quantity);
+        figures[std::string(quantity.name)] = {{"median", number(over.median)},
+                                               {"ci95", interval_json(over.ci95)},
+                                               {"values", value_json(over.values)}};
+    }
+    return figures;
 }
 
-std::string worst_image(const std::string& image) { return "worst-" + image + ".png"; }
+} // namespace
+
+Json views_json(const Comparison& comparison) {
+    return list_json(comparison.views, [](const measure::View& view) {
+        return Json{
+            {"camera", camera_json(view.camera)}, {"time", number(view.time)}, {"seed", view.seed}};
+    });
+}
+
+Json views_json(const Comparison& comparison, const Row& row) {
+    if (row.views.empty()) return nullptr;
+    Json json = Json::object();
+    for (const measure::RowMask& mask : measure::masks())
+        json[std::string(mask.field)] = figures_json(row, mask);
+    json["worst"] = nullptr;
+    if (row.worst)
+        json["worst"] = {{"view", row.worst->view},
+                         {"flip", number(row.views[row.worst->view].error.flip)},
+                         {"image", image_path(comparison, worst_image(row.image))}};
+    return json;
+}
 
 Table views_table(const Comparison& comparison) {
     Table table{
         fmt::format("Over {} views", comparison.views.size()),
-        {{"Row", false}},
-        {},
-        {},
+        {text_column("Row")},
         "Cameras drawn from the seed that see a mirror, at drawn instants where the scene "
         "moves; each row's picture as render takes it. Over the pixels whose first hit is "
         "a mirror: median over the views, and its 95 % interval by order statistics. Worst: "
@@ -92,9 +103,9 @@ Table views_table(const Comparison& comparison) {
     if (comparison.views.empty()) return table;
     const std::vector<Figure> columns = figures();
     for (const Figure& figure : columns)
-        table.columns.push_back({std::string(figure.column->title)});
-    table.columns.push_back({"Worst FLIP"});
-    table.columns.push_back({"Worst view", false});
+        table.columns.emplace_back(std::string(figure.column->title));
+    table.columns.emplace_back("Worst FLIP");
+    table.columns.push_back(text_column("Worst view"));
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
         for (const Figure& figure : columns) cells.push_back(cell(row, figure));

@@ -1,9 +1,11 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "measure/heat.hpp"
 #include "measure/picture_file.hpp"
-#include "report/encoded.hpp"
+#include "report/html.hpp"
 #include "report/report.hpp"
-#include "report/views.hpp"
+#include "report/tables.hpp"
+#include "report/text.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -28,46 +30,65 @@ void create_folder(const fs::path& folder) {
           ": files cannot be created there: ", std::generic_category().message(reason));
 }
 
-void Writer::write_pictures(const Comparison& comparison) {
-    fs::path images = folder_ / "images";
+namespace {
+
+/// Returns the folder of a comparison's pictures, which is made.
+fs::path make_images(const fs::path& folder, const Comparison& comparison) {
+    fs::path images = folder / "images";
     if (!comparison.images.empty()) images /= comparison.images;
     create_folder(images);
-    encode_new(pictures_, comparison);
-    if (!has_reference_ && !pictures_.reference.empty()) {
-        write_file(images / "reference.png", pictures_.reference);
-        has_reference_ = true;
-    }
-    written_.resize(comparison.rows.size(), -1);
+    return images;
+}
+
+/// Writes the report on `shown`, one comparison or several scenes.
+template <class Shown>
+void write_texts(const fs::path& folder, const Shown& shown, CsvColumns csv,
+                 const std::string& html) {
+    write_file(folder / "rows.csv", report::to_csv(shown, csv));
+    write_file(folder / "report.md", report::to_markdown(shown));
+    write_file(folder / "report.html", html);
+    // Written last, so that all files it names exist when a reader sees it.
+    write_file(folder / "report.json", report::to_json(shown));
+}
+
+} // namespace
+
+void encode_new(EncodedPictures& pictures, const Comparison& comparison, const fs::path& images) {
+    const auto encode = [&](std::string& png, const measure::Picture& picture,
+                            const std::string& file) {
+        std::string bytes = picture.pixels.empty() ? "" : measure::png_bytes(picture);
+        if (!images.empty() && !bytes.empty()) write_file(images / file, bytes);
+        png = std::move(bytes); // a picture that could not be written stays new
+    };
+    if (pictures.reference.empty())
+        encode(pictures.reference, comparison.reference_display, "reference.png");
+    pictures.rows.resize(comparison.rows.size());
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
-        if (row.hdr.pixels.empty() || written_[i] == row.pictured) continue;
-        measure::write_exr(row.hdr, images / (row.image + ".exr"));
-        write_file(images / (row.image + ".png"), pictures_.rows[i].picture);
-        write_file(images / (row.image + "-error.png"), pictures_.rows[i].error);
-        written_[i] = row.pictured;
-    }
-    worst_.resize(comparison.rows.size());
-    for (std::size_t i = 0; i < worst_.size(); ++i) {
-        const EncodedPictures::OfRow& encoded = pictures_.rows[i];
-        if (worst_[i] == encoded.worst_view) continue;
-        write_file(images / worst_image(comparison.rows[i].image), encoded.worst);
-        worst_[i] = encoded.worst_view;
-    }
-    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
-        if (pictures_.rows[i].causes.empty() || rows_with_causes_.contains(i)) continue;
-        write_file(images / ("causes-" + comparison.rows[i].image + ".png"),
-                   pictures_.rows[i].causes);
-        rows_with_causes_.insert(i);
+        EncodedPictures::OfRow& encoded = pictures.rows[i];
+        if (encoded.pictured != row.pictured) {
+            if (!images.empty() && !row.hdr.pixels.empty())
+                measure::write_exr(row.hdr, images / (row.image + ".exr"));
+            encode(encoded.picture, row.display, row.image + ".png");
+            const bool has_map = !row.flip_map.empty();
+            encode(encoded.error,
+                   has_map ? measure::heat(row.flip_map, row.display.width, row.display.height)
+                           : measure::Picture(),
+                   row.image + "-error.png");
+            encoded.pictured = row.pictured;
+        }
+        if (row.causes && encoded.causes.empty())
+            encode(encoded.causes, cause_picture(row), "causes-" + row.image + ".png");
+        if (row.worst && encoded.worst_view != row.worst->view) {
+            encode(encoded.worst, row.worst->display, worst_image(row.image));
+            encoded.worst_view = row.worst->view;
+        }
     }
 }
 
 void Writer::write(const Comparison& comparison) {
-    write_pictures(comparison);
-    write_file(folder_ / "rows.csv", to_csv(comparison, csv_));
-    write_file(folder_ / "report.md", to_markdown(comparison));
-    write_file(folder_ / "report.html", to_html(comparison, pictures_));
-    // Written last, so that all files it names exist when a reader sees it.
-    write_file(folder_ / "report.json", to_json(comparison));
+    encode_new(pictures_, comparison, make_images(folder_, comparison));
+    write_texts(folder_, comparison, csv_, to_html(comparison, pictures_));
 }
 
 std::vector<fs::path> files_of(const std::vector<std::string>& images, const std::string& folder) {
@@ -89,18 +110,15 @@ ScenesWriter::ScenesWriter(fs::path folder, const std::vector<std::string>& scen
 }
 
 void ScenesWriter::write(std::size_t index, const Comparison& comparison) {
-    if (sections_.size() == index) sections_.emplace_back(folder_);
-    if (scenes_.list.size() == index) scenes_.list.emplace_back();
-    Section& section = sections_.at(index);
-    section.writer.write_pictures(comparison);
-    section.html = html_section(comparison, section.writer.pictures_);
-    scenes_.list.at(index) = without_pictures(comparison);
-    std::vector<std::string> pages;
-    for (const Section& one : sections_) pages.push_back(one.html);
-    write_file(folder_ / "rows.csv", to_csv(scenes_, csv_));
-    write_file(folder_ / "report.md", to_markdown(scenes_));
-    write_file(folder_ / "report.html", to_html(scenes_, pages));
-    write_file(folder_ / "report.json", to_json(scenes_));
+    if (scenes_.list.size() == index) {
+        scenes_.list.emplace_back();
+        pictures_.emplace_back();
+        sections_.emplace_back();
+    }
+    encode_new(pictures_.at(index), comparison, make_images(folder_, comparison));
+    sections_[index] = html_section(comparison, pictures_[index]);
+    scenes_.list[index] = without_pictures(comparison);
+    write_texts(folder_, scenes_, csv_, to_html(scenes_, sections_));
 }
 
 void write(const Comparison& comparison, const fs::path& folder, CsvColumns csv) {

@@ -1,6 +1,6 @@
 // Tests of the report's section on lag (how far a moving picture is behind its still picture), with
 // made-up figures.
-#include "report/line_plot.hpp"
+#include "report/plot.hpp"
 #include "report_sample.hpp"
 #include "support/special_values.hpp"
 

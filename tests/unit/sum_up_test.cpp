@@ -2,7 +2,6 @@
 // error.
 #include "measure/causes.hpp"
 
-#include "report/causes.hpp"
 #include "report/tables.hpp"
 #include "report_sample.hpp"
 #include "support/refusal.hpp"

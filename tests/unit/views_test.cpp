@@ -2,7 +2,8 @@
 #include "measure/views.hpp"
 
 #include "app/views.hpp"
-#include "report/views.hpp"
+#include "report/tables.hpp"
+#include "report/text.hpp"
 #include "report_sample.hpp"
 #include "support/refusal.hpp"
 #include "support/scenes.hpp"

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "report/report.hpp"
+
+#include <string>
+#include <string_view>
+
+// Building blocks of a self-contained HTML page.
+namespace catoptric::report {
+
+/// Returns text escaped for use between tags and inside quoted attributes.
+std::string html_escaped(std::string_view text);
+/// Returns a PNG as a data URI for `src`.
+std::string data_uri(std::string_view png);
+
+/// Returns a PNG with a caption, or nothing if `png` is empty.
+std::string figure(int width, int height, const std::string& png, const std::string& alt,
+                   const std::string& caption);
+
+/// Style sheet of the page.
+extern const char* const kStyle;
+
+/// Return report.html with these pictures, the section of one comparison, and a page around
+/// sections.
+std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);
+std::string html_section(const Comparison& comparison, const EncodedPictures& pictures);
+std::string html_page(const std::string& title, const std::string& content);
+/// Returns the prefix of HTML ids in the comparison's section. It is empty if the page has no other
+/// section.
+std::string section_of(const Comparison& comparison);
+
+} // namespace catoptric::report

@@ -1,0 +1,255 @@
+// The lag of rows with history: JSON, tables, sentences and plots.
+#include "report/html.hpp"
+#include "report/json.hpp"
+#include "report/plot.hpp"
+#include "report/tables.hpp"
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace catoptric::report {
+
+namespace {
+
+using measure::Difference;
+using measure::percentile_of;
+
+constexpr auto kFlip = &Difference::flip;
+
+Json to_json(const Settling& settling) {
+    return {{"rmse_settled", number(settling.rmse_settled)},
+            {"max_settled", number(settling.max_settled)},
+            {"rmse", numbers_json(settling.rmse)},
+            {"max", numbers_json(settling.max)}};
+}
+
+/// Adds each headline metric of each instant, and its mean. Names begin with `prefix`.
+void add_figures(Json& json, const std::string& prefix, const std::vector<Difference>& errors) {
+    for (const auto& [name, figure] :
+         {std::pair("flip", &Difference::flip), std::pair("off", &Difference::off),
+          std::pair("mae", &Difference::mae), std::pair("rmse", &Difference::rmse)}) {
+        json[prefix + name + "_mean"] = number(measure::mean_of(errors, figure));
+        json[prefix + name] = numbers_json(measure::figures_of(errors, figure));
+    }
+}
+
+Json to_json(const LagAtSpeed& at) {
+    Json json{{"speed", number(at.speed)}};
+    add_figures(json, "", at.errors);
+    for (const auto& [name, figure] :
+         {std::pair("flip", &Difference::flip), std::pair("rmse", &Difference::rmse)}) {
+        const std::string prefix(name);
+        json[prefix + "_median"] = number(measure::percentile_of(at.errors, figure, .5));
+        json[prefix + "_max"] = number(measure::percentile_of(at.errors, figure, 1));
+    }
+    add_figures(json, "reference_", at.reference_errors);
+    return json;
+}
+
+Json to_json(const LagRow& row) {
+    Json json{{"label", row.label},
+              {"still_frames", row.still_frames},
+              {"restless_stills", row.restless_stills},
+              {"after_black", to_json(row.after_black)},
+              {"after_jump", to_json(row.after_jump)}};
+    add_figures(json, "still_reference_", row.still_reference_errors);
+    json["speeds"] = list_json(row.speeds, [](const LagAtSpeed& at) { return to_json(at); });
+    return json;
+}
+
+std::string speed_text(double speed) { return fmt::format("{:g}x", speed); }
+
+std::string count_text(const std::optional<int>& frames, int cap) {
+    return frames ? std::to_string(*frames) : fmt::format("over {}", cap);
+}
+
+std::string lag_note(const Lag& lag) {
+    std::string note = fmt::format(
+        "The scene's time runs at so many times the clock's, 60 frames a second, over a path of "
+        "{:.3g} s. Errors over the mirrors between the moving picture and the still one of the "
+        "same row and instant (the scene stands until nothing changes any more), mean of {} "
+        "instants; s: when FLIP is largest. Right: FLIP against the reference, moving and still.",
+        lag.path, lag.seconds.size());
+    for (const LagRow& row : lag.rows)
+        if (row.restless_stills > 0)
+            note += fmt::format(" {}: {} stills still changed after {} frames.", row.label,
+                                row.restless_stills, lag.frame_cap);
+    return note;
+}
+
+/// Returns the FLIP of the instants: mean, median and largest.
+std::array<std::string, 3> flips(const LagAtSpeed& at) {
+    return {error_text(measure::mean_of(at.errors, kFlip)),
+            error_text(percentile_of(at.errors, kFlip, .5)),
+            error_text(percentile_of(at.errors, kFlip, 1))};
+}
+
+std::vector<std::string> line_of(const Lag& lag, const LagRow& row, const LagAtSpeed& at) {
+    const auto mean = [&](double Difference::*figure) {
+        return measure::mean_of(at.errors, figure);
+    };
+    const auto flip_to_reference = [](const std::vector<Difference>& errors) {
+        return error_text(measure::mean_of(errors, kFlip));
+    };
+    const auto [flip, median, largest] = flips(at);
+    return {row.label,
+            speed_text(at.speed),
+            flip,
+            fixed(100 * mean(&Difference::off), 2),
+            error_text(mean(&Difference::mae)),
+            error_text(mean(&Difference::rmse)),
+            median,
+            largest,
+            fixed(measure::worst_instant(lag, at), 2),
+            flip_to_reference(at.reference_errors),
+            flip_to_reference(row.still_reference_errors)};
+}
+
+std::string behind(const LagRow& row) {
+    std::vector<std::string> parts;
+    for (const LagAtSpeed& at : row.speeds) {
+        const auto [flip, median, largest] = flips(at);
+        parts.push_back(fmt::format("{} (median {}, largest {}) at {}", flip, median, largest,
+                                    speed_text(at.speed)));
+    }
+    return row.label + " is behind its own still picture by a FLIP of " + joined(parts, ", ");
+}
+
+std::string settles(const LagRow& row, int cap) {
+    const auto counts = [&](const Settling& settling) {
+        return fmt::format("{} by rmse, {} in every pixel", count_text(settling.rmse_settled, cap),
+                           count_text(settling.max_settled, cap));
+    };
+    return fmt::format("after a cut from black it is within 1/255 from frame {}; after a jump of "
+                       "half the path from frame {}",
+                       counts(row.after_black), counts(row.after_jump));
+}
+
+std::string along_path(const Lag& lag, const LagRow& row) {
+    LinePlot plot{.x_name = "instant of the scene, s",
+                  .y_name = "FLIP to the still picture",
+                  .says = "Lag of " + row.label + " along the path, one line a speed",
+                  .x = lag.seconds};
+    for (const double share : {0.0, 0.25, 0.5, 0.75})
+        plot.x_ticks.push_back(lag.seconds.front() + share * lag.path);
+    std::erase_if(plot.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
+    for (const LagAtSpeed& at : row.speeds)
+        plot.lines.push_back({speed_text(at.speed), measure::figures_of(at.errors, kFlip)});
+    return line_plot(plot);
+}
+
+std::string against_speed(const Lag& lag) {
+    LinePlot plot{.x_name = "speed of the scene's time",
+                  .y_name = "FLIP to the still picture, mean",
+                  .says = "Mean lag against speed, one line a row",
+                  .log_x = true};
+    for (const LagAtSpeed& at : lag.rows.front().speeds) plot.x.push_back(at.speed);
+    plot.x_ticks = plot.x;
+    for (const LagRow& row : lag.rows) {
+        PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, {}});
+        for (const LagAtSpeed& at : row.speeds)
+            line.y.push_back(measure::mean_of(at.errors, kFlip));
+    }
+    return line_plot(plot);
+}
+
+std::string after_jump(const Lag& lag) {
+    constexpr std::size_t kShown = 10; // number of frames shown
+    LinePlot plot{.x_name = "frame after a jump of half the path",
+                  .y_name = "rmse to the still picture",
+                  .says = "Error of the frames after a jump, one line a row"};
+    for (const LagRow& row : lag.rows) {
+        PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, row.after_jump.rmse});
+        line.y.resize(std::min(kShown, line.y.size()));
+        for (std::size_t i = plot.x.size(); i < line.y.size(); ++i)
+            plot.x.push_back(static_cast<double>(i + 1));
+    }
+    plot.x_ticks = plot.x;
+    return line_plot(plot);
+}
+
+std::string figure(const std::string& drawing, const std::string& caption) {
+    if (drawing.empty()) return "";
+    return "<figure>" + drawing + "<figcaption>" + html_escaped(caption) + "</figcaption></figure>";
+}
+
+} // namespace
+
+Json to_json(const Lag& lag) {
+    return {{"mask", "mirrors"},
+            {"complete", lag.complete},
+            {"path_seconds", number(lag.path)},
+            {"jump_from", number(lag.jump_from)},
+            {"frame_cap", lag.frame_cap},
+            {"seconds", numbers_json(lag.seconds)},
+            {"without_history", lag.without_history},
+            {"rows", list_json(lag.rows, [](const LagRow& row) { return to_json(row); })}};
+}
+
+Table lag_table(const Comparison& comparison) {
+    Table table{"Lag: the moving scene",
+                {text_column("Row"), "Speed", "FLIP", "off, %", "MAE", "rmse", "FLIP, median",
+                 "FLIP, largest", "s", "to reference, moving", "to reference, still"},
+                ""};
+    if (!comparison.lag) return table;
+    table.note = lag_note(*comparison.lag);
+    for (const LagRow& row : comparison.lag->rows)
+        for (const LagAtSpeed& at : row.speeds)
+            table.rows.push_back(line_of(*comparison.lag, row, at));
+    return table;
+}
+
+Table settling_table(const Comparison& comparison) {
+    Table table{"Lag: frames after a cut",
+                {text_column("Row"), "from black, rmse", "from black, every pixel",
+                 "after a jump, rmse", "after a jump, every pixel"},
+                ""};
+    if (!comparison.lag) return table;
+    const Lag& lag = *comparison.lag;
+    table.note = fmt::format(
+        "The first frame, from 1, from which on the picture is within 1/255 of the still one: by "
+        "the rmse over the mirrors, and in the largest channel difference of any mirror pixel. A "
+        "jump: from t = {:.3g} s to {:.3g} s. Given {} frames.",
+        lag.jump_from, lag.seconds.empty() ? 0 : lag.seconds.front(), lag.frame_cap);
+    for (const LagRow& row : lag.rows)
+        table.rows.push_back({row.label, count_text(row.after_black.rmse_settled, lag.frame_cap),
+                              count_text(row.after_black.max_settled, lag.frame_cap),
+                              count_text(row.after_jump.rmse_settled, lag.frame_cap),
+                              count_text(row.after_jump.max_settled, lag.frame_cap)});
+    return table;
+}
+
+std::optional<std::string> lag_in_words(const Comparison& comparison) {
+    if (!comparison.lag) return {};
+    const Lag& lag = *comparison.lag;
+    std::vector<std::string> sentences;
+    for (const LagRow& row : lag.rows)
+        if (!row.speeds.empty())
+            sentences.push_back(behind(row) + "; " + settles(row, lag.frame_cap));
+    if (!lag.without_history.empty())
+        sentences.push_back("Left out, since their frames read nothing of the frame before and "
+                            "have no lag: " +
+                            joined(lag.without_history, ", "));
+    if (sentences.empty()) return {};
+    return "Lag: the report sees no difference between parts one and two; that holds while the "
+           "scene stands. " +
+           joined(sentences, ". ") + ".";
+}
+
+std::string lag_plots(const Comparison& comparison) {
+    if (!comparison.lag || comparison.lag->rows.empty()) return "";
+    const Lag& lag = *comparison.lag;
+    std::string html = "<section><h2>Lag</h2><div class=\"panels\">";
+    for (const LagRow& row : lag.rows)
+        html += figure(along_path(lag, row), row.label + " along the path, one line a speed");
+    html += figure(against_speed(lag), "Mean over the path against speed");
+    html += figure(after_jump(lag), "Frames after a cut");
+    return html + "</div><p class=\"note\">All against the still picture of the same row and "
+                  "instant, over the mirrors. The lane below is 0.</p></section>\n";
+}
+
+} // namespace catoptric::report
