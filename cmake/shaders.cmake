@@ -6,20 +6,21 @@ set(CATOPTRIC_SPIRV_FOLDER ${PROJECT_BINARY_DIR}/spirv)
 
 function(compile_shader path name)
     string(MAKE_C_IDENTIFIER "spirv_${name}" identifier)
-    set(output ${CATOPTRIC_SPIRV_FOLDER}/${identifier}.h)
+    set(output ${CATOPTRIC_SPIRV_FOLDER}/${identifier}.spv)
     set(defines)
     foreach(define IN LISTS ARGN)
         list(APPEND defines -D${define})
     endforeach()
     add_custom_command(OUTPUT ${output}
         COMMAND Vulkan::glslangValidator --quiet -V --target-env vulkan1.3 ${defines}
-                -I${CATOPTRIC_SHADER_FOLDER} --vn ${identifier} --depfile ${output}.d
+                -I${CATOPTRIC_SHADER_FOLDER} --depfile ${output}.d
                 -o ${output} ${CATOPTRIC_SHADER_FOLDER}/${path}
         MAIN_DEPENDENCY ${CATOPTRIC_SHADER_FOLDER}/${path} DEPFILE ${output}.d
         COMMENT "SPIR-V ${name}" VERBATIM)
-    set_property(GLOBAL APPEND PROPERTY CATOPTRIC_SPIRV_HEADERS ${output})
-    set_property(GLOBAL APPEND_STRING PROPERTY CATOPTRIC_SPIRV_INCLUDES "#include \"${identifier}.h\"\n")
-    set_property(GLOBAL APPEND_STRING PROPERTY CATOPTRIC_SPIRV_ROWS "    {\"${name}\", ${identifier}},\n")
+    set_property(GLOBAL APPEND PROPERTY CATOPTRIC_SPIRV_FILES ${output})
+    set_property(GLOBAL APPEND_STRING PROPERTY CATOPTRIC_SPIRV_WORDS "EMBED(${identifier}, \"${output}\")\n")
+    set_property(GLOBAL APPEND_STRING PROPERTY CATOPTRIC_SPIRV_ROWS
+        "    {\"${name}\", {${identifier}, ${identifier}_end}},\n")
 endfunction()
 
 macro(shader_variant path variant)
@@ -33,27 +34,28 @@ function(embed_shaders target)
     foreach(file IN LISTS files)
         compile_shader(${file} ${file})
     endforeach()
-    get_property(headers GLOBAL PROPERTY CATOPTRIC_SPIRV_HEADERS)
-    get_property(includes GLOBAL PROPERTY CATOPTRIC_SPIRV_INCLUDES)
+    get_property(spirv GLOBAL PROPERTY CATOPTRIC_SPIRV_FILES)
+    get_property(words GLOBAL PROPERTY CATOPTRIC_SPIRV_WORDS)
     get_property(rows GLOBAL PROPERTY CATOPTRIC_SPIRV_ROWS)
+    get_property(embed_macro GLOBAL PROPERTY CATOPTRIC_EMBED_MACRO)
     file(CONFIGURE OUTPUT ${CATOPTRIC_SPIRV_FOLDER}/table.cpp @ONLY CONTENT [[
 #include "gpu/shader.hpp"
 
 #include <cstdint>
 
-@includes@
+@embed_macro@
+@words@
 namespace catoptric::gpu {
 
-namespace {
-const EmbeddedShader kTable[] = {
-@rows@};
-} // namespace
-
-std::span<const EmbeddedShader> embedded_shaders() { return kTable; }
+std::span<const EmbeddedShader> embedded_shaders() {
+    static const EmbeddedShader table[] = {
+@rows@    };
+    return table;
+}
 
 } // namespace catoptric::gpu
 ]])
-    target_sources(${target} PRIVATE ${CATOPTRIC_SPIRV_FOLDER}/table.cpp ${headers})
-    set_source_files_properties(${CATOPTRIC_SPIRV_FOLDER}/table.cpp PROPERTIES OBJECT_DEPENDS "${headers}")
-    target_include_directories(${target} PRIVATE ${CATOPTRIC_SPIRV_FOLDER})
+    target_sources(${target} PRIVATE ${CATOPTRIC_SPIRV_FOLDER}/table.cpp ${spirv})
+    set_source_files_properties(${CATOPTRIC_SPIRV_FOLDER}/table.cpp PROPERTIES
+        OBJECT_DEPENDS "${spirv}" SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

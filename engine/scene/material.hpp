@@ -62,7 +62,7 @@ inline constexpr MaterialFactor kMaterialFactors[] = {
 /// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
 /// this list; a member that is missing here does not compile.
 template <typename Visit>
-void visit_members(const Material& material, Visit&& visit) {
+inline void visit_members(const Material& material, Visit&& visit) {
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
                  metallic, roughness, dielectric_f0, dielectric_f90, alpha, alpha_cutoff,
                  albedo_texture, emission_texture, roughness_texture, light] = material;
