@@ -14,8 +14,8 @@ struct CaptureBudget {
     std::uint32_t most = 0;    ///< mirrors that a frame draws again at most, 1 to `mirrors`
     /// Mirrors drawn in this frame, including those that came into view.
     std::uint32_t drawn = 0;
-    std::uint32_t waiting = 0; ///< mirrors whose captures were put off
-    std::uint32_t longest = 0; ///< frames for which the oldest capture has been put off
+    std::uint32_t waiting = 0; ///< mirrors whose captures had to wait for a later frame
+    std::uint32_t longest = 0; ///< number of frames for which the oldest capture has waited
 
     /// Returns the number of frames within which each waiting capture is drawn, as long as `most`
     /// does not change.

@@ -23,7 +23,8 @@ void last_pictures(Session& session, const Request& request,
 class CauseFinder {
 public:
     /// `truth`: the reference's picture. `hits`: what its camera rays met (see measure/masks.hpp).
-    /// The session shows the base's scene. All objects passed by reference must outlive the finder.
+    /// The session must show the scene of `base`. All objects passed by reference must outlive the
+    /// finder.
     CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
                 const std::vector<std::uint32_t>& hits, const Watcher& watcher = {});
 
@@ -42,8 +43,8 @@ private:
     const std::vector<std::uint32_t>& hits_;
     Watcher watcher_;
     std::vector<std::size_t> pixels_; ///< indices of the pixels that show mirrors
-    /// For each of `pixels_`: whether the rasteriser draws another mirror than the ray meets, or
-    /// none.
+    /// For each of `pixels_`: whether the rasteriser draws no mirror, or another mirror than the
+    /// one that the camera ray meets.
     std::vector<bool> disagree_;
 };
 

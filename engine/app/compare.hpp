@@ -11,18 +11,23 @@ inline constexpr const char* kReference = "raytrace:depth=16";
 inline constexpr int kRounds = 6; ///< fewest rounds that give a confidence interval of the median
 
 struct CompareRequest {
-    Request base; ///< its `techniques` are the rows; empty = default_techniques(base)
+    /// The compared scene and settings; its `techniques` are the rows (empty:
+    /// default_techniques(base)).
+    Request base;
     std::string reference = kReference;
     bool together = false; ///< render all rows in one frame
     /// Number of rounds, at least 6. Each round measures some frames of every row, one row after
     /// another. If there are fewer frames than rounds, each round has one frame.
     int rounds = kRounds;
-    /// Measure each row with the model `everything` and with `required`. False: with `base.model`.
+    /// Whether each row is measured twice, with the model `everything` and with `required`. False:
+    /// each row is measured once, with `base.model`.
     bool both_models = false;
     bool causes = false; ///< split each row's error by cause; only against the default reference
-    /// Number of drawn views (app/views.hpp) in addition to the base's view; 1: none.
+    /// Number of drawn views (app/views.hpp) in which errors are measured, in addition to the
+    /// camera of `base`; 1: no drawn views.
     int views = 1;
-    /// Also measure how far rows lag behind a moving scene (app/lag.hpp); minutes per row.
+    /// Whether the comparison also measures how far rows lag behind a moving scene (app/lag.hpp).
+    /// Takes minutes per row.
     bool lag = false;
     std::vector<std::string> command; ///< command line that the report quotes
     std::string images;               ///< see report::Comparison::images
@@ -53,9 +58,9 @@ CATOPTRIC_API void check_asked(const CompareRequest& request);
 
 /// Renders every row and the reference, measures speed in rounds and error. A row with the knob
 /// `samples` is judged against the reference with as many samples. A run ends early by a signal, a
-/// lost device, missing memory or an exception of `on_finished_row`. The rows so far are then
-/// returned with the cause in `stopped`. If there are no rows and the cause is no signal, the cause
-/// is thrown instead.
+/// lost device, missing memory or an exception of `on_finished_row`. The rows measured before the
+/// end are then returned with the cause in `stopped`. If there are no rows and the cause is no
+/// signal, the cause is thrown instead.
 CATOPTRIC_API report::Comparison compare(Engine& engine, const CompareRequest& request);
 
 } // namespace catoptric::app

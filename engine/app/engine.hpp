@@ -26,9 +26,10 @@ using Variants = std::vector<std::pair<std::string, std::string>>;
 struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
     bool validate = false; ///< turn on the validation layer; any message makes the run fail
-    /// False: render captures face by face even if the device can render six at once.
+    /// Whether the six faces of a capture are rendered at once if the device can. False: the faces
+    /// are always rendered one by one.
     bool layered = true;
-    /// Shader builds to use in place of others, for benchmarks: "raytrace.comp" ->
+    /// Replacements of shader builds by other builds, for benchmarks: "raytrace.comp" ->
     /// "raytrace.comp#naive".
     std::map<std::string, std::string> shader_variants = {};
     /// Device profile to use (docs/performance.md), as `catoptric bench --tune` writes it. The
@@ -40,7 +41,8 @@ struct EngineOptions {
     std::filesystem::path profiles = {};
     /// Variants to use instead of a profile.
     Variants variants = {};
-    /// Folder that keeps compiled pipelines from process to process. Empty: they are not kept.
+    /// Folder that keeps compiled pipelines from process to process. Empty: pipelines are not kept
+    /// on disk.
     std::filesystem::path cache = {};
     /// For a window (app/screen.hpp): instance extensions that the window system needs, and a
     /// function that makes the window's surface. The function receives the Vulkan instance and

@@ -14,7 +14,7 @@ struct LagRequest {
     /// Largest number of instants along the path at which pictures are compared.
     int most_instants = 30;
     Watcher watcher; ///< is told of the reference as one more row
-    /// Called after each technique; may be empty.
+    /// Function that is called after each technique has been measured. May be empty.
     std::function<void()> on_finished_row;
 };
 

@@ -33,9 +33,10 @@ private:
     /// A mirror pixel whose reflected ray meets no second mirror.
     struct OraclePixel {
         std::size_t pixel = 0;
-        std::uint32_t mirror = 0; ///< from 0
+        std::uint32_t mirror = 0; ///< number of the mirror, from 0
         int object = -1;          ///< object that the reflected ray meets; -1: none
-        dvec3 place{0};           ///< point that the ray meets; its direction if it meets nothing
+        /// Point that the reflected ray meets; the ray's direction if the ray meets nothing.
+        dvec3 place{0};
     };
     static constexpr int kNothing = -1;
 

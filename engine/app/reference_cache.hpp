@@ -25,7 +25,8 @@ std::string reference_at(const std::string& reference, const std::string& sample
 /// The reference of a comparison, rendered once for each sample count and instant on demand.
 class ReferenceCache {
 public:
-    /// All objects passed by reference must outlive the cache. `base` shows the session's scene.
+    /// All objects passed by reference must outlive the cache. `base` describes the scene that the
+    /// session shows.
     ReferenceCache(Session& session, const Request& base, const std::string& reference,
                    const Watcher& watcher)
         : session_(session), base_(base), reference_(reference), watcher_(watcher) {}
@@ -41,8 +42,8 @@ public:
     const std::vector<std::uint32_t>& hits(int number);
 
 private:
-    /// Returns the frame that is rendered for frame `number`. All frames of a still scene show the
-    /// same, so the last one stands for them.
+    /// Returns the frame that is rendered for frame `number`. All frames of a still scene are
+    /// equal, so the last frame is rendered for each of them.
     int frame_of(int number) const { return base_.animate ? number : base_.total(); }
     Result rendered(const std::string& technique, int number) const;
 
@@ -51,7 +52,8 @@ private:
     const std::string& reference_;
     const Watcher& watcher_;
     std::map<std::pair<std::string, int>, ReferencePicture> truths_; ///< by sample count and frame
-    std::map<int, std::vector<std::uint32_t>> hits_;                 ///< by frame
+    /// First hits of the reference's camera rays, by frame number.
+    std::map<int, std::vector<std::uint32_t>> hits_;
 };
 
 } // namespace catoptric::app

@@ -10,19 +10,21 @@ namespace catoptric::app {
 
 /// A run of frames: what the first frame shows, in which scene, and the number of frames.
 struct Request : FrameSpec {
-    scene::Scene scene;            ///< at rest
+    scene::Scene scene;            ///< the scene with all objects at rest
     std::optional<double> load_ms; ///< time that the caller took to read or make the scene
     int frames = 20;               ///< number of measured frames
-    /// Number of frames before the measured ones; frame numbers begin with these, at 1 and with
-    /// cold history.
+    /// Number of frames that are rendered before the measured frames. Frame numbers count from 1 at
+    /// the first of them, which has no history.
     int warmup = 8;
-    /// End with the first frame that cannot change any more. If nothing is remembered, this is the
-    /// first frame. Otherwise its linear pictures and all captures equal those of the frame before,
-    /// byte for byte, and no capture is put off. Under a limit (FrameSpec::most_captures,
-    /// budget_ms) each frame of the run stands for a round in which each capture has its turn.
+    /// Whether the run ends with the first picture that cannot change any more. If no technique has
+    /// history, this is the first frame. Otherwise its linear pictures and all captures equal those
+    /// of the frame before, byte for byte, and no capture has to wait. With a limit on captures per
+    /// frame (FrameSpec::most_captures, budget_ms) each frame of the run is repeated until each
+    /// capture had its turn.
     bool until_settled = false;
     bool auto_exposure = false; ///< `exposure` must still be found (app/exposure.hpp)
-    /// Frame k is at time + (k-1)/60 s; false: all frames are at `time`.
+    /// Whether the scene moves: frame k shows the instant time + (k-1)/60 s. False: all frames show
+    /// the instant `time`.
     bool animate = false;
 
     int total() const { return warmup + frames; }
@@ -38,7 +40,8 @@ struct Result {
     std::vector<Part> parts; ///< one per technique, of the last frame
     /// Measured frames; fewer than asked for if the picture settled.
     std::vector<FrameTimes> frames;
-    bool settled = false; ///< with `until_settled`: any further frame would show the same
+    /// Whether any further frame would show the same picture; only set with `until_settled`.
+    bool settled = false;
 };
 
 /// The frames of a request, one after the other, from cold history:
@@ -51,8 +54,9 @@ public:
 
     /// Renders the next frame. Returns false after the last.
     CATOPTRIC_API bool next();
-    /// Frees the session for other frames until the next call of `next`, which continues as if
-    /// there had been none. Results of the last frame that were not read by then are lost.
+    /// Frees the session for other frames until the next call of `next`. That call continues the
+    /// sequence as if no other frames had been rendered. Results of the last frame that were not
+    /// read by then are lost.
     void suspend() { aside_.emplace(session_.suspend()); }
     int number() const { return number_; } ///< number of the last frame, from 1
     /// Returns the number of frames in all, if the picture does not settle earlier.

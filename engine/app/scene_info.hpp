@@ -26,13 +26,13 @@ struct MaterialInfo {
     /// The values of scene::kMaterialFactors, in their order.
     std::array<float, std::size(scene::kMaterialFactors)> factors{};
     vec3 f0{0};    ///< F0 of the material's factors; a mirror's reflectance
-    vec3 light{0}; ///< light that it casts on other surfaces; 0: none
+    vec3 light{0}; ///< light that the material emits onto other surfaces; 0: none
     bool glows = false, is_masked = false, is_two_sided = false;
     std::vector<std::string> textures; ///< "base colour 256x256" ...
 };
 
 struct MirrorInfo {
-    std::size_t number = 0; ///< from 1
+    std::size_t number = 0; ///< number of the mirror, from 1
     std::string name;
     scene::Shape shape;
     double screen_share = 0; ///< share of the picture, 0 to 1
@@ -49,7 +49,7 @@ struct SceneInfo {
     std::uint64_t geometry_bytes = 0, image_bytes = 0, file_bytes = 0;
     std::vector<MaterialInfo> materials;
     std::vector<MirrorInfo> mirrors;
-    /// See candidates.hpp; only for a scene without a mirror.
+    /// Suggested `--mirror` options (candidates.hpp), only for a scene without a mirror.
     std::vector<std::string> mirror_options;
     std::vector<measure::CameraFacts> cameras;
 };

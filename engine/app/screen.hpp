@@ -11,7 +11,7 @@ namespace catoptric::app {
 struct Overlay {
     struct ScreenVertex {
         vec2 position;            ///< pixels of the window from its upper left corner
-        vec2 uv;                  ///< in the font's picture, 0 to 1
+        vec2 uv;                  ///< position in the picture of the font, each coordinate 0 to 1
         std::uint32_t colour = 0; ///< r | g << 8 | b << 16 | a << 24, as the screen shows them
     };
     /// Consecutive indices, whose triangles are clipped to an area.
@@ -24,11 +24,12 @@ struct Overlay {
     std::vector<Draw> draws;
 };
 
-/// What a window shows of a frame: which pictures, from its upper left corner, one pixel per pixel.
+/// The pictures of a frame that a window shows. They start in the window's upper left corner, and
+/// one pixel of a picture covers one pixel of the window.
 struct Showing {
     enum class Arrangement {
-        one,       ///< the first picture
-        split,     ///< the first left of the divider, the second right of it
+        one,   ///< the first picture
+        split, ///< the first picture left of the divider, the second picture right of the divider
         difference ///< difference of the displayed pictures, times `gain`
     };
     static constexpr std::size_t kCanvas = ~std::size_t{0};

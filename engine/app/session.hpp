@@ -35,9 +35,9 @@ struct FrameGraph; // internal
 /// may overlap, and only the time of the whole frame is valid.
 enum class Timing { isolated, pipelined };
 
-/// What is rendered. everything: the capture of each mirror, six faces, every frame. required: only
-/// what the picture needs (require/model.hpp). Both give the same picture unless documented
-/// otherwise.
+/// The work that a frame renders. everything: the capture of each mirror, six faces, every frame.
+/// required: only what the picture needs (require/model.hpp). Both give the same picture unless
+/// documented otherwise.
 enum class Modelling { everything, required };
 /// Returns "everything" or "required".
 CATOPTRIC_API std::string name_of(Modelling modelling);
@@ -98,7 +98,8 @@ struct FrameTimes {
     double passes_ms = 0; ///< sum over all passes
     double gpu_ms = 0;    ///< first to last timestamp
     double record_ms = 0; ///< filling the command buffer
-    /// From submit until the device is done, without recording and read-back.
+    /// Time in milliseconds from submit until the device has finished the frame, without recording
+    /// and read-back.
     double wall_ms = 0;
     /// Time that the host waited for the device: for a place among the frames in flight, and for
     /// the end of this frame. Waiting is no work and is part of no other figure.
@@ -116,7 +117,7 @@ struct RayCounts {
     std::uint32_t longest_walk = 0;                    ///< BVH steps of the busiest invocation
 };
 
-/// Cube edge that the knob value face=auto stands for.
+/// The cube edge that the engine chose for the knob value face=auto.
 struct AutoFace {
     std::uint32_t edge = 0; ///< edge of every mirror's capture, texels
     /// Texels along an edge that mirror n needs, entry n-1; 0: mirror n is not in view.
@@ -126,7 +127,7 @@ struct AutoFace {
 /// Results of one technique or plan in a frame.
 struct Part {
     std::string label; ///< technique or plan as it was asked for
-    /// Prefix of its passes' names; empty if the frame has only this part.
+    /// Prefix of the names of this part's passes; empty if the frame has only one part.
     std::string prefix;
     std::vector<PlanEntry> plan;    ///< technique of each mirror
     std::vector<std::string> notes; ///< deviations from what was asked for, a sentence each
@@ -142,8 +143,8 @@ struct Part {
     /// Number of captured texels that are brighter than 65504, the largest half, and cut off there.
     /// Only with `with_lookup`, for techniques whose captures hold halves.
     std::optional<std::size_t> saturated;
-    /// Where mirrors looked (shaders/lib/mirror.glsl); only with `with_lookup`, for techniques that
-    /// search.
+    /// Direction in which each mirror pixel looked into a capture (shaders/lib/mirror.glsl). Only
+    /// with `with_lookup`, for techniques that search.
     std::vector<vec4> lookup;
     std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
     std::optional<RayCounts> rays;   ///< ray tracing only
@@ -170,8 +171,8 @@ public:
     /// Returns the outcome of the capture limit, if the technique keeps captures and FrameSpec sets
     /// a limit.
     CATOPTRIC_API const std::optional<CaptureBudget>& slices(std::size_t part = 0) const;
-    /// Returns how many mirrors, over all techniques, have captures that are put off. If any are,
-    /// the picture can differ from one without a limit.
+    /// Returns how many mirrors, over all techniques, have captures that still wait to be drawn
+    /// again. If some captures wait, the picture can differ from the picture without a limit.
     CATOPTRIC_API std::uint32_t waiting() const;
     /// Returns linear radiance, the cheapest result to read.
     CATOPTRIC_API measure::Picture hdr(std::size_t part = 0) const;
@@ -201,8 +202,8 @@ struct Counts {
     std::uint64_t frames = 0;
     std::uint64_t updates = 0; ///< writes of scene data to the device
     std::uint64_t plans = 0;   ///< differently shaped frames that were planned
-    // `uploads` and the two counters of hierarchies belong to the scene as it is resident now. A
-    // change of the scene's units makes the resident scene anew.
+    // `uploads` and the two counters of hierarchies count from the last time that the whole scene
+    // was written to the device. A change of the scene units writes the whole scene again.
     std::uint64_t uploads = 0; ///< buffer writes
     std::uint64_t hierarchies_built = 0, hierarchies_refitted = 0;
     std::uint64_t memory_bytes = 0; ///< device memory for images and buffers of frames
@@ -257,9 +258,10 @@ public:
     /// larger or smaller, or if objects that determine its origin move (an outermost object, small
     /// mirrors). Throws `usage` for an object or material that does not exist.
     CATOPTRIC_API void change(const scene::Edit& edit);
-    /// Cuts: the next frame begins without history.
+    /// Makes a cut: the next frame begins without history.
     CATOPTRIC_API void forget();
-    /// Cuts, and returns the sequence, which `resume` can continue. Waits for frames in flight.
+    /// Makes a cut and returns the history of the frame sequence, which `resume` can continue.
+    /// Waits for frames in flight.
     CATOPTRIC_API Sequence suspend();
     /// Continues a suspended sequence: the next frame follows its last one. Discards the present
     /// history. If the scene's units changed in between (see change), the next frame begins without
@@ -269,7 +271,8 @@ public:
     /// Modelling::required, the scene is still and its captures no longer change.
     CATOPTRIC_API std::string plan(const FrameSpec& spec, PlanFormat format);
     /// Renders a frame that clears the cubes of every mirror, 256 texels an edge, and draws
-    /// nothing. This is what any capture costs before it shows something. History stays.
+    /// nothing. The time of this frame is the least that any capture costs. The history of the
+    /// session stays.
     CATOPTRIC_API FrameTimes clear_cubes();
     CATOPTRIC_API Counts counts() const;
     /// Returns the setup times of the scene as it is resident now.

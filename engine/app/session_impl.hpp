@@ -18,7 +18,7 @@
 // screen.cpp.
 namespace catoptric::app {
 
-/// What the device's copy of a scene depends on.
+/// The inputs that determine the device's copy of a scene.
 struct SceneKey {
     double time = 0;
     scene::Camera camera;

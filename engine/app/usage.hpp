@@ -17,11 +17,13 @@ struct Usage {
     Usage operator-(const Usage& before) const;
 };
 
-/// Meter of what threads have used so far.
+/// Meter of the processor time that threads have used.
 class UsageMeter {
 public:
     enum class Of : std::uint8_t {
-        caller, ///< the thread that made the meter; only this thread may read it
+        /// Only the thread that made the meter is measured, and only that thread may read the
+        /// meter.
+        caller,
         /// All of the process's processor time. Cycles and instructions are those of the thread
         /// that made the meter, and of all threads begun since by counted threads, ended or not.
         /// Therefore make the meter before other threads begin.

@@ -17,17 +17,20 @@ measure::CameraFacts facts_of(const scene::Camera& camera);
 std::vector<measure::View> drawn_views(const Request& request, int count);
 
 struct ViewsRequest {
-    const Request& base; ///< with the techniques in the order of the comparison's rows
+    const Request&
+        base; ///< the compared scene, with the techniques in the order of the comparison's rows
     std::string reference = "raytrace:depth=16";
     Watcher watcher;
-    /// Called after each view, when every row has its errors in that view; may be empty.
+    /// Called after each view, as soon as every row has its errors in that view. The function may
+    /// be empty.
     std::function<void()> on_finished_view;
 };
 
-/// Renders the reference and every row of the comparison from each of its views, and fills
-/// Row::views and Row::worst. Each picture is rendered until nothing changes any more, as `render`
-/// does. The session shows the base's scene. An exception (a signal, a failure of the engine)
-/// leaves the views so far. Costs a picture and its FLIP per row and view.
+/// Renders the reference and every row of the comparison from each view of the comparison, and
+/// fills Row::views and Row::worst. Each picture is rendered until nothing changes any more, as
+/// `render` does. The session must show the scene of `request.base`. After an exception (a signal,
+/// a failure of the engine) the finished views stay in the rows. Costs a picture and its FLIP per
+/// row and view.
 void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison);
 
 } // namespace catoptric::app

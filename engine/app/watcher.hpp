@@ -8,15 +8,15 @@
 
 namespace catoptric::app {
 
-/// Observer of long work. It is told of the progress and may end the work. All members are
-/// optional.
+/// Observer of long work, such as a comparison. The members are called with the progress, and can
+/// end the work. All members are optional.
 struct Watcher {
     /// Called before each row with its label, its number from 0, and the number of rows.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
     /// Called after each frame with its number from 1, and the largest possible number of frames.
     std::function<void(int, int)> on_frame;
-    /// Number of the signal that asks to stop; 0: none yet. The caller owns it and may write it in
-    /// a signal handler.
+    /// Points to the number of the signal that asks the work to stop; 0: no signal has arrived. The
+    /// caller owns the number and may write it in a signal handler.
     const std::atomic<int>* stop = nullptr;
 
     void row(const std::string& label, std::size_t index, std::size_t count) const {

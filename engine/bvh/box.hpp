@@ -25,7 +25,7 @@ inline float pad_of(const BoundingBox& box, const BoundingBox& core) {
     if (inside) return 0;
     const vec3 middle = core.lo * 0.5f + core.hi * 0.5f;
     return 2 * f32::gamma_bound(16) *
-           // Twice, for the roundings of this function.
+           // The error bound is doubled, to cover the rounding errors of this function as well.
            f32::largest(max(abs(box.lo - middle), abs(box.hi - middle)));
 }
 

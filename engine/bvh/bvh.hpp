@@ -20,7 +20,8 @@ inline constexpr std::uint32_t kShadowless = f32::kBvhShadowless; ///< shadow ra
 inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands for an exact sphere
 /// Rays that skip this flag hit the triangle from the front only.
 inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided;
-inline constexpr std::uint32_t kMasked = f32::kBvhMasked; ///< parts of it may be cut out
+/// Flag of triangles that alpha masks may cut out in part.
+inline constexpr std::uint32_t kMasked = f32::kBvhMasked;
 /// A sphere in place of a triangle: see `sphere`.
 inline constexpr std::uint32_t kBall = f32::kBvhBall;
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;

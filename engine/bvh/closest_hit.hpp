@@ -64,11 +64,11 @@ InstancePlace<Real> place_at(const Bvh& bvh, std::uint32_t record) {
             corner<Real>(texel[3]), corner<Real>(texel[7])};
 }
 
-/// The closest hit so far, and the state that a triangle test needs.
+/// The closest hit that the traversal has found, and the state that a triangle test needs.
 template <typename Real>
 struct HitSearch {
     const Bvh& bvh;
-    Ray<Real> ray; ///< in the space of the tree that is being walked
+    Ray<Real> ray; ///< the ray in the coordinates of the tree that is traversed at the moment
     Real t_max;    ///< exclusive; shrinks to the closest hit
     std::uint32_t skipped_flags;
     std::optional<RayHit<Real>> best{};

@@ -8,7 +8,7 @@
 #include <array>
 #include <optional>
 
-/// How the builder divides the triangles of a node between its children.
+/// Functions that divide the triangles of a tree node between the node's two children.
 namespace catoptric::bvh {
 
 /// A triangle while the tree is being built.
@@ -77,13 +77,13 @@ struct Split {
 
 using SplitParts = std::array<ReferenceRange, 2>;
 
-/// Returns the two parts that a split makes, in the other buffer. `centres`: bounds of the centres
-/// on each side.
+/// Returns the two ranges of references into which a split divides a node, in the buffer that does
+/// not hold the node. `centres`: bounds of the centres on each side.
 SplitParts sides_of(const ReferenceRange& part, const Bins& bins, const Split& split,
                     const std::array<Extent, 2>& centres);
 
 /// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
-/// Returns nothing if there is none, as when one bin holds all references.
+/// Returns nothing if no plane does so, for example because one bin holds all references.
 std::optional<Split> best_split(const Bins& bins, std::size_t most);
 
 /// The most references that `sweep` accepts.

@@ -2,7 +2,7 @@
 
 #include "bvh/split.hpp"
 
-/// Building a subtree on one thread.
+/// Function that builds a subtree on one thread.
 namespace catoptric::bvh {
 
 /// The references of a tree and the memory for its triangles, both in the order of the leaves. A

@@ -12,7 +12,8 @@ struct Instance {
     std::uint32_t object = 0;
     std::uint32_t flags = 0; ///< replace the flags of its triangles
     std::uint32_t shift = 0; ///< added to the triangle numbers
-    float radius = 0;        ///< of the exact sphere that it stands for, object space; 0: none
+    /// Radius of the exact sphere that replaces the mesh, object space; 0: no exact sphere.
+    float radius = 0;
 };
 
 /// Returns the rounding error of each component when it becomes a float, itself rounded to float.

@@ -7,8 +7,8 @@
 namespace catoptric::bvh {
 
 /// Builds the tree over `root`, whose references lie in the first buffer, and appends it to the
-/// header in `nodes`. Returns the number of triangles kept. They are the first ones of
-/// `work.triangles`.
+/// header in `nodes`. Returns the number of triangles kept. The kept triangles are the first
+/// elements of `work.triangles`.
 std::size_t build_tree(const Workspace& work, const ReferenceRange& root, unsigned threads,
                        std::vector<vec4>& nodes);
 

@@ -165,7 +165,8 @@ ImageShape tiff_header(const ByteSource& bytes, const std::string& name) {
                         channels = std::clamp(directory.value(kChannels, 1), 1u, 64u),
                         bits = std::clamp(directory.value(kBits, 1), 1u, 64u);
     const std::uint64_t texels = std::uint64_t{width} * height;
-    // Avoids overflow; such sides are refused later.
+    // Clamping the number of texels avoids overflow of the product below. Later checks refuse
+    // pictures with sides that are so long.
     constexpr std::uint64_t kAbsurd = std::uint64_t{1} << 40;
     const std::uint64_t least = least_of_tiff(std::min(texels, kAbsurd) * channels * bits / 8,
                                               directory.value(kCompression, 1));

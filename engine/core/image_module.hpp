@@ -27,8 +27,8 @@ struct CodecResult {
 
 enum class CodecValue { uint8, float32 };
 
-/// The functions of the module. They throw nothing. They keep no argument but the bytes of an open
-/// picture. `format` is OpenImageIO's name of a format.
+/// The functions of the module. The functions throw no exceptions. After a call they refer to no
+/// argument, except to the bytes of an open picture. `format` is OpenImageIO's name of a format.
 struct ImageCodecs {
     struct Picture; ///< an open picture; defined in the module
     struct Header {

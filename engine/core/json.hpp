@@ -10,7 +10,8 @@
 // JSON input: scene files, plans, device profiles, benchmarks, the documents of glTF.
 namespace catoptric {
 
-/// Called before each value with the most bytes of memory that it takes. May throw.
+/// Function that is called before each JSON value is stored, with the largest number of bytes that
+/// the value can take. The function may throw to stop reading.
 using JsonSpends = std::function<void(std::uint64_t bytes)>;
 
 /// Checks that `text` is JSON, without storing values. Throws `bad_data` if it is not JSON or nests

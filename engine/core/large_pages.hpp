@@ -8,7 +8,8 @@ namespace catoptric {
 
 /// Asks the system for 2 MB pages in the part of the memory that can hold them. Call it before the
 /// memory is written, because pages are allocated and cleared at first touch. Larger pages need
-/// fewer address translations. It is only a hint: nothing tells whether the system follows it.
+/// fewer address translations. The request is only a hint, and the function does not find out
+/// whether the system follows it.
 inline void advise_large_pages(void* memory, std::size_t bytes) {
     constexpr std::uintptr_t kLarge = std::uintptr_t{1} << 21;
     const auto start = reinterpret_cast<std::uintptr_t>(memory);

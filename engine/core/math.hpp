@@ -22,7 +22,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-/// An axis-aligned box. It starts empty (`lo > hi`) and grows by `add`.
+/// An axis-aligned box. A new box is empty (`lo > hi`), and `add` enlarges the box.
 template <typename Real>
 struct Bounds {
     using Vec = glm::vec<3, Real>;

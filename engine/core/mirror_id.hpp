@@ -17,7 +17,7 @@ public:
     }
 
     constexpr std::uint32_t number() const { return number_; }
-    /// Returns the mirror's index in such a list. Not valid for the id 0.
+    /// Returns the mirror's index, from 0, in a list of all mirrors. Not valid for the id 0.
     constexpr std::size_t index() const { return number_ - 1; }
     constexpr explicit operator bool() const { return number_ != 0; }
     constexpr auto operator<=>(const MirrorId&) const = default;

@@ -8,7 +8,7 @@
 
 namespace catoptric {
 
-/// How one mirror was drawn.
+/// The technique that drew one mirror, and the rule of the plan that chose the technique.
 struct PlanEntry {
     std::uint32_t mirror = 0; ///< number of the mirror, from 1
     std::string name, technique;

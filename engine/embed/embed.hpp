@@ -13,9 +13,9 @@
 /// only public header with Vulkan's names.
 namespace catoptric::embed {
 
-/// Features that the device must be created with, for Vulkan 1.3. They are chained in `core`, to
-/// which VkDeviceCreateInfo::pNext must point, with pEnabledFeatures null. You may enable other
-/// features in the chain, too. No extension is needed.
+/// Features that the device must be created with, for Vulkan 1.3. The features are chained in the
+/// member `core`. VkDeviceCreateInfo::pNext must point to `core`, and pEnabledFeatures must be
+/// null. You may enable other features in the chain, too. No extension is needed.
 struct Features {
     /// Fills the chain. Throws `no_device` with the names of features that the device lacks.
     CATOPTRIC_API explicit Features(VkPhysicalDevice device);

@@ -138,7 +138,7 @@ public:
 
     /// Returns the uploads to buffers that the host cannot map. Made at first use.
     Uploads& uploads();
-    /// Submits the uploads so far. Called before a submit that reads them.
+    /// Submits all recorded uploads. Called before a submit whose work reads the uploaded data.
     void submit_uploads();
 
     /// Returns the messages of the validation layer so far (errors and warnings).

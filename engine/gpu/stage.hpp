@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-/// Shader stages of a pipeline that is being made.
+/// Shader stages from which a pipeline is created.
 namespace catoptric::gpu {
 
 /// Returns the 32 bits that are passed to the shader for a constant.

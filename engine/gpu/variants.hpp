@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-/// Shader variants that are chosen per device. They change the speed of a picture, never a byte of
-/// it.
+/// Shader variants that are chosen per device. The choice of a variant changes the time that a
+/// picture takes, and never a byte of the picture.
 namespace catoptric::gpu {
 
 inline constexpr std::size_t kVariants = 3;

@@ -14,7 +14,8 @@ constexpr std::uint32_t kMostInFlight = 3;
 /// An image that outlives the frame: a persistent image, or one with a `previous`.
 struct PersistentImage {
     Lifetime lifetime = Lifetime::previous;
-    std::vector<Physical> copies; ///< with `previous` this frame's and the last frame's, else one
+    /// Device images: this frame's and the last frame's if the image has a `previous`, else one.
+    std::vector<Physical> copies;
     gpu::UniqueMemory memory;
     std::uint64_t bytes = 0; ///< bytes of `memory`
     std::size_t last = 0;    ///< index of the copy that holds the last frame
@@ -39,7 +40,8 @@ struct CompiledGraph {
     Graph outline; ///< without bodies
     std::uint64_t hash = 0;
     GraphPlan plan;
-    bool ran = false; ///< whether it has run; its memory needs count only then
+    /// Whether a frame with this plan has run; other plans do not count for memory.
+    bool ran = false;
 
     Resources shared;                         ///< resources that live within a frame
     std::array<Resources, kMostInFlight> own; ///< outputs of a frame, a copy for each slot

@@ -4,7 +4,8 @@
 
 namespace catoptric::graph {
 
-/// Whether a pass is executed, and which of its attachments are not read.
+/// The result of culling for one pass: whether the pass is executed, and which of its attachments
+/// no later pass reads.
 struct Fate {
     bool survives = false;
     std::uint32_t unread = 0; ///< bits as in PlannedPass::unread

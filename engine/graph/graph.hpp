@@ -68,8 +68,9 @@ struct BufferDesc {
 
 /// How long the contents of an image live.
 enum class Lifetime {
-    frame,      ///< between the passes of a frame
-    previous,   ///< also in the next frame, which can read them beside its own
+    frame, ///< the contents live until the last pass of the frame that uses them
+    /// Until the end of the next frame, which can read both this frame's and its own contents.
+    previous,
     persistent, ///< until a pass writes them again
     imported,   ///< as long as the owner outside the graph says
 };
@@ -109,7 +110,7 @@ struct ImageUse {
     bool write = false;
     /// An attachment without a clear needs and keeps its earlier contents.
     std::optional<Clear> clear;
-    bool stays = false; ///< with a clear, contents outside the pass's area are kept, too
+    bool stays = false; ///< whether a clear keeps the contents outside the pass's area
 };
 
 struct BufferUse {
@@ -131,9 +132,9 @@ struct Pass {
     std::vector<ImageUse> images; ///< in order of declaration
     std::vector<BufferUse> buffers;
     std::uint32_t layer_count = 1; ///< layers rendered at once
-    /// The area of the attachments that is cleared and drawn; all of them if there is none.
-    /// Contents outside the area are undefined unless ImageUse::stays is set. The area is no part
-    /// of the shape and may change from frame to frame.
+    /// The area of the attachments that is cleared and drawn; without a value, the whole
+    /// attachments. Contents outside the area are undefined unless ImageUse::stays is set. The area
+    /// is no part of the shape and may change from frame to frame.
     std::optional<Area> area;
     std::function<void(Commands&)> body;
 

@@ -9,8 +9,8 @@
 
 namespace catoptric::graph {
 
-/// Images that earlier frames left for later frames, by name. They can be taken out of a runner and
-/// given back to it. The device must outlive them.
+/// Images that earlier frames left for later frames, by name. A caller can take these images out of
+/// a runner and give them back. The device must outlive the images.
 using RetainedImages = std::map<std::string, PersistentImage>;
 
 /// The images of a runner that outlive frames, by name.

@@ -31,12 +31,14 @@ struct Sizer {
 /// one heap.
 Sizer plain_sizer();
 
-/// How a resource was last touched, or will be next. With `nothing` its contents do not matter.
+/// The last or the next access to a resource. With `nothing` the contents of the resource do not
+/// matter.
 struct Touch {
     bool nothing = true;
     Use use = Use::sampled;
     bool write = false;
-    /// By a raster pass, else by a compute or copy pass; selects shader stages.
+    /// Whether a raster pass makes the access, and not a compute or copy pass. Selects shader
+    /// stages of barriers.
     bool raster = false;
     friend bool operator==(const Touch&, const Touch&) = default;
 };

@@ -15,7 +15,7 @@ public:
     void record(const Graph& graph, CompiledGraph& shape, Slot& slot, std::size_t slot_index,
                 PassTiming timing);
 
-    // For Commands only, during a pass's body.
+    // Returns the device. Only Commands may call this function, while a pass records its commands.
     gpu::Device& device() { return device_; }
     gpu::Pipelines& pipelines() { return pipelines_; }
     Physical& physical(ImageHandle image);

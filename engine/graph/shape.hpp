@@ -5,8 +5,8 @@
 namespace catoptric::graph {
 
 /// Returns a hash that is equal for all graphs of one shape. A shape is all that a plan depends on:
-/// every declaration, and which parts of persistent images have contents. It excludes recorded
-/// commands, clear values, content hashes and which outside resources are imported.
+/// every declaration, and which parts of persistent images have contents. The shape excludes
+/// recorded commands, clear values, content hashes and which outside resources are imported.
 std::uint64_t shape_hash(const Graph& graph);
 
 /// Returns whether a plan of one graph is valid for the other. `known` need not have pass bodies.

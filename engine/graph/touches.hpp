@@ -28,7 +28,7 @@ constexpr Touch touch_of(TouchCode code) {
 }
 constexpr Use use_of(TouchCode code) { return static_cast<Use>((code - 1) / 4); }
 
-/// Up to 8 distinct touches in the order in which they were added.
+/// A list of at most 8 distinct accesses to a resource, in the order in which they were added.
 class Touches {
 public:
     Touches() = default;

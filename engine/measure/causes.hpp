@@ -24,7 +24,8 @@ struct Cause {
     /// The part divided by the row's squared error, so that all shares add up to 1. NaN if the
     /// row's error is 0.
     double share = NAN;
-    /// Parts of `share` in pixels whose reflected ray meets no second mirror, and in the others.
+    /// Parts of `share`: in pixels whose reflected ray meets no second mirror, and in the other
+    /// mirror pixels.
     double share_first_order = NAN, share_mirror_in_mirror = NAN;
     std::vector<double> share_per_mirror; ///< parts of `share` in the pixels of each mirror
     /// Squared error that goes away if only this cause is removed. NaN if the cause cannot be

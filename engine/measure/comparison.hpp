@@ -74,7 +74,8 @@ struct SceneFacts {
     std::size_t triangles = 0;
     std::size_t mirrors = 0;
     std::string hash;
-    /// Whether this is the seed report's scene, with whose numbers ours may be compared.
+    /// Whether the scene is that of the seed report. Only then can measured times be compared with
+    /// the seed report's.
     bool is_seed = false;
     CameraFacts camera;
     std::vector<LightFacts> lights = {};
@@ -124,13 +125,13 @@ struct HostParts {
 /// Errors of a picture against the reference, each over another set of pixels.
 struct Errors {
     Difference error; ///< over pixels whose first hit is a mirror
-    /// Over pixels that show a mirror and whose reflected ray meets no second mirror.
+    /// Error over the pixels that show a mirror and whose reflected ray meets no second mirror.
     Difference error_first_order;
-    /// Over pixels that show a mirror and whose reflected ray meets another.
+    /// Error over the pixels that show a mirror and whose reflected ray meets a second mirror.
     Difference error_mirror_in_mirror;
     Difference error_non_mirror; ///< over pixels whose first hit is no mirror
     Difference error_all;
-    /// Over pixels whose first hit reflects but is no mirror: smooth dielectrics.
+    /// Error over the pixels whose first hit is a smooth dielectric.
     Difference error_dielectrics;
     std::vector<Difference> error_per_mirror; ///< one entry a mirror, by MirrorId::index
 };
@@ -201,7 +202,8 @@ struct Row : Errors {
     std::vector<Errors> views;
     std::optional<WorstView> worst; ///< the drawn view with the largest FLIP over the mirrors
     Mean mean, mean_clamped;
-    /// Frame, from 1, whose picture and errors are given. Later frames show the same.
+    /// Number, from 1, of the frame whose picture and errors are given. Later frames show the same
+    /// picture.
     int pictured = 0;
     Picture hdr;                 ///< the row's picture, linear RGB
     Picture display;             ///< the same picture as displayed
@@ -223,7 +225,7 @@ struct Comparison {
     std::optional<Error> stopped; ///< the error that ended the run early
     DeviceFacts device;
     SceneFacts scene;
-    SetupFacts setup; ///< set-up costs so far
+    SetupFacts setup; ///< costs of the set-up work that was done before the end of the comparison
     int width = 0, height = 0;
     int frames = 0, warmup = 0;
     int rounds = 0; ///< number of rounds in which the frames were measured
@@ -240,7 +242,8 @@ struct Comparison {
     Picture reference_display;
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
     std::optional<Summary> clear_ms;
-    /// Drawn views, in which errors are known besides those of the pictures.
+    /// Drawn views in which the errors of each row were measured, in addition to the comparison's
+    /// own camera.
     std::vector<View> views;
     std::vector<Row> rows;
     /// Indices of the rows on the front of time against FLIP over the mirrors, from

@@ -11,7 +11,8 @@ struct FileDifference {
     int width = 0, height = 0;
     Difference difference;
     Mean a_mean, b_mean, a_clamped, b_clamped;
-    /// Whether a file is a PNG; FLIP then compares both pictures rounded to 8 bits.
+    /// Whether one of the two files is a PNG, so that FLIP compares both pictures rounded to 8
+    /// bits.
     bool is_of_bytes = false;
 };
 

@@ -5,11 +5,12 @@
 #include <optional>
 #include <vector>
 
-// Answers that the metrics give to questions of the seed report. They are decided here and report/
-// puts them into words. A function returns nothing if the comparison lacks the rows it needs.
+// Answers that the metrics give to questions of the seed report. This code decides the answers, and
+// report/ puts them into words. A function returns nothing if the comparison lacks the rows it
+// needs.
 namespace catoptric::measure {
 
-/// One step of an 8-bit picture.
+/// Difference between neighbouring values of an 8-bit picture, on a scale from 0 to 1.
 inline constexpr double kStep = 1.0 / 255;
 
 /// Result for smooth dielectrics, whose reflection some rows do not draw.
@@ -27,7 +28,7 @@ std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison);
 struct ClearFinding {
     enum class ClearVerdict {
         slower_without, ///< part one is slower even without a clear
-        too_little,     ///< with the clear added, part one is still not slower than part two
+        too_little, ///< part one is not slower than part two even with the time of the clear added
         explains
     };
     const Row *one, *two;
@@ -49,7 +50,7 @@ struct StoredDistanceFinding {
 };
 std::optional<StoredDistanceFinding> find_stored_distance(const Comparison& comparison);
 
-/// Answer to whether more inter-reflections bring part one closer to the reference.
+/// Answer to the question whether more bounces bring the technique `naive` closer to the reference.
 struct BounceFinding {
     std::vector<const Row*> steps; ///< rows with 1, 2, ... inter-reflections
     double fall = 0;               ///< fall of the rmse from the first to the last step
@@ -60,18 +61,20 @@ struct BounceFinding {
 };
 std::optional<BounceFinding> find_bounces(const Comparison& comparison);
 
-/// Price of part three in comparison with part two.
+/// Additional cost of the seed report's part three (parallax correction) over its part two (last
+/// frame's captures).
 struct PriceFinding {
     const Row *two, *three;
     bool tie = false;    ///< whether their times cannot be told apart
     Interval ratio_ci95; ///< ratio of part three's time to part two's, round by round
-    /// Additional time as a share of part two's; negative if part three is faster.
+    /// Time of part three minus time of part two, divided by the time of part two. Negative if part
+    /// three is faster.
     double more = 0;
     std::uint64_t more_bytes = 0; ///< additional bytes of images; 0 if part three needs no more
 };
 std::optional<PriceFinding> find_price(const Comparison& comparison);
 
-/// Time of ray tracing in comparison with part three.
+/// Time of ray tracing, compared with the seed report's part three (parallax correction).
 struct TracingFinding {
     const Row *three, *traced;
     bool tie = false;

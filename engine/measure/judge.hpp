@@ -18,7 +18,7 @@ bool judged(const Row* row);
 /// draws something in its mirrors. A row with black mirrors only gives a lower bound for time.
 bool is_candidate(const Row& row);
 /// Returns the interval of a's time divided by b's, round by round. The two times can be told apart
-/// if the interval excludes 1. It is unknown if the rows have too few rounds in common.
+/// if the interval excludes 1. The interval is unknown if the rows have too few rounds in common.
 Interval time_ratio(const Row& a, const Row& b);
 /// Returns whether a takes less time than b with 95 % confidence.
 bool is_faster(const Row& a, const Row& b);
@@ -62,7 +62,8 @@ struct Ranking {
         std::vector<const Row*> losers;
     };
     std::vector<const Row*> front; ///< rows on the front, in order of time
-    /// Each loser is listed once, under the first row on the front that beats it.
+    /// Pairs of rows in which the first row beats the second. Each beaten row is listed once, with
+    /// the first row on the front that beats it.
     std::vector<Win> wins;
     std::vector<const Row*> beaten_by_beaten;
     std::vector<const Row*> not_judged;
@@ -71,7 +72,7 @@ struct Ranking {
 };
 Ranking ranking_of(const Comparison& comparison);
 
-/// Answer to whether ray tracing beats all other rows.
+/// Answer to the question whether ray tracing beats all other rows.
 struct TracingVerdict {
     bool any_traced = false;
     std::size_t others = 0;           ///< number of candidates that are not ray traced

@@ -27,7 +27,7 @@ struct Parts;
 using Value = std::variant<std::monostate, bool, double, dvec3, PixelPosition, Summary,
                            std::vector<double>, std::vector<Parts>>;
 
-/// One of several entries of one kind, such as a pass or a cause, with its values.
+/// An entry of a list of values, such as the times of passes or the shares of causes.
 struct Parts {
     std::string_view kind; ///< the field that holds the entry's name, such as "name"
     std::string name;
@@ -39,7 +39,7 @@ enum class Better : std::uint8_t { neither, less, more };
 /// Format of a value in a table cell.
 enum class Style : std::uint8_t {
     fixed,         ///< a fixed number of decimals
-    error,         ///< four decimals, or a power of ten if these are all 0
+    error,         ///< error: four decimals, or a power of ten if all four are 0
     times,         ///< the median, with the decimals of the whole table
     own_times,     ///< the median with three significant digits
     time_interval, ///< the interval of the median, with 95 % confidence
@@ -82,8 +82,8 @@ struct Metric {
 
     using RowFunction = Value (*)(const Row&);
     using DifferenceFunction = Value (*)(const Difference&);
-    /// Computed with each difference. The value is finite or counts as none. The cost arises again
-    /// for each mask.
+    /// Function that computes a metric of two pictures. A value that is not finite counts as no
+    /// value. The function is called once for each mask of pixels.
     using PictureFunction = double (*)(const Compared&);
     std::variant<RowFunction, DifferenceFunction, PictureFunction> get;
 };
@@ -94,7 +94,7 @@ struct Registered {
     explicit Registered(Metric quantity);
 };
 
-/// End of the orders of metrics of differences, which begin at 100.
+/// Upper limit of Metric::order for metrics of differences, which use orders from 100 on.
 inline constexpr int kAfterDifferences = 200;
 
 /// Returns all metrics sorted by `order`, then name. Throws `internal` if two have the same name.
@@ -117,10 +117,11 @@ std::vector<double> other_figures(const Compared& compared);
 struct RowMask {
     std::string_view field; ///< field in JSON, such as "error_first_order"
     std::string_view name;  ///< name of the mask, such as "first_order"
-    /// Title in tables. Empty for the mirrors, which a table means unless it names others.
+    /// Title of the mask in tables. Empty for the mask of all mirror pixels, to which tables refer
+    /// without a title.
     std::string_view title;
     Difference Errors::*error;
-    /// Whether tables have its columns only if a row has such pixels.
+    /// Whether tables show the columns of this mask only if some row has pixels in the mask.
     bool only_where_some = false;
 };
 std::span<const RowMask> masks();

@@ -18,8 +18,8 @@ struct KnobText {
 /// defaults, or null.
 const Row* find_row(const Comparison& comparison, std::string_view technique,
                     std::span<const KnobText> wanted = {});
-/// Return the row of part one with `bounces` inter-reflections, of part three, and of ray tracing,
-/// each with its default knobs. Null if there is none.
+/// Three functions that return the row of `naive` with `bounces` bounces, of `parallax`, and of ray
+/// tracing, each with default knobs. Null if the comparison has no such row.
 const Row* find_naive(const Comparison& comparison, int bounces);
 const Row* find_parallax(const Comparison& comparison);
 const Row* find_ray_traced(const Comparison& comparison);

@@ -7,8 +7,9 @@ namespace catoptric::measure {
 
 struct SeedRow {
     std::string_view implementation;
-    std::string_view technique; ///< our technique for it
-    int inter_reflections;      ///< number of inter-reflections; -1 if the table gives none
+    /// Technique of this program that corresponds to the row of the seed report.
+    std::string_view technique;
+    int inter_reflections; ///< number of inter-reflections; -1 if the table gives none
     /// The report's R for four reflectors: 4 i + 2 for part one, otherwise one capture each. 0
     /// means none.
     int scene_passes;

@@ -29,8 +29,9 @@ public:
 
 private:
     std::size_t games_;
-    std::vector<std::vector<double>> worth_; ///< by player and game, for the coalitions so far
-    std::vector<bool> came_;                 ///< by coalition: whether it was added
+    /// Sum for each player and game: the Shapley value once all coalitions were added.
+    std::vector<std::vector<double>> worth_;
+    std::vector<bool> came_; ///< whether each coalition was added
 };
 
 } // namespace catoptric::measure

@@ -41,7 +41,7 @@ private:
 /// bits.
 class EightBitCurve {
 public:
-    /// Returns the shared table. It is made at the first call.
+    /// Returns the shared table, which the first call creates.
     static const EightBitCurve& get();
 
     /// Returns exactly round(srgb_from_linear(linear) * 255) / 255. Costs a nanosecond.
@@ -60,7 +60,8 @@ private:
     EightBitCurve();
 
     static constexpr int kDropped = 16;
-    /// Least value of each code; the last entry is never reached.
+    /// Least linear value that is encoded as each 8-bit code, indexed by the code. Entry 256 is
+    /// above 1, so no value in [0,1] reaches it.
     std::array<double, 257> least_{};
     /// Codes indexed by the first bits of a float.
     std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDropped) + 1> guesses_{};

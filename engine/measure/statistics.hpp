@@ -9,7 +9,7 @@
 
 namespace catoptric::measure {
 
-/// Location and spread of a list of measurements, in their own unit.
+/// Median and spread of a list of measurements, in the unit of the measurements.
 struct Summary {
     double median = 0; ///< median of the rounds' medians if there are rounds
     double p05 = 0;    ///< 5th percentile

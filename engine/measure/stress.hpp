@@ -25,7 +25,7 @@ struct StressCase {
     std::string what;
     double measured = 0;
     double limit = 0;
-    bool is_quality = false; ///< beyond its limit the picture looks worse but is not wrong
+    bool is_quality = false; ///< whether a picture beyond the limit looks worse but is not wrong
     bool holds() const { return measured <= limit; }
 };
 
@@ -46,8 +46,8 @@ struct StressRow {
     std::vector<NotRun> not_run;
     /// Rule of tests/mutations: the wrong code that this property must notice.
     std::string turned_red_by;
-    /// Returns the case nearest to its limit or furthest beyond it. A case that is wrong precedes
-    /// all that only look worse. Returns null if there is none.
+    /// Returns the case whose measured value is nearest to its limit, or furthest beyond it. Wrong
+    /// pictures precede pictures that only look worse. Returns null if the property has no case.
     const StressCase* worst() const;
 };
 

@@ -32,7 +32,8 @@ double median_of(std::vector<double> values) {
     return values.empty() ? Difference::kNone : percentile(std::move(values), .5);
 }
 
-/// Returns the number of rows that this row is less than, minus the number that are less than it.
+/// Returns the row's score in one figure, such as FLIP: the number of rows that have a larger value
+/// than this row, minus the number of rows that have a smaller value.
 int standing_of(const Row& row, const std::vector<const Row*>& rows, std::string_view figure) {
     int standing = 0;
     for (const Row* other : rows)

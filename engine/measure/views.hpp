@@ -29,7 +29,8 @@ Interval difference_over_views(const Row& a, const Row& b, std::string_view figu
 /// difference over the views lies below 0. Without drawn views, the metrics of the picture are
 /// compared. Fewer views than kFewest give false.
 bool is_less(const Row& a, const Row& b, std::string_view figure);
-/// Returns whether one is less than the other. Otherwise they tie.
+/// Returns whether the metrics of two rows differ over the views with 95 % confidence. Otherwise
+/// the rows tie.
 bool apart(const Row& a, const Row& b, std::string_view figure);
 
 /// Rows in order of a metric over the mirrors for which less is better, with the pairs that tie.
@@ -37,9 +38,9 @@ struct Order {
     /// Pairs in the order of `rows`.
     using Pairs = std::vector<std::pair<const Row*, const Row*>>;
     const Metric* figure;
-    /// Rows without the reference and failed rows. They are sorted by how many rows a row is less
-    /// than, minus how many are less than it, over the views. Between equals the lesser median
-    /// comes first.
+    /// All rows except the reference and failed rows. A row's score in the metric is the number of
+    /// rows with larger values minus the number of rows with smaller values, over the views. Rows
+    /// with a larger score come first, and between equal scores the row with the smaller median.
     std::vector<const Row*> rows;
     Pairs ties;
     Pairs reversed; ///< pairs whose second row is less than the first: no order fits all pairs

@@ -5,15 +5,16 @@
 
 namespace catoptric::reflect {
 
-/// Input of add_frame: work that the frame may skip, and captures of the frame before.
+/// Input of add_frame: the work that the frame may skip, and the captures that the frame before
+/// left.
 struct CaptureHistory {
     const require::Model& model;
-    /// Outputs::kept of the frame before; null for the first frame
+    /// Outputs::kept of the frame before; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
     render::Comparisons* comparisons = nullptr; ///< see render::PreviousCaptures
     std::uint32_t most = 0;                     ///< capture budget; see render::PreviousCaptures
 };
-/// Model that culls no work.
+/// The model that culls no work, so that all captures are drawn.
 inline const require::Model kEverything;
 
 /// Declares the passes of one frame: all that the mirrors' techniques need. If all mirrors share

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// Plans: which technique draws which mirror.
+/// Plans, which choose the technique of each mirror.
 namespace catoptric::reflect {
 
 /// One entry of a plan. The pattern is a list of mirror numbers from 1, names with shell wildcards,
@@ -33,7 +33,7 @@ struct Plan {
     bool same_as(const Plan& other) const;
 };
 
-/// Name of the plan that is suggested anew for each scene (require::suggest).
+/// Name of the technique `auto`, which chooses a plan for each scene (require::suggest).
 inline constexpr std::string_view kAuto = "auto";
 
 /// Reads "name[:knob=value,...]", or rules "PATTERN=name[:knob=value,...] ..." separated by blanks,
@@ -45,12 +45,14 @@ Plan parse_plan(std::string_view text);
 struct Assignment {
     std::vector<Choice> choices;          ///< all different; at least one
     std::vector<std::uint32_t> of_mirror; ///< index into `choices`
-    /// Pattern of the rule that was applied; empty: one technique for all mirrors.
+    /// For each mirror: the pattern of the rule that chose its technique. Empty: one technique
+    /// draws all mirrors.
     std::vector<std::string> patterns;
-    /// Reason for the technique, if the plan was suggested or another technique replaces the one
-    /// asked for; else empty.
+    /// For each mirror: the reason for its technique, if `auto` chose the plan or another technique
+    /// replaces the requested one; else empty.
     std::vector<std::string> reasons;
-    /// Parts of the mirror that its technique does not draw as asked, as one clause; else empty.
+    /// For each mirror: a clause that names the parts of the mirror that its technique cannot draw;
+    /// else empty.
     std::vector<std::string> lacks;
 };
 

@@ -18,14 +18,16 @@ namespace catoptric::reflect {
 /// Images and buffers that a technique adds to the graph, with notes for the user.
 struct Outputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
-    bool has_hits = false; ///< whether the alpha of `hdr` tells what the ray met (shared::kMetBits)
+    /// Whether the alpha of `hdr` says which surface the ray met (shared::kMetBits).
+    bool has_hits = false;
     std::vector<graph::BufferHandle> counters; ///< shared::Counters of each tracing pass
-    /// Where mirrors looked into captures (shaders/lib/mirror.glsl), rgba32f; only if the inputs
-    /// ask for it.
+    /// Image with the direction in which each mirror pixel looked into a capture
+    /// (shaders/lib/mirror.glsl), rgba32f; only if the inputs ask for this image.
     std::optional<graph::ImageHandle> lookup;
     std::shared_ptr<const render::Captures> captures; ///< captures that the view reads; may be null
-    std::vector<std::string> notes;             ///< differences from the request, one sentence each
-    std::shared_ptr<render::CaptureCache> kept; ///< for the next frame, if captures are kept
+    std::vector<std::string> notes; ///< differences from the request, one sentence each
+    /// Captures for the next frame, if captures are kept.
+    std::shared_ptr<render::CaptureCache> kept;
 };
 
 /// Mirror inputs: captures and lighting for the mirrors that share a technique and its settings.
@@ -36,10 +38,10 @@ struct MirrorInputs {
     std::vector<std::uint32_t> mirrors; ///< the mirrors that share the technique, from 0
 };
 
-/// How the view draws mirrors.
+/// Shaders and resources with which the view draws mirrors.
 struct MirrorShading {
     render::MirrorShader mirror;
-    std::optional<Tracer> tracer; ///< for pixels that the mirror's shader leaves to the tracer
+    std::optional<Tracer> tracer; ///< traces the pixels that the mirror's shader leaves to rays
 };
 
 struct Technique {
@@ -91,7 +93,7 @@ const Technique& find_technique(std::string_view name);
 struct Choice {
     const Technique* technique = nullptr;
     Settings settings{{}};
-    std::string label; ///< as the user wrote it
+    std::string label; ///< the technique as the user wrote it
 
     /// Returns the label as a file name: "naive-bounces3".
     std::string file_name() const;

@@ -19,7 +19,7 @@ struct Tracer {
 
 struct Traced {
     graph::ImageHandle
-        hdr; ///< linear radiance, rgba32f; alpha: what the ray met (shared::kMetBits)
+        hdr; ///< linear radiance, rgba32f; alpha says which surface the ray met (shared::kMetBits)
     graph::BufferHandle counters;
 };
 Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const Tracer& tracer);

@@ -11,19 +11,21 @@
 #include <span>
 #include <vector>
 
-/// The capture cache: captures that stay as long as what they show does not change. The captures
-/// lie in one of two sets of arrays. A frame that redraws captures samples one set and fills the
-/// other, so that each of its mirrors shows the frame before. A frame that redraws none uses the
-/// set unchanged.
+/// The capture cache keeps captures from frame to frame as long as the surfaces that they show do
+/// not change. The captures lie in one of two sets of arrays. A frame that redraws captures samples
+/// one set and fills the other, so that mirrors in the new captures show the captures of the frame
+/// before. A frame that redraws no capture uses one set and leaves it unchanged.
 namespace catoptric::render {
 
 /// A face of a mirror's capture.
 struct CachedFace {
-    /// Content hash of everything that the face shows, except mirrors; 0: the contents are invalid.
+    /// Content hash of all surfaces and lights that the face shows, except mirrors; 0: the contents
+    /// of the face are invalid.
     std::uint64_t content_hash = 0;
     std::uint64_t drawing = 0; ///< identifies the picture: equal numbers mean equal bytes; 0: none
-    bool is_behind = false;    ///< was due for a redraw that was put off
-    /// Content hash of everything that the face shows, except mirrors and `pieces`.
+    bool is_behind = false; ///< whether the face shows an old state, because its redraw had to wait
+    /// Content hash of all surfaces and lights that the face shows, except mirrors and the moving
+    /// objects in `pieces`.
     std::uint64_t settings = 0;
     std::shared_ptr<const require::Pieces>
         pieces; ///< moving pieces in the mirror's faces, as of `content_hash`
@@ -33,24 +35,27 @@ struct CachedFace {
 /// How a mirror's capture changed since the frame before.
 enum class CaptureChange {
     none,
-    unknown, ///< drawn again only because the captures of other mirrors changed; may be equal
-    some,    ///< changed, or may have changed in another way
+    /// The capture was redrawn only because captures of other mirrors changed; may be equal.
+    unknown,
+    some, ///< the capture changed, or may have changed for another reason
 };
 
 /// The captures that a frame leaves for the next frame.
 struct CaptureCache {
     std::vector<CaptureOptions> options; ///< settings that determine the layout of the arrays
     std::uint32_t set = 0;               ///< index of the set in use, of the two
-    std::vector<std::array<CachedFace, 6>> faces; ///< by mirror
-    std::vector<CaptureChange> changes;           ///< by mirror
-    /// By mirror: for how many frames the redraw has been put off.
+    std::vector<std::array<CachedFace, 6>> faces; ///< the six faces of each mirror's capture
+    std::vector<CaptureChange> changes; ///< change of each mirror's capture since the frame before
+    /// For each mirror: for how many frames the redraw of its capture has waited.
     std::vector<std::uint32_t> waited;
     bool is_late = false; ///< a capture that had waited was drawn, and `saw` does not record that
     // Valid while some change is unknown:
-    /// By mirror: the mirrors that the faces with an unknown change show.
+    /// For each mirror: the other mirrors that are visible in the faces of its capture whose change
+    /// is unknown.
     std::vector<std::vector<std::uint32_t>> saw;
     std::shared_ptr<CaptureCache> before;
-    /// One word a mirror, valid once the frame has ended.
+    /// Results of the device's comparison of old and new captures: one word per mirror, not 0 if
+    /// the captures differ. Valid once the frame has ended.
     std::shared_ptr<const gpu::Buffer> differing;
     std::uint64_t frame = 0; ///< number of the frame, which the caller sets
 };
@@ -65,22 +70,24 @@ std::vector<char> changed(const CaptureCache& captures);
 void learn(const std::shared_ptr<CaptureCache>& captures,
            const std::function<bool(std::uint64_t)>& has_ended);
 
-/// Marks all captures as unchanged, as if the comparisons had found no difference.
+/// Marks all captures as unchanged since the frame before, without a comparison.
 void find_unchanged(CaptureCache& captures);
 
 /// The work of a frame on one face.
 enum class FaceWork : std::uint8_t {
     keep,
-    clear,   ///< no ray can ask for the face, and it has no contents yet
-    draw,    ///< what it shows has changed
-    compare, ///< draw because mirrors in it may have changed, then compare with the frame before
+    clear, ///< clear the face, which has no contents yet and which no ray can ask for
+    draw,  ///< draw the face, because the surfaces or lights that it shows have changed
+    /// Draw the face because mirrors in it may have changed, then compare it with the frame before.
+    compare,
 };
 
 /// The work of a frame on its captures.
 struct CaptureWork {
-    std::vector<std::array<FaceWork, 6>> faces; ///< by mirror; empty: all six faces are drawn
-    /// By mirror: the part of each face that is redrawn. Outside the part, the texels equal those
-    /// of the frame before.
+    /// Work on each face of each mirror; empty: all six faces are drawn.
+    std::vector<std::array<FaceWork, 6>> faces;
+    /// For each mirror: the part of each face that is redrawn. Outside the part, the texels equal
+    /// those of the frame before.
     std::vector<std::array<require::FacePart, 6>> parts;
     FaceWork of(std::uint32_t mirror, std::uint32_t face) const {
         return faces.empty() ? FaceWork::draw : faces[mirror][face];
@@ -98,7 +105,7 @@ struct CaptureUpdate {
     std::shared_ptr<const Captures> captures; ///< captures that the frame samples
     /// Captures that other captures sample; null: none existed.
     std::shared_ptr<const Captures> last;
-    std::vector<bool> was_there; ///< by mirror: has a capture in `last`
+    std::vector<bool> was_there; ///< for each mirror: whether `last` has a capture of the mirror
     CaptureWork work;
     std::shared_ptr<CaptureCache> kept; ///< null: captures do not persist
 };
@@ -116,8 +123,9 @@ public:
 
 private:
     struct PooledBuffer {
-        std::shared_ptr<gpu::Buffer> buffer; ///< free if nobody else holds it
-        std::uint64_t frame = 0;             ///< number of the last frame that wrote to it
+        /// A buffer of comparison results, which can be used again if this is its only owner.
+        std::shared_ptr<gpu::Buffer> buffer;
+        std::uint64_t frame = 0; ///< number of the last frame that wrote to it
     };
     gpu::Device& device_;
     std::function<bool(std::uint64_t)> has_ended_;
@@ -131,8 +139,10 @@ CaptureUpdate update_all_captures(graph::Graph& graph, const FrameInputs& inputs
 
 /// The state from which the captures of a frame sequence continue.
 struct PreviousCaptures {
-    std::shared_ptr<CaptureCache> before; ///< of the frame before; null: this is the first frame
-    /// Null: the frame does not belong to the sequence and leaves nothing for the next frame.
+    /// Captures of the frame before; null: this is the first frame.
+    std::shared_ptr<CaptureCache> before;
+    /// Buffers for the results of comparing captures. Null: the frame does not belong to the frame
+    /// sequence and leaves nothing for the next frame.
     Comparisons* comparisons = nullptr;
     /// The capture budget: the most mirrors whose captures are drawn again; 0: no limit. The other
     /// captures stay as they are. A capture without valid contents in a needed face does not count

@@ -21,14 +21,15 @@ struct Cubes {
     graph::ImageHandle colour;
     std::optional<graph::ImageHandle> distance;
     std::optional<graph::ImageHandle> colour2, distance2;
-    /// Surface number and normal (rgba16f), see shaders/lib/surface.glsl.
+    /// Image with the number and the normal of each texel's surface (rgba16f), see
+    /// shaders/lib/surface.glsl.
     std::optional<graph::ImageHandle> surfaces;
 };
 
 /// Returns a range of layers of every image that exists.
 Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count);
 
-/// What one mirror's capture holds and how it is drawn.
+/// Contents of one mirror's capture, and settings with which the capture is drawn.
 struct CaptureOptions {
     std::uint32_t face = 256; ///< cube edge in texels; 0: the mirror has no capture
     Format colour = Format::rgba16f;
@@ -56,14 +57,14 @@ struct CapturePlace {
 /// The captures of all mirrors.
 struct Captures {
     std::string name;                    ///< passes have the names name/1, name/2, ...
-    std::vector<CaptureOptions> options; ///< by mirror
-    std::vector<CapturePlace> places;    ///< by mirror
+    std::vector<CaptureOptions> options; ///< options of each mirror's capture
+    std::vector<CapturePlace> places;    ///< place of each mirror's capture
     std::vector<Cubes> arrays;           ///< 1 to shared::kMostArrays arrays
     /// Holds a shared::CaptureTable; absent if mirror n is cube n of the only array.
     std::optional<graph::BufferHandle> table;
     std::vector<std::string> notes; ///< deviations from the request, one sentence each
-    /// By mirror and face, if captures persist: equal numbers under equal options mean equal
-    /// texels.
+    /// Numbers of the pictures in each face of each mirror's capture, if captures persist. Equal
+    /// numbers mean equal texels if the options are equal.
     std::vector<std::array<std::uint64_t, 6>> drawings;
 
     /// Returns the array that holds the mirror's capture; null if the mirror has none.

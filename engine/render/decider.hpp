@@ -7,7 +7,8 @@
 
 namespace catoptric::render {
 
-/// Decides, mirror by mirror, what a frame has to do with its captures.
+/// Decides for each mirror whether a frame keeps, clears, draws or compares the faces of the
+/// mirror's capture.
 class Decider {
 public:
     /// `layout`: options of this frame's captures. `before`: captures of the frame before; null:
@@ -18,7 +19,8 @@ public:
 
     /// Returns whether the frame before left a capture of the mirror with the same options.
     bool was_there(std::uint32_t mirror) const;
-    /// Returns for how many frames, up to the frame before, the mirror's capture has been put off.
+    /// Returns for how many frames, up to the frame before, the redraw of the mirror's capture has
+    /// waited.
     std::uint32_t waited(std::uint32_t mirror) const;
 
     /// Decides for all six faces of the mirror. Fills the mirror's entries in `work` and `kept`.

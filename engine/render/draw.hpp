@@ -4,7 +4,7 @@
 
 #include <functional>
 
-/// Drawing of scene objects, as raster passes record it.
+/// Functions that record the draws of scene objects into a raster pass.
 namespace catoptric::render {
 
 /// Returns whether an object, given by its index, is drawn.

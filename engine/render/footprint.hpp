@@ -16,7 +16,7 @@ namespace catoptric::render {
 /// picture they turn away from the eye and lie farther off.
 struct PixelGrid {
     shared::View view;
-    std::uint32_t height = 1; ///< of the picture, in pixels
+    std::uint32_t height = 1; ///< height of the picture in pixels
 
     /// Returns the smallest angle between neighbouring pixels. `cosine`: of the direction's angle
     /// to the axis, above 0. Directions beyond the picture's corner count as the corner.
@@ -44,8 +44,9 @@ double sphere_need(const PixelGrid& pixels, const vec3& centre, double radius);
 
 /// Returns the largest face_need of a mesh's triangles. Each triangle uses the two principal
 /// curvatures that its corner normals give (Rusinkiewicz 2004), and the pixel angle at the corner
-/// farthest from the axis. Facets without smooth normals are flat. Both sides reflect. Ignores
-/// occlusion. Returns 0 if no triangle with an area is in the picture.
+/// farthest from the axis. Facets without smooth normals are flat. Both sides of a triangle count
+/// as reflecting. Objects that hide the mirror are ignored. Returns 0 if no triangle with an area
+/// is in the picture.
 double mesh_need(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
                  std::span<const std::uint32_t> indices);
 

@@ -10,7 +10,7 @@
 
 namespace catoptric::render {
 
-/// Which objects keep an object space.
+/// The choice of objects that are stored in object space.
 enum class Spaces {
     one, ///< none: all vertices are in scene units
     own  ///< some: see make_geometry
@@ -23,24 +23,27 @@ struct DrawRange {
     std::uint32_t first_vertex = 0;
     std::uint32_t vertex_count = 0;
     Bounds<float> bounds; ///< scene units
-    float radius = 0;     ///< of all vertices, around the middle of the bounds; includes roundings
+    /// Largest distance of a vertex from the middle of the bounds, with rounding errors.
+    float radius = 0;
     bool mirror = false;
     bool casts_shadow = true; ///< false for the mesh of a light, which would hide the light
     bool seen_by_camera = true;
     bool exact_sphere = false; ///< the mesh stands for an exact sphere
     bool one_sided = false;    ///< invisible from behind, where triangles run clockwise
-    bool varies = false; ///< has more than one colour, or reflects sharply without being a mirror
+    /// Whether the object has several colours, or reflects sharply without being a mirror.
+    bool varies = false;
     bool turns = false;  ///< the normal turns to the viewer's side
-    bool masked = false; ///< parts of it may be cut out
+    bool masked = false; ///< whether an alpha mask may cut out parts of the object
     /// A mirror with diffuse or emitted light beside its reflection.
     bool lit = false;
     bool shell = false;   ///< the mesh passes is_shell
-    bool flipped = false; ///< the transform from the mesh's coordinates mirrors or flattens it
-    /// First attribute of its mesh in Geometry::attributes; none: the mesh has none.
+    bool flipped = false; ///< whether the object's transform mirrors or flattens the mesh
+    /// Index in Geometry::attributes of the first attribute of the object's mesh; empty: the mesh
+    /// has no attributes.
     std::optional<std::uint32_t> first_attribute;
     std::optional<ObjectSpace> own; ///< none: vertices are in scene units
     /// Index of the object that owns these vertices and indices: the first object with the mesh, or
-    /// this object if it shares none.
+    /// this object if it shares no vertices with others.
     std::uint32_t storage = 0;
     bool shares = false; ///< uses the space of its mesh, which copies may share
 };
@@ -51,9 +54,11 @@ struct Geometry {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<DrawRange> ranges;
-    std::vector<shared::Attribute> attributes;    ///< of meshes that have them, stored once a mesh
-    std::map<std::size_t, MeshSpace> mesh_spaces; ///< by mesh, of meshes that copies share
-    Bounds<float> core;                           ///< bounds of most of the scene (Space::core)
+    /// Vertex attributes, stored once for each mesh that has them.
+    std::vector<shared::Attribute> attributes;
+    /// Object spaces of meshes that copies share, by mesh index.
+    std::map<std::size_t, MeshSpace> mesh_spaces;
+    Bounds<float> core; ///< bounds of most of the scene (Space::core)
     Spaces spaces = Spaces::one;
     std::uint32_t flat_indices = 0; ///< number of indices in scene units
 };

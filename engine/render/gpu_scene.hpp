@@ -66,7 +66,8 @@ public:
     /// mirror outside the picture. The first update computes them and later updates keep them,
     /// because cubes that change size lose the contents of the frame before.
     const std::vector<double>& face_needs() const { return face_needs_; }
-    /// Makes the next update compute the face needs again.
+    /// Discards the results of face_needs(), so that the next update computes the needed cube edges
+    /// again.
     void forget_face_needs() { face_needs_.clear(); }
     bool knows_face_needs() const { return face_needs_.size() == mirror_objects_.size(); }
     /// Replaces the face needs by those of another sequence of frames.
@@ -154,16 +155,16 @@ private:
     mutable std::vector<shared::View> views_; ///< all views
     std::vector<shared::View> scene_views_;   ///< views of mirrors and lights
     mutable std::size_t added_views_ = 0;     ///< the last of `views_`, valid in this frame only
-    std::vector<scene::FlatFaces> flats_;     ///< by mirror
+    std::vector<scene::FlatFaces> flats_;     ///< flat faces of each mirror
     std::vector<dvec3> probe_places_, light_places_; ///< scene units
     dvec3 eye_{0};
     std::vector<shared::Surface> surfaces_;
     std::vector<shared::Probe> probes_;
     std::vector<scene::PointLight> world_lights_;
     std::vector<shared::Light> lights_;
-    std::vector<std::vector<std::uint8_t>> backdrops_; ///< by light
+    std::vector<std::vector<std::uint8_t>> backdrops_; ///< result of find_backdrops for each light
     std::vector<std::size_t> mirror_objects_;
-    std::vector<bool> hides_all_; ///< by object
+    std::vector<bool> hides_all_; ///< result of hides_all_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};
@@ -179,7 +180,8 @@ private:
     MaterialParameterLists details_;
     Sky sky_;
     std::unique_ptr<Tracing> tracing_;
-    mutable std::array<bool, 2> wants_tracing_{}; ///< by Spheres
+    /// Whether a pass of this frame traces rays, for each value of Spheres.
+    mutable std::array<bool, 2> wants_tracing_{};
 };
 
 } // namespace catoptric::render

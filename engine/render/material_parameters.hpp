@@ -33,8 +33,8 @@ private:
     void fill_texels(const scene::Scene& now, std::uint64_t most);
 
     std::vector<std::shared_ptr<const scene::Image>> images_; ///< in the order of the texel buffer
-    std::vector<std::uint32_t> first_texels_;                 ///< by image
-    std::vector<std::uint32_t> indices_;                      ///< by object
+    std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
+    std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
     bool any_ = false, masks_ = false;
     Resident details_, attributes_, texels_;
 };

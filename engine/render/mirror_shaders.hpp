@@ -15,11 +15,11 @@ struct MirrorShader {
     std::string fragment; ///< empty: the mirror is black
     gpu::Constants constants;
     std::shared_ptr<const Captures> captures;
-    /// Further images that it samples (nearest), by shader name: one image, or one for each array
-    /// of the captures.
+    /// Further images that the mirror's shader samples (nearest), by their names in the shader. An
+    /// entry has one image, or one for each array of captures.
     std::vector<std::pair<std::string, std::vector<graph::ImageHandle>>> images;
     std::vector<std::pair<std::string, graph::BufferHandle>>
-        buffers;               ///< further buffers that it reads
+        buffers;               ///< further buffers that the mirror's shader reads
     bool blank = false;        ///< black, because the captures of the frame before do not exist
     std::uint32_t ablated = 0; ///< causes of error that fragment#ablate removes
 };

@@ -8,7 +8,8 @@
 
 namespace catoptric::render {
 
-/// Up to this many mirrors are tested one by one, because a walk over a tree costs as much.
+/// Largest number of mirrors that rays test one by one. For so few mirrors a tree would not be
+/// faster.
 inline constexpr std::size_t kFewMirrors = 8;
 
 /// Returns a tree over the exact spheres or bounds of mirrors, which shaders walk without a stack

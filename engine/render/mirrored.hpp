@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-/// Views in flat mirrors. A flat mirror shows what an eye would see that stands as far behind its
-/// plane.
+/// Mirrored views for flat mirrors. The reflection in a flat mirror equals the view from an eye
+/// that is mirrored in the mirror's plane.
 namespace catoptric::render {
 
 /// A mirrored view and the part of the picture that shows it.
@@ -31,7 +31,8 @@ struct MirroredEye {
 /// A flat mirror, or one flat face of a mirror.
 struct MirrorPlane {
     scene::Flat flat; ///< scene units
-    /// How many mirrors its picture shows one behind the other; 0: the picture is black.
+    /// Number of mirror reflections, one behind the other, that the mirrored view draws; 0: the
+    /// view is black.
     int bounces = 0;
 };
 

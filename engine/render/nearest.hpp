@@ -71,7 +71,7 @@ private:
 
     BoxTree objects_;
     bool moved_ = false;
-    std::vector<ObjectTree> parts_; ///< by object
+    std::vector<ObjectTree> parts_; ///< tree of each object
 };
 
 /// Returns a lower bound of the distance from the point to the box. The bound also holds for the

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-/// Which objects have an object space, and where that space lies.
+/// Chooses the objects that are stored in object space, and finds the transforms of these spaces.
 namespace catoptric::render {
 
 /// An object space for vertices: scene = centre + scene_from_own * own. Vertices in it are about 1
@@ -15,7 +15,8 @@ struct ObjectSpace {
     dmat3 scene_from_own{1};
     dvec3 centre{0};  ///< scene units
     double least = 1; ///< each length in object space is at least this many scene units a unit
-    float radius = 0; ///< of the exact sphere around the middle, object space; 0: none
+    /// Radius of the exact sphere around the middle, in object space; 0: no exact sphere.
+    float radius = 0;
     dvec3 point(const dvec3& scene) const {
         return glm::inverse(scene_from_own) * (scene - centre);
     }

@@ -11,7 +11,8 @@
 /// outputs. `prefix` keeps the names of several techniques in one frame apart.
 namespace catoptric::render {
 
-/// Mirror bounces of the reference, and of techniques that replace it.
+/// Default number of mirror bounces of ray tracing, for the reference and for techniques that trace
+/// rays for single pixels.
 inline constexpr std::uint32_t kReferenceDepth = 16;
 
 /// Declares one pass for each light, which draws the depth around it: layers [shadow_faces * l,
@@ -32,9 +33,11 @@ void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures
 /// The outputs of the camera's view.
 struct CameraOutputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
-    /// Where each mirror pixel looked, rgba32f: see shaders/lib/mirror.glsl; 0 for other pixels.
+    /// Image with the direction in which each mirror pixel looked into a capture, rgba32f: see
+    /// shaders/lib/mirror.glsl; 0 for other pixels.
     std::optional<graph::ImageHandle> lookup;
-    /// Number of the tracing that completes the pixel, from 1, r32f; 0: none.
+    /// Image that says which tracer completes each pixel: the tracer's number from 1, r32f; 0:
+    /// none.
     std::optional<graph::ImageHandle> tracers;
 };
 /// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to

@@ -49,7 +49,7 @@ private:
     std::string name_;
     gpu::BufferUsage use_;
     std::vector<std::byte> data_;
-    std::vector<std::uint64_t> pages_; ///< by page of `data_`: the version of the last change
+    std::vector<std::uint64_t> pages_; ///< version of the last change of each page of `data_`
     std::uint64_t version_ = 1;
     std::vector<Copy> copies_;
     std::vector<std::optional<std::size_t>> bound_; ///< copy, by slot

@@ -20,7 +20,7 @@ struct SceneChanges {
 class SceneChangeTracker {
 public:
     /// Returns the differences from the scene of the last call, then stores `now` in its place.
-    /// `anew`: report everything as changed.
+    /// `anew`: reports all data of the scene as changed.
     SceneChanges take_over(const scene::Scene& now, bool anew);
 
 private:

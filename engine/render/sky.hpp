@@ -33,8 +33,8 @@ private:
     Resident sky_, texels_, vertices_, indices_;
 };
 
-/// Draws the environment where nothing else is, into layers whose views start at `first_view`.
-/// `store`: as in Drawing.
+/// Draws the environment into pixels that no surface covers, into layers whose views start at
+/// `first_view`. `store`: as in Drawing.
 void draw_sky(graph::Commands& commands, const GpuScene& scene, std::uint32_t first_view,
               std::uint32_t layers, const gpu::Constants& store);
 

@@ -17,8 +17,8 @@ namespace catoptric::render {
 /// built.
 inline constexpr double kWorstRefit = 2;
 
-/// How rays intersect an exact sphere: by its mesh's triangles, or as a sphere. Each way has its
-/// own hierarchy.
+/// The two ways in which rays intersect an exact sphere: as the triangles of its mesh (`mesh`), or
+/// as a sphere (`exact`). Each way has a hierarchy of its own.
 enum class Spheres { mesh, exact };
 
 /// Returns the constants with which the tracer's shaders are built for a device's choices, without
@@ -49,8 +49,9 @@ public:
 
     std::size_t built() const { return built_; }
     std::size_t refitted() const { return refitted_; }
-    std::size_t writes() const { return writes_; } ///< to device memory, in total
-    double ms() const { return ms_; }              ///< of host time, in total
+    /// Number of writes to device memory since construction.
+    std::size_t writes() const { return writes_; }
+    double ms() const { return ms_; } ///< host time in ms since construction
     /// Returns the host milliseconds of the first use, which `ms` includes: for building the trees,
     /// and for writing them to the device.
     double first_build_ms() const { return first_build_ms_; }
@@ -61,7 +62,7 @@ private:
         std::size_t object;
         bool vertices;
     };
-    /// The changes so far. A hierarchy with an older version is out of date.
+    /// Version number of the scene's geometry. A hierarchy with an older version is out of date.
     struct Version {
         std::size_t layouts = 0, moves = 0;
         friend bool operator==(const Version&, const Version&) = default;
@@ -73,8 +74,8 @@ private:
         bvh::Bvh tree; ///< of the triangles in scene units
         double cost_when_built = 0;
         Version seen;
-        std::vector<char> moved;   ///< by object in scene units: moved since `seen`
-        std::vector<char> reached; ///< by object: the objects that `reach` was made for
+        std::vector<char> moved; ///< for each object in scene units: whether it moved since `seen`
+        std::vector<char> reached; ///< for each object: whether `reach` includes it
         bvh::Reach reach;
         bvh::IndexRange
             changed; ///< range of the tree's triangles that changed since the last `fill`
@@ -92,7 +93,8 @@ private:
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;
-    std::map<std::size_t, bvh::Bvh> own_trees_; ///< by the object that owns the vertices
+    /// Trees of meshes in object space, by the object that owns the vertices.
+    std::map<std::size_t, bvh::Bvh> own_trees_;
     Version version_{1, 0};
     bool is_read_ = false;    ///< the present layout has been read
     std::vector<Move> moved_; ///< moves since the triangles were read

@@ -37,7 +37,7 @@ private:
         std::uint32_t first = 0;
     };
     std::size_t layouts_ = 0;
-    std::vector<VertexRange> places_; ///< by object
+    std::vector<VertexRange> places_; ///< range of each object's vertices
     bool anything_moves_ = false;
     Resident still_, moving_, indices_;
 };

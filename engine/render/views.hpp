@@ -26,9 +26,10 @@ std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap);
 /// Returns cube_views, turned by this matrix.
 std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_from_cube, float gap);
 
-/// Returns two parallel views along `forward` (unit length). Both start at one eye in front of
-/// everything and reach to its end. The first covers `core`, the second covers everything. The
-/// second view is returned twice if it is hardly larger than the first.
+/// Returns two parallel views along `forward` (unit length). Both views start at one eye in front
+/// of the whole scene and reach to the scene's far end. The first view covers the bounds `core`,
+/// the second the bounds `everything`. The second view is returned twice if it is hardly larger
+/// than the first.
 std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
                                       const Bounds<float>& everything);
 

@@ -2,7 +2,7 @@
 
 #include "../measure/comparison.hpp"
 
-// Short names for the data of measure/ that this layer writes.
+// Short names, in the namespace report, for the data of measure/ that reports contain.
 namespace catoptric::report {
 
 using catoptric::Setting;

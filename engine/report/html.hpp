@@ -17,11 +17,11 @@ std::string data_uri(std::string_view png);
 std::string figure(int width, int height, const std::string& png, const std::string& alt,
                    const std::string& caption);
 
-/// Style sheet of the page.
+/// CSS style sheet of report.html and stress.html.
 extern const char* const kStyle;
 
-/// Return report.html with these pictures, the section of one comparison, and a page around
-/// sections.
+/// Three functions that return HTML: the whole report.html with these pictures, the section of one
+/// comparison, and a page around several sections.
 std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);
 std::string html_section(const Comparison& comparison, const EncodedPictures& pictures);
 std::string html_page(const std::string& title, const std::string& content);

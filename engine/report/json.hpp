@@ -37,7 +37,7 @@ std::string shown(const Json& value);
 Json device_json(const DeviceFacts& device);
 /// Returns all fields of a row with the unit milliseconds, as in report.json.
 Json times_json(const Row& row);
-/// Returns the value of a metric, or null if there is none.
+/// Returns the value of a metric as JSON, or null if the metric has no value.
 Json value_json(const measure::Value& value);
 /// Returns the field "lag".
 Json to_json(const Lag& lag);

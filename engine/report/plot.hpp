@@ -24,7 +24,7 @@ struct LinePlot {
 };
 
 /// Returns an SVG to embed in a page. The y axis is logarithmic and values of 0 lie in a separate
-/// lane. Empty if there is no point.
+/// lane. Returns an empty text if the plot has no point.
 std::string line_plot(const LinePlot& plot);
 
 /// Returns the rows as an SVG: median ms against FLIP, both logarithmic. Error 0

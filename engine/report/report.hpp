@@ -15,9 +15,12 @@ struct EncodedPictures {
     struct OfRow {
         int pictured = -1;   ///< Row::pictured at the time of encoding
         std::string picture; ///< picture as displayed
-        std::string error;   ///< heat map of its FLIP error; empty if it has none
-        std::string causes;  ///< picture by cause; empty if causes are not known
-        std::string worst;   ///< picture at its worst view so far; empty if no view was drawn
+        /// Heat map of the row's FLIP error; empty if the row has no such picture.
+        std::string error;
+        std::string causes; ///< picture by cause; empty if causes are not known
+        /// Picture of the row in the finished view with its largest error; empty if no view was
+        /// drawn.
+        std::string worst;
         std::optional<std::size_t> worst_view;
     };
     std::string reference; ///< empty if the reference was not rendered
@@ -32,11 +35,11 @@ void encode_new(EncodedPictures& pictures, const Comparison& comparison,
 
 /// Returns rows.csv of several comparisons under one header.
 std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which);
-/// Writes the results so far into a folder, which is made as create_folder does. Files:
-/// report.json, report.md, report.html, rows.csv, images/<row>.png and .exr, images/<row>-error.png
-/// and images/reference.png. Rows with causes add images/causes-<row>.png, and drawn views add
-/// images/worst-<row>.png. `write` is called again as rows are added. It replaces only pictures
-/// that changed and all other files, each as a whole.
+/// Writes the results of the finished rows into a folder, which is made as create_folder does.
+/// Files: report.json, report.md, report.html, rows.csv, images/<row>.png and .exr,
+/// images/<row>-error.png and images/reference.png. Rows with causes add images/causes-<row>.png,
+/// and drawn views add images/worst-<row>.png. `write` is called again as rows are added. It
+/// replaces only pictures that changed and all other files, each as a whole.
 class Writer {
 public:
     explicit Writer(std::filesystem::path folder, CsvColumns csv = CsvColumns::table)
@@ -53,9 +56,9 @@ private:
 
 /// Data of one report on several scenes.
 struct Scenes {
-    std::vector<std::string> asked; ///< scenes as they were asked for
-    std::vector<Comparison> list;   ///< comparisons so far, each with its own `images`
-    /// Returns whether all scenes are there and complete.
+    std::vector<std::string> asked; ///< scenes as the user named them
+    std::vector<Comparison> list;   ///< finished comparisons, each with its own `images`
+    /// Returns whether the list has a complete comparison of every requested scene.
     bool is_complete() const;
 };
 /// Returns JSON of schema "catoptric/compare-scenes/1": version, commit, command, complete, asked,
@@ -83,8 +86,8 @@ private:
     std::filesystem::path folder_;
     CsvColumns csv_;
     Scenes scenes_;
-    std::vector<EncodedPictures> pictures_; ///< by scene
-    std::vector<std::string> sections_;     ///< by scene: html_section
+    std::vector<EncodedPictures> pictures_; ///< encoded pictures of each scene
+    std::vector<std::string> sections_;     ///< html_section of each scene
 };
 
 /// Returns the files that a writer may put into its folder, relative to it, for rows with these

@@ -27,9 +27,9 @@ std::string to_markdown(const Stress& stress);
 /// complete.
 std::string incomplete_text(const Stress& stress);
 
-/// Writes the results so far into a folder, which is made as for a comparison. Files: stress.json,
-/// stress.html, stress.md and images/ID-*.png. `write` is called again as rows are added and writes
-/// each picture once.
+/// Writes the results of the finished rows into a folder, which is made as for a comparison. Files:
+/// stress.json, stress.html, stress.md and images/ID-*.png. `write` is called again as rows are
+/// added and writes each picture once.
 class StressWriter {
 public:
     explicit StressWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}

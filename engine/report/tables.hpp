@@ -48,9 +48,10 @@ Table mirror_table(const Comparison& comparison);
 /// Returns the errors of looked-up directions, for rows that search. Without such rows the table is
 /// empty.
 Table lookup_table(const Comparison& comparison);
-/// Returns the unsupported features of the scene. Empty if there are none.
+/// Returns the unsupported features of the scene. The table is empty if the scene file has none.
 Table unsupported_table(const SceneFacts& scene);
-/// Returns what is done instead of a feature. Empty for an unknown id.
+/// Returns a text that says how an unsupported feature is left out, approximated or replaced. Empty
+/// for an unknown id.
 std::string gap_in_words(const std::string& id);
 /// Returns the error by cause with four lines a row. Empty if no row has causes.
 Table cause_table(const Comparison& comparison);
@@ -77,7 +78,7 @@ std::span<const CauseColour> cause_colours();
 /// cause with the largest part of its squared error. The row must have `causes`.
 measure::Picture cause_picture(const Row& row);
 
-/// Fact about the run: name and value.
+/// A line at the head of a report, such as "Device": name and value.
 struct Fact {
     std::string name;
     std::string value;
@@ -98,8 +99,8 @@ std::string findings_title(const Comparison& comparison);
 /// it. If all rows are of one kind, it names the fastest and the closest row.
 std::string verdict_in_words(const Comparison& comparison);
 
-/// Returns what the run says about the seed report's "no difference" between its parts one and two,
-/// and which rows have no lag.
+/// Returns sentences that compare the measured lag with the seed report's statement that parts one
+/// and two show no difference, and which rows have no lag.
 std::optional<std::string> lag_in_words(const Comparison& comparison);
 /// Returns the order of the rows over drawn views by each headline metric, and which of them tie.
 std::vector<std::string> views_in_words(const Comparison& comparison);

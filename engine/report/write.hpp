@@ -17,12 +17,13 @@ enum class CsvColumns : std::uint8_t {
     table, ///< metrics of the report's table of rows, and fields that tell runs apart
     all,   ///< each metric over each mask, mirror, pass and round
 };
-/// Returns rows.csv: a header and one line a row (RFC 4180). The last field of each line says what
-/// an incomplete run lacks. If the run has no row, one line holds only that field.
+/// Returns rows.csv: a header and one line a row (RFC 4180). The last field of each line is empty,
+/// or says that the run was stopped and how many rows are missing. If the run has no row, one line
+/// holds only that field.
 CATOPTRIC_API std::string to_csv(const Comparison& comparison,
                                  CsvColumns which = CsvColumns::table);
-/// Returns report.md: the seed report's Table 1 beside ours, errors, dominated rows, and a
-/// judgement of the report's guesses.
+/// Returns report.md: the seed report's Table 1 beside the measured times, errors, rows that are
+/// not on the front, and a judgement of the seed report's statements.
 CATOPTRIC_API std::string to_markdown(const Comparison& comparison);
 /// Returns report.html: one self-contained page with table and pictures (data: URIs) side by side,
 /// without script.

@@ -13,7 +13,8 @@ namespace catoptric::require {
 /// (render::kSmallPart). This is the limit, as a part of their largest possible distance from the
 /// scene's origin. When such an object comes or goes, the shaders of other objects change as well.
 inline constexpr double kSmall = 0x1p-12;
-/// Most pairs of shadow landing and capture that are tested one by one per frame.
+/// Largest number of tests per frame of whether a capture shows the place where a mover's shadow
+/// falls.
 inline constexpr std::size_t kMostLandings = 1 << 17;
 
 /// Content hashes of the faces of captures. The hash of a face stands for:
@@ -51,7 +52,7 @@ private:
     std::vector<Faces6> mirrors_;
     std::vector<Landing> landings_;
     std::uint64_t changes_ = 1; ///< counts instants at which something changed
-    std::uint64_t all_ = 0;     ///< content hash of everything
+    std::uint64_t all_ = 0;     ///< content hash of the whole scene
     std::uint64_t epoch_ = 0, layout_ = 0;
     std::uint32_t shadow_edge_ = 0;
     bool is_much_ = false;

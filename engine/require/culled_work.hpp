@@ -10,9 +10,11 @@ namespace catoptric::require {
 
 /// Results of the rules that are not part of the model.
 struct Findings {
-    /// For each mirror, why the camera does not see it; none if the camera sees it.
+    /// For each mirror: the reason why the camera does not see the mirror; empty if the camera sees
+    /// the mirror.
     std::vector<std::optional<Unseen>> camera;
-    /// All values that the sentences depend on. Sentences are rebuilt only if the key changes.
+    /// All values that the explaining sentences of `graph --why` depend on. The sentences are built
+    /// again only if the key changes.
     std::vector<std::uint64_t> key;
 };
 void fill_key(Findings& findings, const Model& model);

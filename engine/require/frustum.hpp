@@ -16,8 +16,8 @@ public:
     const dvec3& eye() const { return eye_; }
     const dvec3& forward() const { return forward_; }
     bool is_parallel() const { return is_parallel_; }
-    /// Returns false if the box is certainly outside: all its corners lie beyond one of the five
-    /// planes.
+    /// Returns whether the camera's view volume may contain a part of the box. Returns false if all
+    /// corners of the box lie beyond one of the five planes that bound the view volume.
     bool may_hold(const Bounds<double>& box) const;
     /// Returns false if no point of the triangle is inside. The planes are moved outwards by
     /// `margin`, in world units.
@@ -33,8 +33,8 @@ private:
     double pixel_ =
         0; ///< width of a pixel in world units: at distance 1, or anywhere if orthographic
     bool is_parallel_ = false;
-    /// Inward normals, each with the distance by which a box may lie beyond the plane through the
-    /// eye.
+    /// The five planes of the view volume: inward normal, and the distance by which a box may lie
+    /// beyond the plane through the eye.
     std::array<std::pair<dvec3, double>, 5> planes_;
 };
 

@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
-/// The work that a picture of a scene requires: for each mirror and light, what must be rendered.
-/// For culled work it gives the reason, the saving and the largest error. It only computes numbers
-/// about a scene and needs no device.
+/// The work that a picture of a scene requires: the captures, faces and shadow maps of each mirror
+/// and light that must be rendered. For culled work the model gives the reason, the saving and the
+/// largest error. The code only computes numbers about a scene and needs no device.
 namespace catoptric::require {
 
-/// A question: what does a picture of the scene at one instant require?
+/// Input of a model: the scene at one instant, the camera, the picture's size and the settings that
+/// decide what the picture requires.
 struct Question {
     const scene::Scene& now; ///< the scene at the instant (scene::at)
     const scene::Camera& camera;
@@ -36,15 +37,17 @@ inline constexpr Faces kAllFaces = 0x3f;
 
 struct MirrorNeeds {
     bool is_seen = true; ///< whether the camera or a visible mirror sees the mirror
-    MirrorId seen_in;    ///< the mirror that shows it; none: the camera sees it, or nothing does
-    /// Whether its capture may be read: by searches of its own pixels, by rays continued from other
-    /// mirrors, or by any search with Question::asks_all.
+    /// The mirror in which this mirror is seen; none: the camera sees it, or nothing does.
+    MirrorId seen_in;
+    /// Whether the mirror's capture may be read: by searches of the mirror's own pixels, by rays
+    /// continued from other mirrors, or by any search with Question::asks_all.
     bool is_captured = true;
     /// Faces of its capture that hold directions which may be read.
     Faces faces = kAllFaces;
     std::uint32_t edge = 0; ///< sufficient edge of a face in texels; 0: as many as the row asks for
-    /// Content hash of what each face shows, except the contents of mirrors, and of its lighting.
-    /// While the hash and the views of the face and the shadow maps stay the same, its bytes do.
+    /// Content hash of the surfaces that each face of the capture shows and of their lighting,
+    /// except reflections in mirrors. The bytes of a face stay the same while this hash, the view
+    /// of the face and the views of the shadow maps stay the same.
     std::array<std::uint64_t, 6> content_hashes{};
     /// Content hashes of the same data without the movers and shadows that `pieces` lists.
     std::array<std::uint64_t, 6> settings{};
@@ -84,17 +87,18 @@ struct Model {
 
 /// Returns the model that culls no work and keeps no captures.
 CATOPTRIC_API Model everything(const Question& question);
-/// Returns the model with only what the picture requires. It has one content hash for everything,
-/// because nothing is known of movers. O(vertices). Use Requirements for many pictures of one
-/// scene.
+/// Returns the model with only the work that the picture requires. All faces have one content hash
+/// that covers the whole scene, because a single picture does not tell which objects move.
+/// O(vertices). Use Requirements for many pictures of one scene.
 CATOPTRIC_API Model required(const Question& question);
 
 /// Computes the models of successive pictures of one scene whose meshes stay the same. Content
-/// hashes differ by what moves. Equal hashes stand for equal bytes only within one object of this
-/// class.
+/// hashes tell which captures show an object that moved. Equal hashes stand for equal bytes only
+/// within one object of this class.
 class Requirements {
 public:
-    /// Takes the scene at rest, including its motions. O(vertices + texels of images).
+    /// Takes the scene as loaded: every object in its place at rest, and the list of motions.
+    /// O(vertices + texels of images).
     CATOPTRIC_API explicit Requirements(const scene::Scene& rest);
     CATOPTRIC_API ~Requirements();
     CATOPTRIC_API Requirements(Requirements&&) noexcept;

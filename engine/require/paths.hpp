@@ -8,24 +8,26 @@
 /// Finds by rays which mirrors the pixels of a picture show.
 namespace catoptric::require {
 
-/// Most rays per picture. A larger picture is sampled on a coarser grid.
+/// Largest number of camera rays that are followed in a picture. A larger picture is sampled on a
+/// coarser grid.
 inline constexpr std::size_t kMostPaths = 65536;
-/// Most mirrors that a path is followed through.
+/// Largest number of mirrors through which a camera ray is followed.
 inline constexpr std::size_t kLongestPath = 8;
 
 /// Statistics of rays from the eye through the centre of each pixel (or each cell of a grid),
 /// followed from mirror to mirror. Entry n-1 of a list belongs to mirror n.
 struct Paths {
     std::size_t count = 0; ///< number of rays
-    /// Number of rays by the mirrors that they meet first, numbered from 0, in order.
+    /// Number of camera rays for each sequence of mirrors that rays meet, before they meet another
+    /// surface. Mirrors are numbered from 0.
     std::map<std::vector<std::uint32_t>, std::size_t> through;
     std::vector<std::size_t> first;   ///< rays whose first hit is mirror n
     std::vector<std::size_t> reached; ///< rays that meet mirror n anywhere
     /// Rays whose first hit is mirror n and that reach a point which a capture on the way does not
     /// show. The capture is that of a mirror on the path, drawn from the centre of its bounds.
     std::vector<std::size_t> hidden;
-    /// Number of rays by the mirrors that they meet first, if the capture of the last of these
-    /// mirrors does not show the next point.
+    /// Number of camera rays for each sequence of mirrors, counting only rays whose next point is
+    /// hidden from the capture of the last mirror.
     std::map<std::vector<std::uint32_t>, std::size_t> hidden_after;
 
     std::size_t on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.

@@ -25,8 +25,8 @@ FacePart common(const FacePart& a, const FacePart& b);
 /// Returns the smallest rectangle that holds both.
 FacePart united(const FacePart& a, const FacePart& b);
 
-/// Returns a rectangle that holds what the face shows of the hull of the points. Points are
-/// relative to the capture's centre. O(points).
+/// Returns a rectangle of the capture's face that contains the projection of the convex hull of the
+/// points. Points are relative to the capture's centre. O(points).
 ///
 /// Consider a line through the centre. If no point lies to its left, nothing of the hull lies
 /// there. The smallest slopes with this property bound the hull. Points ahead of the centre
@@ -42,7 +42,8 @@ struct Piece {
     FacePart part;
 };
 
-/// Most pieces per face. If a face has more, the capture's pieces are not stored.
+/// Largest number of pieces (moving objects and shadows) that are stored per face. If a face has
+/// more pieces, none are stored for the capture.
 inline constexpr std::size_t kMostPieces = 64;
 
 /// The pieces in each face of a capture.
@@ -51,8 +52,9 @@ struct Pieces {
     void sort(); ///< sorts the pieces in the order that `differing` needs
 };
 
-/// Returns a rectangle that holds all pieces which only one of two states of a face has. Both lists
-/// must be sorted. O(pieces).
+/// Compares the moving objects and shadows (pieces) that a face shows in two frames. Returns a
+/// rectangle that contains all pieces that only one of the two lists has. Both lists must be
+/// sorted. O(pieces).
 FacePart differing(std::span<const Piece> before, std::span<const Piece> after);
 
 } // namespace catoptric::require

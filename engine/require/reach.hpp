@@ -5,7 +5,8 @@
 
 #include <span>
 
-/// Finds the needed faces of flat mirrors, and the lights that reach what is seen.
+/// Finds the faces of flat mirrors' captures that are needed, and the lights that reach a visible
+/// surface.
 namespace catoptric::require {
 
 /// Most angle by which facets and normals of a flat mirror may lean, in radians. Filtered lookups

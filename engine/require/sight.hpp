@@ -8,15 +8,15 @@
 /// Finds which mirrors the camera and other mirrors can see.
 namespace catoptric::require {
 
-/// Most pairs of objects that are tested one by one per frame. With more pairs, the rules assume
-/// the safe answer without a test.
+/// Largest number of pairs of objects that are tested for visibility per frame. With more pairs,
+/// the rules assume the safe answer without a test.
 inline constexpr std::size_t kMostPairs = 1 << 14;
 
 /// Reason why the camera does not see a mirror.
 struct Unseen {
     enum class Why { outside, hidden_from_camera, hidden, empty };
     Why why = Why::outside;
-    std::size_t wall = 0; ///< the object that hides it
+    std::size_t wall = 0; ///< index of the wall object that hides the mirror
 };
 
 /// Returns why the camera does not see a mirror. The result is none if its bounds are in the
@@ -31,7 +31,8 @@ bool is_tested(const scene::Mesh& mesh);
 bool is_surface_in(const PictureFrustum& picture, const World& world, std::size_t mirror,
                    const scene::Scene& now);
 
-/// Which mirrors can see each other, kept from one instant to the next.
+/// Finds which mirrors can see each other. The results for objects that did not move are kept from
+/// one instant to the next.
 class Sight {
 public:
     /// Takes over an instant, after World::follow. O(1) if no mirror has moved; O(mirrors * walls)

@@ -10,7 +10,7 @@
 namespace catoptric::require {
 
 /// A mirror is hardly seen if at most this share of all mirror pixels show it, directly or in other
-/// mirrors. It gets `reuse` with a capture of edge kSmallFace, the cheapest lookup.
+/// mirrors. Such a mirror gets `reuse` with a capture of edge kSmallFace, the cheapest lookup.
 inline constexpr double kHardlySeen = .002;
 inline constexpr std::uint32_t kSmallFace = 64, kUsualFace = 256;
 /// A mirror with a larger share of bent surface than this is not drawn by `planar`.
@@ -24,7 +24,8 @@ struct CostTable {
     double pixel = 1;     ///< per pixel drawn in a capture or view
     double searched = 15; ///< per pixel that a search looks up
     double bounds = .12;  ///< additional cost per capture pixel that `hybrid` searches
-    double traced = 40;   ///< per pixel that `hybrid` traces because the capture does not show it
+    /// Per pixel that `hybrid` traces, because the capture does not show the surface.
+    double traced = 40;
 };
 /// Mean FLIP of a mirror pixel by technique. Rounded averages over the scenes of docs/require.md.
 struct ErrorTable {
@@ -51,9 +52,9 @@ struct Suggestion {
 /// Mirrors that are hardly seen get `reuse` with small faces.
 ///
 /// Two candidates are compared for the other mirrors: `planar` for flat mirrors with a search for
-/// the rest, and a search for all. The search of a mirror is `hybrid`. It is `march` if tracing
-/// what captures do not show (Paths::hidden) would reduce the mirror's estimated error by less than
-/// a tenth.
+/// curved mirrors, and a search for all mirrors. The search of a mirror is `hybrid`. It is `march`
+/// if tracing what captures do not show (Paths::hidden) would reduce the mirror's estimated error
+/// by less than a tenth.
 ///
 /// The candidate with the smaller estimated error wins. If the errors differ by less than a tenth,
 /// the cheaper candidate wins.

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-/// Convex quadrilaterals, and tests of what they hide.
+/// Walls: convex quadrilaterals, with tests that say which boxes they hide from a viewer.
 namespace catoptric::require {
 
 /// Four corners in a plane, in order around. From the front, the order is counterclockwise.
@@ -30,7 +30,7 @@ inline constexpr std::size_t kMostTriangles = 64;
 struct Wall {
     Quad corners;
     std::size_t object = 0;
-    bool front_only = false; ///< hides nothing from viewers behind it
+    bool front_only = false; ///< whether the wall hides nothing from viewers behind it
     bool seen_by_camera = true;
     dvec3 normal{0}; ///< unit, towards the front
     std::array<dvec3, 4>
@@ -59,9 +59,9 @@ Wall wall_of(const Quad& corners, std::size_t object);
 bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
            double margin);
 
-/// Returns the same for parallel views. All rays to `target` run along the unit `direction`, from
-/// the plane through `eye` across it. A corner's crossing is linear in the corner, so eight
-/// segments suffice.
+/// Returns whether the wall hides the box `target` from an orthographic camera. All rays to
+/// `target` run along the unit `direction`, from the plane through `eye` across it. A corner's
+/// crossing is linear in the corner, so eight segments suffice.
 bool hides_along(const Wall& wall, const dvec3& eye, const dvec3& direction,
                  const Bounds<double>& target, double margin);
 

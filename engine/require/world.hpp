@@ -8,16 +8,18 @@
 #include <optional>
 #include <vector>
 
-/// The scene as the rules see it: where objects are, what moves, and which walls hide objects.
+/// The data of a scene that the rules for required work use: places of objects, movers, and walls
+/// that hide objects.
 namespace catoptric::require {
 
 /// Relative enlargement of boxes, as a part of two lengths: the extent of all objects that stand
 /// still, and the distance from their middle. Device and rules round differently, by at most 2^-24
 /// of these lengths.
 inline constexpr double kRounding = 0x1p-20;
-/// Most walls, the largest that stand still, that are tested for what they hide.
+/// Largest number of walls that are tested. Only the largest quadrilaterals that never moved are
+/// walls.
 inline constexpr std::size_t kMostWalls = 32;
-/// Least area of a wall, as a part of the square of that extent.
+/// Least area of a wall, as a part of the square of the extent of all objects that never moved.
 inline constexpr double kLeastWall = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
@@ -26,7 +28,7 @@ struct MeshFacts {
     double radius = 0;  ///< of all its triangles, around the middle of `box`
     std::uint64_t content_hash = 0;
     std::vector<Quad> quads;
-    dvec3 flat_normal{0}; ///< of a flat mesh, else zero (require/reach.hpp)
+    dvec3 flat_normal{0}; ///< normal of a flat mesh, zero for other meshes (require/reach.hpp)
 };
 
 struct WorldObject {
@@ -34,18 +36,19 @@ struct WorldObject {
     dmat4 rest{1}, place{1}; ///< world from object: at rest, and now
     std::optional<scene::Sphere> sphere;
     bool seen_by_camera = true, is_mirror = false, casts_shadow = true;
-    bool is_mover = false;          ///< whether it has a motion or was ever moved
-    bool has_moved = false;         ///< whether it moved since the previous instant
+    bool is_mover = false;          ///< whether the object has a motion or was ever moved
+    bool has_moved = false;         ///< whether the object moved since the previous instant
     Bounds<double> tight_rest;      ///< bounds of its vertices at rest
     Bounds<double> tight;           ///< bounds now; larger for a turned mover that is no mirror
     Bounds<double> box;             ///< `tight` enlarged for roundings; empty: no triangle
-    dvec3 middle{0};                ///< centre of a sphere that holds it
+    dvec3 middle{0};                ///< centre of a sphere that contains the object
     double radius = 0;              ///< radius of this sphere, enlarged for roundings
     std::uint64_t content_hash = 0; ///< content hash of its mesh, place, sphere and material
 };
 
 /// A scene as the rules see it, from instant to instant. Objects that never moved are kept apart
-/// from movers. They cannot change what a capture shows, so one number stands for all of them.
+/// from movers. Objects that never moved cannot change a capture, so one number (the epoch) covers
+/// all of them in content hashes.
 class World {
 public:
     /// Takes the scene at rest. O(vertices + texels of images), for the bounds and content hashes
@@ -53,9 +56,9 @@ public:
     explicit World(const scene::Scene& rest);
 
     /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
-    /// move. An object that stood still and has moved (an edit) is a mover from then on. This
-    /// begins a new `epoch`, as does another number of objects or another material, light or
-    /// environment.
+    /// move. An object that stood still and has moved (an edit) is a mover from then on. Such an
+    /// edit begins a new `epoch`. A changed number of objects, material, light or environment also
+    /// begins a new `epoch`.
     void follow(const scene::Scene& now);
 
     const std::vector<WorldObject>& things() const { return things_; }
@@ -65,7 +68,8 @@ public:
     const std::vector<scene::PointLight>& lights() const { return lights_; }
     const std::vector<MeshFacts>& meshes() const { return meshes_; }
     const Bounds<double>& still() const { return still_; } ///< bounds of all that never moved
-    double rounding() const { return rounding_; }          ///< in world units
+    /// Largest rounding error of a position, in world units.
+    double rounding() const { return rounding_; }
     std::uint64_t epoch() const {
         return epoch_;
     } ///< content hash of all that is no mover, and of the lights

@@ -25,7 +25,8 @@ public:
         require(amount, place...);
         spent_ += amount;
     }
-    /// Checks that `amount` more fits into the budget, without adding it. Throws as `add`.
+    /// Checks that another `amount` fits into the budget, without adding the amount. Throws as
+    /// `add` does.
     template <typename... Parts>
     void require(std::uint64_t amount, const Parts&... place) const {
         if (amount > budget_ - spent_)
@@ -40,7 +41,7 @@ private:
     std::uint64_t spent_ = 0; ///< at most `budget_`
 };
 
-/// Every total of one scene file.
+/// The running sums of all quantities of one scene file that the budget limits.
 struct Account {
     explicit Account(const Budget& of) : budget(of) {}
 

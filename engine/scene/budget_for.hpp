@@ -11,7 +11,7 @@ namespace catoptric::scene {
 /// docs/extremes.md).
 inline constexpr std::uint64_t kBytesPerTriangle = 800;
 
-/// Limits that the user set. They replace the limits computed from the free memory.
+/// Limits that the user set by options. These limits replace those computed from the free memory.
 struct BudgetOverride {
     std::optional<std::uint64_t> bytes;     ///< bytes of all files of the scene
     std::optional<std::uint64_t> triangles; ///< triangles in meshes, with up to three vertices each
@@ -24,8 +24,8 @@ struct BudgetOverride {
 Budget budget_for(const std::filesystem::path& scene, const BudgetOverride& wish,
                   std::uint64_t free_bytes);
 
-/// Returns the memory that this process can still take without swapping, in bytes. It is Linux's
-/// estimate, at most the limit of the address space.
+/// Returns the memory that this process can still take without swapping, in bytes. The result is
+/// Linux's estimate, and at most the process's limit of the address space.
 std::uint64_t free_memory();
 
 } // namespace catoptric::scene

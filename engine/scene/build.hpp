@@ -16,7 +16,8 @@ CATOPTRIC_API void add_mesh(Scene& scene, Mesh mesh, std::size_t material);
 CATOPTRIC_API void add_quad(Scene& scene, const std::string& name, std::size_t material, dvec3 a,
                             dvec3 b, dvec3 c, dvec3 d);
 
-/// Adds an object that stands for an exact sphere. Its mesh has 4^(levels+1) triangles.
+/// Adds an exact sphere: an object with a mesh of 4^(levels+1) triangles, and with the sphere that
+/// the mesh approximates.
 CATOPTRIC_API void add_ball(Scene& scene, const std::string& name, std::size_t material,
                             dvec3 centre, double radius, int levels = 3);
 

@@ -8,20 +8,20 @@
 /// Edits of a scene that is being shown. Indices refer to Scene::objects and Scene::materials.
 namespace catoptric::scene {
 
-/// New transform of an object at rest, from which its motion goes on. The object's exact sphere
-/// moves along if the change is a similarity. Otherwise the object loses the sphere and is drawn as
-/// its mesh.
+/// Edit that sets the transform of an object at rest. The object's motion continues from there. The
+/// object's exact sphere moves along if the change is a similarity. Otherwise the object loses the
+/// sphere and is drawn as its mesh.
 struct Placing {
     std::size_t object = 0;
     dmat4 world_from_object{1};
 };
-/// Assignment of another of the scene's materials to one object.
+/// Edit that gives one object another material of the scene.
 struct Painting {
     std::size_t object = 0;
     std::size_t material = 0;
 };
-/// Replacement of a material, for all objects that have it. A material that emits makes them
-/// lights.
+/// Edit that replaces a material of the scene, for all objects with this material. If the new
+/// material emits light, these objects become lamps.
 struct Mixing {
     std::size_t material = 0;
     Material value;

@@ -45,7 +45,8 @@ inline constexpr double kLeastFace = 1e-3;
 /// Least share of a surface's area that must lie in flat faces before planes may draw the surface.
 inline constexpr double kFlatEnough = .5;
 
-/// Largest `Flat::off`. A surface with more is not flat, whatever the picture's size.
+/// Largest value of `Flat::off`. A surface that deviates more from a plane is not flat at any
+/// picture size.
 inline constexpr double kFarFromFlat = .01;
 
 /// Returns the plane of a mesh. Returns nothing if a vertex is off by more than kFarFromFlat, or if

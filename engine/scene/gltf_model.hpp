@@ -31,9 +31,9 @@ struct Marks {
 struct Document {
     std::string file; ///< begins every message
     tinygltf::Model model;
-    // These members are read before tinygltf parses the file. It has no members for some of them,
-    // and would cut others to 32 bits.
-    std::vector<Marks> marks; ///< for each node
+    // These members are read before tinygltf parses the file. The library tinygltf does not read
+    // some of these members, and cuts others to 32 bits.
+    std::vector<Marks> marks; ///< marks of each node
     std::vector<Material> materials;
     Lights lights;
     /// Morph target weights of each mesh.
@@ -146,7 +146,7 @@ struct Tracks {
 };
 /// The animation that moves the nodes of the scene.
 struct Animation {
-    std::vector<Tracks> nodes; ///< for each node
+    std::vector<Tracks> nodes; ///< tracks of each node
     bool repeats = false;
 };
 /// Reads the animation that the options choose. The other animations are checked, too. Throws

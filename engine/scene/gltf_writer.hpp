@@ -31,11 +31,12 @@ struct GltfWriter {
     tinygltf::Model model;
     Bytes bytes;
     tinygltf::Animation motion;
-    /// glTF mesh by mesh, material and whether the winding is reversed.
+    /// Index of the glTF mesh for each combination of mesh, material and reversed winding.
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes;
     std::map<const Image*, int> images;
-    std::map<std::tuple<int, int, int>, int> samplers; ///< by filter and wrap modes
-    std::map<const Rig*, std::vector<int>> rigs;       ///< glTF node of each node of the rig
+    /// Index of each sampler, by filter and wrap modes.
+    std::map<std::tuple<int, int, int>, int> samplers;
+    std::map<const Rig*, std::vector<int>> rigs; ///< glTF node of each node of the rig
 
     /// Appends the bytes to the buffer, pads it to a multiple of 4 bytes, and returns a new view of
     /// them.

@@ -6,8 +6,8 @@
 
 namespace catoptric::scene {
 
-/// Largest number of triangles of a scene that is tested. Each ray is tested against every
-/// triangle.
+/// Largest number of triangles of a scene that is tested for a closed room. Each ray is tested
+/// against every triangle, so larger scenes would take too long.
 inline constexpr std::size_t kMostTested = std::size_t{1} << 17;
 
 /// Returns a camera inside the scene at rest, if the scene is a closed room that `outside` does not

@@ -21,7 +21,7 @@ struct Material {
     vec3 albedo{0};          ///< base colour, linear, in [0,1]
     vec3 emission{0};        ///< emitted radiance (Ke)
     bool mirror = false;     ///< reflects `reflectance` of all light, sharply, at any angle
-    vec3 reflectance{1};     ///< of a mirror, in [0,1]
+    vec3 reflectance{1};     ///< reflectance of a mirror, each channel in [0,1]
     bool two_sided = false;  ///< the normal turns to the viewer; an open lamp shines both ways
     bool front_only = false; ///< back invisible to camera and reflected rays; not for mirrors
     bool unlit = false;      ///< shows its albedo in any light (KHR_materials_unlit)

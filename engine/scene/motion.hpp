@@ -39,7 +39,8 @@ struct Keyframes {
     std::shared_ptr<const Keys> keys; ///< none, or keys without times: stands still
     dmat3 world_from_keys{1};
     dvec3 rest{0};
-    bool repeats = true; ///< starts again after the last key; false: stays there
+    /// Whether the motion starts again after the last key; false: the object stays there.
+    bool repeats = true;
 };
 
 /// Hierarchy of moving nodes. Nodes that stand still are left out.
@@ -47,14 +48,17 @@ struct Rig {
     struct Node {
         std::optional<std::size_t> parent; ///< index of the parent, which comes earlier in `nodes`
         dmat4 parent_from_space{1}; ///< still transforms between the parent and this node's space
-        dvec3 translation{0};       ///< at rest, in that space; used without a track
+        /// Translation at rest, in the space that `parent_from_space` maps to the parent; used if
+        /// no track moves the node.
+        dvec3 translation{0};
         dvec4 rotation{0, 0, 0, 1};
         dvec3 scale{1};
         std::shared_ptr<const Keys> translations, scales;
         std::shared_ptr<const Turns> rotations;
     };
     std::vector<Node> nodes;
-    bool repeats = false; ///< starts again after the rig's last key; false: tracks stay there
+    /// Whether the motion starts again after the rig's last key; false: nodes stay there.
+    bool repeats = false;
 };
 
 /// Attachment to a node of a rig. The transform is world_from_node * node_from_object. It replaces

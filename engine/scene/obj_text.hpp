@@ -25,7 +25,7 @@ struct ObjLine {
     std::string where() const { return *file + ":" + std::to_string(number); }
 
     const std::string* file;
-    std::size_t number;       ///< from 1
+    std::size_t number;       ///< number of the line, from 1
     std::string_view keyword; ///< first word; "#word" for a `# catoptric word` comment
     std::string_view rest;    ///< the text after the keyword, trimmed
 };
@@ -122,7 +122,8 @@ struct Remarks {
     std::map<std::string, Motion> motions;
     std::map<std::string, Sphere> spheres;
     std::map<std::string, bool> hidden;
-    std::map<std::string, std::string> named_at; ///< object name to the first line that names it
+    /// For each object name, the first line with the name.
+    std::map<std::string, std::string> named_at;
 };
 
 /// Adds one comment line. Throws `bad_data` naming the line if it is invalid.

@@ -44,7 +44,8 @@ struct Object {
     dmat4 world_from_object{1};
     Motion motion;
     std::optional<Sphere> sphere; ///< set when the mesh stands for this sphere
-    bool seen_by_camera = true;   ///< false: camera rays pass through; all other rays meet it
+    /// False: camera rays pass through the object, and all other rays meet it.
+    bool seen_by_camera = true;
     /// True if enough of the surface is sharp and reflects enough for a mirror (classify.hpp),
     /// although its material is no mirror at every angle. A smooth dielectric that is no mirror
     /// also reflects.
@@ -78,10 +79,10 @@ struct Punctual {
 /// Light as the shading formula sees it: a point or a direction. A one-sided lamp also has a cosine
 /// to its normal.
 struct PointLight {
-    dvec3 position{0};    ///< of a lamp: mean of its vertices
+    dvec3 position{0};    ///< position of the light; for a lamp, the mean of its vertices
     dvec3 normal{0};      ///< of an open one-sided lamp: mean vertex normal, unit length or zero
     double area = 0;      ///< world units squared; 1 for a light without a surface
-    bool is_lamp = false; ///< has a surface
+    bool is_lamp = false; ///< whether the light is a lamp, which has a mesh
     bool closed = false;  ///< true for a lamp whose every edge has two triangles
     /// For an open two-sided lamp: orthogonal unit axes, right-handed. `cosines` holds the mean
     /// |cosine| of the lamp's facets to each axis, over its area. Both are zero for any other
@@ -106,7 +107,8 @@ struct Scene {
     float mirror_max_roughness = .1f;               ///< surfaces up to this roughness are sharp
     std::optional<double> exposure;                 ///< stops, if the file gives them
     std::vector<UnsupportedFeature> unsupported;
-    std::vector<std::string> warnings; ///< what the loader left out or repaired, for the user
+    /// Messages to the user about features that the loader left out or repaired.
+    std::vector<std::string> warnings;
     /// Real paths of the scene's files, its own first. They include files that the scene names but
     /// that were not read. No output may be written over them.
     std::vector<std::filesystem::path> files;

@@ -1,9 +1,11 @@
-// Technique `layered`: marches through captures of two layers. The march follows the reflected ray's arc (arc.glsl) and
-// counts the captured surfaces in front of the ray. If the number changes, or the next surface ahead ends, bisection to
-// a part of a texel finds the border. The planes of the texels on the two sides of the border then tell which surface
-// the ray meets. If the ray meets neither, the border is a silhouette, and the ray passes on behind it.
-// Planes and colours come only from texels of the surface in question, whichever layer holds the texel. For a ray that
-// is lost behind two surfaces, the last surface ahead of the ray is assumed to continue.
+// Technique `layered`: marches through captures of two layers. The march follows the reflected ray's arc (arc.glsl).
+// At each sample a captured surface is nearer to the capture's centre than the ray, or farther from the centre. The
+// march counts the nearer surfaces. If their number changes between two samples, or the nearest of the farther surfaces
+// ends, bisection to a part of a texel finds the border. The planes of the texels on the two sides of the border then
+// tell which surface the ray meets. If the ray meets neither surface, the border is a silhouette, and the ray passes on
+// behind the silhouette.
+// Planes and colours come only from texels of the surface that the ray meets, whichever layer holds the texel. If both
+// captured surfaces are nearer to the centre than the ray, the last farther surface is assumed to continue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -74,18 +76,20 @@ Sample sample_at(uint mirror, Arc arc, vec2 place) {
 uint surfaces_in_front(Sample s) {
     return uint(s.first > 0.0 && s.first >= s.ray) + uint(s.second > 0.0 && s.second >= s.ray);
 }
-// Returns the inverse distance of the next surface ahead of the ray: the first layer's, or behind the first layer the
-// second layer's; 0: no surface is ahead.
+// Returns the inverse distance of the nearest captured surface that is farther from the capture's centre than the ray.
+// The surface is that of the first layer, or of the second layer if the ray is behind the first. 0: no such surface.
 float ahead(Sample s) {
     uint count = surfaces_in_front(s);
     return count == 0u ? s.first : count == 1u ? s.second : 0.0;
 }
 bool is_near(float a, float b) { return abs(a - b) <= kSameSurface * b; }
 
-// Returns whether a surface is ahead of the ray at one of the samples only, with equal numbers of surfaces in front.
+// Returns whether a surface ends between two samples of the march. At both samples the same number of captured surfaces
+// is nearer to the capture's centre than the ray, but only one sample has a surface that is farther than the ray.
 bool ends(Sample a, Sample b) { return surfaces_in_front(a) == surfaces_in_front(b) && (ahead(a) > 0.0) != (ahead(b) > 0.0); }
 
-// Returns whether nothing changes between two samples: as many surfaces are in front, and the nearest is the same.
+// Returns whether two samples of the march see the same surfaces: as many surfaces are nearer to the capture's centre
+// than the ray, and the nearest surface is the same.
 bool are_alike(Sample a, Sample b) {
     uint count = surfaces_in_front(a);
     return count == surfaces_in_front(b) && (count == 0u || is_near(b.first, a.first)) && !ends(a, b);

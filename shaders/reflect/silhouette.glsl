@@ -31,8 +31,9 @@ uint what_is_between(uint mirror, vec3 front, vec3 behind, float captured_front,
     // that the given distances interpolate.
     float apart = 1.25 * texel_angle(mirror);
     vec3 move = (behind - front) * (apart / angle);
-    // The loop contains one lookup, so that the compiler need not inline a traced lookup (lib/ablate.glsl) four times.
-    // Other lookups are unrolled.
+    // A loop around a single call of captured_distance() keeps the compiled code small. In ablated shaders
+    // (lib/ablate.glsl) this call traces a ray, and four separate calls would be inlined four times. In other shaders
+    // the compiler unrolls the loop.
     const vec4 away = vec4(-1, -2, 2, 1);
     vec4 beside;
     for (int i = 0; i < 4; ++i)

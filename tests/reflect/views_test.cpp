@@ -76,8 +76,9 @@ TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
     }
 }
 
-/// Every row that reads captures must report its error at light edges, with or without a split by
-/// causes. This includes plans whose captures have different edges.
+/// Every row that reads captures must report its error at light edges: the error of mirror pixels
+/// that looked within one texel of a lamp's outline. Rows report this error with and without
+/// `--causes`, and also for plans whose cube maps have different edge lengths.
 TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
     app::CompareRequest request = views_asked(
         {"secant:face=16", "secant:face=auto", "naive:bounces=0",

@@ -99,11 +99,13 @@ using Key = std::pair<std::string_view, std::uint64_t>;
 struct State {
     std::string fault_name;
     int fault_at = 0, fault_result = 0;
-    bool failed = false; ///< the call that must fail was made
+    bool failed = false; ///< the Vulkan call that the test chose to fail has been made
     bool lost = false;   ///< the device has been reported lost, and stays so
     int strays = 0, untimely = 0;
-    bool leaves_out = false; ///< the call that must fail was recorded and is left out
-    bool stamped = false;    ///< the last recorded command is a timestamp
+    /// Whether the layer drops the kind of recorded command that the test chose as its fault,
+    /// instead of passing the command to the driver.
+    bool leaves_out = false;
+    bool stamped = false; ///< the last recorded command is a timestamp
     int loose_stamps = 0;
     std::map<std::string, Counter, std::less<>> counters;
     std::uint64_t bytes = 0, most_bytes = 0; ///< device memory: now, and at most
