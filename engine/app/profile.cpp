@@ -74,7 +74,7 @@ gpu::Choices found_in(const fs::path& folder, DeviceInfo& device) {
         return choices;
     } catch (const Error& refused) {
         device.warning = std::string(refused.what()) +
-                         "; shaders are as by default ('bench --tune' writes a profile anew)";
+                         "; shaders are as by default ('bench --tune' writes a new profile)";
         return default_choices(device);
     }
 }

@@ -97,11 +97,11 @@ std::string PipelineCache::loaded() {
         std::string data = unwrapped(file);
         if (data.empty() && file != wrapped({}))
             warning_ = file_.string() +
-                       ": wanted a whole pipeline cache, found something else; it is made anew";
+                       ": wanted a whole pipeline cache, found something else; a new one is made";
         return data;
     } catch (const Error& failed) {
         warning_ = std::string(failed.what()) +
-                   "; pipelines are compiled anew by every run (XDG_CACHE_HOME says where they "
+                   "; every run compiles its pipelines again (XDG_CACHE_HOME says where they "
                    "could be kept)";
         file_.clear();
         return {};

@@ -87,7 +87,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {};
     const SceneChanges changes = seen_.take_over(now, !complete_);
-    complete_ = false; // stays false if the update throws, so that the next update starts anew
+    complete_ = false; // stays false if the update throws, so that the next update fills everything
     if (changes.layout)
         lay_out(now);
     else
@@ -145,15 +145,15 @@ void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& obj
             return changes_space(geometry_, now, space_, object);
         }))
         return lay_out(now);
-    bool anew = false;
+    bool rebuild = false;
     for (const std::size_t object : objects) {
         const bool changed = move_object(geometry_, now, space_, object);
         nearest_.move(object);
         tracing_->move(object, changed);
         const bool unexpected = changed && vertices_.move(object);
-        anew = anew || unexpected || geometry_.ranges[object].one_sided; // indices may change
+        rebuild = rebuild || unexpected || geometry_.ranges[object].one_sided; // indices may change
     }
-    if (anew)
+    if (rebuild)
         vertices_.lay_out(geometry_);
     else if (!objects.empty())
         vertices_.follow(geometry_);

@@ -33,9 +33,9 @@ bool same_kind(const scene::Material& a, scene::Material b) {
 
 } // namespace
 
-SceneChanges SceneChangeTracker::take_over(const scene::Scene& now, bool anew) {
+SceneChanges SceneChangeTracker::take_over(const scene::Scene& now, bool report_all) {
     SceneChanges changes;
-    changes.layout = anew || objects_.size() != now.objects.size();
+    changes.layout = report_all || objects_.size() != now.objects.size();
     const std::size_t known = objects_.size();
     objects_.resize(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {

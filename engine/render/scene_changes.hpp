@@ -20,8 +20,8 @@ struct SceneChanges {
 class SceneChangeTracker {
 public:
     /// Returns the differences from the scene of the last call, then stores `now` in its place.
-    /// `anew`: reports all data of the scene as changed.
-    SceneChanges take_over(const scene::Scene& now, bool anew);
+    /// `report_all`: reports all data of the scene as changed.
+    SceneChanges take_over(const scene::Scene& now, bool report_all);
 
 private:
     struct ObjectState {

@@ -160,7 +160,7 @@ void Tracing::follow(const Geometry& geometry) {
 /// Reads a new layout, or the objects that have moved.
 void Tracing::read(const Geometry& geometry) {
     if (is_read_ && moved_.empty()) return;
-    // `is_read_` stays false if this throws, so that the next call starts anew.
+    // `is_read_` stays false if this throws, so that the next call fills everything.
     if (std::exchange(is_read_, false)) {
         ++version_.moves;
         follow(geometry);
@@ -212,7 +212,7 @@ void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
                                std::span<const bvh::Triangle> flat) {
     // Triangles left out as copies may no longer coincide after a move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
-    hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call starts anew
+    hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call fills everything
     if (is_new)
         build(hierarchy, geometry, flat);
     else if (std::ranges::find(hierarchy.moved, 1) != hierarchy.moved.end())

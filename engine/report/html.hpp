@@ -20,10 +20,11 @@ std::string figure(int width, int height, const std::string& png, const std::str
 /// CSS style sheet of report.html and stress.html.
 extern const char* const kStyle;
 
-/// Three functions that return HTML: the whole report.html with these pictures, the section of one
-/// comparison, and a page around several sections.
+/// Returns the whole report.html of one comparison.
 std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);
+/// Returns the section of one comparison on a page with several.
 std::string html_section(const Comparison& comparison, const EncodedPictures& pictures);
+/// Returns a page around the HTML of its sections.
 std::string html_page(const std::string& title, const std::string& content);
 /// Returns the prefix of HTML ids in the comparison's section. It is empty if the page has no other
 /// section.

@@ -57,9 +57,9 @@ void add_unseen(std::vector<CulledWork>& all, const Model& model, const Findings
             {.what = (is_one ? "the capture of " : "the captures of ") +
                      called("mirror", numbers, name_of(scene, mirrors[numbers[0] - 1])),
              .why = why_unseen({reason.first, reason.second}, seen, is_one, scene),
-             .saves = is_one ? "the six faces of a capture, each time that it would be made anew"
+             .saves = is_one ? "the six faces of a capture, each time that it would be drawn again"
                              : "the six faces of each of " + count +
-                                   " captures, each time that they would be made anew"});
+                                   " captures, each time that they would be drawn again"});
     }
 }
 
@@ -81,7 +81,7 @@ void add_faces(std::vector<CulledWork>& all, const Model& model, const scene::Sc
                                      : "they are flat, all who look at each stand on one side, and "
                                        "what they see in it lies on that side, too",
                        .saves = std::to_string(count) + " of " + (is_one ? "six" : "each six") +
-                                " faces, each time that they would be made anew"});
+                                " faces, each time that they would be drawn again"});
     }
 }
 
@@ -92,7 +92,7 @@ void add_maps(std::vector<CulledWork>& all, const Model& model, const scene::Sce
                 {.what = "the shadow map of " +
                          called("light", {i + 1}, name_of_light(scene, i, model.lights.size())),
                  .why = "nothing that is seen lies within its range and in front of it",
-                 .saves = "its map, each time that it would be made anew"});
+                 .saves = "its map, each time that it would be drawn again"});
 }
 
 } // namespace

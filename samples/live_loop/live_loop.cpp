@@ -59,7 +59,7 @@ int main() try {
             std::fflush(stdout);
             if (app::any_abandoned()) std::_Exit(0); // a lost device's driver may be at work
             return 0;
-        } catch (const DeviceLost& error) { // begin anew, once
+        } catch (const DeviceLost& error) { // start again, once
             if (attempt > 0) throw;
             std::fprintf(stderr, "live_loop: %s\n", error.what());
         }

@@ -32,7 +32,7 @@ const std::vector<KeyBinding>& keys() {
         {GLFW_KEY_F, Act::fly, 0, "F", "the mouse orbits, or looks around"},
         {GLFW_KEY_V, Act::camera, 0, "V", "the scene's next camera"},
         {GLFW_KEY_M, Act::model, 0, "M", "what is required, or everything"},
-        {GLFW_KEY_R, Act::cut, 0, "R", "a cut: history begins anew"},
+        {GLFW_KEY_R, Act::cut, 0, "R", "a cut: history is forgotten"},
         {GLFW_KEY_C, Act::copy, 0, "C", "copies the command of this picture"},
         {GLFW_KEY_P, Act::picture, 0, "P", "writes the picture (PNG and EXR)"},
         {GLFW_KEY_L, Act::save_plan, 0, "L", "writes the plan (JSON)"},

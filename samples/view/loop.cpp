@@ -100,7 +100,7 @@ void Loop::recover(const Error& error) {
         state_.camera = good_.camera, state_.motion.time = good_.motion.time;
     }
     if (!is_lost) return say(error.what());
-    cli::warn(std::string(error.what()) + "; the session is made anew");
+    cli::warn(std::string(error.what()) + "; a new session is made");
     open(SceneOrigin::same);
     state_.said = std::string("the device was lost: ") + error.what();
 }
@@ -114,7 +114,7 @@ void Loop::show(const Inputs& inputs) {
     render(inputs, std::move(overlay));
     ++frame_;
     if (viewer_->screen().lost()) {
-        cli::warn("the window's surface was lost; the session is made anew");
+        cli::warn("the window's surface was lost; a new session is made");
         open(SceneOrigin::same);
     }
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});

@@ -85,7 +85,7 @@ void Viewer::follow(const State& state, uvec2 size) {
     spec_ = std::move(next);
 }
 
-/// Works while the view is at rest. When the view comes to rest, the frame sequence begins anew, as
+/// Works while the view is at rest. When the view comes to rest, a new frame sequence begins, as
 /// in `catoptric render`. Automatic capture edges then fit this view, and the picture becomes the
 /// same bytes. The first frames are not shown, because mirrors do not show each other yet.
 void Viewer::work_at_rest(const State& state) {

@@ -70,7 +70,7 @@ TEST_F(Cache, BrokenCacheFileGivesOneWarningAndIsReplaced) {
                                              testing::HasSubstr("wanted a whole pipeline cache")));
         EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
         EXPECT_EQ(picture(), wanted);
-        EXPECT_EQ(render(folder.string()).err, "") << "it was made anew";
+        EXPECT_EQ(render(folder.string()).err, "") << "a new one was made";
     }
 }
 

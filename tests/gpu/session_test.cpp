@@ -153,7 +153,7 @@ TEST(Session, ResumedSequenceContinues) {
     const app::FrameSpec spec = spec_of(scene, techniques[0]);
     alone.forget();
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), alone.frame(spec).hdr()))
-        << "without one that goes on, a frame begins anew";
+        << "without one that goes on, a frame begins without history";
 }
 
 /// A capture in other scene units cannot serve as history.

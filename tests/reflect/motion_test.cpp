@@ -81,8 +81,8 @@ TEST(Motion, CopyThatLeavesItsPlaceIsSeen) {
         session.change(scene::move(leaves, there));
         const measure::Picture after = session.frame(still).hdr();
         EXPECT_FALSE(test::same_bytes(before, after)) << leaves;
-        app::Session anew(test::engine(), session.scene());
-        EXPECT_TRUE(test::same_bytes(after, anew.frame(still).hdr())) << leaves;
+        app::Session fresh(test::engine(), session.scene());
+        EXPECT_TRUE(test::same_bytes(after, fresh.frame(still).hdr())) << leaves;
     }
 }
 

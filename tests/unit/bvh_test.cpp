@@ -419,13 +419,13 @@ TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
             for (vec3* corner : {&triangles[i].a, &triangles[i].b, &triangles[i].c})
                 *corner += move;
         refit(refitted, triangles);
-        const Bvh anew = build(triangles);
+        const Bvh rebuilt = build(triangles);
         for (int k = 0; k < 3000; ++k) {
             const Triangle& aim = triangles[random.below(triangles.size())];
             const vec3 origin = 2.0f * random.in_cube();
             const Ray<float> ray{origin, (k % 2 ? aim.a : (aim.a + aim.b) * 0.5f) - origin, 0};
             const auto hit = closest_hit<float>(refitted, ray, test::kInfinity),
-                       wanted = closest_hit<float>(anew, ray, test::kInfinity);
+                       wanted = closest_hit<float>(rebuilt, ray, test::kInfinity);
             ASSERT_EQ(hit.has_value(), wanted.has_value());
             if (!hit) continue;
             ++found;

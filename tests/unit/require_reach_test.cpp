@@ -23,7 +23,7 @@ TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
     EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4)); // the mirror faces -z
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "face +Z of the capture of mirror 1 'mirror'");
-    EXPECT_EQ(model.left_out[0].saves, "1 of six faces, each time that they would be made anew");
+    EXPECT_EQ(model.left_out[0].saves, "1 of six faces, each time that they would be drawn again");
 }
 
 TEST(RequireFaces, FlatMirrorSeenFromBothSidesNeedsAllFaces) {

@@ -193,14 +193,14 @@ protected:
 TEST_F(ViewFaults, WindowGoesOnAfterALostDevice) {
     const test::Ended ended = with_fault("vkQueueSubmit2:30:-4");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); the session is made anew"));
+    EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); a new session is made"));
     expect_rendered("lost.png", words);
 }
 
 TEST_F(ViewFaults, WindowGoesOnAfterALostSurface) {
     const test::Ended ended = with_fault("vkQueuePresentKHR:40:-1000000000");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("the window's surface was lost; the session is made anew"));
+    EXPECT_THAT(ended.err, HasSubstr("the window's surface was lost; a new session is made"));
     expect_rendered("lost.png", words);
 }
 
