@@ -1,6 +1,8 @@
 #include "core/text.hpp"
 #include "scene/gltf_model.hpp"
 #include "scene/load.hpp"
+#include "scene/moved_sphere.hpp"
+#include "scene/pose.hpp"
 #include "scene/repair.hpp"
 #include "scene/transform.hpp"
 
@@ -134,8 +136,10 @@ void GltfBuilder::add_object(std::size_t node, const gltf::Placed& placed, std::
     const Mesh& mesh = scene.meshes[object.mesh];
     context.account.shown_vertices.add(mesh.positions.size(), place);
     context.account.shown_triangles.add(mesh.triangles.size(), place);
-    if (marks.sphere && !std::holds_alternative<Follows>(object.motion)) {
-        object.sphere = world_sphere(*marks.sphere, mesh, placed.world_from_node);
+    if (marks.sphere) {
+        const Follows* follows = followed(object.motion);
+        if (!follows || keeps_spheres(*follows))
+            object.sphere = world_sphere(*marks.sphere, mesh, placed.world_from_node);
         if (!object.sphere)
             context.notes.add("nodes marked as a sphere whose mesh or scale is not one",
                               context.document.label(node));

@@ -1,11 +1,12 @@
 #include "scene/mirror_shape.hpp"
 
+#include "scene/moved_sphere.hpp"
+#include "scene/pose.hpp"
 #include "scene/topology.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace catoptric::scene {
 
@@ -208,8 +209,9 @@ Shape shape_of(const Scene& scene, const Object& object) {
 
 void find_spheres(Scene& scene) {
     for (Object& object : scene.objects) {
-        if (object.sphere || !is_mirror(scene, object) ||
-            std::holds_alternative<Follows>(object.motion) || !may_be_ball(scene, object))
+        const Follows* follows = followed(object.motion);
+        if (object.sphere || !is_mirror(scene, object) || (follows && !keeps_spheres(*follows)) ||
+            !may_be_ball(scene, object))
             continue;
         const Shape shape = shape_of(scene, object);
         if (shape.kind == Shape::Kind::sphere) object.sphere = shape.fit;

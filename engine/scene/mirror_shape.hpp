@@ -25,8 +25,8 @@ struct Shape {
 Shape shape_of(const Scene& scene, const Object& object);
 
 /// Sets Object::sphere of each mirror that shape_of calls a sphere. Rays then intersect the exact
-/// sphere. Mirrors that have a sphere keep it. A mirror that a rig moves gets none, because its
-/// scale may change. A mirror that is no ball is rejected in O(vertices) at most.
+/// sphere. Mirrors that have a sphere keep it. A mirror that a rig stretches into an ellipsoid at
+/// some time gets none. A mirror that is no ball is rejected in O(vertices) at most.
 void find_spheres(Scene& scene);
 
 /// Returns "flat", "sphere", "convex", "concave" or "other".

@@ -1,6 +1,7 @@
 #include "scene/motion.hpp"
 
 #include "core/error.hpp"
+#include "scene/moved_sphere.hpp"
 #include "scene/pose.hpp"
 #include "scene/scene.hpp"
 #include "scene/transform.hpp"
@@ -203,6 +204,8 @@ void pose(Scene& still, const Scene& scene, double seconds) {
         return offset;
     };
     for (Object& object : still.objects) {
+        if (const Follows* follows = followed(object.motion))
+            object.sphere = moved_sphere(object, poses.of(*follows));
         const dvec3 offset = move(object.world_from_object, object.motion);
         if (object.sphere) object.sphere->centre += offset;
         object.motion = std::monostate();

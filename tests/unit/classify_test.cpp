@@ -321,4 +321,52 @@ TEST(Classify, SmoothMirrorBallsGetAnExactSphere) {
     EXPECT_FALSE(scene.objects[2].sphere) << "no mirror";
 }
 
+/// Returns a mirror ball of radius 1 around the middle of the node of a rig. The node's parent
+/// turns, and the node has the given scales at 0 s and 2 s.
+Scene ball_on_a_rig(const dvec3& first, const dvec3& last, const dvec3& of_parent = dvec3(1)) {
+    Scene scene{.name = "ball"};
+    add_mesh(scene, ball("ball", 5), add_material(scene, {.name = "m", .mirror = true}));
+    const double half = std::sqrt(.5);
+    Rig rig;
+    rig.nodes.push_back({.translation = {1, 0, 0},
+                         .scale = of_parent,
+                         .rotations = std::make_shared<const Turns>(Turns{
+                             .times = {0, 2}, .values = {{0, 0, 0, 1}, {0, half, 0, half}}})});
+    rig.nodes.push_back(
+        {.parent = 0,
+         .translation = {5, 2, 0},
+         .scales = std::make_shared<const Keys>(Keys{.times = {0, 2}, .values = {first, last}})});
+    Follows follows{.rig = std::make_shared<const Rig>(std::move(rig)), .node = 1};
+    scene.objects[0].world_from_object = world_from_nodes(*follows.rig, 0)[1];
+    scene.objects[0].motion = std::move(follows);
+    return scene;
+}
+
+TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
+    Scene scene = ball_on_a_rig(dvec3(1), dvec3(3), dvec3(.5));
+    classify(scene);
+    for (const double seconds : {0., .5, 1.25, 2., 7.}) {
+        const Scene still = at(scene, seconds);
+        const Object& object = still.objects[0];
+        ASSERT_TRUE(object.sphere) << seconds;
+        EXPECT_NEAR(object.sphere->radius, .5 * (1 + std::min(seconds, 2.)), 1e-6);
+        for (const dvec3& position : still.meshes[0].positions) {
+            const dvec3 point(object.world_from_object * dvec4(position, 1));
+            ASSERT_NEAR(distance(point, object.sphere->centre), object.sphere->radius, 1e-6)
+                << seconds;
+        }
+    }
+    for (Scene stretched :
+         {ball_on_a_rig(dvec3(1), dvec3(1, 2, 1)), ball_on_a_rig(dvec3(0), dvec3(1)),
+          ball_on_a_rig(dvec3(1), dvec3(2), dvec3(1, 1, 2))}) {
+        classify(stretched);
+        EXPECT_FALSE(stretched.objects[0].sphere);
+    }
+    // A program may set a sphere itself. The sphere is lost as soon as the rig stretches it.
+    Scene marked = ball_on_a_rig(dvec3(1), dvec3(1, 2, 1));
+    marked.objects[0].sphere = Sphere{dvec3(marked.objects[0].world_from_object[3]), 1};
+    EXPECT_TRUE(at(marked, 0).objects[0].sphere);
+    EXPECT_FALSE(at(marked, 1).objects[0].sphere);
+}
+
 } // namespace
