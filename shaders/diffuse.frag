@@ -1,7 +1,14 @@
 // Draws all objects that are not mirrors, in captures and in the camera's view.
+// #first leaves pixels to the ray tracer where the surface reflects, or a shadow map cannot tell whether a light reaches
+// the surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/first_hit.glsl"
 #include "lib/lit.glsl"
+
+#ifdef FIRST_HIT
+layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
+#endif
 
 void main() {
     vec3 facet = details != 0u ? cross(dFdx(from_eye), dFdy(from_eye)) : vec3(0);
@@ -14,4 +21,11 @@ void main() {
     if (details != 0u && surface.reflectance != vec3(0))
         shown += surface.reflectance * environment(mirror_direction(normalize(seen_along()), n, normalize(facet)));
     write_surface(shown);
+#ifdef FIRST_HIT
+    bool reflects = details != 0u && surface.reflectance != vec3(0);
+    if (reflects || shadow_is_open) {
+        out_colour = first_hit_words(uint(gl_PrimitiveID), drawn_object(), 0u, tracer);
+        out_distance = float(tracer);
+    }
+#endif
 }

@@ -48,6 +48,7 @@ void main() {
     bool inside = has_pixel(pixel);
     if (inside) {
         uint met;
+        if (first_raster != 0u) first_words = imageLoad(picture, ivec2(pixel));
         vec3 sum = radiance(camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
         // The picture's alpha holds the numbers of the mirrors that the ray of the first sample meets.
         vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhTag));
@@ -56,5 +57,5 @@ void main() {
         if (asked.sample_index + 1u == asked.sample_count) sum /= float(asked.sample_count);
         imageStore(picture, ivec2(pixel), vec4(sum, before.a));
     }
-    count(inside);
+    count();
 }

@@ -1,16 +1,22 @@
 // Lists the pixels that the camera's view marked for one ray tracer. Counts the work groups of the tracer's dispatch,
 // one for each 64 pixels. A subgroup appends all of its pixels to the list at once.
+// #first reads the marks in the alpha of the view's colour (lib/first_hit.glsl).
 // No branch precedes a subgroup operation, because after a branch the lanes need not run together again.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
+#include "lib/first_hit.glsl"
 #include "lib/trace_list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+#ifdef FIRST_HIT
+layout(set = 0, binding = PICTURE_BINDING, rgba32f) readonly uniform image2D picture;
+#else
 layout(set = 0, binding = LOOKUP_BINDING, rgba32f) readonly uniform image2D lookup;
 layout(set = 0, binding = MARKS_BINDING, r32f) readonly uniform image2D marks;
+#endif
 layout(set = 0, binding = COUNTERS_BINDING, scalar) buffer CountersBuffer { Counters value; } counters;
 layout(set = 0, binding = LIST_BINDING, scalar) writeonly buffer List { uint list[]; };
 layout(set = 0, binding = ARGUMENTS_BINDING, scalar) buffer Arguments { uvec3 groups; } arguments;
@@ -27,11 +33,17 @@ void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     bool inside = all(lessThan(pixel, size));
     ivec2 place = ivec2(min(pixel, size - 1u));
+#ifdef FIRST_HIT
+    vec4 words = imageLoad(picture, place);
+    uint is_mirror = uint(inside) & uint(is_of_mirror(words));
+    uint is_listed = uint(inside) & uint(is_for(words, tracer));
+#else
     // `mark` is the number of the tracer that takes the pixel, or 0. `looked_up` is 0 where no mirror looked its
     // reflection up in a capture (lib/surface.glsl).
     float mark = imageLoad(marks, place).r, looked_up = imageLoad(lookup, place).w;
     uint is_mirror = uint(inside) & (uint(mark != 0.0) | uint(looked_up != 0.0));
     uint is_listed = uint(inside) & uint(mark == float(tracer));
+#endif
     uvec4 lanes = subgroupBallot(is_listed != 0u);
     uint mirrors = subgroupBallotBitCount(subgroupBallot(is_mirror != 0u));
     uint listed = subgroupBallotBitCount(lanes), before = subgroupBallotExclusiveBitCount(lanes);

@@ -62,7 +62,10 @@ struct Bvh {
     std::vector<vec4> triangles;
     std::size_t dropped = 0; ///< triangles left out because a coordinate is not finite
     std::size_t copies = 0; ///< triangles left out as copies of one with a lower number (see build)
-    double cost = 0;        ///< result of the function `cost`; `refit` updates it incrementally
+    /// Node of the first instance's record (bvh/tlas.hpp); 0: no instances. The record of instance
+    /// i begins kBvhRecordNodes * i nodes later.
+    std::uint32_t first_record = 0;
+    double cost = 0; ///< result of the function `cost`; `refit` updates it incrementally
 };
 
 /// Builds a hierarchy with the binned surface area heuristic. Where a path would grow deeper than

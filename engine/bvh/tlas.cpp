@@ -166,7 +166,7 @@ Bvh assemble(const Bvh& flat, std::span<const Instance> instances) {
             core.add(scene_bounds(instance));
         if (!roots.contains(instance.tree)) roots[instance.tree] = append(result, *instance.tree);
     }
-    const auto first_record = static_cast<std::uint32_t>(node_count(result));
+    const auto first_record = result.first_record = static_cast<std::uint32_t>(node_count(result));
     for (const Instance& instance : instances)
         add_record(result, instance, roots.at(instance.tree));
     const double times = 1 + 4 * worst;

@@ -95,6 +95,9 @@ public:
     bool filters_floats() const { return filters_floats_; }
     /// Returns whether shaders may compute with doubles.
     bool doubles() const { return doubles_; }
+    /// Returns whether fragment shaders may read the number of their triangle. Vulkan ties this to
+    /// geometry shaders.
+    bool numbers_triangles() const { return numbers_triangles_; }
     bool staged() const { return staged_; }
     std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
@@ -172,7 +175,7 @@ private:
     DeviceProperties info_;
     Choices choices_{};
     bool layered_ = true;
-    bool doubles_ = false;
+    bool doubles_ = false, numbers_triangles_ = false;
     bool filters_floats_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;

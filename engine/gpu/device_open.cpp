@@ -123,6 +123,7 @@ void Device::look_at(const DeviceOptions& options) {
     vkGetPhysicalDeviceFeatures2(physical_, &has.core);
     layered_ = options.layered && has.v12.shaderOutputLayer;
     doubles_ = has.core.features.shaderFloat64;
+    numbers_triangles_ = has.core.features.geometryShader;
     filters_floats_ = DeviceFeatures::filters_floats(physical_);
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);

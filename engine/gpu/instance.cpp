@@ -259,6 +259,7 @@ void DeviceFeatures::switch_on(VkPhysicalDevice device) {
     core.features.fragmentStoresAndAtomics = true;
     core.features.shaderClipDistance = true;
     core.features.shaderFloat64 = has.core.features.shaderFloat64;
+    core.features.geometryShader = has.core.features.geometryShader; // for gl_PrimitiveID
     v12.scalarBlockLayout = true;
     v12.timelineSemaphore = true;
     v12.hostQueryReset = true;

@@ -46,7 +46,7 @@ enum Storage : std::uint32_t {
     kPushConstant = 9,
     kStorageBuffer = 12
 };
-constexpr std::uint32_t kFloat64 = 10; // number of the capability
+constexpr std::uint32_t kGeometry = 2, kFloat64 = 10; // numbers of capabilities
 enum Dim : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
 struct SpirvType {
@@ -81,7 +81,7 @@ public:
         }
         for (const auto& [key, value] : decorations_)
             if (key.second == kSpecId) result.constants.push_back({name_of(key.first), value});
-        result.doubles = doubles_;
+        result.doubles = doubles_, result.triangle_numbers = triangle_numbers_;
         std::ranges::sort(result.bindings, {}, &Binding::binding);
         return result;
     }
@@ -90,7 +90,10 @@ private:
     void read(std::uint32_t op, std::span<const std::uint32_t> words) {
         switch (op) {
         case kName: names_[words[0]] = reinterpret_cast<const char*>(words.data() + 1); break;
-        case kCapability: doubles_ = doubles_ || words[0] == kFloat64; break;
+        case kCapability:
+            doubles_ = doubles_ || words[0] == kFloat64;
+            triangle_numbers_ = triangle_numbers_ || words[0] == kGeometry;
+            break;
         case kDecorate:
             if (words.size() > 2) decorations_[{words[0], words[1]}] = words[2];
             break;
@@ -195,7 +198,7 @@ private:
     std::map<std::uint32_t, std::uint32_t> constants_;
     std::vector<Variable> variables_;
     std::set<std::uint32_t> used_;
-    bool doubles_ = false;
+    bool doubles_ = false, triangle_numbers_ = false;
 };
 
 } // namespace

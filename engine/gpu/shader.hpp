@@ -51,7 +51,8 @@ struct Reflection {
     std::vector<Binding> bindings;
     std::vector<Constant> constants;
     std::uint32_t push_bytes = 0;
-    bool doubles = false; ///< needs a device that computes with doubles
+    bool doubles = false;          ///< needs a device that computes with doubles
+    bool triangle_numbers = false; ///< needs a device that numbers triangles (gl_PrimitiveID)
 };
 
 /// Reads names, decorations and uses out of SPIR-V. Throws `internal` for a set other than 0 and

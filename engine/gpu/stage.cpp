@@ -26,6 +26,9 @@ Stage::Stage(const Device& device, const std::string& name, VkShaderStageFlagBit
     reflection = reflect(name, shader.words);
     check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name,
           "' computes with doubles, which device '", device.info().name, "' cannot");
+    check(!reflection.triangle_numbers || device.numbers_triangles(), Failure::no_device,
+          "shader '", name, "' reads the number of a triangle, which device '", device.info().name,
+          "' does not give; the technique raytrace with first=ray needs none");
     std::map<std::uint32_t, std::uint32_t> values;
     const Constants of_device = constants_of(device);
     for (const Constants* list : {&of_device, &constants, &features})

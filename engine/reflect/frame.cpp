@@ -36,11 +36,17 @@ private:
     std::map<std::uint32_t, render::Lighting> made_;
 };
 
-/// Returns the shadow map edge for the view, in texels; none: no map. If several techniques are
-/// mixed, the view is rasterised and needs a map even for techniques that trace shadow rays.
-std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices) {
+/// Returns whether a tracer completes the whole view (Technique::completes_view).
+bool is_completed(const std::vector<Choice>& choices) {
+    const auto& [technique, settings, label] = choices.front();
+    return choices.size() == 1 && technique->completes_view && technique->completes_view(settings);
+}
+
+/// Returns the shadow map edge for the view, in texels; none: no map. `is_drawn`: the view is
+/// rasterised although a technique traces shadow rays, so that it needs a map even for them.
+std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices, bool is_drawn) {
     std::optional<std::uint32_t> finest;
-    if (choices.size() == 1) return map_edge(choices.front().settings);
+    if (!is_drawn) return map_edge(choices.front().settings);
     for (const auto& [technique, settings, label] : choices)
         if (settings.choice("shadow") != "none")
             finest = std::max(finest.value_or(1),
@@ -170,8 +176,9 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
     const std::vector<Choice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
     ShadowMaps maps(graph, inputs, keeping.model);
-    const render::Lighting lighting = maps.of(view_map_edge(choices));
-    if (!is_mixed && choices.front().technique->picture)
+    const bool completes = is_completed(choices);
+    const render::Lighting lighting = maps.of(view_map_edge(choices, is_mixed || completes));
+    if (!is_mixed && !completes && choices.front().technique->picture)
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
                                                   lighting);
     Outputs outputs;
@@ -181,12 +188,14 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
     outputs.kept = feeding.kept;
     render::Looks looks{{}, assignment.of_mirror};
     std::vector<Tracer> tracers;
-    for (std::size_t i = 0; i < choices.size() && !assignment.of_mirror.empty(); ++i) {
+    const bool needs_looks = completes || !assignment.of_mirror.empty();
+    for (std::size_t i = 0; i < choices.size() && needs_looks; ++i) {
         render::FrameInputs own = inputs;
         if (is_mixed) own.prefix += choices[i].file_name() + "/";
         const Settings& settings = choices[i].settings;
         const Technique& technique = *choices[i].technique;
-        const MirrorInputs around{outputs.captures, maps.of(map_edge(settings)),
+        const MirrorInputs around{outputs.captures,
+                                  completes ? lighting : maps.of(map_edge(settings)),
                                   mirrors_of(i, assignment)};
         MirrorShading look = technique.search
                                  ? MirrorShading{shading_of_search(technique, around, settings), {}}
@@ -205,7 +214,7 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
                                        looks_in_mirrors(outputs, assignment, looks), looks),
                           std::back_inserter(outputs.notes));
     const render::CameraOutputs view = render::add_view(graph, inputs, lighting, std::move(looks),
-                                                        !tracers.empty());
+                                                        !tracers.empty(), completes ? 1 : 0);
     outputs.hdr = view.hdr;
     if (inputs.with_lookup) outputs.lookup = view.lookup;
     for (std::uint32_t i = 0; i < tracers.size(); ++i)

@@ -22,6 +22,10 @@ MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const
     if (settings.choice("force") == "unknown")
         look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
+    if (inputs.scene.device().numbers_triangles()) {
+        look.mirror.variant = "#first";
+        look.tracer->first_raster = true;
+    }
     if (settings.choice("shadow") == "none") look.tracer->shadow = Tracer::Shadow::none;
     return look;
 }

@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
 constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
+constexpr std::array<std::string_view, 2> kFirstChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitChoices{"f32", "f64"};
 /// Numbered as in shaders/lib/plain.glsl.
 constexpr std::array<std::string_view, 6> kRules{"none",        "watertight", "box_slack",
@@ -30,6 +31,10 @@ constexpr Knob kKnobs[] = {
      .help = "shape of balls: triangles or exact spheres",
      .high = 1,
      .choices = kSphereChoices},
+    {.name = "first",
+     .help = "how the surface that the camera sees is found: by a ray, or by the rasteriser",
+     .high = 1,
+     .choices = kFirstChoices},
     {.name = "hit",
      .help = "precision of hit points: single or double",
      .high = 1,
@@ -41,18 +46,38 @@ constexpr Knob kKnobs[] = {
     kShadowMapEdge,
     kCapture};
 
+bool is_first_raster(const Settings& settings) { return settings.choice("first") == "raster"; }
+
 Tracer tracer_of(const Settings& settings, const render::Lighting& lighting) {
     const std::string_view shadow = settings.choice("shadow");
     return {.depth = static_cast<std::uint32_t>(settings.integer("depth")),
             .samples = settings.integer("samples"),
             // A scene without lights has no shadow map, and no light needs a shadow test.
-            .shadow = shadow == "none"      ? Tracer::Shadow::none
-                      : lighting.shadow_map ? Tracer::Shadow::map
-                                            : Tracer::Shadow::ray,
+            .shadow = shadow == "none"                         ? Tracer::Shadow::none
+                      : shadow == "map" && lighting.shadow_map ? Tracer::Shadow::map
+                                                               : Tracer::Shadow::ray,
             .lighting = lighting,
             .exact_spheres = settings.choice("sphere") == "exact",
+            .first_raster = is_first_raster(settings),
             .doubles = settings.choice("hit") == "f64",
             .without = static_cast<std::uint32_t>(settings.integer("without"))};
+}
+
+std::string conflict(const Settings& settings) {
+    if (!is_first_raster(settings)) return {};
+    if (settings.integer("samples") > 1)
+        return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
+               "samples=" +
+               settings.text("samples");
+    if (settings.choice("sphere") == "exact")
+        return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
+    return {};
+}
+
+/// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
+int scene_passes(int, int lights, const Settings& settings) {
+    if (!is_first_raster(settings)) return shadow_passes(lights, settings);
+    return 1 + (settings.choice("shadow") == "none" ? 0 : lights);
 }
 
 Outputs picture(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
@@ -64,14 +89,16 @@ Outputs picture(graph::Graph& graph, const render::FrameInputs& inputs, const Se
 MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
                    const MirrorInputs& around) {
     MirrorShading look;
-    look.mirror.fragment = "reflect/traced.frag";
     look.tracer = tracer_of(settings, around.lighting);
+    look.mirror.fragment = "reflect/traced.frag";
+    if (look.tracer->first_raster) look.mirror.variant = "#first";
     return look;
 }
 
-constexpr std::string_view kCompared[] = {
-    "raytrace:depth=0", "raytrace:depth=1", "raytrace:depth=2",     "raytrace:depth=3",
-    "raytrace:depth=4", "raytrace:depth=8", "raytrace:sphere=exact"};
+constexpr std::string_view kCompared[] = {"raytrace:depth=0",      "raytrace:depth=1",
+                                          "raytrace:depth=2",      "raytrace:depth=3",
+                                          "raytrace:depth=4",      "raytrace:depth=8",
+                                          "raytrace:sphere=exact", "raytrace:depth=4,first=raster"};
 
 constexpr Technique kRaytrace{
     .name = "raytrace",
@@ -79,9 +106,10 @@ constexpr Technique kRaytrace{
     .order = 100,
     .knobs = kKnobs,
     .compared = kCompared,
-    .scene_passes = [](int, int lights,
-                       const Settings& settings) { return shadow_passes(lights, settings); },
+    .scene_passes = scene_passes,
     .look = look,
+    .conflict = conflict,
+    .completes_view = is_first_raster,
     .picture = picture};
 const Registered kRow{kRaytrace};
 

@@ -73,6 +73,14 @@ struct Technique {
     /// Null: the technique draws any mirror. The technique that the knob `rest` names draws the
     /// mirrors that are unfit. `tolerance`: scene::flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
+    /// Returns why the technique cannot draw with these settings together, as words after
+    /// "technique
+    /// '...': "; empty: it can. Null: it can with all settings.
+    std::string (*conflict)(const Settings& settings) = nullptr;
+    /// Returns whether the tracer of `look` completes a rasterised view in which all mirrors have
+    /// this technique. The tracer then also draws surfaces that reflect without being mirrors, and
+    /// pixels whose shadow the shadow map leaves open. `picture` is not used. Null: false.
+    bool (*completes_view)(const Settings& settings) = nullptr;
     /// Declares the whole picture without a rasterised view, if all mirrors have this technique.
     /// Null: the view is rasterised.
     Outputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,

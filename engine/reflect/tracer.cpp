@@ -41,6 +41,10 @@ render::Spheres spheres_of(const Tracer& tracer) {
     return tracer.exact_spheres ? render::Spheres::exact : render::Spheres::mesh;
 }
 
+bool reads_shadow_map(const Tracer& tracer) {
+    return tracer.shadow != Tracer::Shadow::none && tracer.lighting.shadow_map;
+}
+
 gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, bool listed) {
     std::string build;
     for (const auto& [wanted, name] :
@@ -49,8 +53,9 @@ gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, 
     return {"raytrace.comp" + build,
             {{"max_depth", tracer.depth},
              {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
-             {"has_shadow_map", tracer.shadow == Tracer::Shadow::map ? 1u : 0u},
+             {"has_shadow_map", reads_shadow_map(tracer) ? 1u : 0u},
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
+             {"first_raster", tracer.first_raster ? 1u : 0u},
              {"without", tracer.without},
              {"fixed_offset", scene.space().length(kReportOffset)}},
             scene.tracing_features(spheres_of(tracer))};
@@ -60,7 +65,7 @@ gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, 
 void bind(graph::Commands& commands, const render::GpuScene& scene, const Tracer& tracer) {
     scene.bind(commands);
     scene.bind_tracing(commands, spheres_of(tracer));
-    if (tracer.shadow == Tracer::Shadow::map)
+    if (reads_shadow_map(tracer))
         commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::Filter::compare);
 }
 
@@ -97,19 +102,27 @@ List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const std:
             commands.fill(list.counters, 0);
             commands.fill(list.arguments, 0);
         });
-    graph.pass(name)
-        .reads(*view.lookup, Use::storage_read)
-        .reads(*view.tracers, Use::storage_read)
-        .writes(list.counters, Use::storage)
+    const bool in_alpha = !view.tracers; // see render::add_view
+    graph::PassBuilder pass = graph.pass(name);
+    if (in_alpha)
+        pass.reads(view.hdr, Use::storage_read);
+    else
+        pass.reads(*view.lookup, Use::storage_read).reads(*view.tracers, Use::storage_read);
+    pass.writes(list.counters, Use::storage)
         .writes(list.arguments, Use::storage)
         .writes(list.pixels, Use::storage_write)
         .record([=](graph::Commands& commands) {
-            commands.bind("lookup", *view.lookup);
-            commands.bind("marks", *view.tracers);
+            if (in_alpha) {
+                commands.bind("picture", view.hdr);
+            } else {
+                commands.bind("lookup", *view.lookup);
+                commands.bind("marks", *view.tracers);
+            }
             commands.bind("counters", list.counters);
             commands.bind("arguments", list.arguments);
             commands.bind("List", list.pixels);
-            commands.use(gpu::ComputeState{"trace_list.comp", {{"tracer", number}}});
+            const char* const shader = in_alpha ? "trace_list.comp#first" : "trace_list.comp";
+            commands.use(gpu::ComputeState{shader, {{"tracer", number}}});
             commands.push(size);
             commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
         });
@@ -127,7 +140,7 @@ Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const 
         .record([=](graph::Commands& commands) { commands.fill(traced.counters, 0); });
     inputs.scene.want_tracing(spheres_of(tracer));
     graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
-    if (tracer.shadow == Tracer::Shadow::map) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
+    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
     pass.writes(traced.hdr, Use::storage_write)
         .writes(traced.counters, Use::storage)
         .record([=, &scene = inputs.scene, seed = inputs.seed](graph::Commands& commands) {
@@ -148,9 +161,9 @@ graph::BufferHandle add_listed(graph::Graph& graph, const render::FrameInputs& i
                                const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
     const List list = add_list(graph, inputs, suffix, number, view);
-    inputs.scene.want_tracing(spheres_of(tracer));
+    inputs.scene.want_tracing(spheres_of(tracer), tracer.first_raster);
     graph::PassBuilder pass = graph.pass(inputs.prefix + "trace" + suffix);
-    if (tracer.shadow == Tracer::Shadow::map) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
+    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
     pass.reads(list.arguments, Use::indirect)
         .reads(list.pixels, Use::storage_read)
         .writes(list.counters, Use::storage)

@@ -11,10 +11,15 @@ struct Tracer {
     std::uint32_t depth = render::kReferenceDepth; ///< mirror bounces; longer paths end black
     int samples = 1; ///< rays per pixel: 1 = its centre, n*n = a regular grid, else stratified
     Shadow shadow = Shadow::ray;
-    render::Lighting lighting;  ///< has a shadow map if `shadow` is `map`
+    /// Has a shadow map if `shadow` is `map`. With `first_raster` and `ray`, a shadow map here
+    /// spares the shadow rays where it can tell alone.
+    render::Lighting lighting;
     bool exact_spheres = false; ///< intersects exact spheres instead of their triangles
-    bool doubles = false;       ///< hit points in double precision
-    std::uint32_t without = 0;  ///< number of a robustness rule to disable: shaders/lib/plain.glsl
+    /// Camera rays of listed pixels start at the triangle that the view drew in their pixel. The
+    /// view's shaders write its number (shaders/lib/first_hit.glsl). One sample only.
+    bool first_raster = false;
+    bool doubles = false;      ///< hit points in double precision
+    std::uint32_t without = 0; ///< number of a robustness rule to disable: shaders/lib/plain.glsl
 };
 
 struct Traced {

@@ -99,7 +99,8 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
     gpu::RasterState state{"", kBlackMirror, drawing.store};
     state.features = features_of(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
-        state.fragment = look.fragment + (look.ablated && !drawing.peeled ? "#ablate" : "");
+        state.fragment = look.fragment +
+                         (look.ablated && !drawing.peeled ? "#ablate" : look.variant);
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
         if (look.captures) bind_captures(commands, *look.captures);
         if (look.captures) add_places(*look.captures, state.constants);
@@ -159,18 +160,23 @@ void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState sta
 
 void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                 const ObjectFilter& wanted) {
-    const auto& [first_view, layers, lighting, looks, store, peeled] = drawing;
+    const auto& [first_view, layers, lighting, looks, store, completing_tracer, peeled] = drawing;
     const gpu::Constants features = features_of(scene, drawing);
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
     if (peeled) commands.bind("first_layer", *peeled);
+    gpu::RasterState diffuse{"", "diffuse.frag", store, gpu::Winding::none, features};
+    if (completing_tracer > 0) {
+        diffuse.fragment += "#first";
+        diffuse.constants.emplace_back("tracer", completing_tracer);
+    }
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
-        draw_objects(commands, scene, {"", "diffuse.frag", store, hidden, features}, first_view,
-                     layers, 0, [&](std::size_t i) {
-                         const DrawRange& range = scene.ranges()[i];
-                         return !range.mirror && range.one_sided == one_sided && wanted(i);
-                     });
+        diffuse.hidden = hidden;
+        draw_objects(commands, scene, diffuse, first_view, layers, 0, [&](std::size_t i) {
+            const DrawRange& range = scene.ranges()[i];
+            return !range.mirror && range.one_sided == one_sided && wanted(i);
+        });
     };
     const auto is_black = [&](std::size_t object) {
         return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);

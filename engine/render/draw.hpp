@@ -32,6 +32,9 @@ struct Drawing {
     Lighting lighting;
     std::shared_ptr<const Looks> looks; ///< shaders of the mirrors
     gpu::Constants store;               ///< constants for storing distances and surfaces
+    /// Number, from 1, of the tracer that completes surfaces that are no mirrors, where the shadow
+    /// map leaves their light open or they reflect; 0: none.
+    std::uint32_t completing_tracer = 0;
     /// Distances of a first layer; only surfaces behind them are drawn.
     std::optional<graph::ImageHandle> peeled;
 };

@@ -85,7 +85,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
                       double ambient, std::size_t slot) {
     update_ms_ = 0, hierarchy_ms_before_ = tracing_->ms();
     const Stopwatch watch(update_ms_);
-    slot_ = slot, wants_tracing_ = {};
+    slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = false;
     const SceneChanges changes = seen_.take_over(now, !complete_);
     complete_ = false; // stays false if the update throws, so that the next update fills everything
     if (changes.layout)
@@ -303,11 +303,11 @@ void GpuScene::prepare() const {
     }
     for (const Spheres spheres : {Spheres::mesh, Spheres::exact})
         if (wants_tracing_[static_cast<std::size_t>(spheres)])
-            tracing_->prepare(device_, geometry_, surfaces_, spheres, slot_);
+            tracing_->prepare(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
 }
 
 void GpuScene::bind_tracing(graph::Commands& commands, Spheres spheres) const {
-    tracing_->prepare(device_, geometry_, surfaces_, spheres, slot_);
+    tracing_->prepare(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
     tracing_->bind(commands, spheres, slot_);
 }
 

@@ -111,8 +111,11 @@ public:
     void bind_vertices(graph::Commands& commands, std::size_t object) const;
 
     /// Announces that a pass traces rays. Call it when the pass is declared.
-    void want_tracing(Spheres spheres = Spheres::mesh) const {
+    /// `first_hits`: the rays start at triangles that the rasteriser has drawn
+    /// (shaders/lib/first_hit.glsl).
+    void want_tracing(Spheres spheres = Spheres::mesh, bool first_hits = false) const {
         wants_tracing_[static_cast<std::size_t>(spheres)] = true;
+        wants_first_hits_ = wants_first_hits_ || first_hits;
     }
     /// Writes the added views, and updates the hierarchies that passes of this frame want. Call it
     /// after the frame's passes are declared.
@@ -182,6 +185,7 @@ private:
     std::unique_ptr<Tracing> tracing_;
     /// Whether a pass of this frame traces rays, for each value of Spheres.
     mutable std::array<bool, 2> wants_tracing_{};
+    mutable bool wants_first_hits_ = false;
 };
 
 } // namespace catoptric::render

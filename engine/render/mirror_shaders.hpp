@@ -13,6 +13,7 @@ namespace catoptric::render {
 /// A fragment shader and the resources that it reads.
 struct MirrorShader {
     std::string fragment; ///< empty: the mirror is black
+    std::string variant;  ///< suffix of `fragment`, where no cause of error is removed
     gpu::Constants constants;
     std::shared_ptr<const Captures> captures;
     /// Further images that the mirror's shader samples (nearest), by their names in the shader. An

@@ -34,7 +34,7 @@ Looks ablated(Looks looks, const FrameInputs& inputs, const Lighting& lighting) 
 } // namespace
 
 CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting,
-                       Looks looks, bool is_traced) {
+                       Looks looks, bool is_traced, std::uint32_t completing_tracer) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
     const ImageHandle depth = graph.image(
@@ -43,7 +43,7 @@ CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lig
     read_surroundings(pass, lighting, looks);
     CameraOutputs view{hdr, {}, {}};
     pass.writes(hdr, Use::colour, kBlack);
-    if (is_traced || inputs.with_lookup) {
+    if ((is_traced && completing_tracer == 0) || inputs.with_lookup) {
         // The order of attachments is that of the shaders' outputs. `tracers` takes the location
         // that captures use for distance. The lookup follows.
         view.tracers = graph.image({inputs.prefix + "view.tracers", Format::r32f, size.x, size.y});
@@ -56,6 +56,7 @@ CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lig
         .lighting = lighting,
         .looks = std::make_shared<const Looks>(ablated(std::move(looks), inputs, lighting)),
         .store = {},
+        .completing_tracer = completing_tracer,
         .peeled = {}};
     if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
     pass.writes(depth, Use::depth, kFarthest)

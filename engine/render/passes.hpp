@@ -41,9 +41,10 @@ struct CameraOutputs {
     std::optional<graph::ImageHandle> tracers;
 };
 /// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to
-/// tracing. In that case `lookup` and `tracers` exist.
+/// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see Drawing. With such
+/// a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl).
 CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting,
-                       Looks looks, bool is_traced = false);
+                       Looks looks, bool is_traced = false, std::uint32_t completing_tracer = 0);
 
 /// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
 /// rgba32f. The image is defined only in that area. `number`: of the view in the scene's list of

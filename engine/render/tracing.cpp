@@ -86,6 +86,26 @@ std::array<double, 15> place_of(const DrawRange& range) {
 
 constexpr std::string_view kInStorage = "bvh_in_storage";
 
+/// Returns the list with which shaders find a triangle of the rasteriser in the hierarchy
+/// (known_hit in shaders/lib/whitted.glsl). `count`: the number of stored triangles.
+std::vector<std::uint32_t> list_first_hits(const bvh::Bvh& shown,
+                                           std::span<const bvh::Instance> instances,
+                                           const Geometry& geometry, std::size_t count) {
+    constexpr std::uint32_t kNoFirstHit = 0xffffffff; // as in shaders/lib/whitted.glsl
+    const std::size_t objects = geometry.ranges.size();
+    std::vector<std::uint32_t> list(2 * objects + count, kNoFirstHit);
+    const auto first = static_cast<std::uint32_t>(2 * objects);
+    for (std::size_t i = 0; i < objects; ++i) {
+        if (!geometry.ranges[i].own) list[2 * i] = 0;
+        list[2 * i + 1] = first + geometry.ranges[i].first_index / 3;
+    }
+    for (std::uint32_t i = 0; i < instances.size(); ++i)
+        list[2 * std::size_t{instances[i].object}] = shown.first_record + f32::kBvhRecordNodes * i;
+    for (std::uint32_t place = 0; place < bvh::triangle_count(shown); ++place)
+        list[first + bvh::number_of(shown.triangles[3 * std::size_t{place} + 1].w)] = place;
+    return list;
+}
+
 } // namespace
 
 gpu::Constants constants_of(const gpu::Choices& choices, std::uint64_t bytes,
@@ -112,6 +132,7 @@ void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
     hierarchy.tree = bvh::build(flat, geometry.core, bvh::Copies::of_all);
     hierarchy.reached.clear();
+    hierarchy.lists_first_hits = false;
     hierarchy.cost_when_built = hierarchy.tree.cost;
     hierarchy.changed = {0, hierarchy.tree.triangles.size()};
     ++built_;
@@ -179,8 +200,8 @@ void Tracing::read(const Geometry& geometry) {
     moved_.clear();
 }
 
-/// Assembles the trees that the device walks.
-void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
+/// Returns the objects in object space that rays can meet. Checks the number of triangles.
+std::vector<bvh::Instance> Tracing::instances(const Geometry& geometry) const {
     std::vector<bvh::Instance> instances;
     std::set<std::array<double, 15>> places; // rays never meet a copy in the same place as another
     auto next = static_cast<std::uint32_t>(triangles_.size());
@@ -197,6 +218,12 @@ void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
     }
     check(next <= f32::kBvhIdMask, Failure::exhausted, "rays tell ", f32::kBvhIdMask,
           " triangles apart, the scene shows ", next);
+    return instances;
+}
+
+/// Assembles the trees that the device walks. `first_hits`: lists the places of triangles, too.
+void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry, bool first_hits) const {
+    const std::vector<bvh::Instance> instances = this->instances(geometry);
     const bvh::Bvh whole = instances.empty() ? bvh::Bvh()
                                              : bvh::assemble(hierarchy.tree, instances);
     const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
@@ -205,11 +232,16 @@ void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
         hierarchy.triangles.set(shown.triangles, hierarchy.changed.first, hierarchy.changed.end);
     else
         hierarchy.triangles.set(shown.triangles);
+    // A refit keeps the places of triangles, but assembling may change them.
+    hierarchy.lists_first_hits = hierarchy.lists_first_hits && instances.empty();
+    if (!first_hits || hierarchy.lists_first_hits) return;
+    hierarchy.first_hits.set(list_first_hits(shown, instances, geometry, triangles_.size()));
+    hierarchy.lists_first_hits = true;
 }
 
 /// `flat`: the triangles and spheres in scene units.
 void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
-                               std::span<const bvh::Triangle> flat) {
+                               std::span<const bvh::Triangle> flat, bool first_hits) {
     // Triangles left out as copies may no longer coincide after a move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
     hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call fills everything
@@ -217,13 +249,13 @@ void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
         build(hierarchy, geometry, flat);
     else if (std::ranges::find(hierarchy.moved, 1) != hierarchy.moved.end())
         refit(hierarchy, geometry, flat);
-    fill(hierarchy, geometry);
+    fill(hierarchy, geometry, first_hits);
     hierarchy.moved.clear();
     hierarchy.seen = version_;
 }
 
 void Tracing::prepare(gpu::Device& device, const Geometry& geometry,
-                      std::span<const shared::Surface> surfaces, Spheres spheres,
+                      std::span<const shared::Surface> surfaces, Spheres spheres, bool first_hits,
                       std::size_t slot) {
     const Stopwatch watch(ms_);
     const bool is_first = built_ == 0;
@@ -232,14 +264,17 @@ void Tracing::prepare(gpu::Device& device, const Geometry& geometry,
     if (hierarchy.seen != version_) {
         const std::size_t count = geometry.flat_indices / 3;
         if (spheres == Spheres::mesh)
-            bring_up_to_date(hierarchy, geometry, std::span(triangles_).first(count));
+            bring_up_to_date(hierarchy, geometry, std::span(triangles_).first(count), first_hits);
         else
             bring_up_to_date(hierarchy, geometry,
-                             with_spheres(std::span(triangles_).first(count), geometry, surfaces));
+                             with_spheres(std::span(triangles_).first(count), geometry, surfaces),
+                             first_hits);
     }
+    if (first_hits && !hierarchy.lists_first_hits) fill(hierarchy, geometry, true);
     const double build_ms = watch.ms();
     for (Resident* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})
         writes_ += buffer->write(device, slot);
+    if (hierarchy.lists_first_hits) writes_ += hierarchy.first_hits.write(device, slot);
     if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.ms() - build_ms;
 }
 
@@ -253,6 +288,7 @@ void Tracing::bind(graph::Commands& commands, Spheres spheres, std::size_t slot)
     commands.bind("bvh_nodes", hierarchy.nodes.at(slot));
     commands.bind("bvh_triangles", hierarchy.triangles.at(slot));
     commands.bind("normals", normals_buffer_.at(slot));
+    if (hierarchy.lists_first_hits) commands.bind("first_hits", hierarchy.first_hits.at(slot));
 }
 
 } // namespace catoptric::render

@@ -39,9 +39,11 @@ public:
     /// its object space.
     void move(std::size_t object, bool vertices) { moved_.push_back({object, vertices}); }
     /// Brings a hierarchy up to date for slot `slot`. Does nothing if nothing changed since the
-    /// last call. `surfaces`: by object, scene units. A build costs O(n log^2 n), a refit O(n).
+    /// last call. `surfaces`: by object, scene units. `first_hits`: the list that finds a triangle
+    /// of the rasteriser in the hierarchy is needed, too. A build costs O(n log^2 n), a refit O(n).
     void prepare(gpu::Device& device, const Geometry& geometry,
-                 std::span<const shared::Surface> surfaces, Spheres spheres, std::size_t slot);
+                 std::span<const shared::Surface> surfaces, Spheres spheres, bool first_hits,
+                 std::size_t slot);
     void bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const;
     /// Returns the bytes of the nodes or of the triangles, whichever is more, as written for the
     /// slot.
@@ -70,7 +72,8 @@ private:
     struct Hierarchy {
         explicit Hierarchy(std::size_t slots)
             : nodes("bvh_nodes", gpu::BufferUsage::texels, slots),
-              triangles("bvh_triangles", gpu::BufferUsage::texels, slots) {}
+              triangles("bvh_triangles", gpu::BufferUsage::texels, slots),
+              first_hits("first_hits", gpu::BufferUsage::words, slots) {}
         bvh::Bvh tree; ///< of the triangles in scene units
         double cost_when_built = 0;
         Version seen;
@@ -79,17 +82,22 @@ private:
         bvh::Reach reach;
         bvh::IndexRange
             changed; ///< range of the tree's triangles that changed since the last `fill`
+        bool lists_first_hits = false; ///< `first_hits` describes the hierarchy
         Resident nodes, triangles;
+        /// Finds a triangle of the rasteriser in the hierarchy: see known_hit in
+        /// shaders/lib/whitted.glsl.
+        Resident first_hits;
     };
     Hierarchy& of(Spheres spheres) { return hierarchies_[static_cast<std::size_t>(spheres)]; }
     void read(const Geometry& geometry);
     void bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
-                          std::span<const bvh::Triangle> flat);
+                          std::span<const bvh::Triangle> flat, bool first_hits);
     void build(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
     void refit(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
     void follow(const Geometry& geometry);
     void build_own(const Geometry& geometry, std::size_t object);
-    void fill(Hierarchy& hierarchy, const Geometry& geometry) const;
+    std::vector<bvh::Instance> instances(const Geometry& geometry) const;
+    void fill(Hierarchy& hierarchy, const Geometry& geometry, bool first_hits) const;
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;

@@ -47,7 +47,8 @@ struct End {
 
 End end_of(Ray ray, uint skipped) {
     End end;
-    end.meets = trace_ray(ray, skipped, end.point);
+    Hit none;
+    end.meets = trace_ray(ray, skipped, kNotKnown, none, end.point);
     end.mirror = end.meets ? surface_of(end.point.object).mirror : 0u;
     return end;
 }

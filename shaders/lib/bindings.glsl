@@ -30,6 +30,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
 #define FIRST_LAYER_BINDING 16
+#define FIRST_HITS_BINDING 19 // places of triangles in the BVH (lib/whitted.glsl)
 #define MIRROR_NODES_BINDING 30 // tree over the mirrors' bounds (lib/next_mirror.glsl)
 // Bindings from 20 on belong to the techniques. lib/material.glsl uses these bindings:
 #define DETAILS_BINDING 40

@@ -7,6 +7,7 @@
 #define CATOPTRIC_MIRROR_GLSL
 
 #include "lib/constants.glsl"
+#include "lib/first_hit.glsl"
 #include "lib/next_mirror.glsl"
 #include "lib/probe.glsl"
 #include "lib/surface.glsl"
@@ -177,7 +178,12 @@ void main() {
     if (lights_mirrors != 0u) colour += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
 #endif
     write_surface(shown(colour, lookup));
-    if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) out_distance = float(tracer);
+    if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) {
+        out_distance = float(tracer);
+#ifdef FIRST_HIT
+        out_colour = first_hit_words(uint(gl_PrimitiveID), drawn_object(), drawn_mirror(), tracer);
+#endif
+    }
     if (keeps_surface == 0u)
         out_more = vec4(lookup.direction, float(1u + lookup.state) + 4.0 * lookup.layer + 8.0 * float(path.mirror) +
                                               clamp(lookup.residual, 0.0, 0.996)); // residual: a fraction below 1

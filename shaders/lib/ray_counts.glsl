@@ -22,10 +22,9 @@ uint work_group() {
 #endif
 }
 
-// Adds the rays of an invocation to the counters. Every invocation calls this function once, at its end. `inside` says
-// whether the invocation traced a camera ray.
-void count(bool inside) {
-    uint primary = subgroupAdd(inside ? 1u : 0u);
+// Adds the rays of an invocation to the counters. Every invocation calls this function once, at its end.
+void count() {
+    uint primary = subgroupAdd(camera_rays);
     uint mirrors = subgroupAdd(mirror_rays);
     uint shadows = subgroupAdd(shadow_rays);
     uint exhausted = subgroupAdd(trace_exhausted ? 1u : 0u);

@@ -22,16 +22,26 @@ vec3 in_light_frame(uint light, vec3 v) {
     return vec3(dot(light_at(light).right, v), -dot(light_at(light).down, v), dot(light_at(light).forward, v));
 }
 
+// The direction in which the looked-up point is lifted off its surface. Along the normal, shadows shift sideways by up to
+// kLiftTexels. Towards the light, shadows keep their place, but begin late where a surface touches what shades it. The
+// height above the surface is the same, so that a plane does not shadow itself.
+const uint kLiftAlongNormal = 0u, kLiftToLight = 1u;
+const float kLeastCosine = 1.0 / 64.0; // limits how far a point moves towards the light
+
+vec3 lifted(uint lift, vec3 normal, vec3 to_light, float height) {
+    return lift == kLiftAlongNormal ? normal * height : to_light * (height / max(dot(normal, to_light), kLeastCosine));
+}
+
 // Returns the share of a directional light that reaches the point, 0 to 1. The shadow map of such a light has two
 // windows around one axis. The first window covers the scene's core in more detail, the second covers all shadow
 // casters.
-float parallel_map_visible(uint light, vec3 position, vec3 normal, float error) {
+float parallel_map_visible(uint light, vec3 position, vec3 normal, float error, uint lift) {
     float edge = float(textureSize(shadow_map, 0).x);
     for (uint window = 0u; window < 2u; ++window) {
         View view = views[1u + 6u * frame.value.mirror_count + shadow_face_count() * light + window];
         float texel = 2.0 / (edge * min(length(view.right), length(view.down)));
         float cosine = dot(normal, view.forward), sine = sqrt(max(0.0, 1.0 - cosine * cosine));
-        vec3 v = position - view.eye + normal * (kLiftTexels * texel * sine + error);
+        vec3 v = position - view.eye + lifted(lift, normal, -view.forward, kLiftTexels * texel * sine + error);
         vec2 place = vec2(dot(view.right, v), dot(view.down, v));
         if (max(abs(place.x), abs(place.y)) > 1.0 - 2.0 / edge) continue;
         // The slack in depth grows with the depth range of the receiver's plane in the window, since depth is
@@ -45,15 +55,15 @@ float parallel_map_visible(uint light, vec3 position, vec3 normal, float error) 
 
 // Returns the share of the light that reaches the point, 0 to 1 (2x2 percentage-closer filtering). `normal` faces the
 // light. `error` is the largest error of the position along `normal`, scene units.
-float shadow_map_visible(uint light, vec3 position, vec3 normal, float error) {
-    if (is_directional(light)) return parallel_map_visible(light, position, normal, error);
+float shadow_map_visible(uint light, vec3 position, vec3 normal, float error, uint lift) {
+    if (is_directional(light)) return parallel_map_visible(light, position, normal, error, lift);
     vec3 v = in_light_frame(light, position - light_at(light).position);
     vec3 n = in_light_frame(light, normal);
     int face = cube_face(v);
     if (uint(face) >= shadow_face_count()) return 0.0;
     vec3 n_face = cube_coordinates(face, n);
     float texel = 2.0 * cube_coordinates(face, v).z / float(textureSize(shadow_map, 0).x);
-    v += n * (kLiftTexels * texel * sqrt(max(0.0, 1.0 - n_face.z * n_face.z)) + error);
+    v += lifted(lift, n, -normalize(v), kLiftTexels * texel * sqrt(max(0.0, 1.0 - n_face.z * n_face.z)) + error);
     vec3 place = cube_coordinates(face, v);
     // Depth is near / z, which is linear over the receiver's plane dot(n, p) = -height. The largest depth of the plane
     // in the face is therefore at most near * (|n.x| + |n.y| + |n.z|) / height.
@@ -61,6 +71,16 @@ float shadow_map_visible(uint light, vec3 position, vec3 normal, float error) {
     float slack = kDepthError * (1.0 + place.z * dot(abs(n), vec3(1)) / height);
     float layer = float(light * shadow_face_count() + uint(face));
     return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, light_at(light).near / place.z * (1.0 + slack)));
+}
+float shadow_map_visible(uint light, vec3 position, vec3 normal, float error) {
+    return shadow_map_visible(light, position, normal, error, kLiftAlongNormal);
+}
+
+// Finds the share of the light that reaches the point. Returns false at the edge of a shadow, where the four taps differ
+// and a shadow ray must tell.
+bool shadow_map_tells(uint light, vec3 position, vec3 normal, float error, out float visible) {
+    visible = shadow_map_visible(light, position, normal, error, kLiftToLight);
+    return visible == 0.0 || visible == 1.0;
 }
 
 #endif

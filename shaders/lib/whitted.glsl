@@ -7,6 +7,7 @@
 #include "lib/constants.glsl"
 #include "lib/environment.glsl"
 #include "lib/eye.glsl"
+#include "lib/first_hit.glsl"
 #include "lib/lights.glsl"
 #include "lib/material.glsl"
 
@@ -48,6 +49,11 @@ layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // shadow method: 
 #define SHADOW_BY shadow
 #endif
 
+// 1: the rasteriser has found the surfaces that the camera rays meet, and there may be a shadow map. Shadow rays are
+// then traced only where the shadow map cannot tell.
+layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
+
+uint camera_rays = 0u; // camera rays that walked through the BVH
 uint mirror_rays = 0u;
 uint shadow_rays = 0u;
 
@@ -165,10 +171,50 @@ Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
     return p;
 }
 
-bool trace_ray(Ray ray, uint skipped, out Point p) {
-    Hit hit;
+vec4 first_words = vec4(0); // texel of the picture of triangles (lib/first_hit.glsl) for the camera ray
+
+// Two words for each object, and one word for each triangle. The words of an object are the record of its instance (0:
+// its triangles are in scene units), and the index of its first triangle in this list. The word of a triangle is its
+// stored index. kNoFirstHit: the tree does not hold the object or the triangle.
+TEXEL_LIST(FIRST_HITS_BINDING, first_hits, uint, usamplerBuffer, false)
+const uint kNoFirstHit = 0xffffffffu;
+
+// What is known of a ray before it is traced.
+const uint kNotKnown = 0u, kKnownHit = 1u;
+
+// Intersects the camera ray with the triangle that the rasteriser drew in the ray's pixel. Returns kNotKnown if no
+// triangle is named, or if the ray misses the triangle. The latter happens at edges, where the rasteriser rounds corners
+// to parts of a pixel.
+uint known_hit(Ray ray, out Hit hit) {
+    hit = Hit(kLargest, vec3(0), 0u, 0u, 0u, 0u);
+    if (!is_first_hit(first_words)) return kNotKnown;
+    uint object = first_hit_object(first_words);
+    uint record = first_hits_at(2u * object);
+    uint place = first_hits_at(first_hits_at(2u * object + 1u) + first_hit_triangle(first_words));
+    if (record == kNoFirstHit || place == kNoFirstHit) return kNotKnown;
+    Ray own = ray;
+    uint shift = 0u;
+    if (object_spaces != 0u && record != 0u) {
+        own = own_ray(place_at(record), ray, trace_low);
+        shift = number_shift(record);
+    }
+    vec3 a, b, c, weights;
+    triangle_corners(place, a, b, c);
+    float t;
+    RayShear shear = ray_shear(own.direction);
+    bool meets = keeps(kWatertight) ? triangle_test(a, b, c, own.origin, shear, t, weights)
+                                    : plain_triangle_test(a, b, c, own, t, weights);
+    uint triangle = (floatBitsToUint(bvh_triangles_at(3u * place + 1u).w) & kBvhIdMask) + shift;
+    hit = Hit(t, barycentric(weights), triangle, object, place, record);
+    return meets ? kKnownHit : kNotKnown;
+}
+
+// Finds the surface that the ray meets. `known` and `hit` are the result of known_hit, or kNotKnown and any hit.
+bool trace_ray(Ray ray, uint skipped, uint known, Hit hit, out Point p) {
     vec3 low = trace_low;
-    bool found = closest_hit(ray, kLargest, skipped | kBvhOneSided | ray_mask(), hit);
+    bool found = known == kKnownHit;
+    if (known == kNotKnown) found = closest_hit(ray, kLargest, skipped | kBvhOneSided | ray_mask(), hit);
+    trace_low = vec3(0);
     if (found && object_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
     else if (found && exact_spheres != 0u && surface_of(hit.object).radius > 0.0) p = on_sphere(ray, hit.t, hit.object);
     else if (found) p = on_triangle(hit);
@@ -208,6 +254,10 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
     if (SHADOW_BY == kShadowNone) return 1.0;
     if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
         return shadow_map_visible(light, position, normal, dot(abs(normal), point.error));
+    float visible;
+    if (has_shadow_map != 0u && first_raster != 0u &&
+        shadow_map_tells(light, position, normal, dot(abs(normal), point.error), visible))
+        return visible;
     ++shadow_rays;
     bool goes_below = keeps(kSpawnBound) && dot(direction, facet_side(normal, point.facet)) < 0.0;
     vec3 origin;
@@ -239,7 +289,7 @@ Ray camera_ray(vec2 place, uvec2 size) {
 // Returns the radiance along a ray that has met `first` mirrors before. `met` is the number of the first mirror that
 // the ray meets, and the number of the second << kMetBits. If the first surface reflects but is no mirror, the first
 // number is 0 and the second kMostMirrors. A ray with `first` 0 is a camera ray and passes through objects hidden from
-// the camera.
+// the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
 vec3 radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
@@ -250,8 +300,14 @@ vec3 radiance(Ray ray, uint first, out uint met) {
 #endif
     bool done = false;
     uint bounce = first;
+    Hit hit;
+    uint known = kNotKnown;
+    if (first_raster != 0u && first == 0u) known = known_hit(ray, hit);
+    if (known == kNotKnown && first == 0u) ++camera_rays;
     do {
-        if (!trace_ray(ray, skipped, point)) {
+        bool found = trace_ray(ray, skipped, known, hit, point);
+        known = kNotKnown;
+        if (!found) {
             if (environment_kind != kNoEnvironment) result += weight * environment(ray.direction);
             done = true;
             continue;

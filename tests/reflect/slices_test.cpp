@@ -167,10 +167,10 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
             for (app::Session* session : {&all, &few}) session->change(scene::move(moved, to));
             expect_told(few.frame(spec), 1);
         }
-        constexpr int kMostBounces = 12;
-        for (int k = 0; k < kMostBounces * 4; ++k) few.frame(spec);
+        constexpr int kRounds = 12;
+        for (int k = 0; k < kRounds * 4; ++k) few.frame(spec);
         spec.model = app::Modelling::everything, spec.most_captures = 0;
-        for (int k = 0; k < kMostBounces; ++k) all.frame(spec);
+        for (int k = 0; k < kRounds; ++k) all.frame(spec);
         const measure::Picture wanted = all.frame(spec).hdr();
         spec.model = app::Modelling::required, spec.most_captures = 1;
         const app::Frame last = few.frame(spec);
