@@ -23,7 +23,7 @@ set(headers
     measure/lag.hpp measure/light_edges.hpp measure/lookup.hpp measure/picture.hpp measure/picture_file.hpp
     measure/statistics.hpp
     report/comparison.hpp report/write.hpp
-    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/capture_budget.hpp app/technique.hpp app/watcher.hpp
+    study/compare.hpp session/engine.hpp session/run.hpp session/session.hpp session/capture_budget.hpp session/technique.hpp session/watcher.hpp
     embed/embed.hpp)
 foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)

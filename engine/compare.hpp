@@ -1,5 +1,5 @@
 #pragma once
 
 /// Compares the cost and the error of techniques.
-#include "app/compare.hpp"
-#include "app/watcher.hpp"
+#include "session/watcher.hpp"
+#include "study/compare.hpp"

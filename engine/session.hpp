@@ -1,6 +1,6 @@
 #pragma once
 
 /// Renders frames of a scene on a device.
-#include "app/engine.hpp"
-#include "app/run.hpp"
-#include "app/session.hpp"
+#include "session/engine.hpp"
+#include "session/run.hpp"
+#include "session/session.hpp"

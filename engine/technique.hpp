@@ -1,4 +1,4 @@
 #pragma once
 
 /// Registers techniques that a program adds.
-#include "app/technique.hpp"
+#include "session/technique.hpp"

@@ -1,4 +1,4 @@
-// Counts the lanes of a subgroup (app/lanes.cpp). A driver may compile a program for each subgroup width, with
+// Counts the lanes of a subgroup (session/lanes.cpp). A driver may compile a program for each subgroup width, with
 // gl_SubgroupSize as a constant. Only a sum over the lanes tells which of these programs runs.
 #version 460
 #extension GL_KHR_shader_subgroup_arithmetic : require

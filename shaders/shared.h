@@ -184,7 +184,7 @@ struct Placement {
 };
 
 // Causes of error that an ablation removes: each flag replaces an approximation by its exact value
-// (engine/app/causes.cpp).
+// (engine/study/causes.cpp).
 const uint kAblateDistance = 1u;   // ablation: the captured distance becomes the exact distance
 const uint kAblateDirection = 2u;  // ablation: the looked-up direction becomes that of the point which the ray meets
 const uint kAblateHidden = 4u;     // ablation: points hidden from the capture's centre get their true colour
@@ -216,7 +216,7 @@ struct Counters {
     uint listed;        // mirror pixels that were listed for tracing
 };
 
-// Push constants of the pass that shows pictures in a window (engine/app/screen.cpp).
+// Push constants of the pass that shows pictures in a window (engine/session/screen.cpp).
 struct Screening {
     uvec2 size;      // size of the pictures, pixels
     uint kind;       // kind of display, kShow...

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/run.hpp"
 #include "plain.hpp"
 #include "render/geometry.hpp"
+#include "session/run.hpp"
 
 #include <array>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/engine.hpp"
-#include "app/usage.hpp"
 #include "embree_scene.hpp"
 #include "scene/scene.hpp"
+#include "session/engine.hpp"
+#include "session/usage.hpp"
 
 #include <span>
 

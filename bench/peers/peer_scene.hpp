@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/run.hpp"
 #include "embree_scene.hpp"
 #include "render/geometry.hpp"
+#include "session/run.hpp"
 #include "whitted.hpp"
 
 namespace peers {

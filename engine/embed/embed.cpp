@@ -1,9 +1,9 @@
 #include "embed/embed.hpp"
 
-#include "app/embedding.hpp"
 #include "core/error.hpp"
 #include "gpu/instance.hpp"
 #include "graph/physical.hpp"
+#include "session/embedding.hpp"
 
 namespace catoptric::embed {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "../app/engine.hpp"
-#include "../app/session.hpp"
 #include "../core/export.hpp"
 #include "../core/math.hpp"
+#include "../session/engine.hpp"
+#include "../session/session.hpp"
 
 #include <cstdint>
 

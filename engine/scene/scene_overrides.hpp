@@ -69,7 +69,8 @@ void check_patterns(const Scene& scene, const SceneOverrides& overrides, const s
 
 /// Applies the overrides of mirrors, lights, roughness and dielectrics, turns the scene if +z is
 /// up, and finds its mirrors again (classify.hpp). Overrides that name a picture are left to
-/// app/resolved_scene.hpp. Throws `usage`, with the nearest names, for a pattern without a match.
+/// session/resolved_scene.hpp. Throws `usage`, with the nearest names, for a pattern without a
+/// match.
 void apply(Scene& scene, const SceneOverrides& overrides);
 
 /// Turns a scene from +z up to +y up: (x, y, z) becomes (x, z, -y), exactly.

@@ -1,10 +1,10 @@
 #include "benchmark/bench.hpp"
 
-#include "app/engine.hpp"
-#include "app/processor.hpp"
-#include "app/row_run.hpp"
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
+#include "session/engine.hpp"
+#include "session/processor.hpp"
+#include "study/row_run.hpp"
 
 #include <ctime>
 #include <set>

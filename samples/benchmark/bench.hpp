@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/usage.hpp"
-#include "app/watcher.hpp"
 #include "measure/benchmark.hpp"
+#include "session/usage.hpp"
+#include "session/watcher.hpp"
 
 #include <functional>
 #include <map>

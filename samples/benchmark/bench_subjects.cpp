@@ -1,7 +1,7 @@
 #include "benchmark/bench_subjects.hpp"
 
-#include "app/rays.hpp"
 #include "core/error.hpp"
+#include "session/rays.hpp"
 
 #include <optional>
 #include <utility>

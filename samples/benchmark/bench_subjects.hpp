@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/run.hpp"
 #include "benchmark/bench.hpp"
+#include "session/run.hpp"
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 #include "benchmark/tune.hpp"
 
-#include "app/embedding.hpp"
-#include "app/profile.hpp"
 #include "benchmark/bench_subjects.hpp"
+#include "session/embedding.hpp"
+#include "session/profile.hpp"
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/run.hpp"
 #include "benchmark/bench.hpp"
 #include "measure/tuning.hpp"
+#include "session/run.hpp"
 
 /// Measures which variants of shaders (gpu/variants.hpp) suit a device.
 namespace catoptric::app {

@@ -1,7 +1,5 @@
 // catoptric bench: measures the cost of frames and of their preparation, and compares runs or
 // builds.
-#include "app/compare.hpp"
-#include "app/device_facts.hpp"
 #include "bench_against.hpp"
 #include "bench_table.hpp"
 #include "bench_tune.hpp"
@@ -13,6 +11,8 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/benchmarks.hpp"
+#include "session/device_facts.hpp"
+#include "study/compare.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/watcher.hpp"
 #include "measure/benchmark.hpp"
+#include "session/watcher.hpp"
 
 #include <array>
 #include <string>

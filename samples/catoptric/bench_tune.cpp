@@ -1,8 +1,6 @@
 // Measures which shader settings suit the device, and writes them to its profile.
 #include "bench_tune.hpp"
 
-#include "app/compare.hpp"
-#include "app/profile.hpp"
 #include "bench_table.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -10,6 +8,8 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/write.hpp"
+#include "session/profile.hpp"
+#include "study/compare.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>

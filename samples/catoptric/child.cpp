@@ -1,7 +1,7 @@
 #include "child.hpp"
 
-#include "app/watcher.hpp"
 #include "core/error.hpp"
+#include "session/watcher.hpp"
 
 #include <array>
 #include <cerrno>

@@ -1,5 +1,5 @@
 // catoptric compare: compares all techniques with the reference, with time and error in one table.
-#include "app/compare.hpp"
+#include "study/compare.hpp"
 
 #include "core/error.hpp"
 #include "core/image_module.hpp"

@@ -1,8 +1,8 @@
 #include "drawn.hpp"
 
-#include "app/engine.hpp"
 #include "core/error.hpp"
 #include "options.hpp"
+#include "session/engine.hpp"
 
 namespace catoptric::cli {
 

@@ -16,7 +16,7 @@ void add_drawn(Verb& verb, Drawn& drawn);
 
 /// Returns the technique or plan that was given, as app::FrameSpec::techniques takes it. Throws
 /// `usage` if none or both were given or the text is invalid, and as reading a plan's file does
-/// (app/plan_file.hpp).
+/// (session/plan_file.hpp).
 std::string checked(const Drawn& drawn, const std::string& verb);
 
 } // namespace catoptric::cli

@@ -1,11 +1,11 @@
 // catoptric graph: shows the compiled render graph of a frame.
-#include "app/session.hpp"
-#include "app/why.hpp"
 #include "core/error.hpp"
 #include "drawn.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "places.hpp"
+#include "session/session.hpp"
+#include "session/why.hpp"
 #include "verbs.hpp"
 
 #include <memory>

@@ -1,8 +1,4 @@
 // catoptric info: describes a scene, or the program's version, device and features.
-#include "app/engine.hpp"
-#include "app/exposure.hpp"
-#include "app/lanes.hpp"
-#include "app/scene_info.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
@@ -12,6 +8,10 @@
 #include "scene/load.hpp"
 #include "scene/scene_file.hpp"
 #include "scene_text.hpp"
+#include "session/engine.hpp"
+#include "session/exposure.hpp"
+#include "session/lanes.hpp"
+#include "session/scene_info.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "json.hpp"
 
-#include "app/compare_row.hpp"
-#include "app/device_facts.hpp"
 #include "measure/metric.hpp"
 #include "report/json.hpp"
+#include "session/device_facts.hpp"
+#include "study/compare_row.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/run.hpp"
-#include "app/scene_info.hpp"
 #include "measure/difference.hpp"
+#include "session/run.hpp"
+#include "session/scene_info.hpp"
 
 #include <optional>
 #include <string>

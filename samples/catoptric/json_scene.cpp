@@ -1,8 +1,8 @@
 // Writes the JSON of `info SCENE --json`.
-#include "app/engine.hpp"
 #include "json.hpp"
 #include "report/json.hpp"
 #include "scene/number.hpp"
+#include "session/engine.hpp"
 
 namespace catoptric::cli {
 

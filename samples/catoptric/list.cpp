@@ -1,11 +1,11 @@
 // catoptric list: lists techniques, scenes, devices or metrics.
-#include "app/engine.hpp"
 #include "core/error.hpp"
 #include "json.hpp"
 #include "measure/metric.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "scene/load.hpp"
+#include "session/engine.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 

@@ -1,15 +1,15 @@
 #include "options.hpp"
 
-#include "app/lanes.hpp"
+#include "session/lanes.hpp"
 
-#include "app/candidates.hpp"
-#include "app/seeded_camera.hpp"
 #include "core/error.hpp"
 #include "core/knob.hpp"
 #include "core/stopwatch.hpp"
 #include "core/text.hpp"
 #include "parse.hpp"
 #include "scene/load.hpp"
+#include "session/candidates.hpp"
+#include "session/seeded_camera.hpp"
 
 #include <algorithm>
 

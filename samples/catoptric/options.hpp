@@ -1,11 +1,11 @@
 #pragma once
 
-#include "app/resolved_scene.hpp"
-#include "app/run.hpp"
 #include "command_line.hpp"
 #include "output.hpp"
 #include "scene/budget_for.hpp"
 #include "scene/load.hpp"
+#include "session/resolved_scene.hpp"
+#include "session/run.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -2,9 +2,9 @@
 // codes.
 #include "program.hpp"
 
-#include "app/engine.hpp"
 #include "core/error.hpp"
 #include "output.hpp"
+#include "session/engine.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/watcher.hpp"
 #include "core/stopwatch.hpp"
 #include "output.hpp"
+#include "session/watcher.hpp"
 
 #include <cstddef>
 #include <cstdint>

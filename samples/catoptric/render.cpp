@@ -1,6 +1,4 @@
 // catoptric render: renders one picture, or a sequence.
-#include "app/exposure.hpp"
-#include "app/run.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_module.hpp"
@@ -13,6 +11,8 @@
 #include "options.hpp"
 #include "places.hpp"
 #include "progress.hpp"
+#include "session/exposure.hpp"
+#include "session/run.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/run.hpp"
-#include "app/watcher.hpp"
 #include "core/error.hpp"
 #include "report/stress.hpp"
+#include "session/run.hpp"
+#include "session/watcher.hpp"
 
 #include <random>
 

@@ -1,7 +1,7 @@
 #include "stress/run.hpp"
 
-#include "app/device_facts.hpp"
 #include "core/error.hpp"
+#include "session/device_facts.hpp"
 #include "stress/property.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/run.hpp"
-#include "app/watcher.hpp"
 #include "report/stress.hpp"
+#include "session/run.hpp"
+#include "session/watcher.hpp"
 
 namespace catoptric::stress {
 

@@ -1,6 +1,6 @@
 #include "command.hpp"
 
-#include "app/candidates.hpp"
+#include "session/candidates.hpp"
 
 #include <fmt/format.h>
 

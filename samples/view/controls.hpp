@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/screen.hpp"
+#include "session/screen.hpp"
 #include "window.hpp"
 
 namespace catoptric::view {

@@ -1,10 +1,10 @@
 // The loop of a window, from opening to closing. User actions change the state, and each frame is
 // rendered from the state.
-#include "app/exposure.hpp"
 #include "catoptric/program.hpp"
 #include "catoptric/signals.hpp"
 #include "core/error.hpp"
 #include "loop_impl.hpp"
+#include "session/exposure.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/run.hpp"
 #include "controls.hpp"
 #include "loop.hpp"
 #include "panels.hpp"
+#include "session/run.hpp"
 #include "settings.hpp"
 
 // Parts of the window's loop, shared by loop.cpp and acts.cpp only.

@@ -1,8 +1,8 @@
 #include "options.hpp"
 
-#include "app/engine.hpp"
 #include "catoptric/places.hpp"
 #include "core/error.hpp"
+#include "session/engine.hpp"
 
 #include <memory>
 

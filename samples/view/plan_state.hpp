@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/engine.hpp"
 #include "core/plan_entry.hpp"
+#include "session/engine.hpp"
 
 #include <map>
 #include <string>

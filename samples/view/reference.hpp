@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/session.hpp"
 #include "measure/difference.hpp"
+#include "session/session.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/screen.hpp"
-#include "app/session.hpp"
 #include "camera.hpp"
 #include "plan_state.hpp"
+#include "session/screen.hpp"
+#include "session/session.hpp"
 
 #include <optional>
 #include <string>

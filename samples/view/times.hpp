@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/session.hpp"
 #include "measure/statistics.hpp"
+#include "session/session.hpp"
 
 #include <deque>
 #include <string>

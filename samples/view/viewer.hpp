@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/run.hpp"
-#include "app/screen.hpp"
 #include "inputs.hpp"
 #include "reference.hpp"
+#include "session/run.hpp"
+#include "session/screen.hpp"
 #include "times.hpp"
 #include "window.hpp"
 

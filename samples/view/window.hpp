@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/engine.hpp"
 #include "inputs.hpp"
+#include "session/engine.hpp"
 
 #include <memory>
 

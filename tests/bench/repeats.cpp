@@ -1,8 +1,8 @@
 #include "repeats.hpp"
 
-#include "app/compare.hpp"
 #include "measure/judge.hpp"
 #include "scene/load.hpp"
+#include "study/compare.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/run.hpp"
 #include "cli/program.hpp"
 #include "scene/load.hpp"
+#include "session/run.hpp"
 
 #include <functional>
 #include <optional>

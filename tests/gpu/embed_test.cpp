@@ -2,12 +2,12 @@
 // content and layout in the caller's image, and unusable devices and images must be refused. The
 // device is that of the other tests, so the validation layer checks it. samples/embedded is an
 // example of such a program.
-#include "app/session.hpp"
 #include "core/error.hpp"
 #include "embed/embed.hpp"
 #include "gpu/buffer.hpp"
 #include "graph/physical.hpp"
 #include "scene/load.hpp"
+#include "session/session.hpp"
 #include "support/device.hpp"
 
 #include <gmock/gmock.h>

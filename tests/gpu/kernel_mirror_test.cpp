@@ -1,6 +1,6 @@
 // Tests that the device and the C++ version of the BVH traversal find the same hits, bit for bit.
-#include "app/rays.hpp"
 #include "scene/load.hpp"
+#include "session/rays.hpp"
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 

@@ -1,7 +1,7 @@
 // Tests that engines are independent: two threads with an engine each must render the same pictures
 // as one thread.
-#include "app/session.hpp"
 #include "scene/load.hpp"
+#include "session/session.hpp"
 
 #include <gtest/gtest.h>
 #include <thread>

@@ -1,8 +1,8 @@
 // Tests of GPU timestamps: passes lie in order and add up to the frame, and four times the work
 // takes about four times as long. The tests compare ratios only, because times depend on the
 // machine.
-#include "app/compare_row.hpp"
 #include "measure/statistics.hpp"
+#include "study/compare_row.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>

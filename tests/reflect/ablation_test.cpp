@@ -1,7 +1,7 @@
 // Tests of ablations: rows drawn with some causes of error removed, alone and in combination. In
 // these scenes the causes are known, so with all of them removed no error may be left.
-#include "app/causes.hpp"
 #include "shared.h"
+#include "study/causes.hpp"
 #include "support/boxes.hpp"
 
 #include <iostream>

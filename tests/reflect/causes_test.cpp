@@ -1,7 +1,7 @@
 // Tests of the split of an error by cause. The shares must add up to the whole error, and the cause
 // that a scene is built for must get its share.
-#include "app/causes.hpp"
-#include "app/compare.hpp"
+#include "study/causes.hpp"
+#include "study/compare.hpp"
 #include "support/boxes.hpp"
 
 #include <iostream>

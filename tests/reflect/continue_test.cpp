@@ -1,6 +1,6 @@
 // Tests of mirrors seen in mirrors of any shape, and of searches that read the captures of several
 // mirrors.
-#include "app/compare.hpp"
+#include "study/compare.hpp"
 #include "support/numbers.hpp"
 #include "support/searches.hpp"
 

@@ -1,6 +1,6 @@
 // Tests of lag: the error of pictures whose captures show the previous frame of a moving scene.
-#include "app/lag.hpp"
 #include "measure/flip.hpp"
+#include "study/lag.hpp"
 #include "support/rendering.hpp"
 
 #include <gmock/gmock.h>

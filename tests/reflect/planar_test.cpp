@@ -1,5 +1,5 @@
 // Tests of `planar`, which draws flat mirrors with mirrored views, against ray tracing.
-#include "app/compare.hpp"
+#include "study/compare.hpp"
 #include "support/lit.hpp"
 #include "support/paths.hpp"
 

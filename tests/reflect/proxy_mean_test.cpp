@@ -1,8 +1,8 @@
 // Tests of the sphere by which `proxy` approximates a mirror's surroundings. Its radius must be the
 // mean distance over all directions that show something. The tests compute the radius from the
 // directions in which the mirror's pixels look.
-#include "app/rays.hpp"
 #include "render/views.hpp"
+#include "session/rays.hpp"
 #include "stress/texels.hpp"
 #include "support/rendering.hpp"
 

@@ -1,5 +1,5 @@
 // Tests of the errors that a comparison measures over drawn views.
-#include "app/compare.hpp"
+#include "study/compare.hpp"
 #include "support/rendering.hpp"
 
 #include <gmock/gmock.h>

@@ -2,10 +2,10 @@
 // how much luminance follows normals. Prints one line of JSON per camera of the scene.
 //   catoptric_scenes SCENE [DIR]     DIR: also writes raster-N.png, rays-N.png and judged-N.png
 // Called by ./dev scenes, which writes docs/scenes.md.
-#include "app/exposure.hpp"
-#include "app/resolved_scene.hpp"
 #include "core/error.hpp"
 #include "measure/picture_file.hpp"
+#include "session/exposure.hpp"
+#include "session/resolved_scene.hpp"
 #include "sight.hpp"
 
 #include <nlohmann/json.hpp>

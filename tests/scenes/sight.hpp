@@ -1,10 +1,10 @@
 #pragma once
 
-#include "app/rays.hpp"
-#include "app/run.hpp"
 #include "bvh/closest_hit.hpp"
 #include "render/geometry.hpp"
 #include "render/space.hpp"
+#include "session/rays.hpp"
+#include "session/run.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/run.hpp"
 #include "graph/run.hpp"
+#include "session/run.hpp"
 #include "support/refusal.hpp"
 #include "support/wanted_device.hpp"
 

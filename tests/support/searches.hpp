@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/oracle.hpp"
 #include "measure/flip.hpp"
+#include "study/oracle.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>

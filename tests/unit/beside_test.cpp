@@ -1,10 +1,10 @@
 // Tests of scene overrides in SCENE.catoptric.json, and of the light and camera that are added to
 // scene files without them.
-#include "app/resolved_scene.hpp"
 #include "core/file.hpp"
 #include "measure/picture_file.hpp"
 #include "scene/camera_named.hpp"
 #include "scene/scene_file.hpp"
+#include "session/resolved_scene.hpp"
 #include "support/folder.hpp"
 #include "support/refusal.hpp"
 

@@ -1,11 +1,11 @@
 // Tests of many coincident objects. The traversal steps of a ray must not grow with the number of
 // copies.
-#include "app/rays.hpp"
-#include "app/scene_facts.hpp"
 #include "bvh/closest_hit.hpp"
 #include "bvh/copies.hpp"
 #include "render/space.hpp"
 #include "scene/load.hpp"
+#include "session/rays.hpp"
+#include "session/scene_facts.hpp"
 
 #include <gtest/gtest.h>
 

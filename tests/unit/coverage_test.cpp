@@ -1,10 +1,10 @@
 // Tests of objects_covering, which finds the object that each pixel shows without a BVH. Rays
 // through a BVH give the expected objects.
-#include "app/coverage.hpp"
-#include "app/rays.hpp"
 #include "bvh/closest_hit.hpp"
 #include "render/space.hpp"
 #include "scene/load.hpp"
+#include "session/coverage.hpp"
+#include "session/rays.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Tests of error messages for invalid JSON. Every reader of JSON files gives the same message.
-#include "app/plan_file.hpp"
-#include "app/profile.hpp"
 #include "core/json.hpp"
 #include "report/benchmarks.hpp"
 #include "scene/load.hpp"
 #include "scene/scene_file.hpp"
+#include "session/plan_file.hpp"
+#include "session/profile.hpp"
 #include "support/folder.hpp"
 #include "support/refusal.hpp"
 

@@ -1,7 +1,7 @@
 // Tests of plans as text and as files: which rule applies to which mirror, and which plans are
 // refused. Nothing is rendered.
-#include "app/plan_file.hpp"
 #include "reflect/plan.hpp"
+#include "session/plan_file.hpp"
 #include "support/folder.hpp"
 #include "support/refusal.hpp"
 

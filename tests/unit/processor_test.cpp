@@ -1,5 +1,5 @@
-// Tests of app/processor.hpp: processor time, waiting for processors, and noise.
-#include "app/processor.hpp"
+// Tests of session/processor.hpp: processor time, waiting for processors, and noise.
+#include "session/processor.hpp"
 
 #include <gtest/gtest.h>
 

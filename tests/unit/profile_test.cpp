@@ -1,7 +1,7 @@
 // Tests of device profiles: which measured choices a profile stores, and which profiles are
 // accepted.
-#include "app/profile.hpp"
 #include "render/tracing.hpp"
+#include "session/profile.hpp"
 #include "support/folder.hpp"
 #include "support/refusal.hpp"
 

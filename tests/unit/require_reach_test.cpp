@@ -1,9 +1,9 @@
 // Tests of culled capture faces and culled shadow maps, of the text about culled work, and of
 // suggested plans.
-#include "app/seeded_camera.hpp"
 #include "require/culled_work.hpp"
 #include "require/reach.hpp"
 #include "require/suggest.hpp"
+#include "session/seeded_camera.hpp"
 #include "support/scenes.hpp"
 
 #include <gmock/gmock.h>

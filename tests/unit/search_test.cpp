@@ -1,10 +1,10 @@
-// Tests of techniques that a program adds (app/technique.hpp), without a device. tests/install
+// Tests of techniques that a program adds (session/technique.hpp), without a device. tests/install
 // draws with such a technique.
-#include "app/compare.hpp"
-#include "app/engine.hpp"
-#include "app/technique.hpp"
 #include "core/error.hpp"
 #include "scene/load.hpp"
+#include "session/engine.hpp"
+#include "session/technique.hpp"
+#include "study/compare.hpp"
 
 #include <gmock/gmock.h>
 

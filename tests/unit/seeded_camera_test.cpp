@@ -1,6 +1,6 @@
 // Tests of cameras drawn from a seed: equal seeds give equal cameras, and each camera sees a
 // mirror.
-#include "app/seeded_camera.hpp"
+#include "session/seeded_camera.hpp"
 
 #include "core/error.hpp"
 #include "stress/double_tracer.hpp"

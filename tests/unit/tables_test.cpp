@@ -1,6 +1,5 @@
 // Tests that metrics, scenes and techniques register themselves. Those of this file are in no
 // central list, but must appear in every report and table.
-#include "app/compare.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
@@ -9,6 +8,7 @@
 #include "report/report.hpp"
 #include "report_sample.hpp"
 #include "scene/load.hpp"
+#include "study/compare.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // Tests of the capture budget: which captures a frame draws if it may not draw all, and how long
 // the others wait.
-#include "app/capture_budget.hpp"
-#include "app/capture_cost.hpp"
 #include "render/turns.hpp"
+#include "session/capture_budget.hpp"
+#include "session/capture_cost.hpp"
 #include "support/numbers.hpp"
 
 #include <gtest/gtest.h>

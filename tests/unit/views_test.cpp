@@ -1,10 +1,10 @@
 // Tests of errors over several drawn views: medians, ties, and how reports show them.
 #include "measure/views.hpp"
 
-#include "app/views.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 #include "report_sample.hpp"
+#include "study/views.hpp"
 #include "support/refusal.hpp"
 #include "support/scenes.hpp"
 #include "support/special_values.hpp"

@@ -1,11 +1,11 @@
 // Tests of scene overrides, of lights that are left out, of cameras given as text, and of automatic
 // exposure.
-#include "app/candidates.hpp"
-#include "app/exposure.hpp"
 #include "scene/build.hpp"
 #include "scene/camera_named.hpp"
 #include "scene/load.hpp"
 #include "scene/scene_overrides.hpp"
+#include "session/candidates.hpp"
+#include "session/exposure.hpp"
 #include "support/numbers.hpp"
 #include "support/refusal.hpp"
 

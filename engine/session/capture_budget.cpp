@@ -1,0 +1,15 @@
+#include "session/capture_budget.hpp"
+
+#include <fmt/format.h>
+
+namespace catoptric::app {
+
+std::string to_text(const CaptureBudget& slices) {
+    const std::uint32_t round = slices.round(), oldest = round - 1;
+    return fmt::format("captures: at most {} of {} mirror{} a frame; none shows what is older than "
+                       "{} frame{}, and {} more for each further mirror that it is seen by",
+                       slices.most, slices.mirrors, slices.mirrors == 1 ? "" : "s", oldest,
+                       oldest == 1 ? "" : "s", round);
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,30 @@
+#include "session/capture_cost.hpp"
+
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr std::size_t kFrames = 9; // odd, for the median; few, because motion changes the cost
+
+} // namespace
+
+void CaptureCost::add(double ms, std::uint32_t mirrors) {
+    if (mirrors == 0) return;
+    if (each_ms_.size() == kFrames) each_ms_.erase(each_ms_.begin());
+    each_ms_.push_back(ms / mirrors);
+}
+
+std::uint32_t CaptureCost::fitting(double budget_ms, std::uint32_t mirrors) const {
+    if (each_ms_.empty()) return mirrors;
+    const double fit = std::floor(budget_ms / measure::percentile(each_ms_, .5));
+    // If a mirror's time is too short to measure, any number fits.
+    if (!(fit < mirrors)) return mirrors;
+    return std::max(1u, static_cast<std::uint32_t>(fit));
+}
+
+} // namespace catoptric::app

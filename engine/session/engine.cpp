@@ -1,0 +1,95 @@
+#include "session/engine.hpp"
+
+#include "session/engine_impl.hpp"
+#include "session/profile.hpp"
+#include "session/version.hpp"
+
+#include <cstdlib>
+
+namespace catoptric::app {
+
+std::string version() { return CATOPTRIC_VERSION; }
+std::string commit() { return CATOPTRIC_COMMIT; }
+
+namespace {
+
+DeviceInfo to_info(const gpu::DeviceProperties& info) {
+    return {.name = info.name,
+            .driver = info.driver,
+            .api = info.api,
+            .type = info.type,
+            .threads = info.threads,
+            .missing = info.missing,
+            .id = info.id,
+            .profile = {},
+            .warning = {}};
+}
+
+gpu::DeviceOptions to_options(const EngineOptions& options,
+                              const std::optional<gpu::GivenDevice>& given) {
+    gpu::DeviceOptions wanted{options.device, options.validate, options.layered, false,
+                              options.instance_extensions};
+    wanted.given = given;
+    if (options.make_surface)
+        wanted.make_surface = [make = options.make_surface](auto instance) {
+            return gpu::surface_of(make(instance));
+        };
+    return wanted;
+}
+
+/// Returns catoptric's folder within the folder that `variable` names, or within a folder of HOME.
+/// Returns an empty path if neither is absolute.
+std::filesystem::path users_folder(const char* variable, const char* in_home) {
+    const auto absolute = [](const char* name) {
+        const char* text = std::getenv(name);
+        const std::filesystem::path path = text ? text : "";
+        return path.is_absolute() ? path : std::filesystem::path();
+    };
+    const std::filesystem::path home = absolute("HOME"), folder = absolute(variable);
+    if (!folder.empty()) return folder / "catoptric";
+    return home.empty() ? home : home / in_home / "catoptric";
+}
+
+} // namespace
+
+Engine::Impl::Impl(const EngineOptions& options, const std::optional<gpu::GivenDevice>& given)
+    : device(to_options(options, given)), pipelines(device, options.shader_variants, options.cache),
+      info(to_info(device.info())) {
+    device.choose(choose(options, info));
+}
+
+Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Engine::Engine(const EngineOptions& options, const gpu::GivenDevice& given)
+    : impl_(std::make_unique<Impl>(options, given)) {}
+Engine::~Engine() = default;
+
+const DeviceInfo& Engine::device() const { return impl_->info; }
+const std::string& Engine::warning() const { return impl_->pipelines.cache().warning(); }
+Compiled Engine::compiled() const { return {impl_->pipelines.made(), impl_->pipelines.ms()}; }
+CacheUse Engine::cache_use() const {
+    const gpu::PipelineCache& cache = impl_->pipelines.cache();
+    if (!cache.is_persistent()) return CacheUse::none;
+    return cache.loaded_bytes() > 0 ? CacheUse::used : CacheUse::made;
+}
+bool Engine::usable() const { return !impl_->device.abandoned(); }
+void Engine::check_validation() const { impl_->device.check_validation(); }
+
+bool any_abandoned() { return gpu::any_abandoned(); }
+
+std::filesystem::path cache_folder() { return users_folder("XDG_CACHE_HOME", ".cache"); }
+
+std::filesystem::path profile_folder() {
+    const std::filesystem::path folder = users_folder("XDG_CONFIG_HOME", ".config");
+    return folder.empty() ? folder : folder / "devices";
+}
+
+std::vector<DeviceInfo> devices(const std::filesystem::path& profiles) {
+    std::vector<DeviceInfo> list;
+    for (const gpu::DeviceProperties& info : gpu::list_devices()) {
+        list.push_back(to_info(info));
+        choose({.profiles = profiles}, list.back());
+    }
+    return list;
+}
+
+} // namespace catoptric::app

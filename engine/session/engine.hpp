@@ -1,0 +1,147 @@
+#pragma once
+
+#include "../core/export.hpp"
+#include "../core/setting.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace catoptric::gpu {
+struct GivenDevice; // internal
+} // namespace catoptric::gpu
+
+/// The engine, as programs and libraries use it. Including this header needs no Vulkan header.
+namespace catoptric::app {
+
+/// Chosen shader variants by name: {"groups", "in order"}. Variants are builds of shaders that
+/// change no byte of a picture.
+using Variants = std::vector<std::pair<std::string, std::string>>;
+
+struct EngineOptions {
+    std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
+    bool validate = false; ///< turn on the validation layer; any message makes the run fail
+    /// Whether the six faces of a capture are rendered at once if the device can. False: the faces
+    /// are always rendered one by one.
+    bool layered = true;
+    /// Replacements of shader builds by other builds, for benchmarks: "raytrace.comp" ->
+    /// "raytrace.comp#naive".
+    std::map<std::string, std::string> shader_variants = {};
+    /// Device profile to use (docs/performance.md), as `catoptric bench --tune` writes it. The
+    /// engine throws `bad_data` or `missing_input` unless it is a file for this device and driver.
+    std::filesystem::path profile = {};
+    /// Folder with profiles, searched if `profile` is empty. The profile for this device and driver
+    /// is used if the folder has it. DeviceInfo::warning says why a profile cannot be used. Empty:
+    /// all variants have their defaults.
+    std::filesystem::path profiles = {};
+    /// Variants to use instead of a profile.
+    Variants variants = {};
+    /// Folder that keeps compiled pipelines from process to process. Empty: pipelines are not kept
+    /// on disk.
+    std::filesystem::path cache = {};
+    /// For a window (session/screen.hpp): instance extensions that the window system needs, and a
+    /// function that makes the window's surface. The function receives the Vulkan instance and
+    /// returns the handle of a surface, which the engine owns from then on. The chosen device can
+    /// show pictures on this surface.
+    std::vector<std::string> instance_extensions = {};
+    std::function<std::uint64_t(void* instance)> make_surface = {};
+};
+
+/// Returns XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty if neither is an absolute
+/// path.
+CATOPTRIC_API std::filesystem::path cache_folder();
+/// Returns XDG_CONFIG_HOME/catoptric/devices, or HOME/.config/catoptric/devices; empty if neither
+/// is an absolute path.
+CATOPTRIC_API std::filesystem::path profile_folder();
+
+struct KnobInfo {
+    std::string name, help;
+    double low = 0, high = 1;
+    std::string value;                ///< default
+    std::vector<std::string> choices; ///< empty for a number
+    std::string special;              ///< a word allowed in place of the number; empty: none
+};
+struct TechniqueInfo {
+    std::string name, summary;
+    std::vector<KnobInfo> knobs;
+};
+/// Returns every technique, in the order of the technique table.
+CATOPTRIC_API std::vector<TechniqueInfo> techniques();
+
+/// A technique with all its settings, as `parse_technique` reads it from "name[:knob=value,...]".
+/// For an unknown name, `parse_technique` throws `Failure::usage` with the nearest name.
+struct TechniqueChoice {
+    std::string technique, label, file_name;
+    std::vector<Setting> settings; ///< all knobs
+};
+CATOPTRIC_API TechniqueChoice parse_technique(const std::string& text);
+
+struct DeviceInfo {
+    std::string name, driver, api, type;
+    int threads = 0;
+    std::string missing;    ///< features that the engine needs and the device lacks; empty: usable
+    std::string id;         ///< vendor and device in hexadecimal: "10de-2330"
+    std::string profile;    ///< file name of the profile in effect; empty: none
+    Variants variants = {}; ///< all variants in effect
+    std::string warning;    ///< why an existing profile is not in effect; else empty
+};
+/// Returns the machine's devices. `profiles`: see EngineOptions.
+CATOPTRIC_API std::vector<DeviceInfo> devices(const std::filesystem::path& profiles = {});
+
+CATOPTRIC_API std::string version(); ///< "0.1.0"
+CATOPTRIC_API std::string commit();  ///< abbreviated, "unknown" outside a checkout
+
+/// Returns whether an Engine of this process had to give up its device (Engine::usable). Threads of
+/// the driver may then still run, and a normal exit under them can crash. Such a program must end
+/// with std::_Exit.
+CATOPTRIC_API bool any_abandoned();
+
+/// Pipelines that an engine has compiled so far. A software driver compiles more of a pipeline in
+/// the first frame that uses it.
+struct Compiled {
+    std::size_t pipelines = 0;
+    double ms = 0; ///< host time from the shader's words to the driver's pipeline
+};
+
+/// State of the pipeline cache on disk. none: there is no cache. made: the cache is new, or its
+/// file was damaged. used: the driver received the cached data.
+enum class CacheUse { none, made, used };
+
+/// A device with the pipelines compiled for it. Only one thread may use an engine at a time.
+///
+/// The constructor sets environment variables of this process, so call it before other threads read
+/// the environment. It sets NODEVICE_SELECT, unless the user chose a device by Mesa's variable.
+/// With `validate` it also sets what the validation layer checks.
+class Engine {
+public:
+    CATOPTRIC_API explicit Engine(const EngineOptions& options);
+    CATOPTRIC_API ~Engine();
+
+    /// Returns false once the device was lost or could not be waited for, which threw `device_lost`
+    /// or `exhausted`. After that, each function that needs the device throws the same failure
+    /// again. Memory that the driver may still use is never freed. You can make another Engine.
+    CATOPTRIC_API bool usable() const;
+
+    CATOPTRIC_API const DeviceInfo& device() const;
+    /// Returns a warning for the user, such as a cache that cannot be used. Empty: none.
+    CATOPTRIC_API const std::string& warning() const;
+    CATOPTRIC_API Compiled compiled() const;
+    CATOPTRIC_API CacheUse cache_use() const;
+    /// Throws `internal` with the first message of the validation layer, if there is one.
+    CATOPTRIC_API void check_validation() const;
+
+private:
+    friend class Screen;
+    friend class Session;
+    friend struct Embedding;
+    struct Impl;
+    Engine(const EngineOptions& options, const gpu::GivenDevice& given);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace catoptric::app

@@ -1,0 +1,104 @@
+// Reads the results of a frame that a session has submitted.
+#include "render/captured.hpp"
+#include "session/session_impl.hpp"
+
+namespace catoptric::app {
+
+FrameTimes to_times(const graph::GraphFrameTimes& times) {
+    FrameTimes frame{.gpu_ms = times.span_ms,
+                     .record_ms = times.record_ms,
+                     .wall_ms = times.wall_ms,
+                     .wait_ms = times.wait_ms};
+    frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
+    for (const graph::GraphPassTime& pass : times.passes) {
+        frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
+        frame.passes_ms += pass.ms();
+    }
+    return frame;
+}
+
+const FrameTimes& Frame::times() const {
+    if (!impl_->times) {
+        impl_->times = to_times(impl_->runner().wait(impl_->ticket));
+        impl_->times->host.update = impl_->update_ms;
+        impl_->times->host.hierarchy = impl_->hierarchy_ms;
+        impl_->times->host.compile += impl_->declare_ms;
+        impl_->times->wait_ms += impl_->waited_ms;
+    }
+    return *impl_->times;
+}
+
+std::size_t Frame::size() const { return impl_->frame.parts.size(); }
+
+bool Frame::remembers(std::size_t part) const {
+    return app::remembers(impl_->frame, impl_->plan(), impl_->part(part));
+}
+
+const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
+    return impl_->part(part).slices;
+}
+
+std::uint32_t Frame::waiting() const {
+    std::uint32_t waiting = 0;
+    for (const Declared& part : impl_->frame.parts)
+        waiting += part.slices ? part.slices->waiting : 0;
+    return waiting;
+}
+
+const require::Model& Frame::model() const { return *impl_->model; }
+
+measure::Picture Frame::hdr(std::size_t part) const {
+    return read_hdr(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
+}
+
+Part Frame::read(std::size_t part) const {
+    if (impl_->spec.with_lookup) impl_->check_last();
+    Part read = read_part(impl_->runner(), impl_->ticket, impl_->frame, part,
+                          impl_->session->mirrors, *impl_->session->resident, impl_->spec);
+    read.model = impl_->spec.model;
+    read.left_out = impl_->model->left_out;
+    read.slices = slices(part);
+    return read;
+}
+
+std::vector<Part> Frame::read_all() const {
+    std::vector<Part> parts;
+    for (std::size_t i = 0; i < size(); ++i) parts.push_back(read(i));
+    return parts;
+}
+
+render::Captured Frame::captures(std::size_t part) const {
+    const std::shared_ptr<const render::Captures>& captures = impl_->part(part).outputs.captures;
+    check(
+        impl_->spec.with_captures && captures && captures->arrays.size() == 1 &&
+            captures->arrays.front().distance,
+        Failure::internal, "'", impl_->part(part).plan.label,
+        "': wanted captures with distances in one array that the frame was asked for, found none");
+    impl_->check_last();
+    graph::Runner& runner = impl_->runner();
+    const render::Cubes& cubes = captures->arrays.front();
+    return {cubes.face, runner.read(impl_->ticket, cubes.colour),
+            runner.read(impl_->ticket, *cubes.distance), impl_->session->resident->space()};
+}
+
+std::vector<std::byte> Frame::state() const {
+    impl_->check_last();
+    graph::Runner& runner = impl_->runner();
+    std::vector<std::byte> bytes = runner.read_history();
+    const auto add = [&](graph::ImageHandle image) {
+        const std::vector<std::byte> texels = runner.read(impl_->ticket, image);
+        bytes.insert(bytes.end(), texels.begin(), texels.end());
+    };
+    for (const Declared& part : impl_->frame.parts) {
+        if (!part.outputs.kept) continue;
+        for (const render::Cubes& cubes : part.outputs.captures->arrays) {
+            add(cubes.colour);
+            if (cubes.distance) add(*cubes.distance);
+        }
+    }
+    if (bytes.empty()) return bytes;
+    for (const Declared& part : impl_->frame.parts) add(part.outputs.hdr);
+    return bytes;
+}
+
+} // namespace catoptric::app

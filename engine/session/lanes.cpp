@@ -1,0 +1,51 @@
+// Counts the lanes of a shader that run together, and compares them with the environment's setting.
+#include "session/lanes.hpp"
+
+#include "gpu/instance.hpp"
+#include "graph/run.hpp"
+#include "session/embedding.hpp"
+#include "session/engine_impl.hpp"
+
+#include <cstring>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr int kLaneBits = 32;
+
+int count_lanes(gpu::Device& device) {
+    gpu::Pipelines pipelines(device); // separate, so that the engine's counts do not change
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const graph::BufferHandle lanes = graph.buffer({"lanes", 16});
+    graph.pass("lanes")
+        .writes(lanes, graph::Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"lanes.comp", {}});
+            commands.bind("Lanes", lanes);
+            commands.dispatch(1, 1);
+        });
+    graph.mark_output(lanes);
+    runner.run(graph, graph::PassTiming::isolated);
+    std::uint32_t count = 0;
+    std::memcpy(&count, runner.read(lanes).data(), sizeof count);
+    return static_cast<int>(count);
+}
+
+} // namespace
+
+int lanes_of(const Engine& engine) { return count_lanes(Embedding::device(engine)); }
+
+std::string width_warning(const Engine& engine) {
+    const std::optional<long> asked = gpu::vector_bits_asked();
+    if (!asked || engine.device().type != "cpu") return "";
+    const int bits = kLaneBits * lanes_of(engine);
+    if (*asked == bits) return "";
+    return "LP_NATIVE_VECTOR_WIDTH asks for vectors of " + std::to_string(*asked) +
+           " bits, the driver runs code of " + std::to_string(bits) +
+           " bits: its cache of shaders does not tell widths apart; give each width a folder of its "
+           "own by MESA_SHADER_CACHE_DIR";
+}
+
+} // namespace catoptric::app

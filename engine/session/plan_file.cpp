@@ -1,0 +1,94 @@
+#include "session/plan_file.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+namespace catoptric::app {
+
+namespace {
+
+using PlanJson = nlohmann::json;
+
+constexpr std::string_view kPrefix = "plan:";
+constexpr std::uintmax_t kMostPlanBytes = 16U << 20U;
+
+std::string value_text(const PlanJson& value) {
+    constexpr std::size_t kLongest = 60;
+    if (value.is_structured()) return value.is_array() ? "a list" : "an object";
+    const std::string text = value.dump(-1, ' ', true, PlanJson::error_handler_t::replace);
+    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+const PlanJson& rules_of(const PlanJson& document, const std::string& file) {
+    const PlanJson& list = document.is_object() && document.contains("plan") ? document["plan"]
+                                                                             : document;
+    check(list.is_array() && !list.empty(), Failure::bad_data, file,
+          ": wanted a list of rules, or an object with one as 'plan', found ", value_text(list));
+    return list;
+}
+
+/// Returns a member that must be text or, if `numbers` is true, a whole number.
+std::string text_of(const PlanJson& rule, const char* member, const std::string& place,
+                    bool numbers) {
+    const PlanJson value = rule.value(member, PlanJson());
+    if (numbers && value.is_number_unsigned()) return std::to_string(value.get<std::uint64_t>());
+    check(value.is_string() && !value.get_ref<const std::string&>().empty(), Failure::bad_data,
+          place, ".", member, ": wanted ", numbers ? "a mirror's number or a pattern" : "text",
+          ", found ", value.is_null() ? "nothing" : value_text(value));
+    return value.get<std::string>();
+}
+
+reflect::Rule rule_of(const PlanJson& rule, const std::string& place) {
+    check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ",
+          value_text(rule));
+    for (const auto& [key, value] : rule.items())
+        check(key == "mirror" || key == "technique" || key == "settings" || key == "name" ||
+                  key == "why",
+              Failure::bad_data, place, ": wanted mirror, technique and settings, found '", key,
+              "'");
+    std::string pattern = text_of(rule, "mirror", place, true);
+    reflect::Choice choice = reflect::parse_choice(text_of(rule, "technique", place, false));
+    const PlanJson settings = rule.value("settings", PlanJson::object());
+    check(settings.is_object(), Failure::bad_data, place, ".settings: wanted an object, found ",
+          value_text(settings));
+    for (const auto& [knob, value] : settings.items()) {
+        check(value.is_string() || value.is_number(), Failure::bad_data, place, ".settings.", knob,
+              ": wanted a number or text, found ", value_text(value));
+        choice.settings.set(choice.technique->name, knob,
+                            value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return {std::move(pattern), std::move(choice)};
+}
+
+} // namespace
+
+reflect::Plan read_plan(const std::string& text) {
+    if (!text.starts_with(kPrefix)) return reflect::parse_plan(text);
+    const std::string file = text.substr(kPrefix.size());
+    std::error_code error;
+    check(!std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error),
+          Failure::bad_data, file, ": wanted a file with a plan, found something else");
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    check(error || bytes <= kMostPlanBytes, Failure::bad_data, file, ": wanted a plan of at most ",
+          kMostPlanBytes, " bytes, found ", bytes);
+    const PlanJson document = parse_json<PlanJson>(file, read_file(file));
+    reflect::Plan plan{text, {}};
+    const PlanJson& rules = rules_of(document, file);
+    for (std::size_t i = 0; i < rules.size(); ++i)
+        plan.rules.push_back(rule_of(rules[i], file + ": plan[" + std::to_string(i) + "]"));
+    return plan;
+}
+
+std::vector<std::string> mirror_names(const scene::Scene& scene) {
+    std::vector<std::string> names;
+    for (const std::size_t object : scene::mirrors(scene))
+        names.push_back(scene.objects[object].name);
+    return names;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,140 @@
+#include "session/processor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <sched.h>
+#include <unistd.h>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr double kMostWaiting = .05; ///< share of the time that threads ran or were ready
+constexpr double kMostOthers = .25;  ///< number of processors
+constexpr double kLoadMemory = 60;   ///< seconds after which a load counts 1/e
+constexpr double kNanosecond = 1e-9;
+
+/// Returns the seconds that all processors worked, for any process.
+double busy_seconds() {
+    std::ifstream file("/proc/stat");
+    std::string name;
+    double user = 0, nice = 0, system = 0, idle = 0, io = 0, irq = 0, softirq = 0, stolen = 0;
+    file >> name >> user >> nice >> system >> idle >> io >> irq >> softirq >> stolen;
+    const auto ticks = static_cast<double>(::sysconf(_SC_CLK_TCK));
+    if (!file || name != "cpu" || !(ticks > 0)) return std::numeric_limits<double>::quiet_NaN();
+    return (user + nice + system + irq + softirq + stolen) / ticks;
+}
+
+/// Returns the numbers of this process's threads whose name begins with `prefix`, sorted by name.
+std::vector<int> threads_named(const std::string& prefix) {
+    std::map<std::string, int> found;
+    std::error_code error;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+        std::string name;
+        std::getline(std::ifstream(task.path() / "comm"), name);
+        if (name.starts_with(prefix))
+            found.emplace(name, std::stoi(task.path().filename().string()));
+    }
+    std::vector<int> threads;
+    for (const auto& [name, thread] : found) threads.push_back(thread);
+    return threads;
+}
+
+/// Returns the processors that this process's threads may use.
+cpu_set_t allowed_processors() {
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    ::sched_getaffinity(0, sizeof allowed, &allowed);
+    return allowed;
+}
+
+} // namespace
+
+double process_seconds() {
+    timespec used{};
+    if (::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used) != 0)
+        return std::numeric_limits<double>::quiet_NaN();
+    return static_cast<double>(used.tv_sec) + kNanosecond * static_cast<double>(used.tv_nsec);
+}
+
+double machine_load() {
+    double load = 0;
+    return ::getloadavg(&load, 1) == 1 ? load : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<ProcessorUse> processor_use() {
+    ProcessorUse use{{}, busy_seconds()};
+    std::error_code error;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+        // The file begins with the nanoseconds that the thread ran, and those that it waited.
+        std::ifstream file(task.path() / "schedstat");
+        ThreadTime time;
+        if (!(file >> time.ran >> time.waited)) continue; // the thread has ended
+        time.ran *= kNanosecond, time.waited *= kNanosecond;
+        use.threads.emplace(std::stoi(task.path().filename().string()), time);
+    }
+    if (error || use.threads.empty()) return {};
+    return use;
+}
+
+void Waiting::operator+=(const Waiting& more) {
+    ran += more.ran, waited += more.waited, others += more.others;
+}
+
+Waiting waiting_between(const ProcessorUse& before, const ProcessorUse& after) {
+    Waiting sum;
+    for (const auto& [thread, time] : after.threads) {
+        const auto found = before.threads.find(thread);
+        const ThreadTime start = found == before.threads.end() ? ThreadTime{} : found->second;
+        sum.ran += time.ran - start.ran;
+        sum.waited += time.waited - start.waited;
+    }
+    sum.others = after.busy - before.busy - sum.ran;
+    return sum;
+}
+
+double waited_share(const Waiting& waiting) {
+    if (!(waiting.waited > 0)) return 0;
+    const double share = waiting.waited / (waiting.ran + waiting.waited);
+    if (std::isnan(waiting.others)) return share;
+    // The system counts in hundredths of a second, so the difference can be below 0.
+    const double others = std::max(0.0, waiting.others);
+    return others > 0 ? share * others / (waiting.ran + others) : 0;
+}
+
+bool is_noisy(double waited_share) { return waited_share > kMostWaiting; }
+
+bool is_noisy(double load, double used_seconds, double elapsed_seconds) {
+    if (std::isnan(load) || !(elapsed_seconds > 0)) return false;
+    const double own = used_seconds / elapsed_seconds *
+                       (1 - std::exp(-elapsed_seconds / kLoadMemory));
+    return load - own > kMostOthers;
+}
+
+HeldThreads::HeldThreads() : threads_(threads_named("llvmpipe-")) {
+    const cpu_set_t allowed = allowed_processors();
+    if (threads_.size() > static_cast<std::size_t>(CPU_COUNT(&allowed))) threads_.clear();
+    int processor = -1;
+    for (const int thread : threads_) {
+        do ++processor;
+        while (!CPU_ISSET(processor, &allowed));
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(processor, &one);
+        ::sched_setaffinity(thread, sizeof one, &one);
+    }
+}
+
+HeldThreads::~HeldThreads() {
+    const cpu_set_t allowed = allowed_processors();
+    for (const int thread : threads_) ::sched_setaffinity(thread, sizeof allowed, &allowed);
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,220 @@
+#include "session/resolved_scene.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/text.hpp"
+#include "measure/picture_file.hpp"
+#include "scene/camera_named.hpp"
+#include "scene/classify.hpp"
+#include "scene/inside_camera.hpp"
+#include "scene/scene_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr std::size_t kMostLights = 16;
+constexpr std::size_t kMostTexels = std::size_t{1} << 25; // 8192 x 4096
+constexpr std::size_t kManyMirrors = 64;                  // scenes with more mirrors get a message
+
+bool is_built_in(const std::string& name) {
+    return std::ranges::any_of(scene::built_in_scenes(),
+                               [&](const scene::BuiltIn& scene) { return scene.name == name; });
+}
+
+std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
+    const measure::Picture picture = measure::read_picture(path, [&](int width, int height) {
+        check(std::size_t(width) * std::size_t(height) <= kMostTexels, Failure::bad_data, path,
+              ": wanted an environment of at most ", kMostTexels, " texels, found ", width, "x",
+              height);
+    });
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const vec3& texel = picture.pixels[i];
+        const auto is_light = [](float value) { return std::isfinite(value) && value >= 0; };
+        const auto width = static_cast<std::size_t>(picture.width);
+        check(is_light(texel.x) && is_light(texel.y) && is_light(texel.z), Failure::bad_data, path,
+              ": texel ", i % width, ",", i / width, ": wanted finite light of at least 0, found ",
+              texel.x, ",", texel.y, ",", texel.z);
+    }
+    auto environment = std::make_shared<scene::Environment>();
+    environment->name = std::filesystem::path(path).filename().string();
+    environment->size = {static_cast<std::uint32_t>(picture.width),
+                         static_cast<std::uint32_t>(picture.height)};
+    environment->texels = picture.pixels;
+    return environment;
+}
+
+/// Returns the environment that `word` names; null for "none".
+std::shared_ptr<scene::Environment> environment_of(const std::string& word) {
+    if (word == "none") return nullptr;
+    if (word != "studio") return read_environment(word);
+    auto studio = std::make_shared<scene::Environment>();
+    studio->name = "studio", studio->studio = true;
+    return studio;
+}
+
+void add_file(scene::Scene& scene, const std::filesystem::path& real) {
+    if (std::ranges::find(scene.files, real) == scene.files.end()) scene.files.push_back(real);
+}
+
+/// Throws if overrides change an environment that the scene does not have. `remedy` ends the
+/// message.
+void require_unchanged(const scene::SceneOverrides& overrides, const scene::SaidBy& scale,
+                       const scene::SaidBy& rotation, const char* remedy) {
+    for (const auto& [is_said, by] :
+         {std::pair(overrides.environment_scale.has_value(), &scale),
+          std::pair(overrides.environment_rotation.has_value(), &rotation)})
+        check(!is_said, by->failure, by->where, ": wanted an environment, found none; ", remedy);
+}
+
+/// Applies the overrides of the environment. `said`: those of the command line.
+void surround(ResolvedScene& wanted, const scene::SceneOverrides& said) {
+    scene::Scene& scene = wanted.scene;
+    const scene::SceneOverrides& overrides = wanted.overrides;
+    std::shared_ptr<scene::Environment> environment;
+    if (scene.environment) environment = std::make_shared<scene::Environment>(*scene.environment);
+    if (overrides.environment) {
+        environment = environment_of(*overrides.environment);
+        if (environment && !environment->studio) add_file(scene, real_path(*overrides.environment));
+    } else if (wanted.is_file && !environment && scene::lights(scene).empty()) {
+        environment = environment_of("studio");
+        scene::add_unsupported(scene.unsupported, "added-studio", "scene " + in_quotes(scene.name));
+        wanted.said.push_back("no light: lit by the environment studio (see --environment)");
+    }
+    if (environment) {
+        if (overrides.environment_scale) environment->scale = *overrides.environment_scale;
+        if (overrides.environment_rotation)
+            environment->rotation_degrees = *overrides.environment_rotation;
+    } else {
+        require_unchanged(said, {"--environment-scale"}, {"--environment-rotate"},
+                          "give --environment");
+        // The scene file cannot know that the command line removes the environment.
+        if (wanted.scene_file && !said.environment) {
+            const std::string file = wanted.scene_file->string();
+            require_unchanged(overrides, {file + ": environment_scale", Failure::bad_data},
+                              {file + ": environment_rotate", Failure::bad_data},
+                              "say \"environment\", too");
+        }
+    }
+    scene.environment = std::move(environment);
+}
+
+/// Adds a message about the cost of many mirrors.
+void announce_mirrors(scene::Scene& scene) {
+    // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
+    // it come distance and, for one frame, the number of the surface seen.
+    constexpr std::size_t kTexels = 6 * 256 * 256, kMebibyte = 1 << 20, kColours = kTexels * 2 * 8,
+                          kAll = kTexels * (2 * (8 + 4) + 8);
+    const std::size_t count = scene::mirrors(scene).size();
+    if (count <= kManyMirrors) return;
+    const std::string number = std::to_string(count);
+    const auto mebibytes = [&](std::size_t bytes) {
+        return std::to_string(count * bytes / kMebibyte);
+    };
+    scene.warnings.push_back("scene " + in_quotes(scene.name) + " has " + number +
+                             " mirrors: " + number + " captures of six faces a frame, " +
+                             mebibytes(kColours) + " to " + mebibytes(kAll) +
+                             " MiB at face=256; a smaller face=, --plan and --model required "
+                             "lessen that");
+}
+
+bool is_seeded(const std::string& camera, const scene::Scene& scene) {
+    return camera == "seeded" &&
+           std::ranges::find(scene.cameras, camera, &scene::Camera::name) == scene.cameras.end();
+}
+
+/// Returns the camera that the overrides name. Returns nothing if it is to be drawn from a seed, or
+/// is not named.
+std::optional<scene::Camera> named_camera(const scene::SceneOverrides& overrides,
+                                          const scene::Scene& scene, const scene::SaidBy& by) {
+    if (!overrides.camera || is_seeded(*overrides.camera, scene)) return std::nullopt;
+    return scene::camera_named(*overrides.camera, scene, by);
+}
+
+/// Copies exposure and camera of the scene file into the scene, and therefore into its hash. The
+/// camera comes first.
+void adopt(ResolvedScene& wanted, const scene::SceneFile& filed,
+           const std::optional<scene::Camera>& camera) {
+    scene::Scene& scene = wanted.scene;
+    if (filed.overrides.exposure) scene.exposure = filed.overrides.exposure->stops;
+    if (camera) {
+        std::erase(scene.cameras, *camera);
+        scene.cameras.insert(scene.cameras.begin(), *camera);
+    }
+    for (const std::filesystem::path& file : filed.files) add_file(scene, file);
+}
+
+/// Applies all overrides to the scene. `said`: those of the command line.
+void apply(ResolvedScene& wanted, const scene::SceneOverrides& said,
+           const std::optional<scene::SceneFile>& filed) {
+    scene::Scene& scene = wanted.scene;
+    const std::string file = filed ? filed->path.string() : "";
+    if (filed) scene::check_patterns(scene, filed->overrides, file);
+    scene::apply(scene, wanted.overrides);
+    // Finds the camera before `adopt` changes the order of cameras, because an index counts in the
+    // scene's own order.
+    std::optional<scene::Camera> camera;
+    if (filed)
+        camera = named_camera(filed->overrides, scene, {file + ": camera", Failure::bad_data});
+    wanted.camera = said.camera ? named_camera(said, scene, {"--camera"}) : camera;
+    wanted.is_camera_seeded = wanted.overrides.camera && is_seeded(*wanted.overrides.camera, scene);
+    if (filed) adopt(wanted, *filed, camera);
+}
+
+} // namespace
+
+ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& options) {
+    ResolvedScene wanted{.overrides = options.overrides, .is_file = !is_built_in(name)};
+    std::optional<scene::SceneFile> filed;
+    if (wanted.is_file && options.use_scene_file)
+        filed = scene::read_scene_file(name, options.load);
+    if (filed) {
+        wanted.scene_file = filed->path;
+        wanted.overrides = scene::over(options.overrides, filed->overrides);
+        wanted.said.push_back("read beside the scene: " + filed->path.string() +
+                              " (--no-scene-file leaves it out)");
+    }
+    scene::LoadOptions load = options.load;
+    if (wanted.overrides.animation) load.animation = *wanted.overrides.animation;
+    if (filed && !options.overrides.animation)
+        load.animation_by = {filed->path.string() + ": animation", Failure::bad_data};
+    wanted.scene = scene::load(name, load);
+    apply(wanted, options.overrides, filed);
+    if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
+    surround(wanted, options.overrides);
+    scene::settle_unsupported(wanted.scene);
+    announce_mirrors(wanted.scene);
+    return wanted;
+}
+
+double ambient_of(const ResolvedScene& wanted) {
+    return wanted.overrides.ambient.value_or(wanted.scene.environment ? 0 : .05);
+}
+
+std::optional<double> exposure_of(const ResolvedScene& wanted) {
+    if (wanted.overrides.exposure) return wanted.overrides.exposure->stops;
+    if (wanted.scene.exposure) return wanted.scene.exposure;
+    return wanted.is_file ? std::nullopt : std::optional(0.0);
+}
+
+scene::Camera camera_of(ResolvedScene& wanted, double aspect) {
+    scene::Scene& scene = wanted.scene;
+    if (wanted.camera) return *wanted.camera;
+    if (!scene.cameras.empty()) return scene.cameras.front();
+    const scene::Camera outside = scene::default_camera(scene, aspect);
+    const std::optional<scene::Camera> inside = scene::inside_camera(scene, outside);
+    const scene::Camera camera = inside.value_or(outside);
+    if (wanted.is_file)
+        scene::add_unsupported(scene.unsupported, "added-camera", "scene " + in_quotes(scene.name));
+    wanted.said.push_back(std::string("no camera") + (inside ? ", a closed room" : "") +
+                          ": using --camera " + scene::camera_text(camera) +
+                          (inside ? " (inside)" : ""));
+    return camera;
+}
+
+} // namespace catoptric::app

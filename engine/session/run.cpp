@@ -1,0 +1,68 @@
+#include "session/run.hpp"
+
+#include "core/error.hpp"
+#include "session/processor.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace catoptric::app {
+
+Frames::Frames(Session& session, const Request& request) : session_(session), request_(request) {
+    check(request.frames > 0 && request.warmup >= 0, Failure::usage,
+          "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
+          request.warmup);
+    session.forget();
+}
+
+bool Frames::next() {
+    if (settled_ || number_ >= most_frames()) return false;
+    if (aside_) session_.resume(std::move(*aside_));
+    aside_.reset();
+    ++number_;
+    FrameSpec spec = request_;
+    spec.time = request_.instant(number_);
+    const double used_before = process_seconds();
+    frame_ = session_.frame(spec);
+    // The first measured frame must not wait for the frames before it.
+    if (number_ == request_.warmup) frame_->times();
+    if (number_ > request_.warmup) {
+        times_.push_back(frame_->times());
+        times_.back().cpu_ms = 1e3 * (process_seconds() - used_before);
+        if (times_.size() > kDetailedFrames)
+            times_[times_.size() - kDetailedFrames - 1].passes = std::vector<PassTime>();
+    }
+    if (request_.until_settled) {
+        std::vector<std::byte> state = frame_->state();
+        settled_ = state.empty() || (state == state_ && frame_->waiting() == 0);
+        state_ = std::move(state);
+    }
+    return true;
+}
+
+/// Multiplies the frames by the rounds, because a limited still needs as many rounds as it needs
+/// frames without a limit.
+int Frames::most_frames() const {
+    std::uint32_t round = 1;
+    for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)
+        round = std::max(round, frame_->slices(i) ? frame_->slices(i)->round() : 1);
+    return static_cast<int>(std::min<std::int64_t>(std::int64_t{request_.total()} * round,
+                                                   std::numeric_limits<int>::max()));
+}
+
+Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
+
+Result run(Session& session, const Request& request, const Watcher& watcher) {
+    Frames frames(session, request);
+    watcher.check_stopped();
+    while (frames.next()) watcher.frame(frames.number(), frames.most_frames());
+    return frames.result();
+}
+
+Result run(Engine& engine, const Request& request) {
+    Session session(engine, request.scene);
+    return run(session, request);
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,133 @@
+#include "session/scene_facts.hpp"
+
+#include "bvh/closest_hit.hpp"
+#include "render/views.hpp"
+#include "scene/load.hpp"
+#include "scene/pose.hpp"
+#include "session/coverage.hpp"
+#include "session/rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace catoptric::app {
+
+measure::CameraFacts facts_of(const scene::Camera& camera) {
+    return {camera.name,
+            camera.eye,
+            camera.target,
+            camera.up,
+            camera.vertical_fov_degrees,
+            camera.orthographic_height};
+}
+
+uvec2 small_size(uvec2 size) {
+    constexpr double kLongest = 128;
+    const double longest = std::max(size.x, size.y);
+    const auto side = [&](std::uint32_t pixels) {
+        return static_cast<std::uint32_t>(std::max(1L, std::lround(kLongest * pixels / longest)));
+    };
+    return {side(size.x), side(size.y)};
+}
+
+std::vector<int> objects_seen(const Request& request, uvec2 size) {
+    const scene::SceneAt at_time(request.scene, request.time);
+    const scene::Scene& now = *at_time;
+    const render::Space space = render::space_of(request.scene);
+    const render::Geometry geometry = render::make_geometry(now, space);
+    const shared::View view = render::camera_view(request.camera, space, size, 0);
+    // More tests than this take longer than building a BVH.
+    const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
+                                                             16 * (geometry.indices.size() / 3));
+    if (auto covering = objects_covering(geometry, view, size, most_tests)) return *covering;
+    const bvh::Bvh hierarchy = hierarchy_without(geometry, geometry.ranges.size());
+    std::vector<int> seen;
+    for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
+        const auto hit = bvh::closest_hit<float>(hierarchy, camera_ray(view, size, pixel),
+                                                 std::numeric_limits<float>::max(),
+                                                 bvh::kHidden | bvh::kOneSided);
+        seen.push_back(hit ? static_cast<int>(hit->object) : -1);
+    }
+    return seen;
+}
+
+double share_of(const std::vector<int>& seen, const scene::Scene& scene,
+                const std::vector<std::size_t>& materials) {
+    std::vector<bool> counts(scene.materials.size());
+    for (const std::size_t material : materials) counts[material] = true;
+    const auto shows = [&](int object) {
+        return object >= 0 && counts[scene.objects[static_cast<std::size_t>(object)].material];
+    };
+    return static_cast<double>(std::ranges::count_if(seen, shows)) /
+           static_cast<double>(std::max<std::size_t>(1, seen.size()));
+}
+
+std::vector<measure::UnsupportedFeatureFacts> unsupported_facts(const scene::Scene& scene,
+                                                                const std::vector<int>& seen) {
+    std::vector<measure::UnsupportedFeatureFacts> facts;
+    for (const scene::UnsupportedFeature& gap : scene.unsupported) {
+        facts.push_back({gap.id, gap.count, gap.first, {}});
+        if (!gap.materials.empty()) facts.back().pixel_share = share_of(seen, scene, gap.materials);
+    }
+    // Features without a share (-1) come last. Equal shares keep their order.
+    std::ranges::stable_sort(
+        facts, std::greater<>(),
+        [](const measure::UnsupportedFeatureFacts& gap) { return gap.pixel_share.value_or(-1); });
+    return facts;
+}
+
+std::vector<measure::LightFacts> light_facts(const scene::Scene& scene) {
+    const std::vector<scene::PointLight> lights = scene::lights(scene);
+    const std::size_t first_without = lights.size() - scene.punctual.size();
+    std::vector<measure::LightFacts> facts;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const scene::PointLight& light = lights[i];
+        measure::LightFacts one{.kind = "mesh",
+                                .name = "",
+                                .position = light.position,
+                                .direction = light.normal,
+                                .emission = dvec3(light.emission),
+                                .area = light.area};
+        if (i >= first_without) {
+            const scene::Punctual& punctual = scene.punctual[i - first_without];
+            one.kind = punctual.kind == scene::Punctual::Kind::point  ? "point"
+                       : punctual.kind == scene::Punctual::Kind::spot ? "spot"
+                                                                      : "directional";
+            one.name = punctual.name, one.direction = light.axis, one.area = 0;
+        }
+        facts.push_back(one);
+    }
+    return facts;
+}
+
+std::optional<measure::EnvironmentFacts> environment_facts(const scene::Scene& scene) {
+    if (!scene.environment) return std::nullopt;
+    return measure::EnvironmentFacts{scene.environment->name, scene.environment->scale,
+                                     scene.environment->rotation_degrees};
+}
+
+measure::SceneFacts scene_facts(const Request& request, const std::vector<int>& seen) {
+    const scene::Scene& scene = request.scene;
+    measure::SceneFacts facts{scene.name,
+                              scene::triangle_count(scene),
+                              scene::mirrors(scene).size(),
+                              scene::hash(scene),
+                              scene::hash(scene) == scene::hash(scene::cornell_mirrors()),
+                              facts_of(request.camera)};
+    facts.lights = light_facts(scene);
+    facts.environment = environment_facts(scene);
+    facts.unsupported = unsupported_facts(scene, seen);
+    return facts;
+}
+
+measure::SceneFacts scene_facts(const Request& request) {
+    const bool has_shares = std::ranges::any_of(
+        request.scene.unsupported,
+        [](const scene::UnsupportedFeature& gap) { return !gap.materials.empty(); });
+    return scene_facts(request, has_shares ? objects_seen(request, small_size(request.size))
+                                           : std::vector<int>());
+}
+
+} // namespace catoptric::app

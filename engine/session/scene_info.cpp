@@ -1,0 +1,135 @@
+#include "session/scene_info.hpp"
+
+#include "scene/classify.hpp"
+#include "scene/load.hpp"
+#include "scene/pose.hpp"
+#include "session/candidates.hpp"
+#include "session/scene_facts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <system_error>
+
+namespace catoptric::app {
+
+namespace {
+
+template <typename Item>
+std::uint64_t bytes_of(const std::vector<Item>& list) {
+    return list.size() * sizeof(Item);
+}
+
+std::string kind_of(const scene::Material& material, const scene::Surface& surface) {
+    if (material.mirror) return "mirror";
+    if (material.unlit) return "unlit";
+    if (surface.mirror >= scene::kLeastMirrorShare) return "sharp";
+    if (surface.smooth_dielectric >= scene::kLeastMirrorShare) return "smooth dielectric";
+    return surface.rough_metal > 0 ? "rough metal" : "diffuse";
+}
+
+void add_texture(MaterialInfo& info, const char* what,
+                 const std::optional<scene::Texture>& texture) {
+    if (!texture) return;
+    const uvec2 size = texture->image->size;
+    info.textures.push_back(std::string(what) + " " + std::to_string(size.x) + "x" +
+                            std::to_string(size.y));
+}
+
+std::vector<MaterialInfo> materials_of(const scene::Scene& scene) {
+    std::vector<MaterialInfo> infos;
+    std::map<std::size_t, std::pair<std::size_t, const scene::Object*>> users; // count and first
+    for (const scene::Object& object : scene.objects) {
+        auto& [count, first] = users[object.material];
+        if (count++ == 0) first = &object;
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto user = users.find(i);
+        if (user == users.end()) continue;
+        const auto& [count, first] = user->second;
+        const scene::Material& material = scene.materials[i];
+        MaterialInfo info{.name = material.name,
+                          .kind = kind_of(material, scene::surface_of(scene, *first)),
+                          .objects = count,
+                          .albedo = material.albedo};
+        std::ranges::transform(
+            scene::kMaterialFactors, info.factors.begin(),
+            [&](const scene::MaterialFactor& factor) { return material.*factor.member; });
+        info.f0 = material.mirror ? material.reflectance
+                                  : scene::f0_of(material, material.albedo, material.metallic);
+        info.light = scene::light_of(material);
+        info.glows = scene::glows(material), info.is_masked = scene::is_masked(material);
+        info.is_two_sided = !scene::is_one_sided(material);
+        add_texture(info, "base colour", material.albedo_texture);
+        add_texture(info, "emission", material.emission_texture);
+        add_texture(info, "metallic and roughness", material.roughness_texture);
+        infos.push_back(std::move(info));
+    }
+    return infos;
+}
+
+std::vector<MirrorInfo> mirrors_of(const scene::Scene& now, const std::vector<int>& seen) {
+    std::vector<MirrorInfo> infos;
+    for (const std::size_t index : scene::mirrors(now)) {
+        const scene::Object& object = now.objects[index];
+        const scene::Material& material = now.materials[object.material];
+        MirrorInfo info{.number = infos.size() + 1,
+                        .name = object.name,
+                        .shape = scene::shape_of(now, object),
+                        .capture_centre = scene::bounds(now, object).centre(),
+                        .is_constant = material.mirror};
+        info.screen_share = static_cast<double>(std::ranges::count(seen, static_cast<int>(index))) /
+                            static_cast<double>(std::max<std::size_t>(1, seen.size()));
+        if (material.mirror) {
+            info.reflectance = material.reflectance;
+        } else {
+            const scene::Surface surface = scene::surface_of(now, object);
+            info.reflectance = surface.mirror > 0
+                                   ? surface.mirror_f0
+                                   : scene::f0_of(material, material.albedo, material.metallic);
+        }
+        infos.push_back(info);
+    }
+    return infos;
+}
+
+void add_sizes(SceneInfo& info, const scene::Scene& scene) {
+    std::set<std::size_t> shown;
+    for (const scene::Object& object : scene.objects)
+        info.instances += !shown.insert(object.mesh).second;
+    info.objects = scene.objects.size(), info.meshes = shown.size();
+    for (const std::size_t i : shown) {
+        const scene::Mesh& mesh = scene.meshes[i];
+        info.stored_triangles += mesh.triangles.size();
+        info.geometry_bytes += bytes_of(mesh.positions) + bytes_of(mesh.normals) +
+                               bytes_of(mesh.triangles) + bytes_of(mesh.uv[0]) +
+                               bytes_of(mesh.uv[1]) + bytes_of(mesh.colours);
+    }
+    std::set<const scene::Image*> images;
+    for (const scene::Material& material : scene.materials)
+        for (const auto& texture :
+             {material.albedo_texture, material.emission_texture, material.roughness_texture})
+            if (texture && images.insert(texture->image.get()).second)
+                info.image_bytes += bytes_of(texture->image->texels);
+    for (const std::filesystem::path& file : scene.files) {
+        std::error_code gone;
+        const std::uintmax_t size = std::filesystem::file_size(file, gone);
+        if (!gone) info.file_bytes += size;
+    }
+}
+
+} // namespace
+
+SceneInfo scene_info(const Request& request) {
+    const scene::Scene& scene = request.scene;
+    const std::vector<int> seen = objects_seen(request, small_size(request.size));
+    SceneInfo info{.facts = scene_facts(request, seen)};
+    add_sizes(info, scene);
+    info.materials = materials_of(scene);
+    info.mirrors = mirrors_of(*scene::SceneAt(scene, request.time), seen);
+    if (info.mirrors.empty()) info.mirror_options = mirror_options(scene);
+    for (const scene::Camera& camera : scene.cameras) info.cameras.push_back(facts_of(camera));
+    return info;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "measure/comparison.hpp"
+#include "scene/material.hpp"
+#include "scene/mirror_shape.hpp"
+#include "session/run.hpp"
+
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace catoptric::app {
+
+/// A material as the engine interprets it.
+struct MaterialInfo {
+    std::string name;
+    /// "mirror" (constant reflectance), "sharp" (Schlick), "smooth dielectric", "rough metal",
+    /// "diffuse" or "unlit". If textures vary the material, the first object with it decides the
+    /// kind.
+    std::string kind;
+    std::size_t objects = 0; ///< number of objects with this material
+    vec3 albedo{0};
+    /// The values of scene::kMaterialFactors, in their order.
+    std::array<float, std::size(scene::kMaterialFactors)> factors{};
+    vec3 f0{0};    ///< F0 of the material's factors; a mirror's reflectance
+    vec3 light{0}; ///< light that the material emits onto other surfaces; 0: none
+    bool glows = false, is_masked = false, is_two_sided = false;
+    std::vector<std::string> textures; ///< "base colour 256x256" ...
+};
+
+struct MirrorInfo {
+    std::size_t number = 0; ///< number of the mirror, from 1
+    std::string name;
+    scene::Shape shape;
+    double screen_share = 0; ///< share of the picture, 0 to 1
+    dvec3 capture_centre{0}; ///< world units
+    vec3 reflectance{1};     ///< head-on; the mean over the parts that are mirrors
+    bool is_constant = true; ///< false: reflectance grows towards grazing angles
+};
+
+struct SceneInfo {
+    measure::SceneFacts facts;
+    std::size_t objects = 0, meshes = 0;
+    std::size_t instances = 0;          ///< objects whose mesh an earlier object shows, too
+    std::uint64_t stored_triangles = 0; ///< triangles of all meshes, each mesh counted once
+    std::uint64_t geometry_bytes = 0, image_bytes = 0, file_bytes = 0;
+    std::vector<MaterialInfo> materials;
+    std::vector<MirrorInfo> mirrors;
+    /// Suggested `--mirror` options (candidates.hpp), only for a scene without a mirror.
+    std::vector<std::string> mirror_options;
+    std::vector<measure::CameraFacts> cameras;
+};
+
+/// Returns all facts of a request's scene, from its camera and at its instant. Costs rays through a
+/// picture with a longest side of 128 pixels.
+SceneInfo scene_info(const Request& request);
+
+} // namespace catoptric::app

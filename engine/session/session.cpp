@@ -1,0 +1,316 @@
+#include "session/session_impl.hpp"
+
+#include "core/content_hash.hpp"
+#include "core/error.hpp"
+#include "core/stopwatch.hpp"
+#include "graph/dump.hpp"
+#include "scene/pose.hpp"
+#include "session/plan_file.hpp"
+#include "session/resolve_auto.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+double milliseconds_since(SteadyClock::time_point start) {
+    return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
+}
+
+SceneKey scene_key_of(const FrameSpec& spec) {
+    return {spec.time, scene::camera_at(spec.camera, spec.time), spec.size, spec.ambient};
+}
+
+bool same(const std::vector<reflect::Plan>& a, const std::vector<reflect::Plan>& b) {
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.same_as(y); });
+}
+
+void check_spec(const FrameSpec& spec) {
+    check_limit(spec);
+    check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
+          spec.size.x, "x", spec.size.y);
+}
+
+} // namespace
+
+/// Adds the ambient light to the content hashes. It is no part of a scene, but captures depend on
+/// it.
+void add_ambient(require::Model& model, double ambient) {
+    for (require::MirrorNeeds& mirror : model.mirrors)
+        for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
+            for (std::uint64_t& content_hash : *content_hashes)
+                content_hash = ContentHash().add(content_hash).add(ambient).value();
+}
+
+std::string name_of(Modelling modelling) {
+    return modelling == Modelling::everything ? "everything" : "required";
+}
+
+struct Sequence::Impl {
+    graph::RetainedImages leavings;
+    std::vector<reflect::Plan> remembered;
+    Modelling remembered_model = Modelling::everything;
+    std::vector<std::shared_ptr<render::CaptureCache>> kept;
+    std::vector<CaptureCost> paces;
+    std::vector<double> face_needs;
+    std::optional<SceneKey> scene_key; ///< from which its next frame continues
+    std::uint64_t units = 0;           ///< units in which distances were captured
+    std::uint64_t edits = 0;           ///< number of the scene's edits so far
+    std::vector<std::string> texts;
+    /// Parsed from `texts`, with the suggestions made for its first frame.
+    std::vector<reflect::Plan> plans;
+};
+
+Sequence::Sequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Sequence::Sequence(Sequence&&) noexcept = default;
+Sequence& Sequence::operator=(Sequence&&) noexcept = default;
+Sequence::~Sequence() = default;
+
+void Session::Impl::wait_for_readers(std::size_t of) {
+    if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
+        runner.wait(graph::Ticket{read_by[of]});
+}
+
+double Session::Impl::update_scene(const SceneKey& wanted) {
+    if (scene_key == wanted && resident->knows_face_needs()) return 0;
+    // Writes to another copy than the one that frames in flight read.
+    const std::size_t next = (copy + 1) % read_by.size();
+    wait_for_readers(next);
+    copy = next;
+    const SteadyClock::time_point start = SteadyClock::now();
+    if (scene_key && scene_key->size != wanted.size) resident->forget_face_needs();
+    scene_key.reset(); // stays unset if the update throws half-way
+    models.clear();
+    if (scene::is_animated(scene)) {
+        if (!moved) moved = scene;
+        scene::pose(*moved, scene, wanted.time);
+    } else {
+        scene::check_time(wanted.time);
+    }
+    resident->update(now(), wanted.camera, wanted.size, wanted.ambient,
+                     static_cast<std::uint32_t>(copy));
+    scene_key = wanted;
+    ++counts.updates;
+    return milliseconds_since(start);
+}
+
+const std::vector<reflect::Plan>& Session::Impl::plans_of(const FrameSpec& spec) {
+    if (plans.empty() || texts != spec.techniques) {
+        plans = parse_plans(spec.techniques);
+        for (reflect::Plan& plan : plans) plan = resolve_auto(std::move(plan), scene, spec);
+        texts = spec.techniques;
+        models.clear();
+    }
+    return plans;
+}
+
+const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling modelling,
+                                                                     bool is_ablated) {
+    std::shared_ptr<const require::Model>& model = models[{modelling, is_ablated}];
+    if (model) return model;
+    require::Question question{now(), scene_key->camera, scene_key->size};
+    reflect::demand(question, plans);
+    question.whole_cubes = question.whole_cubes ||
+                           is_ablated; // ablated lookups read places that a search never would
+    if (modelling == Modelling::required && !requirements) requirements.emplace(scene);
+    require::Model made = modelling == Modelling::everything ? require::everything(question)
+                                                             : requirements->of(question);
+    add_ambient(made, scene_key->ambient);
+    model = std::make_shared<const require::Model>(std::move(made));
+    return model;
+}
+
+Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
+    : impl_(std::make_shared<Impl>(*engine.impl_, std::move(scene), in_flight)) {}
+Session::~Session() = default;
+
+const scene::Scene& Session::scene() const { return impl_->scene; }
+Counts Session::counts() const {
+    Counts counts = impl_->counts;
+    counts.plans = impl_->runner.plans_made();
+    counts.memory_bytes = impl_->runner.memory_bytes();
+    counts.uploads = impl_->resident->uploads();
+    counts.hierarchies_built = impl_->resident->hierarchies_built();
+    counts.hierarchies_refitted = impl_->resident->hierarchies_refitted();
+    return counts;
+}
+
+Setup Session::setup() const {
+    return {impl_->resident->first_upload_ms(), impl_->resident->first_build_ms()};
+}
+
+Frame Session::frame(const FrameSpec& spec) {
+    return submit(spec, [](FrameGraph&) { return graph::ExternalSync{}; });
+}
+
+Frame Session::submit(const FrameSpec& spec,
+                      const std::function<graph::ExternalSync(FrameGraph&)>& finish) {
+    Impl& self = *impl_;
+    check_spec(spec);
+    const std::vector<reflect::Plan>& plans = self.plans_of(spec);
+    const bool follows = same(self.remembered, plans) && self.remembered_model == spec.model;
+    if (!spec.keeps_history && !follows) {
+        self.runner.forget();
+        self.kept.clear();
+        self.paces.clear(), self.timed.reset();
+        self.remembered = plans, self.remembered_model = spec.model;
+    }
+    double waited_ms = 0;
+    {
+        const Stopwatch watch(waited_ms);
+        self.catch_up(spec);
+    }
+    const double update_ms = self.update_scene(scene_key_of(spec));
+    const SteadyClock::time_point start = SteadyClock::now();
+    const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
+                                                                      spec.ablated != 0);
+    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history(),
+                               self.keeping(spec, *model, follows));
+    const double declare_ms = milliseconds_since(start);
+    if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
+    const SteadyClock::time_point trees = SteadyClock::now();
+    self.resident->prepare();
+    const double hierarchy_ms = milliseconds_since(trees);
+    const graph::ExternalSync outside = finish(frame);
+    const graph::Ticket ticket = self.runner.submit(frame.graph,
+                                                    spec.timing == Timing::isolated
+                                                        ? graph::PassTiming::isolated
+                                                        : graph::PassTiming::pipelined,
+                                                    spec.keeps_history, outside);
+    self.last = ticket;
+    self.read_by[self.copy] = ticket.frame;
+    if (!spec.keeps_history) self.keep(frame, ticket);
+    if (!spec.keeps_history && spec.budget_ms > 0) self.time(frame, ticket);
+    ++self.counts.frames;
+    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{impl_,
+                                                           ticket,
+                                                           spec,
+                                                           std::move(frame),
+                                                           model,
+                                                           update_ms,
+                                                           declare_ms,
+                                                           hierarchy_ms,
+                                                           waited_ms,
+                                                           {}}));
+}
+
+void Session::change(const scene::Edit& edit) {
+    Impl& self = *impl_;
+    scene::Scene edited = self.scene;
+    scene::apply(edited, edit);
+    // If the units of the edited scene are unchanged, resident data and history stay.
+    if (render::space_of(edited) != render::space_of(self.scene)) {
+        auto made = std::make_unique<render::GpuScene>(self.engine.device, edited,
+                                                       self.read_by.size());
+        self.runner.forget(); // waits for frames in flight; captured distances were in other units
+        self.kept.clear();
+        self.resident = std::move(made);
+        ++self.units;
+    }
+    self.scene = std::move(edited);
+    self.moved.reset();
+    self.mirrors = mirror_names(self.scene);
+    self.scene_key.reset();
+    ++self.edits;
+    self.texts.clear(); // another plan may be suggested
+}
+
+void Session::forget() {
+    impl_->runner.forget();
+    impl_->kept.clear();
+    impl_->texts.clear(); // another plan may be suggested
+    impl_->resident->forget_face_needs();
+    impl_->scene_key.reset();
+}
+
+Sequence Session::suspend() {
+    Impl& self = *impl_;
+    self.measure();
+    auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
+        self.runner.suspend(), std::exchange(self.remembered, {}), self.remembered_model,
+        std::exchange(self.kept, {}), std::exchange(self.paces, {}), self.resident->face_needs(),
+        self.scene_key, self.units, self.edits, std::exchange(self.texts, {}),
+        std::exchange(self.plans, {})});
+    self.models.clear();
+    self.resident->forget_face_needs();
+    return Sequence(std::move(sequence));
+}
+
+void Session::resume(Sequence sequence) {
+    Impl& self = *impl_;
+    if (sequence.impl_->units != self.units) {
+        forget();
+        return;
+    }
+    self.runner.resume(std::move(sequence.impl_->leavings));
+    self.remembered = std::move(sequence.impl_->remembered);
+    self.remembered_model = sequence.impl_->remembered_model;
+    self.kept = std::move(sequence.impl_->kept);
+    self.paces = std::move(sequence.impl_->paces);
+    self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
+    if (sequence.impl_->edits == self.edits) {
+        self.texts = std::move(sequence.impl_->texts);
+        self.plans = std::move(sequence.impl_->plans);
+        self.models.clear();
+    }
+    if (sequence.impl_->scene_key) self.update_scene(*sequence.impl_->scene_key);
+}
+
+std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
+    Impl& self = *impl_;
+    check_spec(spec);
+    const std::vector<reflect::Plan>& plans = self.plans_of(spec);
+    self.update_scene(scene_key_of(spec));
+    const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
+                                                                      spec.ablated != 0);
+    std::vector<reflect::CaptureHistory> keeping(plans.size(),
+                                                 {*model, nullptr, &self.comparisons});
+    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, {}, keeping);
+    // If captures are kept, only the second frame compares them. The plan is that of the frame
+    // after it, when nothing has changed.
+    for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
+        for (std::size_t i = 0; i < plans.size(); ++i) {
+            keeping[i].before = frame.parts[i].outputs.kept;
+            if (k > 0 && keeping[i].before) render::find_unchanged(*keeping[i].before);
+        }
+        frame = declare(spec, plans, self.mirrors, *self.resident, frame.graph.left(), keeping);
+    }
+    const graph::GraphPlan& plan = self.runner.compiled(frame.graph);
+    switch (format) {
+    case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
+    case PlanFormat::json: return graph::to_json(frame.graph, plan);
+    case PlanFormat::text: break;
+    }
+    return graph::to_text(frame.graph, plan);
+}
+
+FrameTimes Session::clear_cubes() {
+    constexpr std::uint32_t kEdge = 256;
+    const std::uint32_t mirrors = impl_->resident->mirror_count(),
+                        most = impl_->resident->most_cubes();
+    graph::Graph graph;
+    for (std::uint32_t first = 0; first < mirrors; first += most) {
+        const std::uint32_t count = std::min(most, mirrors - first);
+        const graph::ImageHandle cubes = graph.image({"cubes" + std::to_string(first / most + 1),
+                                                      Format::rgba16f, kEdge, kEdge, 6 * count,
+                                                      true});
+        for (std::uint32_t cube = 0; cube < count; ++cube) {
+            const std::string name = "clear/" + std::to_string(first + cube + 1);
+            const graph::ImageHandle depth = graph.image(
+                {name + ".depth", Format::d32f, kEdge, kEdge, 6, true});
+            graph.pass(name)
+                .writes(cubes.layers(6 * cube, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
+                .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
+                .layers(6)
+                .record([](graph::Commands&) {});
+        }
+        graph.mark_output(cubes);
+    }
+    ++impl_->counts.frames;
+    impl_->last = impl_->runner.submit(graph, graph::PassTiming::isolated);
+    return to_times(impl_->runner.wait(*impl_->last));
+}
+
+} // namespace catoptric::app

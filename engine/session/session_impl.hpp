@@ -1,0 +1,130 @@
+#pragma once
+
+#include "core/error.hpp"
+#include "graph/run.hpp"
+#include "session/capture_cost.hpp"
+#include "session/engine_impl.hpp"
+#include "session/frame_graph.hpp"
+#include "session/plan_file.hpp"
+#include "session/session.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Implementation of Session and Frame, only for session.cpp, session_cache.cpp, frame.cpp and
+// screen.cpp.
+namespace catoptric::app {
+
+/// The inputs that determine the device's copy of a scene.
+struct SceneKey {
+    double time = 0;
+    scene::Camera camera;
+    uvec2 size{0, 0};
+    double ambient = 0;
+    bool operator==(const SceneKey&) const = default;
+};
+
+struct Session::Impl {
+    Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
+        : engine(shared), scene(std::move(at_rest)),
+          resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
+          comparisons(shared.device,
+                      [this](std::uint64_t frame) { return runner.has_ended({frame}); }),
+          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
+        mirrors = mirror_names(scene);
+    }
+
+    /// Returns the scene at the instant of `scene_key`. A scene that is not animated is not copied.
+    const scene::Scene& now() const { return moved ? *moved : scene; }
+    /// Writes the scene data that `wanted` needs and the device lacks. Returns the milliseconds of
+    /// work.
+    double update_scene(const SceneKey& wanted);
+    /// Waits until no frame in flight reads copy `of` of the scene data.
+    void wait_for_readers(std::size_t of);
+    /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
+    /// after a cut, and after an edit. Until then, `auto` keeps the plan suggested for the first
+    /// frame.
+    const std::vector<reflect::Plan>& plans_of(const FrameSpec& spec);
+    /// Returns the model of the scene at its present instant.
+    const std::shared_ptr<const require::Model>& model_of(Modelling modelling, bool is_ablated);
+    /// Returns the capture history from which the next frame of these techniques continues.
+    std::vector<reflect::CaptureHistory> keeping(const FrameSpec& spec, const require::Model& model,
+                                                 bool follows);
+    /// Waits for results of earlier frames that this frame needs.
+    void catch_up(const FrameSpec& spec);
+    /// Returns how many mirrors' captures the frame draws again at most; 0: all.
+    std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
+                                const require::Model& model) const;
+    /// Reads how long captures took in the last submitted frame under a budget. Waits for that
+    /// frame.
+    void measure();
+    /// Marks a submitted frame as the one that `measure` reads.
+    void time(const FrameGraph& frame, graph::Ticket ticket);
+    /// Stores the captures of a submitted frame for the next one.
+    void keep(const FrameGraph& frame, graph::Ticket ticket);
+
+    Engine::Impl& engine;
+    scene::Scene scene;
+    std::unique_ptr<render::GpuScene> resident;
+    render::Comparisons comparisons;
+    graph::Runner runner;
+    std::vector<std::string> mirrors; ///< names of the mirrors
+    std::optional<SceneKey> scene_key;
+    /// `scene` at the instant of `scene_key`, if it is animated.
+    std::optional<scene::Scene> moved;
+    std::vector<std::string> texts;
+    std::vector<reflect::Plan> plans;      ///< parsed from `texts`
+    std::vector<reflect::Plan> remembered; ///< plans whose history the runner has
+    Modelling remembered_model = Modelling::everything;
+    /// Captures of `remembered`, by technique.
+    std::vector<std::shared_ptr<render::CaptureCache>> kept;
+    std::vector<CaptureCost> paces; ///< costs of captures, by technique
+    /// A frame under a budget whose times were not read yet. `drawn`: for each technique, the
+    /// prefix of its passes' names and the number of mirrors it drew.
+    struct Timed {
+        graph::Ticket ticket;
+        std::vector<std::pair<std::string, std::uint32_t>> drawn;
+    };
+    std::optional<Timed> timed;
+    std::optional<require::Requirements> requirements; ///< computed at first use
+    /// Models of `scene_key` and `plans`.
+    std::map<std::pair<Modelling, bool>, std::shared_ptr<const require::Model>> models;
+    std::optional<graph::Ticket> last; ///< ticket of the frame submitted last
+    /// For each copy of the scene data, the last frame that reads the copy.
+    std::vector<std::uint64_t> read_by;
+    std::size_t copy = 0;    ///< copy that frames read now
+    std::uint64_t units = 0; ///< number of changes of the scene's units on the device
+    std::uint64_t edits = 0; ///< number of edits of the scene
+    Counts counts;
+};
+
+struct Frame::Impl {
+    std::shared_ptr<Session::Impl> session;
+    graph::Ticket ticket;
+    FrameSpec spec;
+    FrameGraph frame;
+    std::shared_ptr<const require::Model> model;
+    double update_ms = 0, declare_ms = 0, hierarchy_ms = 0, waited_ms = 0;
+    mutable std::optional<FrameTimes> times; ///< set once the frame was waited for
+
+    graph::Runner& runner() const { return session->runner; }
+    const Declared& part(std::size_t index) const { return frame.parts.at(index); }
+    const graph::GraphPlan& plan() const { return runner().compiled(frame.graph); }
+    /// Checks that no later frame was submitted, because it overwrites images that outlive a frame.
+    void check_last() const {
+        check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
+              ticket.frame, " is read after frame ", session->last ? session->last->frame : 0,
+              " was rendered over it");
+    }
+};
+
+/// Throws `usage` for an invalid limit of captures.
+void check_limit(const FrameSpec& spec);
+
+/// Returns the runner's times under the names that callers know.
+FrameTimes to_times(const graph::GraphFrameTimes& times);
+
+} // namespace catoptric::app

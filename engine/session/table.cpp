@@ -1,0 +1,50 @@
+// Presents the table of techniques to users of the library.
+#include "session/table.hpp"
+
+#include "session/engine.hpp"
+#include "session/plan_file.hpp"
+
+namespace catoptric::app {
+
+std::vector<TechniqueInfo> techniques() {
+    std::vector<TechniqueInfo> infos;
+    for (const reflect::Technique* row : reflect::techniques()) {
+        TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
+        const Settings defaults(row->knobs);
+        for (const catoptric::Knob& knob : row->knobs)
+            info.knobs.push_back({std::string(knob.name),
+                                  std::string(knob.help),
+                                  knob.low,
+                                  knob.high,
+                                  defaults.text(knob.name),
+                                  {knob.choices.begin(), knob.choices.end()},
+                                  std::string(knob.special)});
+        infos.push_back(std::move(info));
+    }
+    return infos;
+}
+
+std::vector<Setting> settings_of(const reflect::Choice& choice) {
+    std::vector<Setting> settings;
+    const Settings defaults(choice.technique->knobs);
+    for (const catoptric::Knob& knob : choice.technique->knobs) {
+        const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob.name);
+        const std::string value = choice.settings.text(knob.name);
+        settings.push_back(
+            {std::string(knob.name), value,
+             is_number ? std::optional(choice.settings.number(knob.name)) : std::nullopt,
+             value != defaults.text(knob.name)});
+    }
+    return settings;
+}
+
+TechniqueChoice parse_technique(const std::string& text) {
+    const reflect::Plan plan = read_plan(text);
+    if (plan.is_auto) return {plan.label, plan.label, plan.file_name(), {}};
+    if (!plan.is_technique) return {"plan", plan.label, plan.file_name(), {}};
+    const reflect::Choice& choice = plan.rules.front().choice;
+    return {std::string(choice.technique->name), choice.label, choice.file_name(),
+            settings_of(choice)};
+}
+
+} // namespace catoptric::app

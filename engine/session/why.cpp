@@ -1,0 +1,131 @@
+#include "session/why.hpp"
+
+#include "core/text.hpp"
+#include "report/text.hpp"
+#include "require/culled_work.hpp"
+#include "require/suggest.hpp"
+#include "session/plan_file.hpp"
+#include "session/scene_facts.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace catoptric::app {
+
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+struct Required {
+    scene::Scene now;
+    require::Model model;
+    require::Suggestion suggestion;
+};
+
+/// Returns the feature of reflectors in the picture whose reflections only ray tracing draws.
+std::optional<measure::UnsupportedFeatureFacts> not_drawn(const Request& request) {
+    constexpr std::string_view kId = "smooth-dielectric";
+    const auto gap = std::ranges::find(request.scene.unsupported, kId,
+                                       &scene::UnsupportedFeature::id);
+    if (gap == request.scene.unsupported.end()) return std::nullopt;
+    const std::vector<int> seen = objects_seen(request, small_size(request.size));
+    return measure::UnsupportedFeatureFacts{gap->id, gap->count, gap->first,
+                                            share_of(seen, request.scene, gap->materials)};
+}
+
+Required required(const Request& request) {
+    Required required{.now = scene::at(request.scene, request.time), .model = {}, .suggestion = {}};
+    const scene::Camera camera = scene::camera_at(request.camera, request.time);
+    const require::Question question{required.now, camera, request.size};
+    required.model = require::required(question);
+    required.suggestion = require::suggest(question);
+    return required;
+}
+
+OrderedJson mirror_of(const Required& required, const std::string& name, std::size_t i) {
+    const require::MirrorNeeds& needs = required.model.mirrors[i];
+    OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
+    if (needs.is_captured) faces = split(require::names_of(needs.faces), " ");
+    for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
+    return {{"mirror", i + 1},
+            {"name", name},
+            {"seen", needs.is_seen},
+            {"seen_in", needs.seen_in ? OrderedJson(needs.seen_in.number()) : OrderedJson()},
+            {"captured", needs.is_captured},
+            {"faces", faces},
+            {"sees", sees},
+            {"suggested", required.suggestion.reasons[i]}};
+}
+
+constexpr const char* kNotDrawn = "what smooth surfaces that are no mirrors reflect";
+constexpr const char* kRemedy =
+    "no technique but raytrace draws it; --dielectric-mirrors makes mirrors of them";
+
+} // namespace
+
+std::string why_text(const Request& request, const std::optional<CaptureBudget>& slices) {
+    const auto [now, model, suggestion] = required(request);
+    const std::vector<std::string> names = mirror_names(now);
+    std::string text = require::to_text(model, now);
+    if (const auto gap = not_drawn(request))
+        text += std::string("not drawn\n  ") + kNotDrawn + ": " +
+                report::fixed(100 * *gap->pixel_share, 1) +
+                " % of the picture (first: " + printable(gap->first) + ")\n    why: " + kRemedy +
+                "\n";
+    if (slices) text += to_text(*slices) + "\n";
+    if (names.empty()) return text;
+    text += "suggested --plan \"" + suggestion.plan + "\"\n";
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += "  mirror " + std::to_string(i + 1) + " " + in_quotes(names[i]) + ": " +
+                suggestion.reasons[i] + "\n";
+    return text + require::to_text(suggestion.candidates);
+}
+
+std::string why_json(const Request& request, const std::optional<CaptureBudget>& slices) {
+    const Required required = app::required(request);
+    const std::vector<std::string> names = mirror_names(required.now);
+    OrderedJson document{
+        {"schema", "catoptric/why/1"},       {"mirrors", OrderedJson::array()},
+        {"lights", OrderedJson::array()},    {"left_out", OrderedJson::array()},
+        {"not_drawn", OrderedJson::array()}, {"suggested", required.suggestion.plan},
+        {"candidates", OrderedJson::array()}};
+    for (const require::Candidate& candidate : required.suggestion.candidates)
+        document["candidates"].push_back(
+            {{"name", candidate.name}, {"cost", candidate.cost}, {"flip", candidate.error}});
+    for (std::size_t i = 0; i < names.size(); ++i)
+        document["mirrors"].push_back(mirror_of(required, names[i], i));
+    for (std::size_t i = 0; i < required.model.lights.size(); ++i)
+        document["lights"].push_back({{"light", i + 1}, {"map", required.model.lights[i].has_map}});
+    for (const require::CulledWork& thing : required.model.left_out)
+        document["left_out"].push_back({{"what", thing.what},
+                                        {"why", thing.why},
+                                        {"saves", thing.saves},
+                                        {"error", thing.error}});
+    if (const auto gap = not_drawn(request))
+        document["not_drawn"].push_back({{"what", kNotDrawn},
+                                         {"why", kRemedy},
+                                         {"first", gap->first},
+                                         {"pixel_share", *gap->pixel_share}});
+    document["captures"] = slices ? OrderedJson{{"mirrors", slices->mirrors},
+                                                {"most", slices->most},
+                                                {"oldest_frames", slices->round() - 1},
+                                                {"round_frames", slices->round()},
+                                                {"said", to_text(*slices)}}
+                                  : OrderedJson();
+    return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
+}
+
+std::optional<CaptureBudget> measured_slices(Engine& engine, const Request& request) {
+    constexpr int kCuts = 5; // cuts: the first frames compile what they use
+    Session session(engine, request.scene);
+    FrameSpec spec = request;
+    spec.time = request.instant(1);
+    for (int k = 0; k < kCuts; ++k) {
+        session.forget();
+        session.frame(spec);
+    }
+    return session.frame(spec).slices();
+}
+
+} // namespace catoptric::app

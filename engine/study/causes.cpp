@@ -1,0 +1,221 @@
+#include "study/causes.hpp"
+
+#include "measure/lines.hpp"
+#include "measure/masks.hpp"
+#include "measure/pixel_error.hpp"
+#include "measure/shapley.hpp"
+#include "shared.h"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+/// A cause that the technique's own shader can ablate, with or without the others.
+struct Player {
+    const char* name;
+    std::uint32_t mends; ///< sum of shared::kAblate...
+};
+
+constexpr Player kPlayers[] = {{"direction", shared::kAblateDistance | shared::kAblateDirection},
+                               {"hidden target", shared::kAblateHidden},
+                               {"texels", shared::kAblateTexels},
+                               {"mirror in mirror", shared::kAblateMirrors | shared::kAblateOwn},
+                               {"shadow map", shared::kAblateShadows}};
+constexpr std::size_t kPlayerCount = std::size(kPlayers);
+constexpr std::uint32_t kEveryPlayer = (1U << kPlayerCount) - 1;
+
+/// Returns the causes that a coalition ablates, a sum of shared::kAblate...; bit i: player i.
+std::uint32_t ablated_by(std::uint32_t coalition) {
+    std::uint32_t ablated = 0;
+    for (std::size_t i = 0; i < kPlayerCount; ++i)
+        if ((coalition >> i & 1U) != 0) ablated |= kPlayers[i].mends;
+    return ablated;
+}
+
+/// The frames whose history a picture uses and leaves unchanged.
+struct HistorySource {
+    std::string technique;
+    bool is_settled = false; ///< history of this very instant: nothing is a frame late
+    auto operator<=>(const HistorySource&) const = default;
+};
+
+/// Returns the technique with distances stored as 32-bit floats.
+std::string with_full_distance(const std::string& technique) {
+    const TechniqueChoice choice = parse_technique(technique);
+    const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
+        return setting.name == "distance" && setting.text != "r32f";
+    });
+    if (is_full) return technique;
+    std::string text = choice.technique;
+    char separator = ':';
+    for (const auto& setting : choice.settings) {
+        if (!setting.changed || setting.name == "distance" || setting.name == "range") continue;
+        text += separator + setting.name + "=" + setting.text;
+        separator = ',';
+    }
+    return text;
+}
+
+constexpr int kSettled = 16; // frames; deeper bounces are below a rounding of the picture's halves
+
+/// Returns the row's own frames, or frames that are settled at the instant of its last picture.
+/// Returns the settled ones if there is no difference.
+HistorySource history_of(const Request& base, const std::string& technique, bool is_settled) {
+    const bool may_lag = base.animate || base.total() <= kSettled;
+    return {technique, is_settled || !may_lag};
+}
+
+Request request_for(const Request& base, const HistorySource& history) {
+    Request request = base;
+    if (!base.animate || history.is_settled) {
+        request.time = base.instant(base.total());
+        request.animate = false;
+    }
+    request.frames = 1;
+    request.warmup = history.is_settled ? kSettled : base.total() - 1;
+    request.techniques = {history.technique};
+    request.model = Modelling::required; // gives the same pictures, and their times are not used
+    return request;
+}
+
+using MirrorValues = std::vector<double>;
+
+MirrorValues minus(const MirrorValues& from, const MirrorValues& what) {
+    MirrorValues left(from.size());
+    std::ranges::transform(from, what, left.begin(), std::minus());
+    return left;
+}
+
+/// Returns the values where `chosen` equals `told`, and 0 elsewhere.
+MirrorValues only_where(const std::vector<bool>& chosen, bool told, MirrorValues values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (chosen[i] != told) values[i] = 0;
+    return values;
+}
+
+/// Histories that pictures of a row use; some may be equal.
+struct Histories {
+    HistorySource row, row_settled;
+    HistorySource stored, settled; ///< with distances stored as 32-bit floats
+};
+
+Histories histories_of(const Request& base, const std::string& technique) {
+    const std::string full = with_full_distance(technique);
+    return {history_of(base, technique, false), history_of(base, technique, true),
+            history_of(base, full, false), history_of(base, full, true)};
+}
+
+/// Returns the coalitions whose picture is needed with each history.
+std::map<HistorySource, std::vector<std::uint32_t>> wanted_of(const Histories& histories) {
+    std::map<HistorySource, std::vector<std::uint32_t>> wanted;
+    for (const HistorySource& history : {histories.row, histories.row_settled, histories.stored})
+        wanted[history] = {0};
+    for (std::size_t i = 0; i < kPlayerCount; ++i) wanted[histories.row].push_back(1U << i);
+    std::vector<std::uint32_t>& all = wanted[histories.settled];
+    all.resize(kEveryPlayer + 1);
+    std::iota(all.begin(), all.end(), 0U);
+    return wanted;
+}
+
+/// Squared errors of the mirrors' pixels.
+struct CoalitionErrors {
+    measure::Shapley shapley; ///< with the history `settled`
+    /// Of coalitions that are read one by one.
+    std::map<std::pair<HistorySource, std::uint32_t>, MirrorValues> kept;
+    measure::Mask off; ///< pixels that are off in the row's own picture
+};
+
+std::vector<measure::PixelCause> parts_of(const Histories& histories, const CoalitionErrors& errors,
+                                          const std::vector<bool>& disagree) {
+    const auto of = [&](const HistorySource& history,
+                        std::uint32_t coalition = 0) -> const MirrorValues& {
+        return errors.kept.at({history, coalition});
+    };
+    const MirrorValues &row = of(histories.row), &left = of(histories.settled, kEveryPlayer),
+                       format = minus(row, of(histories.stored));
+    std::vector<measure::PixelCause> parts{{"storage format", format, format},
+                                           {"last frame",
+                                            minus(of(histories.stored), of(histories.settled)),
+                                            minus(row, of(histories.row_settled))}};
+    for (std::size_t i = 0; i < kPlayerCount; ++i)
+        parts.push_back({kPlayers[i].name, minus(MirrorValues(row.size()), errors.shapley.worth(i)),
+                         minus(row, of(histories.row, 1U << i))});
+    parts.push_back(
+        {"silhouettes", only_where(disagree, true, left), only_where(disagree, true, row)});
+    parts.push_back({"rest", only_where(disagree, false, left), {}});
+    return parts;
+}
+
+} // namespace
+
+void last_pictures(Session& session, const Request& request,
+                   const std::vector<std::uint32_t>& ablated, const VisitPicture& visit,
+                   const Watcher& watcher) {
+    Frames frames(session, request);
+    for (int k = 1; k < request.total(); ++k) frames.next(), watcher.check_stopped();
+    FrameSpec aside = request;
+    aside.time = request.instant(request.total());
+    aside.timing = Timing::pipelined;
+    aside.keeps_history = true;
+    for (std::size_t entry = 0; entry < ablated.size(); ++entry) {
+        aside.ablated = ablated[entry];
+        visit(entry, session.frame(aside).hdr());
+        watcher.check_stopped();
+    }
+}
+
+CauseFinder::CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
+                         const std::vector<std::uint32_t>& hits, const Watcher& watcher)
+    : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
+      pixels_(measure::mirror_pixels(hits)) {
+    // This technique follows no ray through other mirrors. Its lookup therefore names the mirror
+    // that the rasteriser draws.
+    Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none", false});
+    request.warmup = 0, request.time = base.instant(base.total()), request.animate = false;
+    request.with_lookup = true;
+    const Result result = run(session, request);
+    for (const std::size_t place : pixels_) {
+        const vec4& looked = result.parts.front().lookup[place];
+        const std::uint32_t drawn = looked.w > 0
+                                        ? (static_cast<std::uint32_t>(looked.w) - 1) / 8 + 1
+                                        : 0;
+        disagree_.push_back(drawn != measure::first_mirror(hits[place]).number());
+    }
+}
+
+report::Causes CauseFinder::find(const std::string& technique) const {
+    const Histories histories = histories_of(base_, technique);
+    CoalitionErrors found{
+        measure::Shapley(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
+    for (const auto& [history, coalitions] : wanted_of(histories)) {
+        std::vector<std::uint32_t> ablated;
+        std::ranges::transform(coalitions, std::back_inserter(ablated), ablated_by);
+        const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
+            const std::uint32_t coalition = coalitions[entry];
+            MirrorValues errors;
+            for (const std::size_t place : pixels_) {
+                const vec3 shown = measure::exposed(picture.pixels[place], base_.exposure),
+                           truth = measure::exposed(truth_.pixels[place], base_.exposure);
+                errors.push_back(measure::squared_error(shown, truth));
+                if (history == histories.row && coalition == 0)
+                    found.off[place] = measure::is_off(shown, truth);
+            }
+            if (history == histories.settled) found.shapley.add(coalition, errors);
+            if (std::popcount(coalition) <= 1 || coalition == kEveryPlayer)
+                found.kept[{history, coalition}] = std::move(errors);
+        };
+        last_pictures(session_, request_for(base_, history), ablated, judge, watcher_);
+    }
+    return measure::sum_up(hits_, found.off, found.kept.at({histories.row, 0}),
+                           parts_of(histories, found, disagree_));
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,313 @@
+#include "study/compare.hpp"
+
+#include "core/error.hpp"
+#include "measure/interval.hpp"
+#include "measure/judge.hpp"
+#include "reflect/technique.hpp"
+#include "session/device_facts.hpp"
+#include "session/exposure.hpp"
+#include "session/plan_file.hpp"
+#include "session/processor.hpp"
+#include "session/scene_facts.hpp"
+#include "study/compare_row.hpp"
+#include "study/lag.hpp"
+#include "study/reference_cache.hpp"
+#include "study/row_judge.hpp"
+#include "study/row_run.hpp"
+#include "study/views.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <new>
+#include <span>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
+    return a.technique == b.technique && a.settings == b.settings;
+}
+
+/// Compares the bits, so that a NaN equals itself.
+bool same_pixels(const measure::Picture& a, const measure::Picture& b) {
+    return std::ranges::equal(std::as_bytes(std::span(a.pixels)),
+                              std::as_bytes(std::span(b.pixels)));
+}
+
+/// Returns the present time in UTC: "2026-11-24T03:05:10Z".
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    char text[32];
+    return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
+}
+
+/// Measures rows in rounds, one by one or together in each frame. Judges each against the reference
+/// at its sample count.
+class Comparer {
+public:
+    Comparer(Engine& engine, const CompareRequest& request)
+        : engine_(engine), request_(request), compiled_before_(engine.compiled()),
+          session_(engine, request.base.scene),
+          truths_(session_, request_.base, request_.reference, request_.watcher),
+          judge_(session_, truths_, request_.base, request_.watcher) {
+        if (request_.base.techniques.empty())
+            request_.base.techniques = default_techniques(request_.base);
+        check_asked(request_); // refuses a bad request before any work
+        comparison_.views = drawn_views(request_.base, request_.views);
+    }
+
+    report::Comparison run() {
+        settle_exposure(session_, request_.base);
+        list_rows();
+        start();
+        try {
+            fill_reference();
+            measure_rounds();
+            if (!comparison_.views.empty()) add_views();
+            if (request_.causes) add_causes();
+            if (request_.lag) add_lag();
+            comparison_.complete = true;
+        } catch (const Error& error) {
+            if (comparison_.rows.empty() && !is_stop(error.failure)) throw;
+            comparison_.stopped = error;
+        } catch (const std::bad_alloc&) {
+            if (comparison_.rows.empty()) throw;
+            comparison_.stopped = Error(Failure::exhausted, "out of memory");
+        }
+        fill_circumstances();
+        return std::move(comparison_);
+    }
+
+private:
+    void list_rows() {
+        std::vector<std::string>& texts = request_.base.techniques;
+        const std::vector<std::string> asked = std::exchange(texts, {});
+        for (const std::string& text : asked) {
+            texts.push_back(text);
+            models_.push_back(request_.both_models ? Modelling::everything : request_.base.model);
+            if (!request_.both_models) continue;
+            texts.push_back(text);
+            models_.push_back(Modelling::required);
+        }
+    }
+
+    void start() {
+        const Request& base = request_.base;
+        comparison_.version = version();
+        comparison_.commit = commit();
+        comparison_.date = utc_now();
+        comparison_.command = request_.command;
+        comparison_.images = request_.images;
+        comparison_.complete = false;
+        comparison_.asked = base.techniques.size();
+        comparison_.device = facts_of(engine_);
+        comparison_.scene = scene_facts(base);
+        comparison_.width = static_cast<int>(base.size.x);
+        comparison_.height = static_cast<int>(base.size.y);
+        comparison_.frames = base.frames;
+        comparison_.warmup = base.warmup;
+        comparison_.rounds = rounds_of(base.frames, request_.rounds);
+        comparison_.load_start = machine_load();
+        comparison_.time = base.time;
+        comparison_.ambient = base.ambient;
+        comparison_.exposure = base.exposure;
+        comparison_.timing = base.timing == Timing::isolated ? "isolated" : "pipelined";
+        comparison_.model = request_.both_models ? "both" : name_of(base.model);
+        comparison_.together = request_.together;
+    }
+
+    /// Fills facts that are known only after rows were measured.
+    void fill_circumstances() {
+        const Setup setup = session_.setup();
+        const Compiled compiled = engine_.compiled();
+        constexpr const char* kCacheUse[] = {"none", "made", "used"}; // indexed by CacheUse
+        comparison_.setup = {request_.base.load_ms,
+                             setup.upload_ms,
+                             setup.hierarchy_ms,
+                             compiled.ms - compiled_before_.ms,
+                             compiled.pipelines - compiled_before_.pipelines,
+                             kCacheUse[static_cast<std::size_t>(engine_.cache_use())]};
+        comparison_.load_end = machine_load();
+        comparison_.warnings = request_.base.scene.warnings;
+        for (const std::vector<std::string>& warnings : row_warnings_)
+            comparison_.warnings.insert(comparison_.warnings.end(), warnings.begin(),
+                                        warnings.end());
+        comparison_.pareto = measure::front_of(comparison_.rows);
+    }
+
+    /// Measures the cost of clearing the cubes of all mirrors without drawing, for as many frames
+    /// as a row has.
+    void measure_clear(int round) {
+        const int warmup = round == 0 ? request_.base.warmup : 0;
+        const int frames = frames_of_round(request_.base.frames, comparison_.rounds, round);
+        std::vector<double>& samples = clear_ms_.emplace_back();
+        for (int k = 0; k < warmup + frames; ++k) {
+            const FrameTimes times = session_.clear_cubes();
+            if (k >= warmup) samples.push_back(times.passes_ms);
+            request_.watcher.check_stopped();
+        }
+        comparison_.clear_ms = measure::summarise(clear_ms_);
+    }
+
+    void fill_reference() {
+        const TechniqueChoice choice = parse_technique(request_.reference);
+        comparison_.reference_technique = choice.technique;
+        comparison_.reference_label = choice.label;
+        comparison_.reference_settings = choice.settings;
+        comparison_.reference_gpu_ms = measure::summarise(truths_.at("1").gpu_ms);
+        comparison_.reference_display = truths_.at("1").part.display;
+    }
+
+    void judge(std::size_t index, const Part& part, int number) {
+        row_warnings_[index] = judge_.judge(comparison_.rows[index],
+                                            request_.base.techniques[index], part, number);
+    }
+
+    void add(const std::string& text, const Part& part) {
+        report::Row row = make_row(text, part);
+        // If all rows share a frame, the host's work is that of all rows and belongs to none.
+        row.moves = request_.base.animate && !request_.together &&
+                    scene::is_animated(request_.base.scene);
+        const std::string samples = sample_count(parse_technique(text));
+        row.is_reference = same(parse_technique(text),
+                                parse_technique(reference_at(request_.reference, samples)));
+        if (request_.both_models && part.model == Modelling::required) {
+            row.label += ", model=required";
+            row.image += "-required";
+        }
+        comparison_.rows.push_back(std::move(row));
+        row_warnings_.emplace_back();
+        prefixes_.push_back(part.prefix);
+    }
+
+    void tell() {
+        fill_circumstances();
+        if (request_.on_finished_row) request_.on_finished_row(comparison_);
+    }
+
+    /// Returns the rows whose frames are measured one by one; with `together` one group of all
+    /// rows.
+    std::vector<std::vector<std::string>> lanes() const {
+        const std::vector<std::string>& texts = request_.base.techniques;
+        if (request_.together) return {texts};
+        std::vector<std::vector<std::string>> lanes;
+        for (const std::string& text : texts) lanes.push_back({text});
+        return lanes;
+    }
+
+    void measure_rounds() {
+        const HeldThreads held;
+        comparison_.device.held_threads = static_cast<int>(held.count());
+        for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
+        runs_.clear(); // frees also the device memory of their histories
+    }
+
+    void measure_round(int round) {
+        measure_clear(round);
+        const std::vector<std::vector<std::string>> all = lanes();
+        // Reverses every second round. No row then always follows the same other, whose work may
+        // still have an effect.
+        for (std::size_t place = 0; place < all.size(); ++place) {
+            const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
+            const auto rounds = static_cast<std::size_t>(comparison_.rounds);
+            std::string row = request_.together ? "all rows in one frame" : all[lane].front();
+            if (request_.both_models) row += ", model " + name_of(models_[lane]);
+            request_.watcher.row(row + ", round " + std::to_string(round + 1) + " of " +
+                                     std::to_string(comparison_.rounds),
+                                 static_cast<std::size_t>(round) * all.size() + place,
+                                 rounds * all.size());
+            measure(lane, all[lane], round);
+        }
+        if (round > 0) tell();
+    }
+
+    /// Measures a round. Judges rows after the first round, and again by their last picture if it
+    /// differs.
+    void measure(std::size_t lane, const std::vector<std::string>& texts, int round) {
+        const bool first = round == 0, last = round + 1 == comparison_.rounds;
+        if (first) {
+            Request request = request_.base;
+            request.techniques = texts;
+            request.model = models_[lane];
+            runs_.push_back(std::make_unique<RowRun>(session_, request, request_.watcher));
+        }
+        RowRun& run = *runs_[lane];
+        run.measure(frames_of_round(request_.base.frames, comparison_.rounds, round));
+        const std::vector<Part> parts = first || last ? run.parts() : std::vector<Part>();
+        run.suspend();
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            const std::size_t index = lane + i;
+            if (first) add(texts[i], parts[i]);
+            report::Row& row = comparison_.rows[index];
+            fill_times(row, run.rounds(), prefixes_[index], comparison_.device.type == "cpu");
+            row.noisy = run.is_noisy();
+            row.waited = run.waited();
+            const bool changed = last && !first &&
+                                 (request_.base.animate || !same_pixels(row.hdr, parts[i].hdr));
+            if (first || changed) judge(index, parts[i], run.number());
+            if (first) tell();
+        }
+    }
+
+    void add_causes() {
+        for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
+            report::Row& row = comparison_.rows[i];
+            const std::string& text = request_.base.techniques[i];
+            // A plan's error belongs to no single search.
+            const bool is_plan = !read_plan(text).is_technique;
+            const bool is_twin = request_.both_models && models_[i] == Modelling::required;
+            if (!row.lookup || is_plan || is_twin) continue;
+            request_.watcher.row("causes of " + text, i, comparison_.rows.size());
+            row.causes = judge_.causes_of(text);
+            tell();
+        }
+    }
+
+    void add_views() {
+        measure_views(session_,
+                      {.base = request_.base,
+                       .reference = request_.reference,
+                       .watcher = request_.watcher,
+                       .on_finished_view = [this] { tell(); }},
+                      comparison_);
+    }
+
+    void add_lag() {
+        Request base = request_.base;
+        if (request_.both_models)
+            base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
+                                  base.techniques.end());
+        measure_lag(session_,
+                    {.base = std::move(base),
+                     .reference = request_.reference,
+                     .watcher = request_.watcher,
+                     .on_finished_row = [this] { tell(); }},
+                    comparison_.lag.emplace());
+    }
+
+    Engine& engine_;
+    CompareRequest request_;
+    Compiled compiled_before_; ///< by the engine before this comparison
+    Session session_;          ///< shared by all rows
+    ReferenceCache truths_;
+    RowJudge judge_;
+    std::vector<Modelling> models_;             ///< models of the rows
+    std::vector<std::unique_ptr<RowRun>> runs_; ///< one per row, or one for all rows together
+    std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
+    std::vector<std::vector<double>> clear_ms_; ///< by round
+    std::vector<std::vector<std::string>> row_warnings_;
+    report::Comparison comparison_;
+};
+
+} // namespace
+
+report::Comparison compare(Engine& engine, const CompareRequest& request) {
+    return Comparer(engine, request).run();
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,79 @@
+// Checks the request of a comparison.
+#include "session/candidates.hpp"
+#include "study/compare.hpp"
+#include "session/plan_file.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "measure/interval.hpp"
+#include "reflect/plan.hpp"
+#include "scene/pose.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace catoptric::app {
+
+std::vector<std::string> default_techniques(const Request& base) {
+    const scene::SceneAt at_time(base.scene, base.time);
+    const scene::Scene& now = *at_time;
+    std::vector<scene::FlatFaces> flats;
+    for (const std::size_t object : scene::mirrors(now))
+        flats.push_back(scene::flat_faces(now.meshes[now.objects[object].mesh],
+                                          now.objects[object].world_from_object));
+    const double tolerance = scene::flat_tolerance(base.camera, base.size);
+    std::vector<std::string> rows;
+    for (const reflect::Technique* technique : reflect::techniques())
+        if (!technique->unfit || std::ranges::any_of(flats, [&](const auto& flat) {
+                return technique->unfit(flat, tolerance).empty();
+            }))
+            rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
+    rows.emplace_back(reflect::kAuto);
+    return rows;
+}
+
+void check_has_mirror(const scene::Scene& scene) {
+    if (!scene::mirrors(scene).empty()) return;
+    std::string lines;
+    for (const std::string& option : mirror_options(scene)) lines += "\n  " + option;
+    fail(Failure::bad_data, "scene ", in_quotes(scene.name),
+         ": wanted a mirror, whose reflections are what is compared, found none; make one with "
+         "--mirror PATTERN[=REFLECTANCE]",
+         lines.empty() ? "" : ", such as" + lines);
+}
+
+void check_rounds(int rounds) {
+    check(rounds >= static_cast<int>(measure::kFewest), Failure::usage, "rounds: wanted at least ",
+          measure::kFewest, ", fewer bound no median, found ", rounds);
+}
+
+void check_rows(const std::vector<std::string>& techniques) {
+    std::vector<reflect::Plan> plans;
+    for (const std::string& text : techniques) {
+        reflect::Plan plan = read_plan(text);
+        for (const reflect::Plan& other : plans)
+            check(!plan.same_as(other), Failure::usage, "technique '", text,
+                  "' is asked for twice");
+        plans.push_back(std::move(plan));
+    }
+}
+
+void check_explains(const std::string& reference) {
+    const TechniqueChoice found = parse_technique(reference), wanted = parse_technique(kReference);
+    check(found.technique == wanted.technique && found.settings == wanted.settings, Failure::usage,
+          "--causes: wanted the default reference, ", kReference,
+          ", whose rays tell causes apart, found '", reference, "'");
+}
+
+void check_asked(const CompareRequest& request) {
+    check_rows(request.base.techniques);
+    for (const std::string& text : request.base.techniques)
+        if (const reflect::Plan plan = read_plan(text); !plan.is_auto)
+            reflect::assign(plan, mirror_names(request.base.scene));
+    check_has_mirror(request.base.scene);
+    check_rounds(request.rounds);
+    if (request.causes) check_explains(request.reference);
+    check(!request.both_models || !request.together, Failure::usage,
+          "--model both and --together: rows of one frame have one model");
+}
+
+} // namespace catoptric::app

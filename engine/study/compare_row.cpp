@@ -1,0 +1,171 @@
+#include "study/compare_row.hpp"
+
+#include "measure/difference.hpp"
+#include "measure/flip.hpp"
+#include "measure/masks.hpp"
+
+#include <algorithm>
+
+namespace catoptric::app {
+
+namespace {
+
+using Rounds = std::vector<std::vector<FrameTimes>>;
+
+template <typename Value>
+measure::Summary over_frames(const Rounds& rounds, Value&& value) {
+    std::vector<std::vector<double>> samples;
+    for (const std::vector<FrameTimes>& round : rounds) {
+        samples.emplace_back();
+        for (const FrameTimes& frame : round) samples.back().push_back(value(frame));
+    }
+    return measure::summarise(samples);
+}
+
+report::HostParts host_parts(const Rounds& rounds) {
+    const auto part = [&](double HostTimes::*which) {
+        return over_frames(rounds, [&](const FrameTimes& frame) { return frame.host.*which; })
+            .median;
+    };
+    return {part(&HostTimes::update), part(&HostTimes::hierarchy), part(&HostTimes::compile),
+            part(&HostTimes::record)};
+}
+
+/// Returns the frames whose passes are kept one by one (kDetailedFrames).
+Rounds with_passes(Rounds rounds) {
+    for (std::vector<FrameTimes>& round : rounds)
+        std::erase_if(round, [](const FrameTimes& frame) { return frame.passes.empty(); });
+    std::erase_if(rounds, [](const std::vector<FrameTimes>& round) { return round.empty(); });
+    return rounds;
+}
+
+/// Returns the names of all passes that occur in some frame, in order of execution. Frames differ
+/// in their passes, because captures that are kept are not rendered again.
+std::vector<std::string> names_of_passes(const Rounds& rounds) {
+    std::vector<std::string> names;
+    for (const std::vector<FrameTimes>& round : rounds)
+        for (const FrameTimes& frame : round)
+            for (std::size_t i = 0; i < frame.passes.size(); ++i) {
+                if (std::ranges::find(names, frame.passes[i].name) != names.end()) continue;
+                // Inserts the pass behind its predecessor in this frame.
+                const auto before = i == 0 ? names.begin()
+                                           : std::next(std::ranges::find(names,
+                                                                         frame.passes[i - 1].name));
+                names.insert(before, frame.passes[i].name);
+            }
+    return names;
+}
+
+/// Returns whether a picture's mirrors are black, except for pixels at their outlines, while the
+/// reference shows something.
+bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture& truth,
+                         const std::vector<std::uint32_t>& hits) {
+    std::size_t pixels = 0, black = 0, wanted_black = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (!measure::first_mirror(hits[i])) continue;
+        ++pixels;
+        black += picture.pixels[i] == vec3(0);
+        wanted_black += truth.pixels[i] == vec3(0);
+    }
+    constexpr double kMost = .99;
+    return pixels > 0 && static_cast<double>(black) >= kMost * static_cast<double>(pixels) &&
+           static_cast<double>(wanted_black) < kMost * static_cast<double>(pixels);
+}
+
+} // namespace
+
+std::vector<float> flip_map_of(const Part& part, const Part& truth, double exposure) {
+    return measure::flip(measure::to_unrounded_display(part.hdr, exposure),
+                         measure::to_unrounded_display(truth.hdr, exposure));
+}
+
+measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,
+                          const std::vector<std::uint32_t>& hits, std::size_t mirrors,
+                          double exposure) {
+    const measure::Picture found = measure::exposed(part.hdr, exposure),
+                           wanted = measure::exposed(truth.hdr, exposure);
+    const auto against = [&](const measure::Mask& mask) {
+        return measure::difference(found, wanted, mask, flip_map);
+    };
+    measure::Errors errors{against(measure::mirrors(hits)),
+                           against(measure::first_order(hits)),
+                           against(measure::mirror_in_mirror(hits)),
+                           against(measure::non_mirror(hits)),
+                           against(measure::all_pixels(hits)),
+                           against(measure::dielectrics(hits)),
+                           {}};
+    for (std::size_t i = 0; i < mirrors; ++i)
+        errors.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
+    return errors;
+}
+
+void fill_errors(report::Row& row, const Part& part, const Part& truth,
+                 const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
+    row.hdr = part.hdr;
+    row.display = part.display;
+    row.flip_map = flip_map_of(part, truth, exposure);
+    static_cast<measure::Errors&>(row) = errors_of(part, truth, row.flip_map, hits, mirrors,
+                                                   exposure);
+    row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
+    row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
+    row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
+}
+
+report::Row make_row(const std::string& text, const Part& part) {
+    const TechniqueChoice choice = parse_technique(text);
+    report::Row row;
+    row.technique = choice.technique;
+    row.label = choice.label;
+    row.settings = choice.settings;
+    row.image = choice.file_name;
+    row.plan = part.plan;
+    row.model = name_of(part.model);
+    for (const auto& [what, why, saves, error] : part.left_out)
+        row.left_out.push_back({what, why, saves, error});
+    row.scene_passes = part.scene_passes;
+    row.scene_draws = part.scene_draws;
+    row.memory_bytes = part.memory_bytes;
+    if (part.rays)
+        row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
+    row.traced_fraction = part.traced_fraction;
+    if (part.auto_face)
+        row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
+    return row;
+}
+
+/// If the row is alone in its frames, its time runs from the first to the last timestamp.
+void fill_times(report::Row& row, const Rounds& rounds, const std::string& prefix,
+                bool on_processor) {
+    const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
+    const Rounds detailed = with_passes(rounds);
+    row.gpu_ms = prefix.empty()
+                     ? over_frames(rounds, [](const FrameTimes& frame) { return frame.gpu_ms; })
+                     : over_frames(detailed, [&](const FrameTimes& frame) {
+                           double sum = 0;
+                           for (const PassTime& pass : frame.passes)
+                               sum += mine(pass) ? pass.ms() : 0;
+                           return sum;
+                       });
+    const auto summary = [&](double FrameTimes::*which) {
+        return over_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
+    };
+    row.wait_ms = summary(&FrameTimes::wait_ms);
+    row.cpu_record_ms = summary(&FrameTimes::record_ms);
+    row.wall_ms = summary(&FrameTimes::wall_ms);
+    if (on_processor) row.cpu_ms = summary(&FrameTimes::cpu_ms);
+    row.closure = over_frames(
+        rounds, [](const FrameTimes& frame) { return frame.passes_ms / frame.wall_ms; });
+    row.host_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.host.sum(); });
+    row.frame_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.frame_ms(); });
+    row.host_parts = host_parts(rounds);
+    row.passes.clear();
+    for (const std::string& name : names_of_passes(detailed))
+        if (name.starts_with(prefix))
+            row.passes.push_back({name, over_frames(detailed, [&](const FrameTimes& frame) {
+                                      const auto pass = std::ranges::find(frame.passes, name,
+                                                                          &PassTime::name);
+                                      return pass == frame.passes.end() ? 0 : pass->ms();
+                                  })});
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,46 @@
+#include "study/light_edges.hpp"
+
+#include "measure/masks.hpp"
+
+#include <algorithm>
+
+namespace catoptric::app {
+
+namespace {
+
+/// Returns the texels along an edge of each mirror's capture; 0: the mirror has no capture.
+std::vector<std::uint32_t> faces_of(const report::Row& row) {
+    std::vector<std::uint32_t> faces;
+    for (const PlanEntry& entry : row.plan) {
+        const auto face = std::ranges::find(entry.settings, "face", &Setting::name);
+        const bool has_captures = face != entry.settings.end();
+        // face=auto gives all captures the same edge.
+        const double edge = has_captures
+                                ? face->number.value_or(row.auto_face ? row.auto_face->edge : 0)
+                                : 0;
+        faces.push_back(static_cast<std::uint32_t>(edge));
+    }
+    return faces;
+}
+
+} // namespace
+
+measure::LightEdges light_edges_of(const report::Row& row, const Part& truth,
+                                   const std::vector<std::uint32_t>& hits,
+                                   const std::vector<vec4>& lookup, const Oracle& oracle,
+                                   double exposure) {
+    measure::Mask there = oracle.at_light_edges(lookup, faces_of(row));
+    measure::Mask elsewhere = measure::mirrors(hits);
+    for (std::size_t i = 0; i < there.size(); ++i) {
+        there[i] = there[i] & elsewhere[i];
+        elsewhere[i] = elsewhere[i] & static_cast<std::uint8_t>(~there[i]);
+    }
+    const measure::Picture found = measure::exposed(row.hdr, exposure),
+                           wanted = measure::exposed(truth.hdr, exposure);
+    const auto over = [&](const measure::Mask& mask) {
+        return measure::difference(found, wanted, mask, row.flip_map);
+    };
+    return measure::light_edges(over(there), over(elsewhere));
+}
+
+} // namespace catoptric::app

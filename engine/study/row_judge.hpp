@@ -1,0 +1,44 @@
+#pragma once
+
+#include "report/comparison.hpp"
+#include "study/causes.hpp"
+#include "study/oracle.hpp"
+#include "study/reference_cache.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace catoptric::app {
+
+/// Finds the errors of a comparison's rows.
+class RowJudge {
+public:
+    /// All objects passed by reference must outlive the judge. `base` shows the session's scene.
+    /// `truths` uses the same session and base.
+    RowJudge(Session& session, ReferenceCache& truths, const Request& base, const Watcher& watcher)
+        : session_(session), truths_(truths), base_(base), watcher_(watcher) {}
+
+    /// Fills the row's picture and all its figures from `part`, the row's frame `number`. Returns
+    /// warnings for the user. The session begins another sequence. Costs a frame that records where
+    /// mirrors looked, and nine rays per mirror pixel.
+    std::vector<std::string> judge(report::Row& row, const std::string& text, const Part& part,
+                                   int number);
+    /// Splits the error of a technique that looks into captures by cause.
+    report::Causes causes_of(const std::string& text);
+
+private:
+    Request still(int number) const;
+    Part looked_up(const std::string& text, int number);
+    const Oracle& oracle_of(int number);
+
+    Session& session_;
+    ReferenceCache& truths_;
+    const Request& base_;
+    const Watcher& watcher_;
+    std::optional<Oracle> oracle_;
+    int oracle_frame_ = 0; ///< frame whose instant `oracle_` describes
+    std::optional<CauseFinder> finder_;
+};
+
+} // namespace catoptric::app

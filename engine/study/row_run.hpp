@@ -1,0 +1,52 @@
+#pragma once
+
+#include "session/processor.hpp"
+#include "session/run.hpp"
+#include "session/watcher.hpp"
+
+#include <limits>
+#include <vector>
+
+// Measures rows in rounds: a few frames of each row in turn, so that a slow moment of the machine
+// meets all rows.
+namespace catoptric::app {
+
+/// Returns the number of frames in round `index` of `rounds`. Frames are spread evenly; the first
+/// rounds get one more if needed. `frames` must be at least `rounds`.
+int frames_of_round(int frames, int rounds, int index);
+/// Returns the number of rounds: `asked`, but at most one per frame.
+int rounds_of(int frames, int asked);
+
+/// A row under measurement: one technique, or several in each frame. Its history, frame number and
+/// clock continue from round to round as if nothing ran in between.
+class RowRun {
+public:
+    /// The session shows the request's scene. The session and the watcher must outlive this object.
+    RowRun(Session& session, Request request, const Watcher& watcher);
+
+    /// Measures `frames` frames. The first call renders the warm-up before them.
+    void measure(int frames);
+    /// Returns the results of the last frame. Call before `suspend`.
+    std::vector<Part> parts() const { return frames_.result().parts; }
+    /// Frees the session for other frames until the next `measure`.
+    void suspend() { frames_.suspend(); }
+
+    /// Returns the number of the last frame, from 1.
+    int number() const { return frames_.number(); }
+    const std::vector<std::vector<FrameTimes>>& rounds() const { return rounds_; }
+    /// Returns waited_share over all rounds; NaN if the system does not report waiting.
+    double waited() const { return waited_; }
+    /// Returns whether the row's threads had to wait for a processor that others had.
+    bool is_noisy() const { return noisy_; }
+
+private:
+    Request request_;
+    const Watcher& watcher_;
+    Frames frames_;
+    std::vector<std::vector<FrameTimes>> rounds_;
+    Waiting waiting_; ///< sum over all rounds
+    double waited_ = std::numeric_limits<double>::quiet_NaN();
+    bool noisy_ = false;
+};
+
+} // namespace catoptric::app

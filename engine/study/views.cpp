@@ -1,0 +1,121 @@
+#include "study/views.hpp"
+
+#include "core/error.hpp"
+#include "session/scene_facts.hpp"
+#include "session/seeded_camera.hpp"
+#include "study/compare_row.hpp"
+#include "study/reference_cache.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr int kGap = 4; // columns between two pictures
+
+/// Returns the instant at `share` of the period after `start`, rounded to about a thousandth of the
+/// period.
+double instant_of(double start, double period, double share) {
+    const double parts = std::pow(10, 3 - std::floor(std::log10(period))); // steps per second
+    return std::floor((start + period * share) * parts) / parts;
+}
+
+scene::Camera camera_of(const measure::CameraFacts& facts) {
+    return {facts.name,
+            facts.eye,
+            facts.target,
+            facts.up,
+            facts.vertical_fov_degrees,
+            facts.orthographic_height};
+}
+
+/// Returns a request for the picture from a view, as `render` takes it.
+Request request_at(const Request& base, const measure::View& view) {
+    Request request = base;
+    request.camera = camera_of(view.camera);
+    request.time = view.time;
+    request.animate = false;
+    request.warmup = 0;
+    request.frames = Request().total();
+    request.until_settled = true;
+    return request;
+}
+
+measure::Picture beside(const measure::Picture& left, const measure::Picture& right) {
+    measure::Picture both(left.width + kGap + right.width, left.height);
+    std::ranges::fill(both.pixels, vec3(1));
+    for (int y = 0; y < left.height; ++y) {
+        for (int x = 0; x < left.width; ++x) both.at(x, y) = left.at(x, y);
+        for (int x = 0; x < right.width; ++x) both.at(left.width + kGap + x, y) = right.at(x, y);
+    }
+    return both;
+}
+
+void add_view(report::Row& row, const Part& part, const Part& truth,
+              const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
+    const std::vector<float> flip_map = flip_map_of(part, truth, exposure);
+    row.views.push_back(errors_of(part, truth, flip_map, hits, mirrors, exposure));
+    const double flip = row.views.back().error.flip;
+    // A view without judged pixels is never the worst.
+    if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
+        row.worst = {row.views.size() - 1, beside(part.display, truth.display)};
+}
+
+} // namespace
+
+std::vector<measure::View> drawn_views(const Request& request, int count) {
+    constexpr int kLeast = measure::kFewest;
+    check(count == 1 || count >= kLeast, Failure::usage, "views: wanted 1 or at least ", kLeast,
+          ", since fewer bound no median with 95 % confidence, found ", count);
+    std::vector<measure::View> views(count > 1 ? static_cast<std::size_t>(count) : 0);
+    if (views.empty()) return views;
+    const double period = scene::period(request.scene);
+    std::mt19937_64 random(request.seed);
+    std::vector<std::uint64_t> seeds;
+    for (measure::View& view : views) {
+        view.seed = random() >> 32; // short enough to type, and exact in every JSON
+        seeds.push_back(view.seed);
+        const double share = static_cast<double>(random() >> 32) * 0x1p-32;
+        view.time = period > 0 ? instant_of(request.time, period, share) : request.time;
+    }
+    std::vector<scene::Camera> cameras;
+    if (!(period > 0)) cameras = seeded_cameras(request.scene, request.time, seeds);
+    for (std::size_t i = 0; i < views.size(); ++i)
+        views[i].camera = facts_of(
+            period > 0 ? seeded_camera(request.scene, views[i].time, seeds[i]) : cameras[i]);
+    return views;
+}
+
+void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison) {
+    const std::vector<std::string>& texts = request.base.techniques;
+    check(texts.size() == comparison.rows.size(), Failure::internal, "views of ", texts.size(),
+          " techniques: wanted as many rows, found ", comparison.rows.size());
+    const std::size_t count = comparison.views.size(), pictures = texts.size() + 1;
+    const std::size_t mirrors = scene::mirrors(request.base.scene).size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
+        Request at_view = request_at(request.base, comparison.views[i]);
+        ReferenceCache truths(session, at_view, request.reference, request.watcher);
+        request.watcher.row(label + ": reference", i * pictures, count * pictures);
+        const std::vector<std::uint32_t> hits = truths.hits();
+        for (std::size_t k = 0; k < texts.size(); ++k) {
+            request.watcher.row(label + ": " + comparison.rows[k].label, i * pictures + k + 1,
+                                count * pictures);
+            Request one = at_view;
+            one.techniques = {texts[k]};
+            one.model = comparison.rows[k].model == name_of(Modelling::required)
+                            ? Modelling::required
+                            : Modelling::everything;
+            const Result result = run(session, one, request.watcher);
+            add_view(comparison.rows[k], result.parts.front(),
+                     truths.at(sample_count(parse_technique(texts[k]))).part, hits, mirrors,
+                     request.base.exposure);
+        }
+        if (request.on_finished_view) request.on_finished_view();
+    }
+}
+
+} // namespace catoptric::app

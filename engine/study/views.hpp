@@ -1,0 +1,34 @@
+#pragma once
+
+#include "report/comparison.hpp"
+#include "session/run.hpp"
+#include "session/watcher.hpp"
+
+namespace catoptric::app {
+
+/// Draws `count` views of the request's scene that see a mirror (session/seeded_camera.hpp), from
+/// its seed. The same scene, time and seed give the same views. Each view has its own seed, from
+/// which its camera can be drawn again. Its instant lies within one period of the scene's motion
+/// from `request.time` on, rounded so that it can be typed. Returns no views for a count of 1.
+/// Throws `usage` for other counts that give no confidence interval of the median
+/// (measure::kFewest), and if no camera sees a mirror.
+std::vector<measure::View> drawn_views(const Request& request, int count);
+
+struct ViewsRequest {
+    const Request&
+        base; ///< the compared scene, with the techniques in the order of the comparison's rows
+    std::string reference = "raytrace:depth=16";
+    Watcher watcher;
+    /// Called after each view, as soon as every row has its errors in that view. The function may
+    /// be empty.
+    std::function<void()> on_finished_view;
+};
+
+/// Renders the reference and every row of the comparison from each view of the comparison, and
+/// fills Row::views and Row::worst. Each picture is rendered until nothing changes any more, as
+/// `render` does. The session must show the scene of `request.base`. After an exception (a signal,
+/// a failure of the engine) the finished views stay in the rows. Costs a picture and its FLIP per
+/// row and view.
+void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison);
+
+} // namespace catoptric::app
