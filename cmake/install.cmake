@@ -21,7 +21,7 @@ set(headers
     require/model.hpp
     measure/causes.hpp measure/comparison.hpp measure/difference.hpp measure/flip.hpp measure/interval.hpp
     measure/lag.hpp measure/light_edges.hpp measure/lookup.hpp measure/picture.hpp measure/picture_file.hpp
-    measure/statistics.hpp
+    measure/statistics.hpp measure/value.hpp
     report/comparison.hpp report/write.hpp
     study/compare.hpp session/engine.hpp session/run.hpp session/session.hpp session/capture_budget.hpp session/technique.hpp session/watcher.hpp
     embed/embed.hpp)

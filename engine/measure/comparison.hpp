@@ -9,9 +9,12 @@
 #include "lookup.hpp"
 #include "picture.hpp"
 #include "statistics.hpp"
+#include "value.hpp"
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -201,6 +204,8 @@ struct Row : Errors {
     /// that was cut short has fewer entries.
     std::vector<Errors> views;
     std::optional<WorstView> worst; ///< the drawn view with the largest FLIP over the mirrors
+    /// Results of studies that have no member of their own, by the name of the metric.
+    std::map<std::string, Value, std::less<>> studied;
     Mean mean, mean_clamped;
     /// Number, from 1, of the frame whose picture and errors are given. Later frames show the same
     /// picture.
@@ -250,6 +255,7 @@ struct Comparison {
     /// measure::front_of.
     std::vector<std::size_t> pareto;
     std::optional<Lag> lag; ///< lag of the rows with history; empty if it was not asked for
+    std::vector<std::string> studies; ///< names of the studies that were asked for
     std::vector<std::string> warnings;
     /// Folder of the pictures below images/, such as "1-room/"; empty for images/ itself.
     std::string images;

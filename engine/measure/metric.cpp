@@ -15,7 +15,8 @@ std::vector<Metric>& table() {
 }
 
 bool is_of_row(const Metric& quantity) {
-    return std::holds_alternative<Metric::RowFunction>(quantity.get);
+    return std::holds_alternative<Metric::RowFunction>(quantity.get) ||
+           std::holds_alternative<Metric::Studied>(quantity.get);
 }
 
 std::vector<Metric> in_order() {
@@ -70,7 +71,9 @@ const std::vector<Metric>& difference_metrics() {
 
 Value value_of(const Metric& quantity, const Row& row) {
     check(is_of_row(quantity), Failure::internal, "'", quantity.name, "' is no figure of a row");
-    return std::get<Metric::RowFunction>(quantity.get)(row);
+    if (const auto* get = std::get_if<Metric::RowFunction>(&quantity.get)) return (*get)(row);
+    const auto studied = row.studied.find(quantity.name);
+    return studied == row.studied.end() ? Value() : studied->second;
 }
 
 Value value_of(const Metric& quantity, const Difference& difference) {
@@ -80,6 +83,11 @@ Value value_of(const Metric& quantity, const Difference& difference) {
         return (*get)(difference);
     const std::size_t index = index_of(quantity);
     return index < difference.others.size() ? difference.others[index] : NAN;
+}
+
+bool is_shown(const Metric& quantity, const Comparison& comparison) {
+    return quantity.study.empty() ||
+           std::ranges::find(comparison.studies, quantity.study) != comparison.studies.end();
 }
 
 bool is_nothing(const Value& value) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measure/comparison.hpp"
+#include "measure/value.hpp"
 
 #include <cstdint>
 #include <span>
@@ -14,25 +15,6 @@
 /// The .cpp that computes a metric registers it, so no other file lists it. JSON, CSV, tables,
 /// `diff` and `list metrics` read this table.
 namespace catoptric::measure {
-
-/// Position of a pixel, counted from the upper left. A negative x means none.
-struct PixelPosition {
-    int x = -1, y = -1;
-};
-
-struct Parts;
-
-/// Value of a metric. A double that is not finite, a time that was never measured and an invalid
-/// place count as no value (see is_nothing).
-using Value = std::variant<std::monostate, bool, double, dvec3, PixelPosition, Summary,
-                           std::vector<double>, std::vector<Parts>>;
-
-/// An entry of a list of values, such as the times of passes or the shares of causes.
-struct Parts {
-    std::string_view kind; ///< the field that holds the entry's name, such as "name"
-    std::string name;
-    std::vector<std::pair<std::string_view, Value>> values;
-};
 
 enum class Better : std::uint8_t { neither, less, more };
 
@@ -80,12 +62,18 @@ struct Metric {
     bool each_mask_in_table = false;
     std::vector<MetricColumn> columns = {}; ///< columns in the report's tables; may be empty
 
+    /// Name of the study that fills this metric in Row::studied. Reports show the metric only if
+    /// the study was asked for. Empty for other metrics.
+    std::string_view study = {};
+
+    /// Marks a metric whose value is the entry of its name in Row::studied.
+    struct Studied {};
     using RowFunction = Value (*)(const Row&);
     using DifferenceFunction = Value (*)(const Difference&);
     /// Function that computes a metric of two pictures. A value that is not finite counts as no
     /// value. The function is called once for each mask of pixels.
     using PictureFunction = double (*)(const Compared&);
-    std::variant<RowFunction, DifferenceFunction, PictureFunction> get;
+    std::variant<Studied, RowFunction, DifferenceFunction, PictureFunction> get;
 };
 
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program
@@ -106,6 +94,8 @@ const std::vector<Metric>& difference_metrics();
 /// the second for a metric of a row.
 Value value_of(const Metric& quantity, const Row& row);
 Value value_of(const Metric& quantity, const Difference& difference);
+/// Returns whether reports on the comparison show the metric (see Metric::study).
+bool is_shown(const Metric& quantity, const Comparison& comparison);
 /// Returns whether a value counts as none (see Value).
 bool is_nothing(const Value& value);
 

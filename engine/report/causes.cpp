@@ -2,6 +2,7 @@
 #include "report/tables.hpp"
 
 #include "core/error.hpp"
+#include "report/part.hpp"
 #include "report/text.hpp"
 
 #include <algorithm>
@@ -53,6 +54,12 @@ std::vector<std::string> cells_of(const CauseLine& line, const Causes& causes) {
     cells.emplace_back();
     return cells;
 }
+
+const RegisteredPart kCausesPart{
+    {.name = "causes",
+     .order = 400,
+     .tables = [](const Comparison& comparison) { return std::vector{cause_table(comparison)}; },
+     .look = "causes"}};
 
 } // namespace
 

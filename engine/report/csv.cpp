@@ -145,6 +145,7 @@ void add_errors(CsvLine& line, const Comparison& comparison, const Row& row, std
 void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     bool has_errors = false;
     for (const measure::Metric& quantity : measure::metrics()) {
+        if (!measure::is_shown(quantity, comparison)) continue;
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');

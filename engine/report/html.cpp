@@ -2,6 +2,7 @@
 #include "report/html.hpp"
 #include "measure/heat.hpp"
 #include "measure/judge.hpp"
+#include "report/part.hpp"
 #include "report/plot.hpp"
 #include "report/report.hpp"
 #include "report/tables.hpp"
@@ -20,10 +21,6 @@ std::string cell(const Column& column, const char* tag, const char* scope,
                  const std::string& content) {
     return fmt::format("<{}{}{}>{}</{}>", tag, scope, column.is_number ? "" : " class=\"text\"",
                        content, tag);
-}
-
-std::string section(const std::string& title, const std::string& content) {
-    return "<section><h2>" + title + "</h2>" + content + "</section>\n";
 }
 
 /// Returns the anchor in the page at which the pictures of a row stand.
@@ -184,21 +181,18 @@ std::string pictures(const Comparison& comparison, const EncodedPictures& encode
     return section("Pictures", html + "</div>");
 }
 
-/// Returns each row at its worst view. Empty if no views were drawn.
-std::string over_views(const Comparison& comparison, const EncodedPictures& encoded) {
-    const Table table = views_table(comparison);
-    if (table.rows.empty()) return "";
-    std::string html = "<p>Each row at its view of the largest FLIP, beside the reference.</p>";
-    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
-        const Row& row = comparison.rows[i];
-        if (!row.worst) continue;
-        const std::string where = view_text(comparison, *row.worst);
-        html += figure(row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
-                       row.label + ", to its right the reference, at " + where,
-                       row.label + ": " + where);
-    }
-    return to_html(table, "views") + "<section><h2>Apart and ties</h2>" +
-           html_list(views_in_words(comparison)) + "</section>" + section("Worst views", html);
+/// Returns the tables, sentences and pictures of a part.
+std::string part_of(const Comparison& comparison, const EncodedPictures& encoded,
+                    const Part& part) {
+    std::string html;
+    for (const Table& table : part.tables(comparison))
+        html += to_html(table, std::string(part.look), part.links_rows ? &comparison : nullptr);
+    const bool has_rows = !html.empty();
+    if (part.plots != nullptr) html.insert(0, part.plots(comparison));
+    if (has_rows && part.sentences != nullptr)
+        html += section(std::string(part.title), html_list(part.sentences(comparison)));
+    if (has_rows && part.pictures != nullptr) html += part.pictures(comparison, encoded);
+    return html;
 }
 
 std::string front(const Comparison& comparison) {
@@ -223,6 +217,10 @@ std::string circumstances(const Comparison& comparison) {
 }
 
 } // namespace
+
+std::string section(const std::string& title, const std::string& content) {
+    return "<section><h2>" + title + "</h2>" + content + "</section>\n";
+}
 
 std::string section_of(const Comparison& comparison) {
     std::string name = comparison.images;
@@ -266,13 +264,9 @@ std::string html_section(const Comparison& comparison, const EncodedPictures& en
     if (!sentences.empty()) html += section(findings_title(comparison), html_list(sentences));
     html += section("Set-up, once", "<p>" + html_escaped(setup_text(comparison.setup)) + "</p>") +
             to_html(rows_table(comparison), "all", &comparison) +
-            to_html(plan_table(comparison), "plans", &comparison) +
-            over_views(comparison, encoded) +
-            to_html(mirror_table(comparison), "mirrors", &comparison) +
-            to_html(lookup_table(comparison), "lookups", &comparison) +
-            to_html(cause_table(comparison), "causes") + lag_plots(comparison) +
-            to_html(lag_table(comparison), "lag") + to_html(settling_table(comparison), "lag") +
-            pictures(comparison, encoded) + to_html(unsupported_table(comparison.scene), "gaps") +
+            to_html(plan_table(comparison), "plans", &comparison);
+    for (const Part& part : parts()) html += part_of(comparison, encoded, part);
+    html += pictures(comparison, encoded) + to_html(unsupported_table(comparison.scene), "gaps") +
             circumstances(comparison);
     return html + (is_page ? "</main>\n" : "</div>\n");
 }

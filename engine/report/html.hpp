@@ -17,6 +17,9 @@ std::string data_uri(std::string_view png);
 std::string figure(int width, int height, const std::string& png, const std::string& alt,
                    const std::string& caption);
 
+/// Returns a section of a page under its title, which is HTML.
+std::string section(const std::string& title, const std::string& content);
+
 /// CSS style sheet of report.html and stress.html.
 extern const char* const kStyle;
 

@@ -121,8 +121,9 @@ void add_figure(Json& json, const measure::Metric& quantity, const Row& row) {
 }
 
 /// Adds all metrics of the table. Those of differences stand at the place of the first of them.
-void add_figures(Json& json, const Row& row) {
+void add_figures(Json& json, const Comparison& comparison, const Row& row) {
     for (const measure::Metric& quantity : measure::metrics()) {
+        if (!measure::is_shown(quantity, comparison)) continue;
         if (quantity.mask != "each")
             add_figure(json, quantity, row);
         else if (!json.contains("error"))
@@ -150,7 +151,7 @@ Json to_json(const Comparison& comparison, const Row& row) {
     json["model"] = row.model;
     json["left_out"] = list_json(row.left_out,
                                  [](const measure::CulledWork& work) { return to_json(work); });
-    add_figures(json, row);
+    add_figures(json, comparison, row);
     json["views"] = views_json(comparison, row);
     json["plan"] = plan_json(row.plan);
     json["image"] = image_path(comparison, row.image + ".png");
@@ -205,7 +206,7 @@ Json plan_json(const std::vector<PlanEntry>& plan) {
 Json times_json(const Row& row) {
     Json json = Json::object();
     for (const measure::Metric& quantity : measure::metrics())
-        if (quantity.unit == "ms") add_figure(json, quantity, row);
+        if (quantity.unit == "ms" && quantity.study.empty()) add_figure(json, quantity, row);
     return json;
 }
 

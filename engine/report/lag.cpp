@@ -1,6 +1,7 @@
 // The lag of rows with history: JSON, tables, sentences and plots.
 #include "report/html.hpp"
 #include "report/json.hpp"
+#include "report/part.hpp"
 #include "report/plot.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -251,5 +252,15 @@ std::string lag_plots(const Comparison& comparison) {
     return html + "</div><p class=\"note\">All against the still picture of the same row and "
                   "instant, over the mirrors. The lane below is 0.</p></section>\n";
 }
+
+const RegisteredPart kLagPart{
+    {.name = "lag",
+     .order = 500,
+     .tables =
+         [](const Comparison& comparison) {
+             return std::vector{lag_table(comparison), settling_table(comparison)};
+         },
+     .look = "lag",
+     .plots = lag_plots}};
 
 } // namespace catoptric::report

@@ -1,4 +1,5 @@
 #include "core/text.hpp"
+#include "report/part.hpp"
 #include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -44,10 +45,12 @@ std::string markdown_list(const std::vector<std::string>& sentences) {
     return text + "\n";
 }
 
-/// Returns the section on drawn views, or nothing if none were drawn.
-std::string over_views(const Comparison& comparison) {
-    const std::string table = to_markdown(views_table(comparison));
-    return table.empty() ? "" : table + markdown_list(views_in_words(comparison));
+/// Returns the tables and sentences of a part, or nothing if its tables have no rows.
+std::string part_of(const Comparison& comparison, const Part& part) {
+    std::string text;
+    for (const Table& table : part.tables(comparison)) text += to_markdown(table);
+    if (text.empty() || part.sentences == nullptr) return text;
+    return text + markdown_list(part.sentences(comparison));
 }
 
 } // namespace
@@ -85,11 +88,9 @@ std::string to_markdown(const Comparison& comparison) {
         text += "> " + escaped(caution) + "\n>\n";
     text += "\n" + (comparison.scene.is_seed ? to_markdown(seed_table(comparison)) : "") +
             "**Set-up**, once: " + escaped(setup_text(comparison.setup)) + "\n\n" +
-            to_markdown(rows_table(comparison)) + to_markdown(plan_table(comparison)) +
-            over_views(comparison) + to_markdown(mirror_table(comparison)) +
-            to_markdown(lookup_table(comparison)) + to_markdown(cause_table(comparison)) +
-            to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison)) +
-            to_markdown(unsupported_table(comparison.scene));
+            to_markdown(rows_table(comparison)) + to_markdown(plan_table(comparison));
+    for (const Part& part : parts()) text += part_of(comparison, part);
+    text += to_markdown(unsupported_table(comparison.scene));
     text += "## The Pareto front: time against FLIP\n\n" +
             markdown_list(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);

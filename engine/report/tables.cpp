@@ -7,6 +7,7 @@
 #include "measure/row_notes.hpp"
 #include "measure/rows.hpp"
 #include "measure/seed_report.hpp"
+#include "report/part.hpp"
 #include "report/text.hpp"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ std::vector<FigureColumn> figure_columns(measure::MetricTable table, const Compa
         if (quantity.order < measure::kAfterDifferences) last = quantity.order;
     for (const measure::Metric& quantity : measure::metrics())
         for (const measure::MetricColumn& column : quantity.columns) {
-            if (column.table != table) continue;
+            if (column.table != table || !measure::is_shown(quantity, comparison)) continue;
             if (quantity.mask != "each") {
                 columns.push_back({&quantity, column});
                 continue;
@@ -309,6 +310,19 @@ Table plan_table(const Comparison& comparison) {
     }
     return table;
 }
+
+const RegisteredPart kMirrorsPart{
+    {.name = "mirrors",
+     .order = 200,
+     .tables = [](const Comparison& comparison) { return std::vector{mirror_table(comparison)}; },
+     .look = "mirrors",
+     .links_rows = true}};
+const RegisteredPart kLookupsPart{
+    {.name = "lookups",
+     .order = 300,
+     .tables = [](const Comparison& comparison) { return std::vector{lookup_table(comparison)}; },
+     .look = "lookups",
+     .links_rows = true}};
 
 std::string gap_in_words(const std::string& id) {
     const auto* const known = std::ranges::find(kWords, id, &Words::id);

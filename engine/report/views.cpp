@@ -1,7 +1,9 @@
 // Errors over drawn views: JSON, table and sentences.
 #include "measure/views.hpp"
 
+#include "report/html.hpp"
 #include "report/json.hpp"
+#include "report/part.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
@@ -69,6 +71,29 @@ Json figures_json(const Row& row, const measure::RowMask& mask) {
     }
     return figures;
 }
+
+/// Returns each row at its worst view.
+std::string worst_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
+    std::string html = "<p>Each row at its view of the largest FLIP, beside the reference.</p>";
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const Row& row = comparison.rows[i];
+        if (!row.worst) continue;
+        const std::string where = view_text(comparison, *row.worst);
+        html += figure(row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
+                       row.label + ", to its right the reference, at " + where,
+                       row.label + ": " + where);
+    }
+    return section("Worst views", html);
+}
+
+const RegisteredPart kViewsPart{
+    {.name = "views",
+     .order = 100,
+     .tables = [](const Comparison& comparison) { return std::vector{views_table(comparison)}; },
+     .look = "views",
+     .sentences = views_in_words,
+     .title = "Apart and ties",
+     .pictures = worst_pictures}};
 
 } // namespace
 

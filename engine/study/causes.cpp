@@ -1,10 +1,13 @@
 #include "study/causes.hpp"
 
+#include "core/error.hpp"
 #include "measure/lines.hpp"
 #include "measure/masks.hpp"
 #include "measure/pixel_error.hpp"
 #include "measure/shapley.hpp"
+#include "session/plan_file.hpp"
 #include "shared.h"
+#include "study/study.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +15,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace catoptric::app {
@@ -153,6 +157,40 @@ std::vector<measure::PixelCause> parts_of(const Histories& histories, const Coal
     parts.push_back({"rest", only_where(disagree, false, left), {}});
     return parts;
 }
+
+/// Ablation removes a row's errors against the default reference only.
+void check_explains(const std::string& reference) {
+    const TechniqueChoice found = parse_technique(reference), wanted = parse_technique(kReference);
+    check(found.technique == wanted.technique && found.settings == wanted.settings, Failure::usage,
+          "--causes: wanted the default reference, ", kReference,
+          ", whose rays tell causes apart, found '", reference, "'");
+}
+
+void add_causes(const StudyInput& input) {
+    const CompareRequest& request = input.request;
+    std::vector<report::Row>& rows = input.comparison.rows;
+    std::optional<CauseFinder> finder;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::string& text = request.base.techniques[i];
+        // A plan's error belongs to no single search.
+        const bool is_plan = !read_plan(text).is_technique;
+        const bool is_twin = request.both_models && rows[i].model == name_of(Modelling::required);
+        if (!rows[i].lookup || is_plan || is_twin) continue;
+        request.watcher.row("causes of " + text, i, rows.size());
+        if (!finder)
+            finder.emplace(input.session, request.base, input.truth.at("1").part.hdr,
+                           input.truth.hits(), request.watcher);
+        rows[i].causes = finder->find(text);
+        input.tell();
+    }
+}
+
+const Registered kCauses{
+    {.name = "causes",
+     .help = "also split each row's error by cause; draws at least 32 more pictures per row",
+     .order = 20,
+     .check_reference = check_explains,
+     .run = add_causes}};
 
 } // namespace
 

@@ -6,15 +6,13 @@
 #include "reflect/technique.hpp"
 #include "session/device_facts.hpp"
 #include "session/exposure.hpp"
-#include "session/plan_file.hpp"
 #include "session/processor.hpp"
 #include "session/scene_facts.hpp"
 #include "study/compare_row.hpp"
-#include "study/lag.hpp"
 #include "study/reference_cache.hpp"
 #include "study/row_judge.hpp"
 #include "study/row_run.hpp"
-#include "study/views.hpp"
+#include "study/study.hpp"
 
 #include <algorithm>
 #include <ctime>
@@ -58,7 +56,9 @@ public:
         if (request_.base.techniques.empty())
             request_.base.techniques = default_techniques(request_.base);
         check_asked(request_); // refuses a bad request before any work
-        comparison_.views = drawn_views(request_.base, request_.views);
+        for (const StudyChoice& choice : asked_studies())
+            if (const Study& study = find_study(choice.name); study.prepare != nullptr)
+                study.prepare(request_, choice.count, comparison_);
     }
 
     report::Comparison run() {
@@ -68,9 +68,14 @@ public:
         try {
             fill_reference();
             measure_rounds();
-            if (!comparison_.views.empty()) add_views();
-            if (request_.causes) add_causes();
-            if (request_.lag) add_lag();
+            for (const StudyChoice& choice : asked_studies())
+                find_study(choice.name)
+                    .run({.session = session_,
+                          .request = request_,
+                          .count = choice.count,
+                          .truth = truths_,
+                          .comparison = comparison_,
+                          .tell = [this] { tell(); }});
             comparison_.complete = true;
         } catch (const Error& error) {
             if (comparison_.rows.empty() && !is_stop(error.failure)) throw;
@@ -119,6 +124,19 @@ private:
         comparison_.timing = base.timing == Timing::isolated ? "isolated" : "pipelined";
         comparison_.model = request_.both_models ? "both" : name_of(base.model);
         comparison_.together = request_.together;
+        for (const StudyChoice& choice : asked_studies())
+            comparison_.studies.push_back(choice.name);
+    }
+
+    /// Returns the studies that were asked for, in the order of the table.
+    std::vector<StudyChoice> asked_studies() const {
+        std::vector<StudyChoice> choices;
+        for (const Study& study : studies())
+            if (const auto choice = std::ranges::find(request_.studies, study.name,
+                                                      &StudyChoice::name);
+                choice != request_.studies.end())
+                choices.push_back(*choice);
+        return choices;
     }
 
     /// Fills facts that are known only after rows were measured.
@@ -252,42 +270,6 @@ private:
             if (first || changed) judge(index, parts[i], run.number());
             if (first) tell();
         }
-    }
-
-    void add_causes() {
-        for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
-            report::Row& row = comparison_.rows[i];
-            const std::string& text = request_.base.techniques[i];
-            // A plan's error belongs to no single search.
-            const bool is_plan = !read_plan(text).is_technique;
-            const bool is_twin = request_.both_models && models_[i] == Modelling::required;
-            if (!row.lookup || is_plan || is_twin) continue;
-            request_.watcher.row("causes of " + text, i, comparison_.rows.size());
-            row.causes = judge_.causes_of(text);
-            tell();
-        }
-    }
-
-    void add_views() {
-        measure_views(session_,
-                      {.base = request_.base,
-                       .reference = request_.reference,
-                       .watcher = request_.watcher,
-                       .on_finished_view = [this] { tell(); }},
-                      comparison_);
-    }
-
-    void add_lag() {
-        Request base = request_.base;
-        if (request_.both_models)
-            base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
-                                  base.techniques.end());
-        measure_lag(session_,
-                    {.base = std::move(base),
-                     .reference = request_.reference,
-                     .watcher = request_.watcher,
-                     .on_finished_row = [this] { tell(); }},
-                    comparison_.lag.emplace());
     }
 
     Engine& engine_;

@@ -10,6 +10,13 @@ namespace catoptric::app {
 inline constexpr const char* kReference = "raytrace:depth=16";
 inline constexpr int kRounds = 6; ///< fewest rounds that give a confidence interval of the median
 
+/// A study that the user asks for: its name in the table of studies (study/study.hpp), and the
+/// number that belongs to it, such as that of drawn views.
+struct StudyChoice {
+    std::string name;
+    int count = 1;
+};
+
 struct CompareRequest {
     /// The compared scene and settings; its `techniques` are the rows (empty:
     /// default_techniques(base)).
@@ -22,13 +29,9 @@ struct CompareRequest {
     /// Whether each row is measured twice, with the model `everything` and with `required`. False:
     /// each row is measured once, with `base.model`.
     bool both_models = false;
-    bool causes = false; ///< split each row's error by cause; only against the default reference
-    /// Number of drawn views (study/views.hpp) in which errors are measured, in addition to the
-    /// camera of `base`; 1: no drawn views.
-    int views = 1;
-    /// Whether the comparison also measures how far rows lag behind a moving scene (study/lag.hpp).
-    /// Takes minutes per row.
-    bool lag = false;
+    /// Studies in addition to time and error, such as {{"causes"}, {"views", 30}, {"lag"}}. Rows of
+    /// the table that study/study.hpp describes.
+    std::vector<StudyChoice> studies;
     std::vector<std::string> command; ///< command line that the report quotes
     std::string images;               ///< see report::Comparison::images
     Watcher watcher;
@@ -46,9 +49,6 @@ CATOPTRIC_API void check_has_mirror(const scene::Scene& scene);
 
 /// Throws `usage` if the rounds are too few for a confidence interval of the median.
 CATOPTRIC_API void check_rounds(int rounds);
-/// Throws `usage` for a reference whose settings differ from those of the default reference.
-/// Ablation removes a row's errors against the default reference only.
-CATOPTRIC_API void check_explains(const std::string& reference);
 /// Throws `usage` for unknown rows, and for two rows with the same settings.
 CATOPTRIC_API void check_rows(const std::vector<std::string>& techniques);
 

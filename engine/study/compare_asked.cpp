@@ -1,12 +1,13 @@
 // Checks the request of a comparison.
-#include "session/candidates.hpp"
-#include "study/compare.hpp"
-#include "session/plan_file.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "measure/interval.hpp"
 #include "reflect/plan.hpp"
 #include "scene/pose.hpp"
+#include "session/candidates.hpp"
+#include "session/plan_file.hpp"
+#include "study/compare.hpp"
+#include "study/study.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -57,13 +58,6 @@ void check_rows(const std::vector<std::string>& techniques) {
     }
 }
 
-void check_explains(const std::string& reference) {
-    const TechniqueChoice found = parse_technique(reference), wanted = parse_technique(kReference);
-    check(found.technique == wanted.technique && found.settings == wanted.settings, Failure::usage,
-          "--causes: wanted the default reference, ", kReference,
-          ", whose rays tell causes apart, found '", reference, "'");
-}
-
 void check_asked(const CompareRequest& request) {
     check_rows(request.base.techniques);
     for (const std::string& text : request.base.techniques)
@@ -71,7 +65,7 @@ void check_asked(const CompareRequest& request) {
             reflect::assign(plan, mirror_names(request.base.scene));
     check_has_mirror(request.base.scene);
     check_rounds(request.rounds);
-    if (request.causes) check_explains(request.reference);
+    for (const StudyChoice& choice : request.studies) check_study(choice, request.reference);
     check(!request.both_models || !request.together, Failure::usage,
           "--model both and --together: rows of one frame have one model");
 }

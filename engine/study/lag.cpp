@@ -5,6 +5,7 @@
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
 #include "measure/settling.hpp"
+#include "study/study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -258,6 +259,26 @@ private:
     std::vector<measure::Picture> stills_;      ///< of the current technique, one per instant
     int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
 };
+
+void add_lag(const StudyInput& input) {
+    Request base = input.request.base;
+    if (input.request.both_models)
+        base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
+                              base.techniques.end());
+    measure_lag(input.session,
+                {.base = std::move(base),
+                 .reference = input.request.reference,
+                 .watcher = input.request.watcher,
+                 .on_finished_row = input.tell},
+                input.comparison.lag.emplace());
+}
+
+const Registered kLagStudy{
+    {.name = "lag",
+     .help = "also measure how far rows that read last frame's captures lag behind a moving scene; "
+             "about 2300 frames per row",
+     .order = 30,
+     .run = add_lag}};
 
 } // namespace
 

@@ -70,10 +70,4 @@ std::vector<std::string> RowJudge::judge(report::Row& row, const std::string& te
     return warnings;
 }
 
-report::Causes RowJudge::causes_of(const std::string& text) {
-    if (!finder_)
-        finder_.emplace(session_, base_, truths_.at("1").part.hdr, truths_.hits(), watcher_);
-    return finder_->find(text);
-}
-
 } // namespace catoptric::app

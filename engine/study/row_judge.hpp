@@ -1,7 +1,6 @@
 #pragma once
 
 #include "report/comparison.hpp"
-#include "study/causes.hpp"
 #include "study/oracle.hpp"
 #include "study/reference_cache.hpp"
 
@@ -24,8 +23,6 @@ public:
     /// mirrors looked, and nine rays per mirror pixel.
     std::vector<std::string> judge(report::Row& row, const std::string& text, const Part& part,
                                    int number);
-    /// Splits the error of a technique that looks into captures by cause.
-    report::Causes causes_of(const std::string& text);
 
 private:
     Request still(int number) const;
@@ -38,7 +35,6 @@ private:
     const Watcher& watcher_;
     std::optional<Oracle> oracle_;
     int oracle_frame_ = 0; ///< frame whose instant `oracle_` describes
-    std::optional<CauseFinder> finder_;
 };
 
 } // namespace catoptric::app

@@ -5,6 +5,7 @@
 #include "session/seeded_camera.hpp"
 #include "study/compare_row.hpp"
 #include "study/reference_cache.hpp"
+#include "study/study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,12 +65,40 @@ void add_view(report::Row& row, const Part& part, const Part& truth,
         row.worst = {row.views.size() - 1, beside(part.display, truth.display)};
 }
 
+void check_view_count(std::string_view option, int count) {
+    constexpr int kLeast = measure::kFewest;
+    check(count == 1 || count >= kLeast, Failure::usage, option, ": wanted 1 or at least ", kLeast,
+          ", since fewer bound no median with 95 % confidence, found ", count);
+}
+
+void add_views(const StudyInput& input) {
+    if (!input.comparison.views.empty())
+        measure_views(input.session,
+                      {.base = input.request.base,
+                       .reference = input.request.reference,
+                       .watcher = input.request.watcher,
+                       .on_finished_view = input.tell},
+                      input.comparison);
+}
+
+const Registered kViewsStudy{
+    {.name = "views",
+     .help = "also measure errors over N random views from --seed, at least 6, with intervals (1: "
+             "none)",
+     .order = 10,
+     .number = "N",
+     .high = 10'000,
+     .check_count = check_view_count,
+     .prepare =
+         [](const CompareRequest& request, int count, report::Comparison& comparison) {
+             comparison.views = drawn_views(request.base, count);
+         },
+     .run = add_views}};
+
 } // namespace
 
 std::vector<measure::View> drawn_views(const Request& request, int count) {
-    constexpr int kLeast = measure::kFewest;
-    check(count == 1 || count >= kLeast, Failure::usage, "views: wanted 1 or at least ", kLeast,
-          ", since fewer bound no median with 95 % confidence, found ", count);
+    check_view_count("views", count);
     std::vector<measure::View> views(count > 1 ? static_cast<std::size_t>(count) : 0);
     if (views.empty()) return views;
     const double period = scene::period(request.scene);

@@ -10,6 +10,7 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
+#include "study/study.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 
@@ -40,21 +41,9 @@ struct CompareOptions {
     bool together = false;
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumns csv = report::CsvColumns::table;
-    bool causes = false;
-    bool lag = false;
-    int views = 1;
+    std::vector<app::StudyChoice> studies;
     std::vector<std::string> command;
 };
-
-/// Returns the number of views: 1, or at least as many as an interval of the median needs.
-int parse_views(const std::string& text) {
-    constexpr std::int64_t kMost = 10'000;
-    constexpr int kLeast = measure::kFewest;
-    const auto views = static_cast<int>(parse_whole("--views", text, 1, kMost));
-    check(views == 1 || views >= kLeast, Failure::usage, "--views: wanted 1 or at least ", kLeast,
-          ", since fewer bound no median with 95 % confidence, found ", views);
-    return views;
-}
 
 /// Returns the scenes that the user asked for, or the built-in scene if there are none.
 std::vector<std::string> scenes_of(const CompareOptions& options) {
@@ -82,9 +71,7 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     request.reference = options.common.reference;
     request.together = options.together;
     request.rounds = options.rounds.value_or(request.rounds);
-    request.causes = options.causes;
-    request.lag = options.lag;
-    request.views = options.views;
+    request.studies = options.studies;
     request.command = options.command;
     return request;
 }
@@ -95,7 +82,8 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     check_rounds(options);
     check_no_scene(options.techniques);
     app::check_rows(options.techniques);
-    if (options.causes) app::check_explains(options.common.reference);
+    for (const app::StudyChoice& choice : options.studies)
+        app::check_study(choice, options.common.reference);
     std::vector<app::CompareRequest> requests;
     const std::vector<std::string> scenes = scenes_of(options);
     for (const std::string& scene : scenes) {
@@ -239,6 +227,29 @@ int run_compare(const CompareOptions& options) {
     return 0;
 }
 
+enum class StudyOption : std::uint8_t { number, flag };
+
+/// Adds the options of all studies whose option is of this kind. `options` must outlive the
+/// parsing.
+void add_studies(Verb& verb, CompareOptions& options, StudyOption kind) {
+    for (const app::Study& study : app::studies()) {
+        const std::string option = "--" + std::string(study.name), help(study.help);
+        const auto choose = [&options, &study](int count) {
+            options.studies.push_back({std::string(study.name), count});
+        };
+        if (study.number.empty() != (kind == StudyOption::flag)) continue;
+        if (kind == StudyOption::flag) {
+            verb.option_without_value(option, help, [choose] { choose(1); });
+            continue;
+        }
+        verb.option(option, std::string(study.number), help, [=, &study](const std::string& text) {
+            const auto count = static_cast<int>(parse_whole(option, text, study.low, study.high));
+            if (study.check_count != nullptr) study.check_count(option, count);
+            choose(count);
+        });
+    }
+}
+
 } // namespace
 
 void add_compare(CommandLine& program, std::vector<std::string> command) {
@@ -259,10 +270,7 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
         "'list techniques' (a built-in list)",
         options->techniques);
     verb.heading(kMeasuringOptions);
-    verb.option(
-        "--views", "N",
-        "also measure errors over N random views from --seed, at least 6, with intervals (1: none)",
-        [options](const std::string& text) { options->views = parse_views(text); });
+    add_studies(verb, *options, StudyOption::number);
     verb.flag("--together", "draw all rows in one command buffer, on one timeline",
               options->together);
     verb.option("--rounds", "N",
@@ -271,14 +279,7 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
                     options->rounds = static_cast<int>(
                         parse_whole("--rounds", text, app::kRounds, 10000));
                 });
-    verb.flag("--causes",
-              "also split each row's error by cause; draws at least 32 more pictures per row",
-              options->causes);
-    verb.flag(
-        "--lag",
-        "also measure how far rows that read last frame's captures lag behind a moving scene; "
-        "about 2300 frames per row",
-        options->lag);
+    add_studies(verb, *options, StudyOption::flag);
     add_common_without_scene(verb, options->common);
     verb.option("--csv", "COLUMNS", "columns of rows.csv: table (as in the report) or all (table)",
                 [options](const std::string& text) {

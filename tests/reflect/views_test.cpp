@@ -13,8 +13,7 @@ using namespace catoptric;
 app::CompareRequest views_asked(const std::vector<std::string>& rows) {
     app::CompareRequest request;
     request.base = test::request(test::room(2, 1), rows, {32, 32});
-    request.views = 6;
-    request.causes = false;
+    request.studies = {{"views", 6}};
     return request;
 }
 
@@ -84,7 +83,7 @@ TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
         {"secant:face=16", "secant:face=auto", "naive:bounces=0",
          "1=secant:face=64 2=secant:face=16", "secant:face=64"});
     request.base.size = {96, 96};
-    request.views = 1;
+    request.studies.clear();
     const report::Comparison found = app::compare(test::engine(), request);
     ASSERT_EQ(found.rows.size(), 5u);
     for (const report::Row& row : found.rows) {

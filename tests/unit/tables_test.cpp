@@ -1,5 +1,5 @@
-// Tests that metrics, scenes and techniques register themselves. Those of this file are in no
-// central list, but must appear in every report and table.
+// Tests that metrics, studies, scenes and techniques register themselves. Those of this file are in
+// no central list, but must appear in every report and table.
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
@@ -8,7 +8,7 @@
 #include "report/report.hpp"
 #include "report_sample.hpp"
 #include "scene/load.hpp"
-#include "study/compare.hpp"
+#include "study/study.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +20,7 @@ using measure::Value;
 using nlohmann::json;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 const measure::Registered kRedness{{.name = "test_only/redness",
                                     .unit = "parts",
@@ -56,6 +57,31 @@ constexpr reflect::Technique kTechnique{.name = "testonly",
                                         .compared = kRows};
 const reflect::Registered kTestOnly{kTechnique};
 
+const app::Registered kStudied{
+    {.name = "test-only",
+     .help = "for a test",
+     .number = "N",
+     .low = 2,
+     .high = 5,
+     .check_reference =
+         [](const std::string& reference) {
+             check(reference == app::kReference, Failure::usage, "test-only: no reference");
+         },
+     .run =
+         [](const app::StudyInput& input) {
+             for (measure::Row& row : input.comparison.rows)
+                 row.studied["test_only_half"] = input.count / 2.0;
+         },
+     .metrics = {{.name = "test_only_half",
+                  .help = "half of the number",
+                  .columns = {{"(test) half", measure::Style::fixed, 3}}}},
+     .part = {.tables = [](const measure::Comparison& comparison) {
+         report::Table table{"(test) studied", {"(test) rows"}};
+         if (std::ranges::count(comparison.studies, "test-only") > 0)
+             table.rows = {{std::to_string(comparison.rows.size())}};
+         return std::vector{table};
+     }}}};
+
 /// Returns a row whose picture has the same colour everywhere, with its difference from a black
 /// picture.
 measure::Row tables_row_of(const vec3& colour) {
@@ -83,6 +109,42 @@ TEST(Tables, RegisteredMetricIsInEveryReportFile) {
         EXPECT_THAT(text, HasSubstr("0.25"));
     }
     EXPECT_THAT(page, HasSubstr("<td>12</td>"));
+}
+
+TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
+    measure::Comparison made = report::sample::comparison({tables_row_of({0, 0, 0})});
+    for (const std::string& text : {report::to_json(made), report::to_markdown(made),
+                                    report::to_html(made), report::to_csv(made)}) {
+        EXPECT_THAT(text, Not(HasSubstr("test_only_half")));
+        EXPECT_THAT(text, Not(HasSubstr("(test) half")));
+        EXPECT_THAT(text, Not(HasSubstr("(test) studied")));
+    }
+    made.studies = {"test-only"};
+    EXPECT_TRUE(json::parse(report::to_json(made))["rows"][0]["test_only_half"].is_null())
+        << "the study has not run yet";
+    made.rows[0].studied["test_only_half"] = 1.5;
+    EXPECT_EQ(json::parse(report::to_json(made))["rows"][0]["test_only_half"], 1.5);
+    EXPECT_THAT(report::to_csv(made), HasSubstr(",test_only_half,"));
+    for (const std::string& text : {report::to_markdown(made), report::to_html(made)}) {
+        EXPECT_THAT(text, HasSubstr("(test) half"));
+        EXPECT_THAT(text, HasSubstr("1.500"));
+        EXPECT_THAT(text, HasSubstr("(test) studied"));
+    }
+}
+
+TEST(Tables, RegisteredStudyIsFoundAndAskedForItsReference) {
+    std::vector<std::string_view> names;
+    for (const app::Study& study : app::studies()) names.push_back(study.name);
+    EXPECT_THAT(names, testing::ElementsAre("views", "causes", "lag", "test-only"));
+    EXPECT_NO_THROW(app::check_study({"test-only", 2}, app::kReference));
+    EXPECT_THROW(app::check_study({"test-only", 2}, "raytrace"), Error);
+    try {
+        app::check_study({"cause"}, app::kReference);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::usage);
+        EXPECT_THAT(error.what(), HasSubstr("causes"));
+    }
 }
 
 TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {

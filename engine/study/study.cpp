@@ -1,0 +1,55 @@
+#include "study/study.hpp"
+
+#include "core/error.hpp"
+#include "core/knob.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+std::vector<Study>& study_table() {
+    static std::vector<Study> rows; // filled while the program starts
+    return rows;
+}
+
+} // namespace
+
+Registered::Registered(Study study) {
+    for (measure::Metric metric : study.metrics) {
+        metric.study = study.name;
+        const measure::Registered registers(std::move(metric));
+    }
+    study.part.name = study.name;
+    if (study.part.tables != nullptr) const report::RegisteredPart registers(study.part);
+    study_table().push_back(std::move(study));
+}
+
+const std::vector<Study>& studies() {
+    static const std::vector<Study> kRows = [] {
+        std::vector<Study> rows = study_table();
+        std::ranges::sort(rows, {},
+                          [](const Study& row) { return std::pair(row.order, row.name); });
+        return rows;
+    }();
+    return kRows;
+}
+
+const Study& find_study(std::string_view name) {
+    std::vector<std::string> names;
+    for (const Study& study : studies()) {
+        if (study.name == name) return study;
+        names.emplace_back(study.name);
+    }
+    fail(Failure::usage, "no study '", name, "'", did_you_mean(name, names));
+}
+
+void check_study(const StudyChoice& choice, const std::string& reference) {
+    const Study& study = find_study(choice.name);
+    if (study.check_reference != nullptr) study.check_reference(reference);
+}
+
+} // namespace catoptric::app
