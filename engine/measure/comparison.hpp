@@ -56,7 +56,7 @@ struct UnsupportedFeatureFacts {
 
 /// Light as the shading formula sees it, in world units.
 struct LightFacts {
-    std::string kind; ///< "mesh", "point", "spot" or "directional"
+    std::string kind; ///< "mesh", or the name of a scene::LightKind, such as "spot"
     std::string name; ///< name of a light without a surface
     dvec3 position{0};
     /// Direction in which a spot or directional light shines, or in which a mesh faces. 0 if the
@@ -64,7 +64,8 @@ struct LightFacts {
     dvec3 direction{0};
     /// Radiance of a mesh; candela of a point or spot light; lux of a directional light.
     dvec3 emission{0};
-    double area = 0; ///< area of a mesh
+    double area = 0;          ///< area of a mesh
+    bool is_parallel = false; ///< whether the light is infinitely far away
 };
 
 struct EnvironmentFacts {

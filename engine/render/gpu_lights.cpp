@@ -1,6 +1,7 @@
 // The lights of a scene on the device, and the views that draw their shadows.
 #include "render/gpu_scene.hpp"
 #include "render/views.hpp"
+#include "scene/light_kind.hpp"
 
 #include <algorithm>
 
@@ -10,7 +11,7 @@ namespace {
 
 /// Returns the light's entry, without its position and its shadow axes.
 shared::Light light_of(const scene::PointLight& light, const Space& space) {
-    constexpr double kNarrowest = .001; // least width of a spot's edge, as a difference of cosines
+    const scene::LightKind& kind = scene::kind_of(light.kind);
     shared::Light entry{};
     entry.normal = vec3(light.normal);
     entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
@@ -19,15 +20,13 @@ shared::Light light_of(const scene::PointLight& light, const Space& space) {
     const double area = light.directional ? 1 : share * light.area * space.scale * space.scale;
     entry.intensity = light.emission * static_cast<float>(area);
     entry.reach = 1 / space.length(light.range);
-    entry.kind = light.directional           ? shared::kLightDirectional
+    entry.kind = !light.is_lamp              ? kind.shader_kind
                  : light.cosines != dvec3(0) ? shared::kLightOfTwoSides
                                              : shared::kLightAtPoint;
-    const bool is_spot = light.axis != dvec3(0) && !light.directional;
-    // No cosine is below it, so all directions are lit.
-    entry.cos_outer = is_spot ? static_cast<float>(light.cos_outer) : -3.0f;
-    entry.sharpness = is_spot ? static_cast<float>(
-                                    1 / std::max(kNarrowest, light.cos_inner - light.cos_outer))
-                              : 1.0f;
+    const bool has_numbers = !light.is_lamp && kind.shader_numbers != nullptr;
+    const auto [cos_outer, sharpness] = has_numbers ? kind.shader_numbers(light)
+                                                    : scene::ShaderNumbers();
+    entry.cos_outer = cos_outer, entry.sharpness = sharpness;
     return entry;
 }
 

@@ -1,5 +1,7 @@
 #include "render/scene_changes.hpp"
 
+#include "scene/light_kind.hpp"
+
 #include <algorithm>
 
 namespace catoptric::render {
@@ -9,13 +11,6 @@ namespace {
 bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
     return a.has_value() == b.has_value() &&
            (!a || (a->centre == b->centre && a->radius == b->radius));
-}
-
-/// Compares lights as scene::at leaves them, without motion.
-bool same(const scene::Punctual& a, const scene::Punctual& b) {
-    return a.kind == b.kind && a.intensity == b.intensity && a.range == b.range &&
-           a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer &&
-           a.world_from_light == b.world_from_light;
 }
 
 bool lights(const scene::Material& material) { return scene::light_of(material) != vec3(0); }
@@ -59,9 +54,7 @@ SceneChanges SceneChangeTracker::take_over(const scene::Scene& now, bool report_
                 object.sphere, object.seen_by_camera, object.mirror};
     }
     if (materials_ != now.materials) materials_ = now.materials;
-    const bool other_lights = !std::ranges::equal(
-        punctual_, now.punctual,
-        [](const scene::Punctual& a, const scene::Punctual& b) { return same(a, b); });
+    const bool other_lights = !std::ranges::equal(punctual_, now.punctual, scene::shine_alike);
     if (other_lights) punctual_ = now.punctual;
     changes.lights = changes.lights || changes.layout || other_lights;
     return changes;

@@ -19,7 +19,7 @@ Json lights_json(const std::vector<LightFacts>& lights) {
         return Json{
             {"kind", light.kind},
             {"name", is_mesh ? Json() : Json(light.name)},
-            {"position", light.kind == "directional" ? Json() : point_json(light.position)},
+            {"position", light.is_parallel ? Json() : point_json(light.position)},
             {"direction", light.direction == dvec3(0) ? Json() : point_json(light.direction)},
             {"emission", point_json(light.emission)},
             {"area", is_mesh ? number(light.area) : Json()}};

@@ -2,6 +2,7 @@
 
 #include "require/reach.hpp"
 #include "require/world_content_hashes.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -47,12 +48,6 @@ double stretch_at_most(const dmat3& m) {
 
 Bounds<double> shifted(const Bounds<double>& box, const dvec3& offset) {
     return {box.lo + offset, box.hi + offset};
-}
-
-bool same(const scene::Punctual& a, const scene::Punctual& b) {
-    return a.kind == b.kind && a.intensity == b.intensity && a.range == b.range &&
-           a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer &&
-           a.world_from_light == b.world_from_light;
 }
 
 bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
@@ -163,8 +158,7 @@ void World::follow(const scene::Scene& now) {
         has_changed_ = true;
         return;
     }
-    bool lights_moved = !std::ranges::equal(
-        punctual_, now.punctual, [](const auto& a, const auto& b) { return same(a, b); });
+    bool lights_moved = !std::ranges::equal(punctual_, now.punctual, scene::shine_alike);
     for (const std::size_t mover : movers_) {
         WorldObject& thing = things_[mover];
         const scene::Object& object = now.objects[mover];

@@ -1,5 +1,7 @@
 #include "require/world_content_hashes.hpp"
 
+#include "scene/light_kind.hpp"
+
 #include <map>
 #include <type_traits>
 
@@ -74,10 +76,8 @@ std::uint64_t content_hash_of(const scene::Environment* environment) {
 
 std::uint64_t content_hash_of(const scene::PointLight& light) {
     ContentHash content_hash;
-    content_hash.add(light.position).add(light.normal).add(light.area).add(light.emission);
-    content_hash.add(light.closed).add(light.axes).add(light.cosines);
-    content_hash.add(light.axis).add(light.range).add(light.cos_inner).add(light.cos_outer);
-    return content_hash.add(light.directional).value();
+    scene::visit_members(light, [&](const auto& member) { content_hash.add(member); });
+    return content_hash.value();
 }
 
 } // namespace catoptric::require

@@ -4,6 +4,7 @@
 #include "core/luminance.hpp"
 #include "core/text.hpp"
 #include "scene/light.hpp"
+#include "scene/light_kind.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,11 +26,8 @@ double strength_at(const dvec3& point, const PointLight& light) {
     const double part = std::isinf(light.range) ? 0 : std::pow(distance / light.range, 4);
     const double window = std::clamp(1 - part, 0.0, 1.0);
     double cone = 1;
-    if (light.axis != dvec3(0)) {
-        const double wide = std::max(.001, light.cos_inner - light.cos_outer);
-        cone = std::clamp((glm::dot(light.axis, along) - light.cos_outer) / wide, 0.0, 1.0);
-        cone *= cone;
-    }
+    if (const LightKind& kind = kind_of(light.kind); !light.is_lamp && kind.share != nullptr)
+        cone = kind.share(light, glm::dot(light.axis, along));
     return emitted * facing * window * cone / square;
 }
 

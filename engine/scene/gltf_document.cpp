@@ -55,13 +55,6 @@ std::vector<std::vector<double>> read_weights(const Item& root, std::string_view
     return weights;
 }
 
-/// Returns the object "catoptric" of an object's `extras`, if any. `extras` may be of any type.
-std::optional<Item> ours_of(const Item& item) {
-    const Json* extras = item.find("extras");
-    if (extras == nullptr || !extras->is_object()) return std::nullopt;
-    return item.object("extras")->object("catoptric");
-}
-
 /// Reads the exposure of the scene that is shown, from its `extras`: {"exposure": stops}.
 std::optional<double> read_exposure(const Item& root) {
     const std::size_t count = root.size("scenes");

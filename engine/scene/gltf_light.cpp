@@ -1,9 +1,9 @@
 #include "scene/gltf_texture.hpp"
 
+#include "scene/light_kind.hpp"
 #include "scene/repair.hpp"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
 
 namespace catoptric::scene::gltf {
 
@@ -11,26 +11,22 @@ namespace {
 
 constexpr std::string_view kLights = "KHR_lights_punctual";
 
-void read_cone(const Item& light, Punctual& to) {
-    const std::optional<Item> spot = light.object("spot");
-    const double inner = spot ? spot->number("innerConeAngle", 0) : 0;
-    const double outer = spot ? spot->number("outerConeAngle", std::numbers::pi / 4)
-                              : std::numbers::pi / 4;
-    light.require(inner >= 0 && inner <= outer && outer <= std::numbers::pi / 2 + 1e-6,
-                  "spot: wanted angles with 0 <= inner <= outer <= pi / 2, found ", inner, " and ",
-                  outer);
-    to.cos_inner = std::cos(inner), to.cos_outer = std::cos(outer);
+/// Returns the kind that the type names, or that the light's own mark names.
+const LightKind& kind_of(const Item& light) {
+    const std::optional<Item> ours = ours_of(light);
+    const std::string type = light.text("type");
+    const std::string name = ours && ours->has("light") ? ours->text("light") : type;
+    const auto kind = std::ranges::find_if(light_kinds(), [&](const LightKind& row) {
+        return row.name == name && gltf_type_of(row) == type;
+    });
+    light.require(kind != light_kinds().end(), "type: wanted point, spot or directional, found ",
+                  shown(Json(type)));
+    return *kind;
 }
 
 Punctual light_of(const Item& light) {
-    using enum Punctual::Kind;
-    const std::string kind = light.text("type");
-    light.require(kind == "point" || kind == "spot" || kind == "directional",
-                  "type: wanted point, spot or directional, found ", shown(Json(kind)));
-    Punctual to{.name = light.name(),
-                .kind = kind == "spot"    ? spot
-                        : kind == "point" ? point
-                                          : directional};
+    const LightKind& kind = kind_of(light);
+    Punctual to{.name = light.name(), .kind = kind.id};
     const std::vector<double> colour = light.numbers("color", 3);
     const double intensity = light.number("intensity", 1);
     to.intensity = vec3(colour.empty() ? dvec3(intensity)
@@ -39,7 +35,7 @@ Punctual light_of(const Item& light) {
                   "wanted an intensity of at least 0 that fits a float, found another");
     if (light.has("range")) to.range = light.number("range", 0);
     light.require(to.range > 0, "range: wanted a number above 0, found ", to.range);
-    if (to.kind == spot) read_cone(light, to);
+    if (kind.read != nullptr) kind.read(light, to);
     return to;
 }
 

@@ -213,10 +213,7 @@ void MaterialReader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
 /// The first two make a mirror with the same reflectance at any angle, over a diffuse albedo.
 /// `fixed_normals` makes a surface with two sides but one normal.
 void MaterialReader::marks() {
-    const Json* extras = from_.find("extras"); // any type; only objects are ours
-    const std::optional<Item> ours = extras && extras->is_object()
-                                         ? from_.object("extras")->object("catoptric")
-                                         : std::nullopt;
+    const std::optional<Item> ours = ours_of(from_);
     const auto colour = [&](std::string_view key, double otherwise) {
         return vec3(glm::clamp(vector_of(*ours, key, otherwise), 0.0, 1.0));
     };

@@ -1,6 +1,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "scene/gltf_writer.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/load.hpp"
 #include "scene/pose.hpp"
 #include "scene/transform.hpp"
@@ -161,12 +162,13 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
 }
 
 void add_light(GltfWriter& writer, const Punctual& light) {
-    using enum Punctual::Kind;
+    const LightKind& kind = kind_of(light.kind);
     const std::string extension = "KHR_lights_punctual";
     const double largest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     tinygltf::Light to;
     to.name = light.name;
-    to.type = light.kind == spot ? "spot" : light.kind == point ? "point" : "directional";
+    to.type = gltf_type_of(kind);
+    if (to.type != kind.name) to.extras = marked({{"light", Value(std::string(kind.name))}});
     to.intensity = largest;
     to.color = numbers(largest > 0 ? dvec3(light.intensity) / largest : dvec3(1));
     if (std::isfinite(light.range)) to.range = light.range;

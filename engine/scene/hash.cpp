@@ -1,3 +1,4 @@
+#include "scene/light_kind.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>
@@ -91,19 +92,20 @@ struct Hasher {
         hasher.add(*shared);
         return entry->second = hasher.state;
     }
+    void add(const Motion& motion) {
+        add(std::uint64_t(motion.index()));
+        std::visit([this](const auto& kind) { add(kind); }, motion);
+    }
+    void add(Punctual::Kind kind) { add(static_cast<int>(kind)); }
     void add(const Object& object) {
         add(object.name), add(std::uint64_t(object.mesh)), add(std::uint64_t(object.material));
-        add(object.world_from_object), add(std::uint64_t(object.motion.index()));
-        std::visit([this](const auto& motion) { add(motion); }, object.motion);
+        add(object.world_from_object), add(object.motion);
         add(object.sphere);
         add(object.seen_by_camera), add(object.mirror);
     }
     void add(const Sphere& sphere) { add(sphere.centre), add(sphere.radius); }
     void add(const Punctual& light) {
-        add(light.name), add(static_cast<int>(light.kind)), add(light.intensity), add(light.range);
-        add(light.cos_inner), add(light.cos_outer), add(light.world_from_light);
-        add(std::uint64_t(light.motion.index()));
-        std::visit([this](const auto& motion) { add(motion); }, light.motion);
+        visit_members(light, [this](const auto& member) { add(member); });
     }
     void add(const Environment& environment) {
         add(environment.studio), add(environment.size), add(environment.texels);

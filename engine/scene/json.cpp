@@ -158,4 +158,10 @@ std::vector<double> Item::numbers(std::string_view key, std::size_t count) const
     return numbers;
 }
 
+std::optional<Item> ours_of(const Item& item) {
+    const Json* extras = item.find("extras");
+    if (extras == nullptr || !extras->is_object()) return std::nullopt;
+    return item.object("extras")->object("catoptric");
+}
+
 } // namespace catoptric::scene::gltf

@@ -99,4 +99,7 @@ private:
     std::size_t steps_ = 0; ///< 0 for the document itself
 };
 
+/// Returns the object "catoptric" of an object's `extras`, if any. `extras` may be of any type.
+std::optional<Item> ours_of(const Item& item);
+
 } // namespace catoptric::scene::gltf

@@ -1,5 +1,6 @@
 #include "scene/light.hpp"
 
+#include "scene/light_kind.hpp"
 #include "scene/topology.hpp"
 #include "scene/transform.hpp"
 
@@ -182,15 +183,16 @@ Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
 }
 
 PointLight light_of(const Punctual& punctual) {
+    const LightKind& kind = kind_of(punctual.kind);
     PointLight light{.position = dvec3(punctual.world_from_light[3]),
                      .area = 1,
                      .emission = punctual.intensity,
-                     .range = punctual.range};
-    if (punctual.kind == Punctual::Kind::point) return light;
-    light.axis = -normalized_or_zero(dvec3(punctual.world_from_light[2]));
-    light.directional = punctual.kind == Punctual::Kind::directional;
-    if (light.directional) return light;
-    light.cos_inner = punctual.cos_inner, light.cos_outer = punctual.cos_outer;
+                     .range = punctual.range,
+                     .directional = kind.is_parallel,
+                     .kind = punctual.kind};
+    if (kind.is_aimed) light.axis = -normalized_or_zero(dvec3(punctual.world_from_light[2]));
+    if (kind.share != nullptr)
+        light.cos_inner = punctual.cos_inner, light.cos_outer = punctual.cos_outer;
     return light;
 }
 

@@ -8,6 +8,7 @@
 #include "unsupported_feature.hpp"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -66,7 +67,9 @@ struct Camera {
 
 /// Light without a surface, as in KHR_lights_punctual. It shines along -z of its node.
 struct Punctual {
-    enum class Kind { point, spot, directional };
+    /// Kinds of the table in scene/light_kind.hpp. A kind with a file of its own has the next
+    /// number.
+    enum class Kind : std::uint8_t { point, spot, directional };
     std::string name;
     Kind kind = Kind::point;
     vec3 intensity{0}; ///< candela; lux (illuminance) for a directional light
@@ -92,8 +95,9 @@ struct PointLight {
     vec3 emission{0}; ///< radiance of a lamp; intensity or illuminance of a light without a surface
     dvec3 axis{0}; ///< unit direction in which a spot or directional light shines; zero: all around
     double range = std::numeric_limits<double>::infinity();
-    double cos_inner = 1, cos_outer = -1; ///< cosines of a spot's half angles
-    bool directional = false;             ///< infinitely far away; shines along `axis`
+    double cos_inner = 1, cos_outer = -1;        ///< cosines of a spot's half angles
+    bool directional = false;                    ///< infinitely far away; shines along `axis`
+    Punctual::Kind kind = Punctual::Kind::point; ///< of a light without a surface
 };
 
 struct Scene {

@@ -2,6 +2,7 @@
 
 #include "bvh/closest_hit.hpp"
 #include "render/views.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/load.hpp"
 #include "scene/pose.hpp"
 #include "session/coverage.hpp"
@@ -92,9 +93,7 @@ std::vector<measure::LightFacts> light_facts(const scene::Scene& scene) {
                                 .area = light.area};
         if (i >= first_without) {
             const scene::Punctual& punctual = scene.punctual[i - first_without];
-            one.kind = punctual.kind == scene::Punctual::Kind::point  ? "point"
-                       : punctual.kind == scene::Punctual::Kind::spot ? "spot"
-                                                                      : "directional";
+            one.kind = scene::kind_of(punctual.kind).name, one.is_parallel = light.directional;
             one.name = punctual.name, one.direction = light.axis, one.area = 0;
         }
         facts.push_back(one);

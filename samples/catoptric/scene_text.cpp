@@ -95,7 +95,7 @@ SceneCells lights(const report::SceneFacts& facts) {
     SceneCells cells{{"light", "name", "at", "towards", "emits", "area"}};
     for (const report::LightFacts& light : facts.lights)
         cells.push_back({light.kind, light.name.empty() ? "-" : printable(light.name),
-                         light.kind == "directional" ? "-" : point_text(light.position),
+                         light.is_parallel ? "-" : point_text(light.position),
                          light.direction == dvec3(0) ? "-" : point_text(light.direction),
                          colour_text(vec3(light.emission)),
                          light.kind == "mesh" ? fmt::format("{:.4g}", light.area) : "-"});

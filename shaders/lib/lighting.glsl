@@ -7,22 +7,7 @@
 
 #include "lib/bindings.glsl"
 #include "lib/environment.glsl"
-#include "lib/lights.glsl"
-
-// Computes direction, distance and factor of a light as light_term does, for lights of every kind.
-bool evaluate_light(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
-    if (is_directional(light)) return parallel_term(normal, light_at(light).forward, direction, distance, factor);
-    bool of_two_sides = light_kinds != 0u && light_at(light).kind == kLightOfTwoSides;
-    vec3 light_normal = of_two_sides ? vec3(0) : light_at(light).normal;
-    if (!light_term(position, normal, light_at(light).position, light_normal, direction, distance, factor)) return false;
-    if (light_kinds == 0u) return true;
-    if (of_two_sides)
-        factor *= mean_cosine(direction, light_at(light).right, light_at(light).down, light_at(light).forward,
-                              light_at(light).normal);
-    float cosine = -dot(direction, light_at(light).forward);
-    factor *= range_share(distance, light_at(light).reach) * cone_share(cosine, light_at(light).cos_outer, light_at(light).sharpness);
-    return factor > 0.0;
-}
+#include "lib/light_kinds.glsl"
 
 // Returns the diffuse and emitted radiance of a surface point. `facet` points along the triangle's normal and has any
 // length. A zero `facet` makes `normal` alone decide how much light counts (lit_facet).
@@ -34,7 +19,7 @@ vec3 shade(Surface surface, vec3 position, vec3 normal, vec3 facet) {
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;
-        bool is_lit = light < count && evaluate_light(light, position, normal, direction, distance, factor);
+        bool is_lit = light < count && sample_light(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
             factor *= facet_share(direction, normal, facet);
             is_lit = factor > 0.0;

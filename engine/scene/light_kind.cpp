@@ -1,0 +1,49 @@
+#include "scene/light_kind.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+
+namespace catoptric::scene {
+
+namespace {
+
+std::vector<LightKind>& kind_table() {
+    static std::vector<LightKind> rows; // filled while the program starts
+    return rows;
+}
+
+} // namespace
+
+RegisteredLightKind::RegisteredLightKind(const LightKind& kind) { kind_table().push_back(kind); }
+
+const std::vector<LightKind>& light_kinds() {
+    static const std::vector<LightKind> kRows = [] {
+        std::vector<LightKind> rows = kind_table();
+        std::ranges::sort(rows, {}, &LightKind::id);
+        check(std::ranges::adjacent_find(rows, {}, &LightKind::id) == rows.end(), Failure::internal,
+              "two kinds of light have one number");
+        return rows;
+    }();
+    return kRows;
+}
+
+const LightKind& kind_of(Punctual::Kind id) {
+    const auto kind = std::ranges::find(light_kinds(), id, &LightKind::id);
+    check(kind != light_kinds().end(), Failure::internal, "there is no kind of light ",
+          static_cast<int>(id));
+    return *kind;
+}
+
+std::string_view gltf_type_of(const LightKind& kind) {
+    return kind.gltf_type.empty() ? kind.name : kind.gltf_type;
+}
+
+bool shine_alike(const Punctual& a, const Punctual& b) {
+    const auto& [name, kind, intensity, range, cos_inner, cos_outer, world_from_light, motion] = a;
+    return kind == b.kind && intensity == b.intensity && range == b.range &&
+           cos_inner == b.cos_inner && cos_outer == b.cos_outer &&
+           world_from_light == b.world_from_light;
+}
+
+} // namespace catoptric::scene

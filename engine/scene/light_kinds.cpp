@@ -1,0 +1,56 @@
+// The kinds of light of KHR_lights_punctual.
+#include "scene/json.hpp"
+#include "scene/light_kind.hpp"
+#include "shared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace catoptric::scene {
+
+void read_cone(const gltf::Item& light, Punctual& to) {
+    const std::optional<gltf::Item> spot = light.object("spot");
+    const double inner = spot ? spot->number("innerConeAngle", 0) : 0;
+    const double outer = spot ? spot->number("outerConeAngle", std::numbers::pi / 4)
+                              : std::numbers::pi / 4;
+    light.require(inner >= 0 && inner <= outer && outer <= std::numbers::pi / 2 + 1e-6,
+                  "spot: wanted angles with 0 <= inner <= outer <= pi / 2, found ", inner, " and ",
+                  outer);
+    to.cos_inner = std::cos(inner), to.cos_outer = std::cos(outer);
+}
+
+namespace {
+
+/// Returns the width of a spot's edge as a difference of cosines, at least .001.
+double width_of_edge(const PointLight& light) {
+    return std::max(.001, light.cos_inner - light.cos_outer);
+}
+
+double share_of_spot(const PointLight& light, double cosine) {
+    const double cone = std::clamp((cosine - light.cos_outer) / width_of_edge(light), 0.0, 1.0);
+    return cone * cone;
+}
+
+ShaderNumbers numbers_of_spot(const PointLight& light) {
+    return {static_cast<float>(light.cos_outer), static_cast<float>(1 / width_of_edge(light))};
+}
+
+const RegisteredLightKind kPoint{{.id = Punctual::Kind::point,
+                                  .name = "point",
+                                  .shader_kind = shared::kLightAtPoint,
+                                  .is_aimed = false}};
+const RegisteredLightKind kSpot{{.id = Punctual::Kind::spot,
+                                 .name = "spot",
+                                 .shader_kind = shared::kLightAtPoint,
+                                 .share = share_of_spot,
+                                 .shader_numbers = numbers_of_spot,
+                                 .read = read_cone}};
+const RegisteredLightKind kDirectional{{.id = Punctual::Kind::directional,
+                                        .name = "directional",
+                                        .shader_kind = shared::kLightDirectional,
+                                        .is_parallel = true}};
+
+} // namespace
+
+} // namespace catoptric::scene
