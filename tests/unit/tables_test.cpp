@@ -1,5 +1,5 @@
-// Tests that metrics, studies, scenes and techniques register themselves. Those of this file are in
-// no central list, but must appear in every report and table.
+// Tests that metrics, studies, scenes, kinds of light and techniques register themselves. Those of
+// this file are in no central list, but must appear in every report and table.
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
@@ -7,11 +7,18 @@
 #include "reflect/technique.hpp"
 #include "report/report.hpp"
 #include "report_sample.hpp"
+#include "require/world_content_hashes.hpp"
+#include "scene/light_kind.hpp"
 #include "scene/load.hpp"
+#include "session/scene_facts.hpp"
 #include "study/study.hpp"
+#include "support/folder.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -46,6 +53,14 @@ const measure::Registered kGreener{
 
 scene::Scene make_nothing() { return {.name = "test-only"}; }
 const scene::RegisteredScene kScene{{"test-only", "nothing at all", make_nothing}};
+
+constexpr scene::Punctual::Kind kTestOnlyKind{200};
+const scene::RegisteredLightKind kLightKind{
+    {.id = kTestOnlyKind,
+     .name = "test-only",
+     .gltf_type = "spot",
+     .share = [](const scene::PointLight&, double cosine) { return cosine / 2; },
+     .read = scene::read_cone}};
 
 constexpr std::string_view kRows[] = {"testonly", "testonly:much=2"};
 constexpr Knob kTablesKnobs[] = {
@@ -192,6 +207,40 @@ TEST(Tables, RegisteredSceneIsFoundByName) {
     EXPECT_EQ(names.back(), "test-only");
     EXPECT_THAT(names, testing::IsSupersetOf(
                            {"cornell-mirrors-closed", "flat", "room", "gallery", "courtyard"}));
+}
+
+struct TableOfLightKinds : test::InFolder {};
+
+TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
+    scene::Scene scene = scene::cornell_mirrors();
+    scene.punctual.push_back({.name = "lamp",
+                              .kind = kTestOnlyKind,
+                              .intensity = vec3(1, 2, 3),
+                              .cos_inner = std::cos(.2),
+                              .cos_outer = std::cos(.4)});
+    const std::filesystem::path file = folder / "lamp.glb";
+    scene::save_glb(scene, file);
+    const scene::Scene read = scene::load(file.string());
+    ASSERT_EQ(read.punctual.size(), 1u);
+    EXPECT_EQ(read.punctual[0].kind, kTestOnlyKind);
+    EXPECT_NEAR(read.punctual[0].cos_outer, std::cos(.4), 1e-12);
+    EXPECT_EQ(app::light_facts(read).back().kind, "test-only");
+    EXPECT_FALSE(scene::lights(read).back().directional);
+    EXPECT_EQ(scene::lights(read).back().cos_outer, read.punctual[0].cos_outer);
+
+    scene::Scene spot = scene;
+    spot.punctual[0].kind = scene::Punctual::Kind::spot;
+    EXPECT_FALSE(scene::shine_alike(scene.punctual[0], spot.punctual[0]));
+    EXPECT_NE(scene::hash(scene), scene::hash(spot));
+    EXPECT_NE(require::content_hash_of(scene::lights(scene).back()),
+              require::content_hash_of(scene::lights(spot).back()));
+}
+
+TEST_F(TableOfLightKinds, KindsHaveTheirOwnNumbers) {
+    std::vector<std::string_view> names;
+    for (const scene::LightKind& kind : scene::light_kinds()) names.push_back(kind.name);
+    EXPECT_THAT(names, testing::ElementsAre("point", "spot", "directional", "test-only"));
+    EXPECT_THROW(scene::kind_of(scene::Punctual::Kind{199}), Error);
 }
 
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {
