@@ -1,5 +1,52 @@
 #pragma once
 
+#include "core/export.hpp"
+#include "measure/comparison.hpp"
+#include "session/run.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
 /// Compares the cost and the error of techniques.
-#include "session/watcher.hpp"
-#include "study/compare.hpp"
+namespace catoptric::app {
+
+inline constexpr const char* kReference = "raytrace:depth=16";
+inline constexpr int kRounds = 6; ///< fewest rounds that give a confidence interval of the median
+
+struct StudyChoice {
+    std::string name; ///< option of `catoptric compare` without "--"
+    int count = 1;    ///< the option's number, such as that of drawn views
+};
+
+struct CompareRequest {
+    /// The compared scene and settings. Its `techniques` are the rows; empty: those that each
+    /// technique of the table proposes, and `auto`.
+    Request base;
+    std::string reference = kReference;
+    bool together = false; ///< render all rows in one frame
+    /// Number of rounds, at least 6. Each round measures some frames of every row, one row after
+    /// another. If there are fewer frames than rounds, each round has one frame.
+    int rounds = kRounds;
+    /// Whether each row is measured twice, with the model `everything` and with `required`. False:
+    /// each row is measured once, with `base.model`.
+    bool both_models = false;
+    /// Studies in addition to time and error, such as {{"causes"}, {"views", 30}, {"lag"}}.
+    std::vector<StudyChoice> studies;
+    std::vector<std::string> command; ///< command line that the report quotes
+    std::string images;               ///< see measure::Comparison::images
+    Watcher watcher;
+    /// Called with the unfinished comparison, whose `complete` is false; may be empty. The calls
+    /// follow each row of the first round, each later round, and each row or drawn view of the
+    /// later steps.
+    std::function<void(const measure::Comparison&)> on_finished_row;
+};
+
+/// Renders every row and the reference, measures speed in rounds and error. A row with the knob
+/// `samples` is judged against the reference with as many samples. A run ends early by a signal, a
+/// lost device, missing memory or an exception of `on_finished_row`. The rows measured before the
+/// end are then returned with the cause in `stopped`. If there are no rows and the cause is no
+/// signal, the cause is thrown instead.
+CATOPTRIC_API measure::Comparison compare(Engine& engine, const CompareRequest& request);
+
+} // namespace catoptric::app

@@ -1,4 +1,63 @@
 #pragma once
 
-/// Runs sessions on the caller's Vulkan device. Needs the Vulkan headers.
-#include "embed/embed.hpp"
+#include "core/export.hpp"
+#include "session/engine.hpp"
+#include "session/session.hpp"
+
+#include <cstdint>
+
+#include <vulkan/vulkan.h>
+
+/// Runs sessions on the caller's Vulkan device, and renders into the caller's images. Needs the
+/// Vulkan headers. This is the only public header with Vulkan's names.
+namespace catoptric::embed {
+
+/// Features that the device must be created with, for Vulkan 1.3. The features are chained in the
+/// member `core`. VkDeviceCreateInfo::pNext must point to `core`, and pEnabledFeatures must be
+/// null. You may enable other features in the chain, too. No extension is needed.
+struct Features {
+    /// Fills the chain. Throws `no_device` with the names of features that the device lacks.
+    CATOPTRIC_API explicit Features(VkPhysicalDevice device);
+    Features(const Features&) = delete;
+    Features& operator=(const Features&) = delete;
+    VkPhysicalDeviceFeatures2 core{};
+    VkPhysicalDeviceVulkan11Features v11{};
+    VkPhysicalDeviceVulkan12Features v12{};
+    VkPhysicalDeviceVulkan13Features v13{};
+};
+
+/// Vulkan handles of the caller, which must outlive the engine. The queue's family must support
+/// graphics, compute and timestamps. While a function of the library runs, no other thread may use
+/// the queue.
+struct Device {
+    VkInstance instance = VK_NULL_HANDLE; ///< of apiVersion 1.3 or above
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0;
+};
+/// Makes an engine on the caller's device. Ignores the options `device` and `validate`, because the
+/// caller has chosen both. Throws `usage` for missing handles, and `no_device` for a device that is
+/// not suitable.
+CATOPTRIC_API app::Engine make_engine(const Device& device, const app::EngineOptions& options = {});
+
+/// An image of the caller: 2D, one layer, mip and sample, optimal tiling, of the frame's size. Its
+/// format is VK_FORMAT_R8G8B8A8_UNORM or _SRGB (its bytes are sRGB either way). It has
+/// VK_IMAGE_USAGE_TRANSFER_DST_BIT and is not shared by queue families. Its earlier contents are
+/// lost.
+struct Target {
+    VkImage image = VK_NULL_HANDLE;
+    /// Layout after the frame: SHADER_READ_ONLY_OPTIMAL, TRANSFER_SRC_OPTIMAL, GENERAL or, for an
+    /// image of a swapchain, PRESENT_SRC_KHR.
+    VkImageLayout leaves = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+};
+/// Renders a frame of one technique as Session::frame does, and writes the displayed picture into
+/// the image. All work submitted to the queue before has ended when the frame ends. Work submitted
+/// afterwards sees the picture without a semaphore. These rules do not cover acquiring and
+/// presenting a swapchain's image. Wait for the acquired image in a submit of your own before the
+/// frame, and signal for presenting in one after it. The image must live until the frame has ended
+/// (Frame::times). Throws `usage` for several techniques, no image, and another layout.
+CATOPTRIC_API app::Frame frame_into(app::Session& session, const app::FrameSpec& spec,
+                                    const Target& target);
+
+} // namespace catoptric::embed

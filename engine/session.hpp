@@ -1,6 +1,4 @@
 #pragma once
 
 /// Renders frames of a scene on a device.
-#include "session/engine.hpp"
 #include "session/run.hpp"
-#include "session/session.hpp"

@@ -45,7 +45,7 @@ struct TextureUse {
 const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
 
 // The factors of a material: numbers that members of scene::Material hold under the same names. A new factor needs its
-// name here, and its row in engine/scene/material.hpp.
+// name here, and its row in engine/scene/material_facts.hpp.
 #define MATERIAL_FACTORS(FACTOR)                                                                                       \
     FACTOR(metallic)  /* share of the surface that is metal, 0 to 1 */                                                 \
     FACTOR(roughness) /* glTF roughness, 0 to 1 */

@@ -1,5 +1,6 @@
 // Comparisons in the built-in scene: our traced pictures with Embree's and with prototypes, and our
 // captures with prototypes. For captures, the time of one Embree frame is only a unit.
+#include "scene/built_in.hpp"
 #include "cases.hpp"
 #include "comparison.hpp"
 #include "prototypes.hpp"

@@ -1,6 +1,7 @@
 #include "capture_prototype.hpp"
 
 #include "render/views.hpp"
+#include "scene/light.hpp"
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "render/facets.hpp"
 #include "render/views.hpp"
+#include "scene/light.hpp"
 #include "scene/texel.hpp"
 #include "spheres.hpp"
 

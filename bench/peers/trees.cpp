@@ -1,8 +1,9 @@
 #include "cases.hpp"
 #include "comparison.hpp"
 #include "embree_tree.hpp"
+#include "scene/build.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
-#include "scene/shapes.hpp"
 
 #include <cstdio>
 

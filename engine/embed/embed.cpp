@@ -1,4 +1,4 @@
-#include "embed/embed.hpp"
+#include "embed.hpp"
 
 #include "core/error.hpp"
 #include "gpu/instance.hpp"
@@ -50,8 +50,9 @@ Features::Features(VkPhysicalDevice device) {
 }
 
 app::Engine make_engine(const Device& device, const app::EngineOptions& options) {
-    return app::Embedding::make(options, {device.instance, device.physical, device.device,
-                                          device.queue, device.queue_family});
+    const gpu::GivenDevice given{device.instance, device.physical, device.device, device.queue,
+                                 device.queue_family};
+    return app::Access::make_engine(options, {.given = &given});
 }
 
 app::Frame frame_into(app::Session& session, const app::FrameSpec& spec, const Target& target) {

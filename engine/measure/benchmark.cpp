@@ -1,6 +1,7 @@
 #include "measure/benchmark.hpp"
 
 #include "core/error.hpp"
+#include "measure/interval.hpp"
 #include "measure/statistics.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "../core/export.hpp"
-#include "picture.hpp"
+#include "measure/comparison.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -10,8 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Error of a row split by cause: the error that goes away when one cause after another is removed
-/// by using the reference's data.
+// Splits the error of a row by cause.
 namespace catoptric::measure {
 
 /// Part of a row's error that one cause contributes. Squared errors are means over mirror pixels
@@ -53,14 +51,14 @@ struct PixelCause {
 };
 
 /// Returns the row-major indices of the pixels whose first hit is a mirror, in ascending order.
-CATOPTRIC_API std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits);
+std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits);
 
 /// Sums the squared errors of `mirror_pixels(hits)` to means and shares. `whole` is the row's
 /// squared error of each of these pixels. The parts of `causes` add up to it, and the last cause is
 /// the unexplained rest. Pixels with a value that is not finite are left out, as in `difference`.
 /// `off` is a mask of the whole picture and says which pixels get a cause in `largest`. Throws
 /// `internal` if a list has another length than the number of mirror pixels.
-CATOPTRIC_API Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off,
-                            std::span<const double> whole, const std::vector<PixelCause>& causes);
+Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off, std::span<const double> whole,
+              const std::vector<PixelCause>& causes);
 
 } // namespace catoptric::measure

@@ -1,20 +1,13 @@
 #pragma once
 
-#include "../core/error.hpp"
-#include "../core/plan_entry.hpp"
-#include "causes.hpp"
-#include "difference.hpp"
-#include "lag.hpp"
-#include "light_edges.hpp"
-#include "lookup.hpp"
+#include "../core/frame_facts.hpp"
+#include "../error.hpp"
 #include "picture.hpp"
-#include "statistics.hpp"
-#include "value.hpp"
 
 #include <cmath>
 #include <cstdint>
-#include <functional>
-#include <map>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +16,54 @@
 /// Results of `compare` as plain data. The application fills them, this folder judges them, and
 /// report/ writes them.
 namespace catoptric::measure {
+
+using catoptric::AutoFace;
+using catoptric::CulledWork;
+using HostParts = HostTimes; ///< each a median over frames
+using Rays = RayCounts;
+struct Causes; // internal: report.json has their data
+struct Lag;
+struct Studied;
+
+/// Closed interval from `low` to `high`. Both are NaN if the interval is not known.
+struct Interval {
+    double low = std::numeric_limits<double>::quiet_NaN();
+    double high = std::numeric_limits<double>::quiet_NaN();
+
+    bool is_known() const { return !std::isnan(low) && !std::isnan(high); }
+};
+
+/// Median and spread of a list of measurements, in the unit of the measurements.
+struct Summary {
+    double median = 0; ///< median of the rounds' medians if there are rounds
+    double p05 = 0;    ///< 5th percentile
+    double p95 = 0;    ///< 95th percentile
+    double mad = 0;    ///< median of the absolute deviations from the median, not scaled
+    std::size_t n = 0;
+    std::vector<double> samples; ///< the measurements as given, in order
+    std::vector<double> rounds;  ///< median of each round; empty if measured without rounds
+    Interval ci95;               ///< interval of the median, from the rounds
+};
+
+/// Error of a row over the mirrors in two parts. One part is the pixels that looked within a texel
+/// of a light's outline, whose few large errors dominate an rmse. The other part is all other
+/// mirror pixels. The squares of `rmse` and `rest_rmse` add up to the square of the row's rmse.
+struct LightEdges {
+    /// Share of the finite mirror pixels that looked at a light's edge, 0..1.
+    double pixels = Difference::kNone;
+    /// Share of the squared error at light edges, 0..1; 0 if there is no error.
+    double share = Difference::kNone;
+    double rmse = Difference::kNone; ///< part of the row's rmse at light edges
+    double rest_rmse = Difference::kNone;
+};
+
+/// Summary of the direction errors of a search.
+struct LookupError {
+    std::size_t pixels = 0;
+    double mean_degrees = 0, p95_degrees = 0, p99_degrees = 0;
+    double wrong_object = 0, unknown = 0, miss = 0; ///< shares of the pixels, 0..1
+    double p95_residual = 0;                        ///< 95th percentile over hits
+};
 
 struct DeviceFacts {
     std::string name, driver, api, type;
@@ -59,8 +100,7 @@ struct LightFacts {
     std::string kind; ///< "mesh", or the name of a scene::LightKind, such as "spot"
     std::string name; ///< name of a light without a surface
     dvec3 position{0};
-    /// Direction in which a spot or directional light shines, or in which a mesh faces. 0 if the
-    /// light shines in all directions.
+    /// Direction in which a light shines, or in which a mesh faces. 0: all directions.
     dvec3 direction{0};
     /// Radiance of a mesh; candela of a point or spot light; lux of a directional light.
     dvec3 emission{0};
@@ -107,25 +147,6 @@ struct PassFacts {
     Summary gpu_ms;
 };
 
-struct Rays {
-    std::uint64_t primary = 0, mirror = 0, shadow = 0;
-};
-
-/// Cube sizes that face=auto chose.
-struct AutoFace {
-    std::uint32_t edge = 0; ///< edge of each mirror's cube, texels
-    /// Entry n-1: edge that mirror n alone needs, texels; 0 if it is not in view.
-    std::vector<double> needs;
-};
-
-/// Parts of the host's work, each a median over frames in milliseconds.
-struct HostParts {
-    double update = 0;    ///< moved objects: writing buffers, finding views and lights
-    double hierarchy = 0; ///< building or refitting the trees for ray tracing
-    double compile = 0;   ///< declaring the passes, and planning them if the graph's shape is new
-    double record = 0;    ///< recording the command buffer
-};
-
 /// Errors of a picture against the reference, each over another set of pixels.
 struct Errors {
     Difference error; ///< over pixels whose first hit is a mirror
@@ -135,8 +156,7 @@ struct Errors {
     Difference error_mirror_in_mirror;
     Difference error_non_mirror; ///< over pixels whose first hit is no mirror
     Difference error_all;
-    /// Error over the pixels whose first hit is a smooth dielectric.
-    Difference error_dielectrics;
+    Difference error_dielectrics; ///< over pixels whose first hit is a smooth dielectric
     std::vector<Difference> error_per_mirror; ///< one entry a mirror, by MirrorId::index
 };
 
@@ -151,12 +171,6 @@ struct View {
 struct WorstView {
     std::size_t view = 0; ///< index into Comparison::views
     Picture display;      ///< the row's picture, with the reference to its right
-};
-
-/// Rendering that a row left out because its picture does not need it.
-struct CulledWork {
-    std::string what, why, saves;
-    double error = 0; ///< largest change of a displayed pixel that this causes, 0..1
 };
 
 /// Results of one technique with its settings, or of one plan: cost and error.
@@ -176,10 +190,9 @@ struct Row : Errors {
     /// Share of time in which the row's threads waited for a processor that other programs used,
     /// 0..1. NaN if unknown.
     double waited = NAN;
-    /// Whether the threads waited for processors too long for the times to be trusted.
-    bool noisy = false;
-    Summary wait_ms; ///< time that the host waited for the device; no other time includes it
-    Summary host_ms; ///< host work before the device can begin, without waiting
+    bool noisy = false; ///< whether the threads waited too long for the times to be trusted
+    Summary wait_ms;    ///< time that the host waited for the device; no other time includes it
+    Summary host_ms;    ///< host work before the device can begin, without waiting
     /// host_ms plus device time, frame by frame, because the two do not overlap.
     Summary frame_ms;
     HostParts host_parts;
@@ -195,18 +208,16 @@ struct Row : Errors {
     std::optional<Rays> rays;       ///< rays of one frame; empty if the row traces none
     /// Texels of half-float captures that are clipped at 65504.
     std::optional<std::size_t> saturated_texels;
-    /// Error of the looked-up directions, over first-order pixels.
-    std::optional<LookupError> lookup;
+    std::optional<LookupError> lookup;     ///< of the looked-up directions, over first-order pixels
     std::optional<LightEdges> light_edges; ///< only for rows that look into captures
-    std::optional<Causes> causes;          ///< only for rows that look into captures
+    std::shared_ptr<Causes> causes;        ///< see CompareRequest::studies; may be null
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
     /// Errors in each of Comparison::views, in the same order. Empty if no views were drawn. A run
     /// that was cut short has fewer entries.
     std::vector<Errors> views;
-    std::optional<WorstView> worst; ///< the drawn view with the largest FLIP over the mirrors
-    /// Results of studies that have no member of their own, by the name of the metric.
-    std::map<std::string, Value, std::less<>> studied;
+    std::optional<WorstView> worst;   ///< the drawn view with the largest FLIP over the mirrors
+    std::shared_ptr<Studied> studied; ///< the same, of studies without a member of their own
     Mean mean, mean_clamped;
     /// Number, from 1, of the frame whose picture and errors are given. Later frames show the same
     /// picture.
@@ -214,11 +225,9 @@ struct Row : Errors {
     Picture hdr;                 ///< the row's picture, linear RGB
     Picture display;             ///< the same picture as displayed
     std::vector<float> flip_map; ///< FLIP of each pixel against the reference, row-major
-    /// File name of the pictures without folder and ending: "naive-bounces1".
-    std::string image;
-    bool is_reference = false; ///< whether technique and settings are those of the reference
-    /// Whether the row draws nothing in its mirrors: see measure::is_candidate.
-    bool mirrors_black = false;
+    std::string image; ///< file name of the pictures without folder and ending: "naive-bounces1"
+    bool is_reference = false;  ///< whether technique and settings are those of the reference
+    bool mirrors_black = false; ///< whether mirrors show nothing: see measure::is_candidate
 };
 
 struct Comparison {
@@ -255,7 +264,7 @@ struct Comparison {
     /// Indices of the rows on the front of time against FLIP over the mirrors, from
     /// measure::front_of.
     std::vector<std::size_t> pareto;
-    std::optional<Lag> lag; ///< lag of the rows with history; empty if it was not asked for
+    std::shared_ptr<Lag> lag;         ///< see CompareRequest::studies; may be null
     std::vector<std::string> studies; ///< names of the studies that were asked for
     std::vector<std::string> warnings;
     /// Folder of the pictures below images/, such as "1-room/"; empty for images/ itself.

@@ -1,4 +1,4 @@
-#include "measure/difference.hpp"
+#include "measure/picture.hpp"
 
 #include "core/error.hpp"
 #include "measure/difference_sum.hpp"

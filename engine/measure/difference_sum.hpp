@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measure/difference.hpp"
+#include "measure/picture.hpp"
 
 #include <span>
 #include <vector>

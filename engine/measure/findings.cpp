@@ -1,5 +1,6 @@
 #include "measure/findings.hpp"
 
+#include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/rows.hpp"
 

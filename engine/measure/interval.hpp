@@ -1,35 +1,26 @@
 #pragma once
 
-#include "../core/export.hpp"
+#include "measure/comparison.hpp"
 
-#include <cmath>
-#include <limits>
+#include <cstddef>
 #include <span>
 
-/// Confidence intervals of repeated measurements, for any distribution.
+// Confidence intervals of repeated measurements, for any distribution.
 namespace catoptric::measure {
 
 /// Smallest number of values for which the median has a 95 % confidence interval.
 inline constexpr std::size_t kFewest = 6;
-
-/// Closed interval from `low` to `high`. Both are NaN if the interval is not known.
-struct Interval {
-    double low = std::numeric_limits<double>::quiet_NaN();
-    double high = std::numeric_limits<double>::quiet_NaN();
-
-    bool is_known() const { return !std::isnan(low) && !std::isnan(high); }
-};
 
 /// Returns an interval that contains the median of the underlying distribution with at least 95 %
 /// confidence, if the values are independent. The interval runs from the k-th smallest to the k-th
 /// largest value. k is the largest rank for which P(Binomial(n, 1/2) < k) <= 2.5 % (David and
 /// Nagaraja, Order Statistics, 7.1). For 6 to 8 values it is their range (96.9 % for 6). It is
 /// unknown for fewer than `kFewest` values or if a value is NaN. Costs O(n log n).
-CATOPTRIC_API Interval median_interval(std::span<const double> values);
+Interval median_interval(std::span<const double> values);
 
 /// Return the interval of the median of a[i]/b[i], and of a[i]-b[i]. If the lists differ in length,
 /// only as many pairs count as the shorter list has.
-CATOPTRIC_API Interval ratio_interval(std::span<const double> a, std::span<const double> b);
-CATOPTRIC_API Interval difference_interval(std::span<const double> a, std::span<const double> b);
+Interval ratio_interval(std::span<const double> a, std::span<const double> b);
+Interval difference_interval(std::span<const double> a, std::span<const double> b);
 
 } // namespace catoptric::measure

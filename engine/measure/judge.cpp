@@ -1,5 +1,6 @@
 #include "measure/judge.hpp"
 
+#include "measure/interval.hpp"
 #include "measure/metric.hpp"
 #include "measure/rows.hpp"
 #include "measure/views.hpp"

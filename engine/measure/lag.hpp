@@ -1,14 +1,12 @@
 #pragma once
 
-#include "../core/export.hpp"
-#include "difference.hpp"
+#include "measure/comparison.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-// Lag of rows with history behind a moving scene, as plain data. Such rows read the captures of the
-// last frame. All errors are over pixels whose first hit is a mirror.
+// Metrics of the lag of rows with history behind a moving scene.
 namespace catoptric::measure {
 
 /// Largest difference that counts as settled: one step of 8 bits, linear.
@@ -59,14 +57,13 @@ struct Lag {
 };
 
 /// Returns a metric of each instant, NaN where the instant sees no mirror.
-CATOPTRIC_API std::vector<double> figures_of(const std::vector<Difference>& errors,
-                                             double Difference::*figure);
+std::vector<double> figures_of(const std::vector<Difference>& errors, double Difference::*figure);
 /// Return the mean and a percentile of a metric over the instants that see a mirror, or NaN if none
 /// does. `fraction` is 0..1.
-CATOPTRIC_API double mean_of(const std::vector<Difference>& errors, double Difference::*figure);
-CATOPTRIC_API double percentile_of(const std::vector<Difference>& errors,
-                                   double Difference::*figure, double fraction);
+double mean_of(const std::vector<Difference>& errors, double Difference::*figure);
+double percentile_of(const std::vector<Difference>& errors, double Difference::*figure,
+                     double fraction);
 /// Returns the instant of the largest FLIP in seconds, or NaN if there is none.
-CATOPTRIC_API double worst_instant(const Lag& lag, const LagAtSpeed& at);
+double worst_instant(const Lag& lag, const LagAtSpeed& at);
 
 } // namespace catoptric::measure

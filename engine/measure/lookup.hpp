@@ -1,11 +1,10 @@
 #pragma once
 
-#include "../core/export.hpp"
-#include "../core/math.hpp"
+#include "measure/comparison.hpp"
 
-#include <cstddef>
 #include <span>
 
+// Direction errors of a search.
 namespace catoptric::measure {
 
 /// Direction error of one first-order mirror pixel: where it looked in the capture, compared with
@@ -18,19 +17,11 @@ struct LookedUp {
     double residual = 0;
 };
 
-/// Summary of the direction errors of a search.
-struct LookupError {
-    std::size_t pixels = 0;
-    double mean_degrees = 0, p95_degrees = 0, p99_degrees = 0;
-    double wrong_object = 0, unknown = 0, miss = 0; ///< shares of the pixels, 0..1
-    double p95_residual = 0;                        ///< 95th percentile over hits
-};
-
 /// Returns the summary of the pixels. All values are 0 for an empty list.
-CATOPTRIC_API LookupError lookup_error(std::span<const LookedUp> pixels);
+LookupError lookup_error(std::span<const LookedUp> pixels);
 
 /// Returns the angle between two directions in degrees. Small angles are exact too, because the
 /// acos of a cosine near 1 is avoided.
-CATOPTRIC_API double angle_degrees(const dvec3& a, const dvec3& b);
+double angle_degrees(const dvec3& a, const dvec3& b);
 
 } // namespace catoptric::measure

@@ -1,4 +1,5 @@
 #include "measure/masks.hpp"
+#include "core/mirror_id.hpp"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace catoptric::measure {
 
@@ -16,7 +17,7 @@ std::vector<Metric>& table() {
 
 bool is_of_row(const Metric& quantity) {
     return std::holds_alternative<Metric::RowFunction>(quantity.get) ||
-           std::holds_alternative<Metric::Studied>(quantity.get);
+           std::holds_alternative<Metric::OfStudy>(quantity.get);
 }
 
 std::vector<Metric> in_order() {
@@ -69,11 +70,21 @@ const std::vector<Metric>& difference_metrics() {
     return kRows;
 }
 
+void set_studied(Row& row, const std::string& metric, Value value) {
+    if (!row.studied) row.studied = std::make_shared<Studied>();
+    row.studied->values[metric] = std::move(value);
+}
+
+Value studied(const Row& row, std::string_view metric) {
+    if (!row.studied) return {};
+    const auto found = row.studied->values.find(metric);
+    return found == row.studied->values.end() ? Value() : found->second;
+}
+
 Value value_of(const Metric& quantity, const Row& row) {
     check(is_of_row(quantity), Failure::internal, "'", quantity.name, "' is no figure of a row");
     if (const auto* get = std::get_if<Metric::RowFunction>(&quantity.get)) return (*get)(row);
-    const auto studied = row.studied.find(quantity.name);
-    return studied == row.studied.end() ? Value() : studied->second;
+    return studied(row, quantity.name);
 }
 
 Value value_of(const Metric& quantity, const Difference& difference) {

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "measure/comparison.hpp"
-#include "measure/value.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,34 @@
 /// The .cpp that computes a metric registers it, so no other file lists it. JSON, CSV, tables,
 /// `diff` and `list metrics` read this table.
 namespace catoptric::measure {
+
+/// Position of a pixel, counted from the upper left. A negative x means none.
+struct PixelPosition {
+    int x = -1, y = -1;
+};
+
+struct Parts;
+
+/// Value of a metric. A double that is not finite, a time that was never measured and an invalid
+/// place count as no value (see is_nothing).
+using Value = std::variant<std::monostate, bool, double, dvec3, PixelPosition, Summary,
+                           std::vector<double>, std::vector<Parts>>;
+
+/// An entry of a list of values, such as the times of passes or the shares of causes.
+struct Parts {
+    std::string_view kind; ///< the field that holds the entry's name, such as "name"
+    std::string name;
+    std::vector<std::pair<std::string_view, Value>> values;
+};
+
+/// Results of studies that have no member of their own in Row, by the name of the metric.
+struct Studied {
+    std::map<std::string, Value, std::less<>> values;
+};
+/// Sets the row's value of a metric of a study.
+void set_studied(Row& row, const std::string& metric, Value value);
+/// Returns the row's value of a metric of a study; no value if the study has not set it.
+Value studied(const Row& row, std::string_view metric);
 
 enum class Better : std::uint8_t { neither, less, more };
 
@@ -67,13 +96,13 @@ struct Metric {
     std::string_view study = {};
 
     /// Marks a metric whose value is the entry of its name in Row::studied.
-    struct Studied {};
+    struct OfStudy {};
     using RowFunction = Value (*)(const Row&);
     using DifferenceFunction = Value (*)(const Difference&);
     /// Function that computes a metric of two pictures. A value that is not finite counts as no
     /// value. The function is called once for each mask of pixels.
     using PictureFunction = double (*)(const Compared&);
-    std::variant<Studied, RowFunction, DifferenceFunction, PictureFunction> get;
+    std::variant<OfStudy, RowFunction, DifferenceFunction, PictureFunction> get;
 };
 
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program

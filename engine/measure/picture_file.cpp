@@ -132,6 +132,8 @@ void PictureReader::read_rows(int first, std::span<vec3> pixels) {
     }
 }
 
+Picture read_picture(const std::filesystem::path& path) { return read_picture(path, {}); }
+
 Picture read_picture(const std::filesystem::path& path, const PictureReader::Judge& judge) {
     PictureReader reader(path, judge);
     Picture picture(reader.width(), reader.height());

@@ -1,6 +1,7 @@
 #include "measure/statistics.hpp"
 
 #include "core/error.hpp"
+#include "measure/interval.hpp"
 
 #include <algorithm>
 #include <cmath>

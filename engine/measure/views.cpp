@@ -1,7 +1,9 @@
 #include "measure/views.hpp"
 
 #include "core/error.hpp"
+#include "measure/interval.hpp"
 #include "measure/judge.hpp"
+#include "measure/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "reflect/captures.hpp"
 #include "reflect/mirrored.hpp"
+#include "require/model.hpp"
 
 #include <algorithm>
 #include <map>

@@ -2,6 +2,7 @@
 
 #include "reflect/plan.hpp"
 #include "render/capture_cache.hpp"
+#include "require/model.hpp"
 
 namespace catoptric::reflect {
 

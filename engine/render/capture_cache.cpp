@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "render/decider.hpp"
 #include "render/turns.hpp"
+#include "require/model.hpp"
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 #include "core/content_hash.hpp"
 #include "render/face_area.hpp"
 #include "render/views.hpp"
+#include "require/model.hpp"
 
 #include <algorithm>
 

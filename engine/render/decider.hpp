@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/capture_cache.hpp"
+#include "require/model.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,6 @@
 #include "render/geometry.hpp"
 
+#include "scene/material_facts.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

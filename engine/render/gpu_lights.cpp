@@ -1,7 +1,9 @@
 // The lights of a scene on the device, and the views that draw their shadows.
 #include "render/gpu_scene.hpp"
 #include "render/views.hpp"
+#include "scene/light.hpp"
 #include "scene/light_kind.hpp"
+#include "scene/material_facts.hpp"
 
 #include <algorithm>
 

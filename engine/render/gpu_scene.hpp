@@ -11,6 +11,7 @@
 #include "render/sky.hpp"
 #include "render/tracing.hpp"
 #include "render/vertices.hpp"
+#include "scene/light.hpp"
 
 #include <memory>
 

@@ -1,4 +1,5 @@
 #include "render/mirrored.hpp"
+#include "scene/material_facts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "render/object_space.hpp"
 
 #include "bvh/tlas.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

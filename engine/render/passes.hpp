@@ -2,6 +2,7 @@
 
 #include "render/capture_cache.hpp"
 #include "render/mirror_shaders.hpp"
+#include "require/model.hpp"
 
 #include <memory>
 #include <optional>

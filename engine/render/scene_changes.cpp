@@ -1,4 +1,5 @@
 #include "render/scene_changes.hpp"
+#include "scene/material_facts.hpp"
 
 #include "scene/light_kind.hpp"
 

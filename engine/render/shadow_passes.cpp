@@ -4,6 +4,7 @@
 #include "render/pass_faces.hpp"
 #include "render/passes.hpp"
 #include "render/views.hpp"
+#include "require/model.hpp"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 
 #include "graph/commands.hpp"
 #include "render/resident.hpp"
-#include "scene/environment.hpp"
+#include "scene/scene.hpp"
 
 #include <memory>
 

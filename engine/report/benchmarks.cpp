@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "measure/interval.hpp"
 #include "measure/statistics.hpp"
 #include "report/json.hpp"
 

@@ -2,6 +2,7 @@
 #include "report/tables.hpp"
 
 #include "core/error.hpp"
+#include "measure/causes.hpp"
 #include "report/part.hpp"
 #include "report/text.hpp"
 
@@ -68,7 +69,8 @@ std::span<const CauseColour> cause_colours() { return kColours; }
 measure::Picture cause_picture(const Row& row) {
     constexpr float kDim = .35F;
     measure::Picture picture = row.display;
-    const std::vector<std::uint8_t>& largest = row.causes.value().largest;
+    check(row.causes != nullptr, Failure::internal, "row '", row.label, "' has no causes");
+    const std::vector<std::uint8_t>& largest = row.causes->largest;
     check(largest.size() == picture.pixels.size(), Failure::internal, "row '", row.label,
           "': wanted a cause for each of ", picture.pixels.size(), " pixels, found ",
           largest.size());

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "../measure/comparison.hpp"
+#include "measure/causes.hpp"
+#include "measure/comparison.hpp"
+#include "measure/lag.hpp"
 
 // Short names, in the namespace report, for the data of measure/ that reports contain.
 namespace catoptric::report {

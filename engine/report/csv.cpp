@@ -4,8 +4,8 @@
 #include "measure/judge.hpp"
 #include "measure/metric.hpp"
 #include "measure/views.hpp"
-#include "report/report.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
 
 #include <fmt/format.h>
 
@@ -257,6 +257,8 @@ std::string text_of(const CsvLine& line, const std::vector<std::string>& columns
 }
 
 } // namespace
+
+std::string to_csv(const Comparison& comparison) { return to_csv(comparison, CsvColumns::table); }
 
 std::string to_csv(const Comparison& comparison, CsvColumns which) {
     return to_csv(std::vector{&comparison}, which);

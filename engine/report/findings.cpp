@@ -2,6 +2,7 @@
 
 #include "measure/findings.hpp"
 #include "measure/judge.hpp"
+#include "measure/lag.hpp"
 #include "measure/seed_report.hpp"
 #include "report/text.hpp"
 

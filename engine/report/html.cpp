@@ -4,9 +4,9 @@
 #include "measure/judge.hpp"
 #include "report/part.hpp"
 #include "report/plot.hpp"
-#include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
 
 #include <fmt/format.h>
 
@@ -158,8 +158,7 @@ std::string heat_scale() {
 
 /// Returns the legend of the pictures by cause, or nothing if there are none.
 std::string cause_legend(const Comparison& comparison) {
-    if (std::ranges::none_of(comparison.rows,
-                             [](const Row& row) { return row.causes.has_value(); }))
+    if (std::ranges::none_of(comparison.rows, [](const Row& row) { return row.causes != nullptr; }))
         return "";
     std::string html = "<ul class=\"legend\">";
     for (const CauseColour& one : cause_colours())

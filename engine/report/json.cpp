@@ -4,8 +4,9 @@
 #include "core/mirror_id.hpp"
 #include "core/text.hpp"
 #include "measure/flip.hpp"
-#include "report/report.hpp"
+#include "measure/lag.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/plan_entry.hpp"
+#include "core/frame_facts.hpp"
+#include "measure/lag.hpp"
 #include "measure/metric.hpp"
 #include "report/comparison.hpp"
 

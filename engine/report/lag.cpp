@@ -1,4 +1,5 @@
 // The lag of rows with history: JSON, tables, sentences and plots.
+#include "measure/lag.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/part.hpp"

@@ -1,8 +1,8 @@
 #include "core/text.hpp"
 #include "report/part.hpp"
-#include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "report/report.hpp"
 #include "report/tables.hpp"
+#include "report/writer.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,8 +1,9 @@
 // Writes one report on several scenes.
+#include "measure/causes.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
-#include "report/report.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
 
 #include <algorithm>
 
@@ -29,7 +30,10 @@ Comparison without_pictures(const Comparison& comparison) {
     for (Row& row : bare.rows) {
         row.hdr = row.display = {};
         row.flip_map = {};
-        if (row.causes) row.causes->largest = {};
+        if (row.causes) { // copied, because rows share their causes
+            row.causes = std::make_shared<measure::Causes>(*row.causes);
+            row.causes->largest = {};
+        }
         if (row.worst) row.worst->display = {};
     }
     return bare;

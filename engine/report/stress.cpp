@@ -3,9 +3,9 @@
 #include "core/file.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
-#include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
 #include "report/text.hpp"
+#include "measure/lag.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 #include "measure/heat.hpp"
 #include "measure/picture_file.hpp"
 #include "report/html.hpp"
-#include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -121,8 +121,8 @@ void ScenesWriter::write(std::size_t index, const Comparison& comparison) {
     write_texts(folder_, scenes_, csv_, to_html(scenes_, sections_));
 }
 
-void write(const Comparison& comparison, const fs::path& folder, CsvColumns csv) {
-    Writer(folder, csv).write(comparison);
+void write(const Comparison& comparison, const fs::path& folder) {
+    Writer(folder).write(comparison);
 }
 
 } // namespace catoptric::report

@@ -1,6 +1,7 @@
 #include "require/culled_work.hpp"
 
 #include "core/text.hpp"
+#include "scene/material_facts.hpp"
 
 #include <algorithm>
 #include <bit>

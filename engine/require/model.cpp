@@ -1,4 +1,5 @@
 #include "require/model.hpp"
+#include "scene/light.hpp"
 
 namespace catoptric::require {
 

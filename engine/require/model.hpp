@@ -1,8 +1,8 @@
 #pragma once
 
-#include "../core/export.hpp"
-#include "../core/mirror_id.hpp"
-#include "../scene/scene.hpp"
+#include "core/frame_facts.hpp"
+#include "core/mirror_id.hpp"
+#include "scene/scene.hpp"
 
 #include <array>
 #include <cstdint>
@@ -69,13 +69,7 @@ struct Caster {
     std::uint64_t content_hash = 0; ///< content hash of its shape and place
 };
 
-/// An item of culled work, described for the user.
-struct CulledWork {
-    std::string what;
-    std::string why;
-    std::string saves;
-    double error = 0; ///< largest change of a displayed pixel, of 1; 0: none
-};
+using catoptric::CulledWork;
 
 struct Model {
     bool is_everything = true;
@@ -86,11 +80,11 @@ struct Model {
 };
 
 /// Returns the model that culls no work and keeps no captures.
-CATOPTRIC_API Model everything(const Question& question);
+Model everything(const Question& question);
 /// Returns the model with only the work that the picture requires. All faces have one content hash
 /// that covers the whole scene, because a single picture does not tell which objects move.
 /// O(vertices). Use Requirements for many pictures of one scene.
-CATOPTRIC_API Model required(const Question& question);
+Model required(const Question& question);
 
 /// Computes the models of successive pictures of one scene whose meshes stay the same. Content
 /// hashes tell which captures show an object that moved. Equal hashes stand for equal bytes only
@@ -99,15 +93,15 @@ class Requirements {
 public:
     /// Takes the scene as loaded: every object in its place at rest, and the list of motions.
     /// O(vertices + texels of images).
-    CATOPTRIC_API explicit Requirements(const scene::Scene& rest);
-    CATOPTRIC_API ~Requirements();
-    CATOPTRIC_API Requirements(Requirements&&) noexcept;
-    CATOPTRIC_API Requirements& operator=(Requirements&&) noexcept;
+    explicit Requirements(const scene::Scene& rest);
+    ~Requirements();
+    Requirements(Requirements&&) noexcept;
+    Requirements& operator=(Requirements&&) noexcept;
 
     /// Returns the model of a picture. The reference is valid until the next call. O(objects) if
     /// nothing has changed; else also mirrors * (walls + movers + their shadows). Figures are in
     /// docs/require.md.
-    CATOPTRIC_API const Model& of(const Question& question);
+    const Model& of(const Question& question);
 
 private:
     struct Impl;
@@ -116,6 +110,6 @@ private:
 
 /// Returns the model as text: a line for each mirror and light, then the culled work with its
 /// reasons. `scene` supplies the names.
-CATOPTRIC_API std::string to_text(const Model& model, const scene::Scene& scene);
+std::string to_text(const Model& model, const scene::Scene& scene);
 
 } // namespace catoptric::require

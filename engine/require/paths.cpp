@@ -1,6 +1,7 @@
 #include "require/paths.hpp"
 
 #include "bvh/closest_hit.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

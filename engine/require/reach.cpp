@@ -1,6 +1,7 @@
 #include "require/reach.hpp"
 
 #include "require/wall.hpp"
+#include "scene/light.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

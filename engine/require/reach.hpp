@@ -2,6 +2,7 @@
 
 #include "require/frustum.hpp"
 #include "require/world.hpp"
+#include "scene/light.hpp"
 
 #include <span>
 

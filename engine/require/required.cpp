@@ -3,6 +3,7 @@
 #include "require/reach.hpp"
 
 #include "core/content_hash.hpp"
+#include "core/mirror_id.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

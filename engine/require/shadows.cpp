@@ -1,4 +1,5 @@
 #include "require/shadows.hpp"
+#include "scene/light.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "require/world.hpp"
+#include "scene/light.hpp"
 
 #include <vector>
 

@@ -2,7 +2,9 @@
 
 #include "require/reach.hpp"
 #include "require/world_content_hashes.hpp"
+#include "scene/light.hpp"
 #include "scene/light_kind.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "require/wall.hpp"
+#include "scene/light.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>

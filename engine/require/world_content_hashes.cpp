@@ -1,4 +1,6 @@
 #include "require/world_content_hashes.hpp"
+#include "scene/light.hpp"
+#include "scene/material_facts.hpp"
 
 #include "scene/light_kind.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/content_hash.hpp"
+#include "scene/light.hpp"
 #include "scene/scene.hpp"
 
 /// Content hashes of parts of a scene. Equal hashes stand for parts that look the same.

@@ -5,6 +5,7 @@
 #include "core/text.hpp"
 #include "scene/light.hpp"
 #include "scene/light_kind.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,5 @@
 #include "scene/build.hpp"
 
-#include "scene/shapes.hpp"
-
 #include <utility>
 
 namespace catoptric::scene {

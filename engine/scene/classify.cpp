@@ -3,8 +3,10 @@
 #include "scene/mirror_shape.hpp"
 
 #include "scene/json.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/texel.hpp"
 #include "scene/transform.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
 #include <cmath>

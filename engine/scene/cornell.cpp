@@ -1,5 +1,6 @@
+#include "scene/build.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
-#include "scene/shapes.hpp"
 
 namespace catoptric::scene {
 

@@ -1,3 +1,4 @@
+#include "scene/default_camera.hpp"
 #include "scene/scene.hpp"
 
 #include <algorithm>

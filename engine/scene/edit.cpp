@@ -1,4 +1,4 @@
-#include "scene/edit.hpp"
+#include "scene/build.hpp"
 
 #include "core/error.hpp"
 #include "scene/moved_sphere.hpp"

@@ -1,5 +1,6 @@
 #include "scene/flat_mirror.hpp"
 
+#include "scene/material_facts.hpp"
 #include "scene/topology.hpp"
 #include "scene/transform.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/material_facts.hpp"
 #include "scene/scene.hpp"
 
 #include <optional>

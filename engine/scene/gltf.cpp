@@ -1,10 +1,13 @@
 #include "core/text.hpp"
+#include "scene/file_options.hpp"
 #include "scene/gltf_model.hpp"
 #include "scene/load.hpp"
+#include "scene/motion.hpp"
 #include "scene/moved_sphere.hpp"
 #include "scene/pose.hpp"
 #include "scene/repair.hpp"
 #include "scene/transform.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -217,7 +220,7 @@ bool has_lobe(const Material& material) {
 
 } // namespace
 
-Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
+Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
     const std::string file = path.string();
     Account account(options.budget);
     Files files(path, options.root, account);

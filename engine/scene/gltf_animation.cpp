@@ -1,6 +1,8 @@
 #include "core/knob.hpp"
 #include "core/text.hpp"
 #include "scene/gltf_model.hpp"
+#include "scene/motion.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <cmath>
 
@@ -129,7 +131,7 @@ private:
 };
 
 /// Returns the index of the animation that moves the nodes, or none. Throws the failure of
-/// `LoadOptions::animation_by` for an unknown name.
+/// `FileOptions::animation_by` for an unknown name.
 std::optional<std::size_t> chosen(const Context& context) {
     const std::vector<tinygltf::Animation>& all = context.document.model.animations;
     const std::string& name = context.options.animation;

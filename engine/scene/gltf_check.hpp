@@ -3,6 +3,7 @@
 #include "scene/gltf_container.hpp"
 #include "scene/json.hpp"
 #include "scene/material.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/notes.hpp"
 
 #include <algorithm>

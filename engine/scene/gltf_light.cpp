@@ -1,6 +1,7 @@
 #include "scene/gltf_texture.hpp"
 
 #include "scene/light_kind.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/repair.hpp"
 
 #include <algorithm>

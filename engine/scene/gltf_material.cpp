@@ -1,7 +1,9 @@
 #include "core/text.hpp"
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_texture.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/repair.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
 #include <array>

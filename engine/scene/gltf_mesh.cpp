@@ -1,5 +1,6 @@
 #include "scene/gltf_model.hpp"
 #include "scene/gltf_primitive.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
 #include <numeric>

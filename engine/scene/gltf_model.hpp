@@ -1,8 +1,10 @@
 #pragma once
 
+#include "scene/file_options.hpp"
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_texture.hpp"
 #include "scene/load.hpp"
+#include "scene/motion.hpp"
 
 #include <memory>
 #include <optional>
@@ -89,7 +91,7 @@ struct Context {
     Elements whole(int accessor, const std::string& place, int type = TINYGLTF_TYPE_SCALAR) const;
 
     const Document& document;
-    const LoadOptions& options;
+    const FileOptions& options;
     Account& account;
     Notes& notes;
     std::vector<UnsupportedFeature>& unsupported;
@@ -150,7 +152,7 @@ struct Animation {
     bool repeats = false;
 };
 /// Reads the animation that the options choose. The other animations are checked, too. Throws
-/// `bad_data`, or the failure of `LoadOptions::animation_by` for a name that no animation has.
+/// `bad_data`, or the failure of `FileOptions::animation_by` for a name that no animation has.
 Animation read_animation(Context& context);
 
 // ---- gltf_rig.cpp

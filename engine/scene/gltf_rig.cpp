@@ -1,4 +1,5 @@
 #include "scene/gltf_model.hpp"
+#include "scene/motion.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Writes a scene as .glb. A mirror is metallic 1, roughness 0. A light uses
+// KHR_materials_emissive_strength, and motion is a CUBICSPLINE translation. The camera is written,
+// too. Our own marks are in gltf_model.hpp.
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "scene/gltf_writer.hpp"

@@ -1,6 +1,7 @@
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_writer.hpp"
 #include "scene/image_file.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/number.hpp"
 
 #include <algorithm>

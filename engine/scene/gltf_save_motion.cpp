@@ -1,4 +1,5 @@
 #include "scene/gltf_writer.hpp"
+#include "scene/motion.hpp"
 
 #include <algorithm>
 #include <cmath>

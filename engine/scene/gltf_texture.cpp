@@ -2,6 +2,7 @@
 
 #include "core/text.hpp"
 #include "scene/image_file.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <cmath>
 #include <string_view>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/gltf_container.hpp"
+#include "scene/motion.hpp"
 #include "scene/scene.hpp"
 
 #include <map>

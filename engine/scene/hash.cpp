@@ -1,4 +1,6 @@
 #include "scene/light_kind.hpp"
+#include "scene/material_facts.hpp"
+#include "scene/motion.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/account.hpp"
-#include "scene/texture.hpp"
+#include "scene/material.hpp"
 
 #include <memory>
 #include <string>

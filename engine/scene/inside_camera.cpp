@@ -1,5 +1,6 @@
 #include "scene/inside_camera.hpp"
 
+#include "scene/material_facts.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

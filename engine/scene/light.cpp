@@ -1,6 +1,7 @@
 #include "scene/light.hpp"
 
 #include "scene/light_kind.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/topology.hpp"
 #include "scene/transform.hpp"
 

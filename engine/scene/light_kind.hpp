@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/light.hpp"
 
 #include <cstdint>
 #include <string_view>
@@ -24,7 +24,8 @@ struct ShaderNumbers {
 };
 
 struct LightKind {
-    Punctual::Kind id = Punctual::Kind::point; ///< unlike that of any other kind
+    /// Unlike that of any other kind. A kind with a file of its own has the next number.
+    Punctual::Kind id = Punctual::Kind::point;
     /// Name in reports and `info`, and `type` of KHR_lights_punctual.
     std::string_view name;
     /// For a kind that glTF lacks: the `type` as which other programs read the light. The name is

@@ -3,7 +3,9 @@
 #include "core/error.hpp"
 #include "core/knob.hpp"
 #include "core/text.hpp"
+#include "scene/built_in.hpp"
 #include "scene/classify.hpp"
+#include "scene/file_options.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -31,7 +33,7 @@ Scene classified(Scene scene) {
 }
 
 /// Throws if the options choose an animation of a scene that has none.
-void refuse_animation(const std::string& scene, const LoadOptions& options) {
+void refuse_animation(const std::string& scene, const FileOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
           options.animation_by.where, ": ", scene, " has no animation ",
           in_quotes(options.animation), ": wanted one of none");
@@ -63,6 +65,10 @@ const std::vector<BuiltIn>& built_in_scenes() {
 }
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {
+    return load_file(name_or_path, {.root = options.root, .animation = options.animation});
+}
+
+Scene load_file(const std::string& name_or_path, const FileOptions& options) {
     for (const BuiltIn& scene : built_in_scenes())
         if (scene.name == name_or_path) {
             refuse_animation(name_or_path, options);

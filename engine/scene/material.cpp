@@ -1,4 +1,5 @@
 #include "scene/material.hpp"
+#include "scene/material_facts.hpp"
 
 namespace catoptric::scene {
 

@@ -1,12 +1,37 @@
 #pragma once
 
-#include "../core/export.hpp"
-#include "texture.hpp"
+#include "../core/math.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <vector>
 
+/// Materials of surfaces, with their textures.
 namespace catoptric::scene {
+
+/// Decoded picture: 8 bits a channel, encoded as in the file. Red is in the low byte, then green,
+/// blue, alpha. Row-major from the top row.
+struct Image {
+    std::string name;
+    uvec2 size{0};
+    std::vector<std::uint32_t> texels; ///< size.x * size.y
+};
+
+/// Image with the way in which a surface reads it. The centre of texel (i, j) lies at ((i + .5) /
+/// width, (j + .5) / height) of texture space, v downwards as in glTF.
+struct Texture {
+    enum class Wrap { repeat, mirrored, clamp };
+    std::shared_ptr<const Image> image; ///< never null
+    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    bool nearest = false; ///< true: nearest texel; false: bilinear over four texels
+    bool srgb = false;    ///< red, green and blue are sRGB; each texel is decoded, then filtered
+    std::uint32_t uv_set = 0; ///< index into Mesh::uv, 0 or 1
+    /// Rows of KHR_texture_transform, which maps the mesh's (u, v, 1) to texture space.
+    vec3 u_row{1, 0, 0}, v_row{0, 1, 0};
+    bool operator==(const Texture&) const = default;
+};
 
 /// Optical model of a surface, the same for raster and rays. It is evaluated at the visible point,
 /// with the textures' values there. Let c = albedo (times texture, times the vertices' colour), m =
@@ -42,45 +67,5 @@ struct Material {
 
     bool operator==(const Material&) const = default;
 };
-
-/// A number from 0 to 1 that scales a property of a material. glTF reading and writing, `info` and
-/// the device's MaterialParameters (shaders/shared.h) follow from the rows of kMaterialFactors.
-struct MaterialFactor {
-    std::string_view name; ///< as in MATERIAL_FACTORS of shaders/shared.h
-    float Material::*member;
-    std::string_view extension; ///< glTF extension, or kCoreFactors
-    std::string_view key;       ///< member of that extension
-    float gltf_default;         ///< value without this key
-};
-/// The part of a glTF material that holds the factors of glTF itself.
-inline constexpr std::string_view kCoreFactors = "pbrMetallicRoughness";
-inline constexpr MaterialFactor kMaterialFactors[] = {
-    {"metallic", &Material::metallic, kCoreFactors, "metallicFactor", 1},
-    {"roughness", &Material::roughness, kCoreFactors, "roughnessFactor", 1},
-};
-
-/// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
-/// this list; a member that is missing here does not compile.
-template <typename Visit>
-inline void visit_members(const Material& material, Visit&& visit) {
-    const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
-                 metallic, roughness, dielectric_f0, dielectric_f90, alpha, alpha_cutoff,
-                 albedo_texture, emission_texture, roughness_texture, light] = material;
-    visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
-    visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
-    visit(dielectric_f0), visit(dielectric_f90), visit(alpha), visit(alpha_cutoff);
-    visit(albedo_texture), visit(emission_texture), visit(roughness_texture), visit(light);
-}
-
-/// Returns whether camera and reflected rays see the surface only from its front. This holds for
-/// `front_only` and for a light that shines to one side. All surfaces but lights cast their shadow
-/// from both sides.
-CATOPTRIC_API bool is_one_sided(const Material& material);
-/// Returns whether the surface can be seen by its own light.
-CATOPTRIC_API bool glows(const Material& material);
-/// Returns the radiance with which the surface lights others; 0 if it lights nothing.
-CATOPTRIC_API vec3 light_of(const Material& material);
-/// Returns whether an alpha mask may cut out parts of the surface.
-CATOPTRIC_API bool is_masked(const Material& material);
 
 } // namespace catoptric::scene

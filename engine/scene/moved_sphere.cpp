@@ -1,5 +1,7 @@
 #include "scene/moved_sphere.hpp"
 
+#include "scene/motion.hpp"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "core/knob.hpp"
 #include "core/text.hpp"
+#include "scene/file_options.hpp"
 #include "scene/load.hpp"
 #include "scene/obj_text.hpp"
 #include "scene/repair.hpp"
@@ -186,7 +187,7 @@ struct Parsed {
 
 } // namespace
 
-Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
+Scene load_obj(const std::filesystem::path& path, const FileOptions& options) {
     const std::string file = path.string();
     Account account(options.budget);
     Files files(path, options.root, account);

@@ -4,6 +4,7 @@
 #include "scene/number.hpp"
 #include "scene/obj_text.hpp"
 #include "scene/repair.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "scene/obj_text.hpp"
 
 #include "core/text.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <charconv>
 #include <cstdint>

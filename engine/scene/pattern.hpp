@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/texture.hpp"
+#include "scene/material.hpp"
 
 /// Procedural textures for the built-in scenes.
 namespace catoptric::scene {

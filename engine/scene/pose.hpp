@@ -6,6 +6,14 @@
 
 namespace catoptric::scene {
 
+/// Returns one camera `seconds` after the start.
+Camera camera_at(const Camera& camera, double seconds);
+
+/// Returns whether some object, light or camera moves.
+bool is_animated(const Scene& scene);
+/// Returns the longest period of all motions, in seconds; 0 if nothing moves.
+double period(const Scene& scene);
+
 /// Sets `still` to what `at` returns for this time, without copying a mesh or a material. `still`
 /// is a copy of the scene or an earlier result of this function. Throws `Failure::usage` for a time
 /// that is not finite.

@@ -1,6 +1,7 @@
 // A furnished room: textures, furniture that shares its meshes, a wall mirror, a smooth floor, two
 // lamps and a spot.
 #include "scene/build.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "scene/pattern.hpp"
 #include "scene/shapes.hpp"

@@ -1,5 +1,6 @@
 #include "scene/scene.hpp"
 
+#include "scene/pose.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>

@@ -2,23 +2,89 @@
 
 #include "../core/export.hpp"
 #include "../core/math.hpp"
-#include "environment.hpp"
 #include "material.hpp"
-#include "motion.hpp"
-#include "unsupported_feature.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// Scenes as plain data in world units, in double precision until they are rebased for the device.
-/// World space is right-handed. Units are those of the file.
+/// World space is right-handed. Units are those of the file. A time before or after all keys of a
+/// motion takes the first or last key.
 namespace catoptric::scene {
+
+/// translation(t) = amplitude * (1 - cos(2 pi t / period)), world units; 0 at t = 0.
+struct Harmonic {
+    dvec3 amplitude{0};
+    double period = 1; ///< seconds, > 0
+};
+
+enum class Interpolation { step, linear, cubic };
+
+/// Values over time. Interpolation is step, linear, or cubic Hermite as in glTF's CUBICSPLINE.
+template <typename Value>
+struct Track {
+    using Interpolation = scene::Interpolation;
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<double> times; ///< seconds, increasing
+    std::vector<Value> values;
+    std::vector<Value> in_tangents, out_tangents; ///< only with `cubic`
+};
+using Keys = Track<dvec3>; ///< positions or scales
+
+/// World-space translation through keys: world_from_keys * (position - rest), relative to the
+/// object's place at rest. Objects that follow the same keys share them.
+struct Keyframes {
+    std::shared_ptr<const Keys> keys; ///< none, or keys without times: stands still
+    dmat3 world_from_keys{1};
+    dvec3 rest{0};
+    /// Whether the motion starts again after the last key; false: the object stays there.
+    bool repeats = true;
+};
+
+struct Rig; // hierarchy of moving nodes that a loader makes; internal
+
+/// Attachment to a node of a rig. The transform is world_from_node * node_from_object. It replaces
+/// the transform at rest, which is the transform of the first instant. For a camera, it carries
+/// eye, target and up from their values at rest.
+struct Follows {
+    std::shared_ptr<const Rig> rig; ///< none: stands still
+    std::size_t node = 0;
+    dmat4 node_from_object{1};
+    bool operator==(const Follows&) const = default;
+};
+
+using Motion = std::variant<std::monostate, Harmonic, Keyframes, Follows>;
+
+/// Picture around the scene, seen by every ray that leaves the scene: radiance by direction. The
+/// picture is equirectangular: row 0 is at +y, the middle column at -z, and +x lies to its right.
+/// Lookups are bilinear; they wrap horizontally and clamp at the poles.
+struct Environment {
+    std::string name; ///< file name; "studio" for the built-in environment, which has no texels
+    bool studio = false;
+    uvec2 size{0};
+    std::vector<vec3> texels; ///< row-major, linear
+    double scale = 1;
+    double rotation_degrees = 0; ///< moves azimuth A to A + this; azimuth grows from -z to +x
+};
+
+/// Something in a scene file that is left out or approximated, or that was added to the scene. Ids
+/// are fixed words: "normal-texture", "rough-metal", "added-camera" ...
+struct UnsupportedFeature {
+    std::string id;
+    std::uint64_t count = 0;
+    std::string first; ///< first place, printable
+    /// Indices into Scene::materials of the materials with this feature; reports find its pixels by
+    /// them. Empty if the feature does not concern materials.
+    std::vector<std::size_t> materials;
+};
 
 /// Triangles with a normal at each vertex, object space.
 struct Mesh {
@@ -67,9 +133,7 @@ struct Camera {
 
 /// Light without a surface, as in KHR_lights_punctual. It shines along -z of its node.
 struct Punctual {
-    /// Kinds of the table in scene/light_kind.hpp. A kind with a file of its own has the next
-    /// number.
-    enum class Kind : std::uint8_t { point, spot, directional };
+    enum class Kind : std::uint8_t { point, spot, directional }; ///< ids: scene/light_kind.hpp
     std::string name;
     Kind kind = Kind::point;
     vec3 intensity{0}; ///< candela; lux (illuminance) for a directional light
@@ -77,27 +141,6 @@ struct Punctual {
     double cos_inner = 1, cos_outer = 0;                    ///< cosines of a spot's half angles
     dmat4 world_from_light{1};
     Motion motion;
-};
-
-/// Light as the shading formula sees it: a point or a direction. A one-sided lamp also has a cosine
-/// to its normal.
-struct PointLight {
-    dvec3 position{0};    ///< position of the light; for a lamp, the mean of its vertices
-    dvec3 normal{0};      ///< of an open one-sided lamp: mean vertex normal, unit length or zero
-    double area = 0;      ///< world units squared; 1 for a light without a surface
-    bool is_lamp = false; ///< whether the light is a lamp, which has a mesh
-    bool closed = false;  ///< true for a lamp whose every edge has two triangles
-    /// For an open two-sided lamp: orthogonal unit axes, right-handed. `cosines` holds the mean
-    /// |cosine| of the lamp's facets to each axis, over its area. Both are zero for any other
-    /// light.
-    dmat3 axes{0};
-    dvec3 cosines{0};
-    vec3 emission{0}; ///< radiance of a lamp; intensity or illuminance of a light without a surface
-    dvec3 axis{0}; ///< unit direction in which a spot or directional light shines; zero: all around
-    double range = std::numeric_limits<double>::infinity();
-    double cos_inner = 1, cos_outer = -1;        ///< cosines of a spot's half angles
-    bool directional = false;                    ///< infinitely far away; shines along `axis`
-    Punctual::Kind kind = Punctual::Kind::point; ///< of a light without a surface
 };
 
 struct Scene {
@@ -122,33 +165,11 @@ struct Scene {
 /// spheres, cameras and lights without a surface, and none is left. Pure. Throws `Failure::usage`
 /// for a time that is not finite.
 CATOPTRIC_API Scene at(const Scene& scene, double seconds);
-/// Returns one camera `seconds` after the start.
-CATOPTRIC_API Camera camera_at(const Camera& camera, double seconds);
-
-/// Returns whether some object, light or camera moves.
-CATOPTRIC_API bool is_animated(const Scene& scene);
-/// Returns the longest period of all motions, in seconds; 0 if nothing moves.
-CATOPTRIC_API double period(const Scene& scene);
-
 /// Returns whether the object is a mirror: numbered, captured, counted.
 CATOPTRIC_API bool is_mirror(const Scene& scene, const Object& object);
 /// Returns the indices into Scene::objects of the mirrors, in file order. Mirror n, counted from 1,
 /// is entry n-1.
 CATOPTRIC_API std::vector<std::size_t> mirrors(const Scene& scene);
-
-/// Returns the scene's lights: one for each connected component of each mesh that lights, in file
-/// order, then the lights without a surface. Vertices connect through a shared index or an
-/// identical position. Vertices at one position count once in the mean. Triangles without area, and
-/// vertices that only they use, contribute nothing.
-CATOPTRIC_API std::vector<PointLight> lights(const Scene& scene);
-
-/// Returns how much of a light's area shines in the unit direction `along`, away from it, 0 to 1:
-///   - A lamp with a mean normal: the cosine to that normal.
-///   - An open two-sided lamp: mean |cosine| of its facets, exact for a board, a tube and a ball.
-///   - Any other lamp, mainly a closed one: a quarter, the mean over all directions of the share
-///     that a convex body shows.
-///   - A light without a surface: 1.
-CATOPTRIC_API double share_towards(const PointLight& light, const dvec3& along);
 
 /// Returns the world-space bounds, at rest, of one object's triangles or of all objects. They are
 /// empty if there are no triangles.
@@ -156,17 +177,5 @@ CATOPTRIC_API Bounds<double> bounds(const Scene& scene, const Object& object);
 CATOPTRIC_API Bounds<double> bounds(const Scene& scene);
 
 CATOPTRIC_API std::size_t triangle_count(const Scene& scene);
-
-/// Returns the camera for a file without one. It looks at the centre of the bounds at rest, from
-/// the front, 30 degrees to the right and 20 degrees above. The vertical field of view is 40
-/// degrees. The eye is as near as the eight corners of the bounds stay within 90 % of the picture's
-/// height and width. The picture is `aspect` times as wide as it is high. Positions are rounded to
-/// about a millionth of the distance, so that they are short to type.
-CATOPTRIC_API Camera default_camera(const Scene& scene, double aspect = 1);
-
-/// Returns the 64-bit FNV-1a hash of names, geometry, materials, motion, cameras, lights and
-/// environment, as 16 hex digits. The scene's own name, its warnings and its files do not count: a
-/// copied file has the same hash.
-CATOPTRIC_API std::string hash(const Scene& scene);
 
 } // namespace catoptric::scene

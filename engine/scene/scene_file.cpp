@@ -4,6 +4,7 @@
 #include "core/file.hpp"
 #include "core/knob.hpp"
 #include "core/text.hpp"
+#include "scene/file_options.hpp"
 #include "scene/files.hpp"
 #include "scene/json.hpp"
 #include "scene/number.hpp"
@@ -183,7 +184,7 @@ fs::path scene_file_of(const fs::path& scene) {
     return path += ".catoptric.json";
 }
 
-std::optional<SceneFile> read_scene_file(const fs::path& scene, const LoadOptions& options) {
+std::optional<SceneFile> read_scene_file(const fs::path& scene, const FileOptions& options) {
     SceneFile found{.path = scene_file_of(scene)};
     const std::string place = found.path.string();
     Account account(options.budget);

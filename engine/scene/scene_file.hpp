@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/file_options.hpp"
 #include "scene/load.hpp"
 #include "scene/scene_overrides.hpp"
 
@@ -27,7 +28,7 @@ struct SceneFile {
 /// Reads the scene file of `scene`. Returns nothing if the file does not exist. Throws `bad_data`,
 /// naming file and key, for a value that is not allowed.
 std::optional<SceneFile> read_scene_file(const std::filesystem::path& scene,
-                                         const LoadOptions& options);
+                                         const FileOptions& options);
 
 /// Returns the text that `read_scene_file` reads as these overrides. Throws `usage` for a picture
 /// that does not lie below the scene's folder.

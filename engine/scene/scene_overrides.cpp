@@ -4,6 +4,7 @@
 #include "core/knob.hpp"
 #include "core/text.hpp"
 #include "scene/classify.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/number.hpp"
 #include "scene/texel.hpp"
 

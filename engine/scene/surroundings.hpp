@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/math.hpp"
-#include "scene/environment.hpp"
+#include "scene/scene.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/texture.hpp"
+#include "scene/material.hpp"
 
 /// Texture lookups on the processor, for scenes that are classified before anything is drawn.
 namespace catoptric::scene {

@@ -1,4 +1,5 @@
 // Turns scenes from +z up to +y up.
+#include "scene/motion.hpp"
 #include "scene/scene_overrides.hpp"
 
 #include <map>

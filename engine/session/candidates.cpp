@@ -1,6 +1,7 @@
 #include "session/candidates.hpp"
 
 #include "scene/classify.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/scene_overrides.hpp"
 #include "scene/transform.hpp"
 

@@ -1,6 +1,8 @@
 #include "session/engine.hpp"
 
+#include "session/access.hpp"
 #include "session/engine_impl.hpp"
+#include "session/folders.hpp"
 #include "session/profile.hpp"
 #include "session/version.hpp"
 
@@ -25,13 +27,12 @@ DeviceInfo to_info(const gpu::DeviceProperties& info) {
             .warning = {}};
 }
 
-gpu::DeviceOptions to_options(const EngineOptions& options,
-                              const std::optional<gpu::GivenDevice>& given) {
-    gpu::DeviceOptions wanted{options.device, options.validate, options.layered, false,
-                              options.instance_extensions};
-    wanted.given = given;
-    if (options.make_surface)
-        wanted.make_surface = [make = options.make_surface](auto instance) {
+gpu::DeviceOptions to_options(const EngineOptions& options, const EngineHooks& hooks) {
+    gpu::DeviceOptions wanted{options.device, options.validate, hooks.layered, false,
+                              hooks.instance_extensions};
+    if (hooks.given) wanted.given = *hooks.given;
+    if (hooks.make_surface)
+        wanted.make_surface = [make = hooks.make_surface](auto instance) {
             return gpu::surface_of(make(instance));
         };
     return wanted;
@@ -52,27 +53,34 @@ std::filesystem::path users_folder(const char* variable, const char* in_home) {
 
 } // namespace
 
-Engine::Impl::Impl(const EngineOptions& options, const std::optional<gpu::GivenDevice>& given)
-    : device(to_options(options, given)), pipelines(device, options.shader_variants, options.cache),
+Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
+    : device(to_options(options, hooks)), pipelines(device, hooks.shader_variants, options.cache),
       info(to_info(device.info())) {
     device.choose(choose(options, info));
 }
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
-Engine::Engine(const EngineOptions& options, const gpu::GivenDevice& given)
-    : impl_(std::make_unique<Impl>(options, given)) {}
+Engine::Engine(const EngineOptions& options, const EngineHooks& hooks)
+    : impl_(std::make_unique<Impl>(options, hooks)) {}
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }
 const std::string& Engine::warning() const { return impl_->pipelines.cache().warning(); }
-Compiled Engine::compiled() const { return {impl_->pipelines.made(), impl_->pipelines.ms()}; }
-CacheUse Engine::cache_use() const {
-    const gpu::PipelineCache& cache = impl_->pipelines.cache();
+bool Engine::usable() const { return !impl_->device.abandoned(); }
+void Engine::check_validation() const { impl_->device.check_validation(); }
+
+Engine Access::make_engine(const EngineOptions& options, const EngineHooks& hooks) {
+    return Engine(options, hooks);
+}
+Compiled Access::compiled(const Engine& engine) {
+    const gpu::Pipelines& pipelines = engine.impl_->pipelines;
+    return {pipelines.made(), pipelines.ms()};
+}
+CacheUse Access::cache_use(const Engine& engine) {
+    const gpu::PipelineCache& cache = engine.impl_->pipelines.cache();
     if (!cache.is_persistent()) return CacheUse::none;
     return cache.loaded_bytes() > 0 ? CacheUse::used : CacheUse::made;
 }
-bool Engine::usable() const { return !impl_->device.abandoned(); }
-void Engine::check_validation() const { impl_->device.check_validation(); }
 
 bool any_abandoned() { return gpu::any_abandoned(); }
 

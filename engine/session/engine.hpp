@@ -1,20 +1,12 @@
 #pragma once
 
 #include "../core/export.hpp"
-#include "../core/setting.hpp"
 
-#include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
-
-namespace catoptric::gpu {
-struct GivenDevice; // internal
-} // namespace catoptric::gpu
 
 /// The engine, as programs and libraries use it. Including this header needs no Vulkan header.
 namespace catoptric::app {
@@ -26,12 +18,6 @@ using Variants = std::vector<std::pair<std::string, std::string>>;
 struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
     bool validate = false; ///< turn on the validation layer; any message makes the run fail
-    /// Whether the six faces of a capture are rendered at once if the device can. False: the faces
-    /// are always rendered one by one.
-    bool layered = true;
-    /// Replacements of shader builds by other builds, for benchmarks: "raytrace.comp" ->
-    /// "raytrace.comp#naive".
-    std::map<std::string, std::string> shader_variants = {};
     /// Device profile to use (docs/performance.md), as `catoptric bench --tune` writes it. The
     /// engine throws `bad_data` or `missing_input` unless it is a file for this device and driver.
     std::filesystem::path profile = {};
@@ -44,20 +30,7 @@ struct EngineOptions {
     /// Folder that keeps compiled pipelines from process to process. Empty: pipelines are not kept
     /// on disk.
     std::filesystem::path cache = {};
-    /// For a window (session/screen.hpp): instance extensions that the window system needs, and a
-    /// function that makes the window's surface. The function receives the Vulkan instance and
-    /// returns the handle of a surface, which the engine owns from then on. The chosen device can
-    /// show pictures on this surface.
-    std::vector<std::string> instance_extensions = {};
-    std::function<std::uint64_t(void* instance)> make_surface = {};
 };
-
-/// Returns XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty if neither is an absolute
-/// path.
-CATOPTRIC_API std::filesystem::path cache_folder();
-/// Returns XDG_CONFIG_HOME/catoptric/devices, or HOME/.config/catoptric/devices; empty if neither
-/// is an absolute path.
-CATOPTRIC_API std::filesystem::path profile_folder();
 
 struct KnobInfo {
     std::string name, help;
@@ -72,14 +45,6 @@ struct TechniqueInfo {
 };
 /// Returns every technique, in the order of the technique table.
 CATOPTRIC_API std::vector<TechniqueInfo> techniques();
-
-/// A technique with all its settings, as `parse_technique` reads it from "name[:knob=value,...]".
-/// For an unknown name, `parse_technique` throws `Failure::usage` with the nearest name.
-struct TechniqueChoice {
-    std::string technique, label, file_name;
-    std::vector<Setting> settings; ///< all knobs
-};
-CATOPTRIC_API TechniqueChoice parse_technique(const std::string& text);
 
 struct DeviceInfo {
     std::string name, driver, api, type;
@@ -101,22 +66,10 @@ CATOPTRIC_API std::string commit();  ///< abbreviated, "unknown" outside a check
 /// with std::_Exit.
 CATOPTRIC_API bool any_abandoned();
 
-/// Pipelines that an engine has compiled so far. A software driver compiles more of a pipeline in
-/// the first frame that uses it.
-struct Compiled {
-    std::size_t pipelines = 0;
-    double ms = 0; ///< host time from the shader's words to the driver's pipeline
-};
-
-/// State of the pipeline cache on disk. none: there is no cache. made: the cache is new, or its
-/// file was damaged. used: the driver received the cached data.
-enum class CacheUse { none, made, used };
-
-/// A device with the pipelines compiled for it. Only one thread may use an engine at a time.
-///
-/// The constructor sets environment variables of this process, so call it before other threads read
-/// the environment. It sets NODEVICE_SELECT, unless the user chose a device by Mesa's variable.
-/// With `validate` it also sets what the validation layer checks.
+/// A device with the pipelines compiled for it. Only one thread may use an engine at a time. The
+/// constructor sets environment variables of this process, so call it before other threads read the
+/// environment. It sets NODEVICE_SELECT, unless the user chose a device by Mesa's variable. With
+/// `validate` it also sets what the validation layer checks.
 class Engine {
 public:
     CATOPTRIC_API explicit Engine(const EngineOptions& options);
@@ -130,17 +83,13 @@ public:
     CATOPTRIC_API const DeviceInfo& device() const;
     /// Returns a warning for the user, such as a cache that cannot be used. Empty: none.
     CATOPTRIC_API const std::string& warning() const;
-    CATOPTRIC_API Compiled compiled() const;
-    CATOPTRIC_API CacheUse cache_use() const;
     /// Throws `internal` with the first message of the validation layer, if there is one.
     CATOPTRIC_API void check_validation() const;
 
 private:
-    friend class Screen;
-    friend class Session;
-    friend struct Embedding;
+    friend struct Access; // internal
     struct Impl;
-    Engine(const EngineOptions& options, const gpu::GivenDevice& given);
+    Engine(const EngineOptions& options, const struct EngineHooks& hooks);
     std::unique_ptr<Impl> impl_;
 };
 

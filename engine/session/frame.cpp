@@ -1,5 +1,7 @@
 // Reads the results of a frame that a session has submitted.
 #include "render/captured.hpp"
+#include "require/model.hpp"
+#include "session/access.hpp"
 #include "session/session_impl.hpp"
 
 namespace catoptric::app {
@@ -30,8 +32,9 @@ const FrameTimes& Frame::times() const {
 
 std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
-bool Frame::remembers(std::size_t part) const {
-    return app::remembers(impl_->frame, impl_->plan(), impl_->part(part));
+bool Access::remembers(const Frame& frame, std::size_t part) {
+    const Frame::Impl& self = *frame.impl_;
+    return app::remembers(self.frame, self.plan(), self.part(part));
 }
 
 const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
@@ -45,7 +48,7 @@ std::uint32_t Frame::waiting() const {
     return waiting;
 }
 
-const require::Model& Frame::model() const { return *impl_->model; }
+const require::Model& Access::model(const Frame& frame) { return *frame.impl_->model; }
 
 measure::Picture Frame::hdr(std::size_t part) const {
     return read_hdr(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
@@ -67,29 +70,31 @@ std::vector<Part> Frame::read_all() const {
     return parts;
 }
 
-render::Captured Frame::captures(std::size_t part) const {
-    const std::shared_ptr<const render::Captures>& captures = impl_->part(part).outputs.captures;
+render::Captured Access::captures(const Frame& frame, std::size_t part) {
+    const Frame::Impl& self = *frame.impl_;
+    const std::shared_ptr<const render::Captures>& captures = self.part(part).outputs.captures;
     check(
-        impl_->spec.with_captures && captures && captures->arrays.size() == 1 &&
+        self.hooks.with_captures && captures && captures->arrays.size() == 1 &&
             captures->arrays.front().distance,
-        Failure::internal, "'", impl_->part(part).plan.label,
+        Failure::internal, "'", self.part(part).plan.label,
         "': wanted captures with distances in one array that the frame was asked for, found none");
-    impl_->check_last();
-    graph::Runner& runner = impl_->runner();
+    self.check_last();
+    graph::Runner& runner = self.runner();
     const render::Cubes& cubes = captures->arrays.front();
-    return {cubes.face, runner.read(impl_->ticket, cubes.colour),
-            runner.read(impl_->ticket, *cubes.distance), impl_->session->resident->space()};
+    return {cubes.face, runner.read(self.ticket, cubes.colour),
+            runner.read(self.ticket, *cubes.distance), self.session->resident->space()};
 }
 
-std::vector<std::byte> Frame::state() const {
-    impl_->check_last();
-    graph::Runner& runner = impl_->runner();
+std::vector<std::byte> Access::state(const Frame& frame) {
+    const Frame::Impl& self = *frame.impl_;
+    self.check_last();
+    graph::Runner& runner = self.runner();
     std::vector<std::byte> bytes = runner.read_history();
     const auto add = [&](graph::ImageHandle image) {
-        const std::vector<std::byte> texels = runner.read(impl_->ticket, image);
+        const std::vector<std::byte> texels = runner.read(self.ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };
-    for (const Declared& part : impl_->frame.parts) {
+    for (const Declared& part : self.frame.parts) {
         if (!part.outputs.kept) continue;
         for (const render::Cubes& cubes : part.outputs.captures->arrays) {
             add(cubes.colour);
@@ -97,7 +102,7 @@ std::vector<std::byte> Frame::state() const {
         }
     }
     if (bytes.empty()) return bytes;
-    for (const Declared& part : impl_->frame.parts) add(part.outputs.hdr);
+    for (const Declared& part : self.frame.parts) add(part.outputs.hdr);
     return bytes;
 }
 

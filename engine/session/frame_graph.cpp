@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/half.hpp"
 #include "core/text.hpp"
+#include "session/access.hpp"
 #include "session/plan_file.hpp"
 #include "session/table.hpp"
 
@@ -129,16 +130,17 @@ std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& technique
     return plans;
 }
 
-FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
-                   const std::vector<std::string>& mirrors, const render::GpuScene& scene,
-                   graph::History history, const std::vector<reflect::CaptureHistory>& keeping) {
+FrameGraph declare(const FrameSpec& spec, const FrameHooks& hooks,
+                   const std::vector<reflect::Plan>& plans, const std::vector<std::string>& mirrors,
+                   const render::GpuScene& scene, graph::History history,
+                   const std::vector<reflect::CaptureHistory>& keeping) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     scene.begin_frame();
     for (const reflect::Plan& plan : plans) {
         const reflect::CaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
-        const render::FrameInputs inputs{scene,     spec.size,    prefix,
-                                         spec.seed, spec.ablated, spec.with_lookup};
+        const render::FrameInputs inputs{scene,     spec.size,     prefix,
+                                         spec.seed, hooks.ablated, spec.with_lookup};
         const reflect::Assignment assignment = reflect::fitted(
             reflect::assign(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
         reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment, kept);
@@ -149,10 +151,10 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
         for (const graph::BufferHandle counters : outputs.counters)
             frame.graph.mark_output(counters);
         if (outputs.lookup) frame.graph.mark_output(*outputs.lookup);
-        if (outputs.captures && (spec.with_lookup || spec.with_captures)) {
+        if (outputs.captures && (spec.with_lookup || hooks.with_captures)) {
             for (const render::Cubes& cubes : outputs.captures->arrays) {
                 frame.graph.mark_output(cubes.colour);
-                if (spec.with_captures && cubes.distance) frame.graph.mark_output(*cubes.distance);
+                if (hooks.with_captures && cubes.distance) frame.graph.mark_output(*cubes.distance);
             }
         }
         const std::optional<CaptureBudget> slices = slices_of(outputs, kept);

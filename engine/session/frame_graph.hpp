@@ -3,6 +3,7 @@
 #include "graph/plan.hpp"
 #include "graph/run.hpp"
 #include "reflect/frame.hpp"
+#include "session/access.hpp"
 #include "session/session.hpp"
 
 #include <memory>
@@ -34,9 +35,10 @@ std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& technique
 /// Declares the passes of every technique, the pass that composes its picture, and its outputs.
 /// `mirrors`: names of the mirrors. `keeping`: capture history of each plan. Throws `usage` for a
 /// plan that does not fit the mirrors.
-FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
-                   const std::vector<std::string>& mirrors, const render::GpuScene& scene,
-                   graph::History history, const std::vector<reflect::CaptureHistory>& keeping);
+FrameGraph declare(const FrameSpec& spec, const FrameHooks& hooks,
+                   const std::vector<reflect::Plan>& plans, const std::vector<std::string>& mirrors,
+                   const render::GpuScene& scene, graph::History history,
+                   const std::vector<reflect::CaptureHistory>& keeping);
 
 /// Returns whether the part keeps captures, or one of its passes reads data of the frame before.
 bool remembers(const FrameGraph& frame, const graph::GraphPlan& plan, const Declared& part);

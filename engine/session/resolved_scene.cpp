@@ -4,10 +4,15 @@
 #include "core/file.hpp"
 #include "core/text.hpp"
 #include "measure/picture_file.hpp"
+#include "scene/built_in.hpp"
 #include "scene/camera_named.hpp"
 #include "scene/classify.hpp"
+#include "scene/default_camera.hpp"
+#include "scene/file_options.hpp"
 #include "scene/inside_camera.hpp"
+#include "scene/light.hpp"
 #include "scene/scene_file.hpp"
+#include "scene/unsupported_feature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -179,11 +184,11 @@ ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& optio
         wanted.said.push_back("read beside the scene: " + filed->path.string() +
                               " (--no-scene-file leaves it out)");
     }
-    scene::LoadOptions load = options.load;
+    scene::FileOptions load = options.load;
     if (wanted.overrides.animation) load.animation = *wanted.overrides.animation;
     if (filed && !options.overrides.animation)
         load.animation_by = {filed->path.string() + ": animation", Failure::bad_data};
-    wanted.scene = scene::load(name, load);
+    wanted.scene = scene::load_file(name, load);
     apply(wanted, options.overrides, filed);
     if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
     surround(wanted, options.overrides);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/file_options.hpp"
 #include "scene/load.hpp"
 #include "scene/scene_overrides.hpp"
 
@@ -25,7 +26,7 @@ struct ResolvedScene {
 };
 
 struct ResolveOptions {
-    scene::LoadOptions load;
+    scene::FileOptions load;
     /// Overrides of the command line; they win over those of SCENE.catoptric.json.
     scene::SceneOverrides overrides;
     bool use_scene_file = true; ///< read SCENE.catoptric.json

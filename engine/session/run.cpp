@@ -1,7 +1,10 @@
 #include "session/run.hpp"
 
 #include "core/error.hpp"
+#include "session/access.hpp"
+#include "session/frames.hpp"
 #include "session/processor.hpp"
+#include "session/watcher.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +12,8 @@
 
 namespace catoptric::app {
 
-Frames::Frames(Session& session, const Request& request) : session_(session), request_(request) {
+Frames::Frames(Session& session, const Request& request, const FrameHooks& hooks)
+    : session_(session), request_(request), hooks_(hooks) {
     check(request.frames > 0 && request.warmup >= 0, Failure::usage,
           "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
           request.warmup);
@@ -18,13 +22,13 @@ Frames::Frames(Session& session, const Request& request) : session_(session), re
 
 bool Frames::next() {
     if (settled_ || number_ >= most_frames()) return false;
-    if (aside_) session_.resume(std::move(*aside_));
+    if (aside_) Access::resume(session_, std::move(*aside_));
     aside_.reset();
     ++number_;
     FrameSpec spec = request_;
     spec.time = request_.instant(number_);
     const double used_before = process_seconds();
-    frame_ = session_.frame(spec);
+    frame_ = Access::frame(session_, spec, hooks_);
     // The first measured frame must not wait for the frames before it.
     if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) {
@@ -34,7 +38,7 @@ bool Frames::next() {
             times_[times_.size() - kDetailedFrames - 1].passes = std::vector<PassTime>();
     }
     if (request_.until_settled) {
-        std::vector<std::byte> state = frame_->state();
+        std::vector<std::byte> state = Access::state(*frame_);
         settled_ = state.empty() || (state == state_ && frame_->waiting() == 0);
         state_ = std::move(state);
     }
@@ -55,8 +59,8 @@ Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
 
 Result run(Session& session, const Request& request, const Watcher& watcher) {
     Frames frames(session, request);
-    watcher.check_stopped();
-    while (frames.next()) watcher.frame(frames.number(), frames.most_frames());
+    check_stopped(watcher);
+    while (frames.next()) tell_frame(watcher, frames.number(), frames.most_frames());
     return frames.result();
 }
 

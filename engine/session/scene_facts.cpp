@@ -2,6 +2,9 @@
 
 #include "bvh/closest_hit.hpp"
 #include "render/views.hpp"
+#include "scene/built_in.hpp"
+#include "scene/hash.hpp"
+#include "scene/light.hpp"
 #include "scene/light_kind.hpp"
 #include "scene/load.hpp"
 #include "scene/pose.hpp"

@@ -2,6 +2,7 @@
 
 #include "scene/classify.hpp"
 #include "scene/load.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/pose.hpp"
 #include "session/candidates.hpp"
 #include "session/scene_facts.hpp"

@@ -2,6 +2,7 @@
 
 #include "measure/comparison.hpp"
 #include "scene/material.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/mirror_shape.hpp"
 #include "session/run.hpp"
 

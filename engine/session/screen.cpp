@@ -2,6 +2,7 @@
 #include "session/screen_impl.hpp"
 
 #include "core/stopwatch.hpp"
+#include "session/access.hpp"
 #include "session/session_impl.hpp"
 #include "shared.h"
 
@@ -40,7 +41,7 @@ void put(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
 
 } // namespace
 
-Screen::Impl::Impl(Engine::Impl& engine)
+Screen::Impl::Impl(Access::EngineImpl& engine)
     : device(engine.device), swapchain(engine.device),
       font(device, "font", 4, gpu::BufferUsage::plain) {}
 
@@ -53,7 +54,7 @@ Screen::Impl::~Impl() {
     }
 }
 
-Screen::Screen(Engine& engine) : impl_(std::make_unique<Impl>(*engine.impl_)) {}
+Screen::Screen(Engine& engine) : impl_(std::make_unique<Impl>(Access::impl(engine))) {}
 Screen::~Screen() = default;
 
 bool Screen::lost() const { return impl_->swapchain.lost(); }
@@ -89,18 +90,19 @@ void Screen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
     gpu::upload(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
 }
 
-Frame Session::show(const FrameSpec& spec, Screen& screen, const Showing& showing) {
+Frame Access::show(Session& session, const FrameSpec& spec, Screen& screen,
+                   const Showing& showing) {
     Screen::Impl& onto = *screen.impl_;
     check(onto.fits, Failure::internal,
           "a frame is shown on a screen that does not fit its window");
-    graph::Runner& runner = impl_->runner;
+    graph::Runner& runner = session.impl_->runner;
     const std::size_t index = std::exchange(onto.next_slot,
                                             (onto.next_slot + 1) % onto.slots.size());
     Screen::Impl::ScreenSlot& slot = onto.slots[index];
     if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait(slot.ticket);
     std::optional<std::uint32_t> image;
     onto.fits = false; // a refused frame returns its image only when all images are made again
-    Frame frame = submit(spec, [&](FrameGraph& graph) {
+    Frame frame = submit(session, spec, {}, [&](FrameGraph& graph) {
         image = onto.acquire();
         if (!image) return graph::ExternalSync{};
         onto.add(graph, spec, showing, index);

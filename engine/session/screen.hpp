@@ -1,10 +1,10 @@
 #pragma once
 
-#include "session/session.hpp"
+#include "session/access.hpp"
 
 #include <array>
 
-/// Images that a window's system shows. Session::show draws into them.
+/// Images that a window's system shows. Access::show draws into them.
 namespace catoptric::app {
 
 /// Triangles over a picture, such as controls and text.
@@ -43,7 +43,7 @@ struct Showing {
     Overlay overlay;
 };
 
-/// Images of one window. The engine must have been made with EngineOptions::make_surface. The
+/// Images of one window. The engine must have been made with EngineHooks::make_surface. The
 /// engine must outlive the screen, and the screen must outlive frames shown on it. A window has one
 /// screen.
 class Screen {
@@ -72,7 +72,7 @@ public:
     double present_ms() const;
 
 private:
-    friend class Session;
+    friend struct Access;
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -12,7 +12,7 @@
 namespace catoptric::app {
 
 struct Screen::Impl {
-    explicit Impl(Engine::Impl& engine);
+    explicit Impl(Access::EngineImpl& engine);
     ~Impl();
     /// Acquires an image. Returns nothing if the window has changed.
     std::optional<std::uint32_t> acquire();

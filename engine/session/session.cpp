@@ -4,7 +4,9 @@
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 #include "graph/dump.hpp"
+#include "require/model.hpp"
 #include "scene/pose.hpp"
+#include "session/access.hpp"
 #include "session/plan_file.hpp"
 #include "session/resolve_auto.hpp"
 
@@ -123,31 +125,36 @@ const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling m
 }
 
 Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
-    : impl_(std::make_shared<Impl>(*engine.impl_, std::move(scene), in_flight)) {}
+    : impl_(std::make_shared<Impl>(Access::impl(engine), std::move(scene), in_flight)) {}
 Session::~Session() = default;
 
 const scene::Scene& Session::scene() const { return impl_->scene; }
-Counts Session::counts() const {
-    Counts counts = impl_->counts;
-    counts.plans = impl_->runner.plans_made();
-    counts.memory_bytes = impl_->runner.memory_bytes();
-    counts.uploads = impl_->resident->uploads();
-    counts.hierarchies_built = impl_->resident->hierarchies_built();
-    counts.hierarchies_refitted = impl_->resident->hierarchies_refitted();
+
+Counts Access::counts(const Session& session) {
+    const Session::Impl& self = *session.impl_;
+    Counts counts = self.counts;
+    counts.plans = self.runner.plans_made();
+    counts.memory_bytes = self.runner.memory_bytes();
+    counts.uploads = self.resident->uploads();
+    counts.hierarchies_built = self.resident->hierarchies_built();
+    counts.hierarchies_refitted = self.resident->hierarchies_refitted();
     return counts;
 }
 
-Setup Session::setup() const {
-    return {impl_->resident->first_upload_ms(), impl_->resident->first_build_ms()};
+Setup Access::setup(const Session& session) {
+    const render::GpuScene& resident = *session.impl_->resident;
+    return {resident.first_upload_ms(), resident.first_build_ms()};
 }
 
-Frame Session::frame(const FrameSpec& spec) {
-    return submit(spec, [](FrameGraph&) { return graph::ExternalSync{}; });
+Frame Session::frame(const FrameSpec& spec) { return Access::frame(*this, spec, {}); }
+
+Frame Access::frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks) {
+    return submit(session, spec, hooks, [](FrameGraph&) { return graph::ExternalSync{}; });
 }
 
-Frame Session::submit(const FrameSpec& spec,
-                      const std::function<graph::ExternalSync(FrameGraph&)>& finish) {
-    Impl& self = *impl_;
+Frame Access::submit(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
+                     const std::function<graph::ExternalSync(FrameGraph&)>& finish) {
+    Session::Impl& self = *session.impl_;
     check_spec(spec);
     const std::vector<reflect::Plan>& plans = self.plans_of(spec);
     const bool follows = same(self.remembered, plans) && self.remembered_model == spec.model;
@@ -165,9 +172,9 @@ Frame Session::submit(const FrameSpec& spec,
     const double update_ms = self.update_scene(scene_key_of(spec));
     const SteadyClock::time_point start = SteadyClock::now();
     const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
-                                                                      spec.ablated != 0);
-    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history(),
-                               self.keeping(spec, *model, follows));
+                                                                      hooks.ablated != 0);
+    FrameGraph frame = declare(spec, hooks, plans, self.mirrors, *self.resident,
+                               self.runner.history(), self.keeping(spec, *model, follows));
     const double declare_ms = milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
     const SteadyClock::time_point trees = SteadyClock::now();
@@ -184,9 +191,10 @@ Frame Session::submit(const FrameSpec& spec,
     if (!spec.keeps_history) self.keep(frame, ticket);
     if (!spec.keeps_history && spec.budget_ms > 0) self.time(frame, ticket);
     ++self.counts.frames;
-    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{impl_,
+    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{session.impl_,
                                                            ticket,
                                                            spec,
+                                                           hooks,
                                                            std::move(frame),
                                                            model,
                                                            update_ms,
@@ -225,8 +233,8 @@ void Session::forget() {
     impl_->scene_key.reset();
 }
 
-Sequence Session::suspend() {
-    Impl& self = *impl_;
+Sequence Access::suspend(Session& session) {
+    Session::Impl& self = *session.impl_;
     self.measure();
     auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
         self.runner.suspend(), std::exchange(self.remembered, {}), self.remembered_model,
@@ -238,10 +246,10 @@ Sequence Session::suspend() {
     return Sequence(std::move(sequence));
 }
 
-void Session::resume(Sequence sequence) {
-    Impl& self = *impl_;
+void Access::resume(Session& session, Sequence sequence) {
+    Session::Impl& self = *session.impl_;
     if (sequence.impl_->units != self.units) {
-        forget();
+        session.forget();
         return;
     }
     self.runner.resume(std::move(sequence.impl_->leavings));
@@ -258,16 +266,15 @@ void Session::resume(Sequence sequence) {
     if (sequence.impl_->scene_key) self.update_scene(*sequence.impl_->scene_key);
 }
 
-std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
-    Impl& self = *impl_;
+std::string Access::plan(Session& session, const FrameSpec& spec, PlanFormat format) {
+    Session::Impl& self = *session.impl_;
     check_spec(spec);
     const std::vector<reflect::Plan>& plans = self.plans_of(spec);
     self.update_scene(scene_key_of(spec));
-    const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
-                                                                      spec.ablated != 0);
+    const std::shared_ptr<const require::Model> model = self.model_of(spec.model, false);
     std::vector<reflect::CaptureHistory> keeping(plans.size(),
                                                  {*model, nullptr, &self.comparisons});
-    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, {}, keeping);
+    FrameGraph frame = declare(spec, {}, plans, self.mirrors, *self.resident, {}, keeping);
     // If captures are kept, only the second frame compares them. The plan is that of the frame
     // after it, when nothing has changed.
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
@@ -275,7 +282,7 @@ std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
             keeping[i].before = frame.parts[i].outputs.kept;
             if (k > 0 && keeping[i].before) render::find_unchanged(*keeping[i].before);
         }
-        frame = declare(spec, plans, self.mirrors, *self.resident, frame.graph.left(), keeping);
+        frame = declare(spec, {}, plans, self.mirrors, *self.resident, frame.graph.left(), keeping);
     }
     const graph::GraphPlan& plan = self.runner.compiled(frame.graph);
     switch (format) {
@@ -286,10 +293,10 @@ std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
     return graph::to_text(frame.graph, plan);
 }
 
-FrameTimes Session::clear_cubes() {
+FrameTimes Access::clear_cubes(Session& session) {
+    Session::Impl& self = *session.impl_;
     constexpr std::uint32_t kEdge = 256;
-    const std::uint32_t mirrors = impl_->resident->mirror_count(),
-                        most = impl_->resident->most_cubes();
+    const std::uint32_t mirrors = self.resident->mirror_count(), most = self.resident->most_cubes();
     graph::Graph graph;
     for (std::uint32_t first = 0; first < mirrors; first += most) {
         const std::uint32_t count = std::min(most, mirrors - first);
@@ -308,9 +315,9 @@ FrameTimes Session::clear_cubes() {
         }
         graph.mark_output(cubes);
     }
-    ++impl_->counts.frames;
-    impl_->last = impl_->runner.submit(graph, graph::PassTiming::isolated);
-    return to_times(impl_->runner.wait(*impl_->last));
+    ++self.counts.frames;
+    self.last = self.runner.submit(graph, graph::PassTiming::isolated);
+    return to_times(self.runner.wait(*self.last));
 }
 
 } // namespace catoptric::app

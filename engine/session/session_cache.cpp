@@ -1,4 +1,5 @@
 // Keeps captures from frame to frame, and limits how many a frame draws again.
+#include "require/model.hpp"
 #include "session/session_impl.hpp"
 
 #include <algorithm>

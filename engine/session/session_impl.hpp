@@ -2,6 +2,8 @@
 
 #include "core/error.hpp"
 #include "graph/run.hpp"
+#include "require/model.hpp"
+#include "session/access.hpp"
 #include "session/capture_cost.hpp"
 #include "session/engine_impl.hpp"
 #include "session/frame_graph.hpp"
@@ -28,7 +30,7 @@ struct SceneKey {
 };
 
 struct Session::Impl {
-    Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
+    Impl(Access::EngineImpl& shared, scene::Scene at_rest, std::uint32_t in_flight)
         : engine(shared), scene(std::move(at_rest)),
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
           comparisons(shared.device,
@@ -66,7 +68,7 @@ struct Session::Impl {
     /// Stores the captures of a submitted frame for the next one.
     void keep(const FrameGraph& frame, graph::Ticket ticket);
 
-    Engine::Impl& engine;
+    Access::EngineImpl& engine;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
     render::Comparisons comparisons;
@@ -102,9 +104,10 @@ struct Session::Impl {
 };
 
 struct Frame::Impl {
-    std::shared_ptr<Session::Impl> session;
+    std::shared_ptr<Access::SessionImpl> session;
     graph::Ticket ticket;
     FrameSpec spec;
+    FrameHooks hooks;
     FrameGraph frame;
     std::shared_ptr<const require::Model> model;
     double update_ms = 0, declare_ms = 0, hierarchy_ms = 0, waited_ms = 0;

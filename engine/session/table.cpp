@@ -3,6 +3,7 @@
 
 #include "session/engine.hpp"
 #include "session/plan_file.hpp"
+#include "session/technique_choice.hpp"
 
 namespace catoptric::app {
 

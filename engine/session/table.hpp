@@ -1,8 +1,9 @@
 #pragma once
 
-#include "core/setting.hpp"
+#include "core/frame_facts.hpp"
 #include "reflect/technique.hpp"
 
+#include <string>
 #include <vector>
 
 namespace catoptric::app {

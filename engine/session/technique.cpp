@@ -1,4 +1,4 @@
-#include "session/technique.hpp"
+#include "technique.hpp"
 
 #include "core/error.hpp"
 #include "gpu/shader.hpp"

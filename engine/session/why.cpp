@@ -3,7 +3,10 @@
 #include "core/text.hpp"
 #include "report/text.hpp"
 #include "require/culled_work.hpp"
+#include "require/model.hpp"
 #include "require/suggest.hpp"
+#include "scene/pose.hpp"
+#include "session/capture_budget.hpp"
 #include "session/plan_file.hpp"
 #include "session/scene_facts.hpp"
 

@@ -1,11 +1,18 @@
 #include "study/causes.hpp"
 
 #include "core/error.hpp"
+#include "measure/causes.hpp"
+#include "measure/display.hpp"
 #include "measure/lines.hpp"
 #include "measure/masks.hpp"
 #include "measure/pixel_error.hpp"
 #include "measure/shapley.hpp"
+#include "report/comparison.hpp"
+#include "session/access.hpp"
+#include "session/frames.hpp"
 #include "session/plan_file.hpp"
+#include "session/technique_choice.hpp"
+#include "session/watcher.hpp"
 #include "shared.h"
 #include "study/study.hpp"
 
@@ -14,6 +21,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -176,11 +184,11 @@ void add_causes(const StudyInput& input) {
         const bool is_plan = !read_plan(text).is_technique;
         const bool is_twin = request.both_models && rows[i].model == name_of(Modelling::required);
         if (!rows[i].lookup || is_plan || is_twin) continue;
-        request.watcher.row("causes of " + text, i, rows.size());
+        tell_row(request.watcher, "causes of " + text, i, rows.size());
         if (!finder)
             finder.emplace(input.session, request.base, input.truth.at("1").part.hdr,
                            input.truth.hits(), request.watcher);
-        rows[i].causes = finder->find(text);
+        rows[i].causes = std::make_shared<report::Causes>(finder->find(text));
         input.tell();
     }
 }
@@ -198,15 +206,14 @@ void last_pictures(Session& session, const Request& request,
                    const std::vector<std::uint32_t>& ablated, const VisitPicture& visit,
                    const Watcher& watcher) {
     Frames frames(session, request);
-    for (int k = 1; k < request.total(); ++k) frames.next(), watcher.check_stopped();
+    for (int k = 1; k < request.total(); ++k) frames.next(), check_stopped(watcher);
     FrameSpec aside = request;
     aside.time = request.instant(request.total());
     aside.timing = Timing::pipelined;
     aside.keeps_history = true;
     for (std::size_t entry = 0; entry < ablated.size(); ++entry) {
-        aside.ablated = ablated[entry];
-        visit(entry, session.frame(aside).hdr());
-        watcher.check_stopped();
+        visit(entry, Access::frame(session, aside, {.ablated = ablated[entry]}).hdr());
+        check_stopped(watcher);
     }
 }
 

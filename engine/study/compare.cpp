@@ -1,13 +1,20 @@
-#include "study/compare.hpp"
+#include "compare.hpp"
 
 #include "core/error.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
+#include "measure/statistics.hpp"
 #include "reflect/technique.hpp"
+#include "report/comparison.hpp"
+#include "scene/pose.hpp"
+#include "session/access.hpp"
 #include "session/device_facts.hpp"
 #include "session/exposure.hpp"
 #include "session/processor.hpp"
 #include "session/scene_facts.hpp"
+#include "session/technique_choice.hpp"
+#include "session/watcher.hpp"
+#include "study/asked.hpp"
 #include "study/compare_row.hpp"
 #include "study/reference_cache.hpp"
 #include "study/row_judge.hpp"
@@ -49,7 +56,7 @@ std::string utc_now() {
 class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request)
-        : engine_(engine), request_(request), compiled_before_(engine.compiled()),
+        : engine_(engine), request_(request), compiled_before_(Access::compiled(engine)),
           session_(engine, request.base.scene),
           truths_(session_, request_.base, request_.reference, request_.watcher),
           judge_(session_, truths_, request_.base, request_.watcher) {
@@ -141,15 +148,15 @@ private:
 
     /// Fills facts that are known only after rows were measured.
     void fill_circumstances() {
-        const Setup setup = session_.setup();
-        const Compiled compiled = engine_.compiled();
+        const Setup setup = Access::setup(session_);
+        const Compiled compiled = Access::compiled(engine_);
         constexpr const char* kCacheUse[] = {"none", "made", "used"}; // indexed by CacheUse
         comparison_.setup = {request_.base.load_ms,
                              setup.upload_ms,
                              setup.hierarchy_ms,
                              compiled.ms - compiled_before_.ms,
                              compiled.pipelines - compiled_before_.pipelines,
-                             kCacheUse[static_cast<std::size_t>(engine_.cache_use())]};
+                             kCacheUse[static_cast<std::size_t>(Access::cache_use(engine_))]};
         comparison_.load_end = machine_load();
         comparison_.warnings = request_.base.scene.warnings;
         for (const std::vector<std::string>& warnings : row_warnings_)
@@ -165,9 +172,9 @@ private:
         const int frames = frames_of_round(request_.base.frames, comparison_.rounds, round);
         std::vector<double>& samples = clear_ms_.emplace_back();
         for (int k = 0; k < warmup + frames; ++k) {
-            const FrameTimes times = session_.clear_cubes();
+            const FrameTimes times = Access::clear_cubes(session_);
             if (k >= warmup) samples.push_back(times.passes_ms);
-            request_.watcher.check_stopped();
+            check_stopped(request_.watcher);
         }
         comparison_.clear_ms = measure::summarise(clear_ms_);
     }
@@ -235,10 +242,10 @@ private:
             const auto rounds = static_cast<std::size_t>(comparison_.rounds);
             std::string row = request_.together ? "all rows in one frame" : all[lane].front();
             if (request_.both_models) row += ", model " + name_of(models_[lane]);
-            request_.watcher.row(row + ", round " + std::to_string(round + 1) + " of " +
-                                     std::to_string(comparison_.rounds),
-                                 static_cast<std::size_t>(round) * all.size() + place,
-                                 rounds * all.size());
+            tell_row(request_.watcher,
+                     row + ", round " + std::to_string(round + 1) + " of " +
+                         std::to_string(comparison_.rounds),
+                     static_cast<std::size_t>(round) * all.size() + place, rounds * all.size());
             measure(lane, all[lane], round);
         }
         if (round > 0) tell();

@@ -1,4 +1,5 @@
 // Checks the request of a comparison.
+#include "compare.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "measure/interval.hpp"
@@ -6,7 +7,7 @@
 #include "scene/pose.hpp"
 #include "session/candidates.hpp"
 #include "session/plan_file.hpp"
-#include "study/compare.hpp"
+#include "study/asked.hpp"
 #include "study/study.hpp"
 
 #include <algorithm>

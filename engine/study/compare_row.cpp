@@ -1,8 +1,14 @@
 #include "study/compare_row.hpp"
 
-#include "measure/difference.hpp"
+#include "core/mirror_id.hpp"
+#include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
+#include "measure/picture.hpp"
+#include "measure/statistics.hpp"
+#include "report/comparison.hpp"
+#include "session/access.hpp"
+#include "session/technique_choice.hpp"
 
 #include <algorithm>
 

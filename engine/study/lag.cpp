@@ -1,10 +1,16 @@
 #include "study/lag.hpp"
 
 #include "core/error.hpp"
-#include "measure/difference.hpp"
+#include "measure/display.hpp"
 #include "measure/flip.hpp"
+#include "measure/lag.hpp"
 #include "measure/masks.hpp"
+#include "measure/picture.hpp"
 #include "measure/settling.hpp"
+#include "report/comparison.hpp"
+#include "scene/pose.hpp"
+#include "session/technique_choice.hpp"
+#include "session/watcher.hpp"
 #include "study/study.hpp"
 
 #include <algorithm>
@@ -126,7 +132,7 @@ private:
     };
 
     void begin(const std::string& label, std::size_t index, int frames) {
-        request_.watcher.row(label, index, request_.base.techniques.size() + 1);
+        tell_row(request_.watcher, label, index, request_.base.techniques.size() + 1);
         frames_done_ = 0;
         frames_expected_ = frames;
     }
@@ -138,7 +144,7 @@ private:
         spec.time = seconds;
         spec.model = Modelling::required; // gives the same pictures, and their times are not used
         const Frame made = session_.frame(spec);
-        request_.watcher.frame(++frames_done_, frames_expected_);
+        tell_frame(request_.watcher, ++frames_done_, frames_expected_);
         return made;
     }
     /// Begins with cold history. Counts frames that earlier runs saved as done.
@@ -270,7 +276,7 @@ void add_lag(const StudyInput& input) {
                  .reference = input.request.reference,
                  .watcher = input.request.watcher,
                  .on_finished_row = input.tell},
-                input.comparison.lag.emplace());
+                *(input.comparison.lag = std::make_shared<report::Lag>()));
 }
 
 const Registered kLagStudy{

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measure/lag.hpp"
 #include "report/comparison.hpp"
 #include "session/run.hpp"
 #include "session/watcher.hpp"

@@ -1,6 +1,9 @@
 #include "study/light_edges.hpp"
 
+#include "measure/display.hpp"
+#include "measure/light_edges.hpp"
 #include "measure/masks.hpp"
+#include "report/comparison.hpp"
 
 #include <algorithm>
 

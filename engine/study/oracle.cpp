@@ -1,7 +1,9 @@
 #include "study/oracle.hpp"
 
 #include "bvh/closest_hit.hpp"
+#include "measure/lookup.hpp"
 #include "render/views.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/pose.hpp"
 #include "session/rays.hpp"
 

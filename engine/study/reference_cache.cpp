@@ -1,4 +1,5 @@
 #include "study/reference_cache.hpp"
+#include "session/technique_choice.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "session/run.hpp"
+#include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 
 #include <map>

@@ -1,5 +1,8 @@
 #include "study/row_judge.hpp"
 
+#include "measure/lookup.hpp"
+#include "report/comparison.hpp"
+#include "session/technique_choice.hpp"
 #include "study/compare_row.hpp"
 #include "study/light_edges.hpp"
 

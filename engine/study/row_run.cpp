@@ -1,6 +1,7 @@
 #include "study/row_run.hpp"
 
 #include "core/stopwatch.hpp"
+#include "session/watcher.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -30,7 +31,7 @@ RowRun::RowRun(Session& session, Request request, const Watcher& watcher)
 void RowRun::measure(int frames) {
     const auto render = [&](int count) {
         for (int k = 0; k < count && frames_.next(); ++k)
-            watcher_.frame(frames_.number(), request_.total());
+            tell_frame(watcher_, frames_.number(), request_.total());
     };
     if (rounds_.empty()) {
         noisy_ = !processor_use() &&

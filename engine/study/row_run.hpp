@@ -1,5 +1,6 @@
 #pragma once
 
+#include "session/frames.hpp"
 #include "session/processor.hpp"
 #include "session/run.hpp"
 #include "session/watcher.hpp"

@@ -1,8 +1,14 @@
 #include "study/views.hpp"
 
 #include "core/error.hpp"
+#include "measure/interval.hpp"
+#include "report/comparison.hpp"
+#include "scene/pose.hpp"
+#include "session/access.hpp"
 #include "session/scene_facts.hpp"
 #include "session/seeded_camera.hpp"
+#include "session/technique_choice.hpp"
+#include "session/watcher.hpp"
 #include "study/compare_row.hpp"
 #include "study/reference_cache.hpp"
 #include "study/study.hpp"
@@ -128,11 +134,11 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
         const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
         Request at_view = request_at(request.base, comparison.views[i]);
         ReferenceCache truths(session, at_view, request.reference, request.watcher);
-        request.watcher.row(label + ": reference", i * pictures, count * pictures);
+        tell_row(request.watcher, label + ": reference", i * pictures, count * pictures);
         const std::vector<std::uint32_t> hits = truths.hits();
         for (std::size_t k = 0; k < texts.size(); ++k) {
-            request.watcher.row(label + ": " + comparison.rows[k].label, i * pictures + k + 1,
-                                count * pictures);
+            tell_row(request.watcher, label + ": " + comparison.rows[k].label, i * pictures + k + 1,
+                     count * pictures);
             Request one = at_view;
             one.techniques = {texts[k]};
             one.model = comparison.rows[k].model == name_of(Modelling::required)

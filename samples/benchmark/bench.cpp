@@ -4,6 +4,7 @@
 #include "core/stopwatch.hpp"
 #include "session/engine.hpp"
 #include "session/processor.hpp"
+#include "session/watcher.hpp"
 #include "study/row_run.hpp"
 
 #include <ctime>
@@ -74,7 +75,7 @@ public:
 private:
     void tell(std::size_t index, const std::string& doing) const {
         const std::size_t steps = subjects_.size() * (static_cast<std::size_t>(rounds_) + 1);
-        options_.watcher.row(subjects_[index].name + doing, done_, steps);
+        tell_row(options_.watcher, subjects_[index].name + doing, done_, steps);
     }
 
     void end(const Subject& subject) {
@@ -87,7 +88,7 @@ private:
         tell(index, ", warm-up");
         for (int k = 1; k <= subject.warmup; ++k) {
             subject.work();
-            options_.watcher.frame(k, subject.warmup);
+            tell_frame(options_.watcher, k, subject.warmup);
         }
         end(subject);
     }
@@ -105,7 +106,7 @@ private:
         sums.caller = caller_meter_.read() - caller, sums.process = meter_.read() - process;
         keep(index, iterations, sums);
         end(subject);
-        options_.watcher.frame(iterations, iterations);
+        tell_frame(options_.watcher, iterations, iterations);
     }
 
     void keep(std::size_t index, int iterations, const RoundSums& sums) {

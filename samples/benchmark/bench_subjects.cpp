@@ -1,7 +1,9 @@
 #include "benchmark/bench_subjects.hpp"
 
 #include "core/error.hpp"
+#include "session/access.hpp"
 #include "session/rays.hpp"
+#include "session/technique_choice.hpp"
 
 #include <optional>
 #include <utility>

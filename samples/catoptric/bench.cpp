@@ -4,6 +4,7 @@
 #include "bench_table.hpp"
 #include "bench_tune.hpp"
 #include "benchmark/bench_subjects.hpp"
+#include "compare.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "options.hpp"
@@ -12,7 +13,7 @@
 #include "progress.hpp"
 #include "report/benchmarks.hpp"
 #include "session/device_facts.hpp"
-#include "study/compare.hpp"
+#include "study/asked.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include "child.hpp"
 #include "report/benchmarks.hpp"
+#include "session/watcher.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -59,7 +60,8 @@ std::array<measure::BenchmarkRun, 2> bench_in_turn(const std::array<std::string,
         for (int place = 0; place < 2; ++place) {
             const auto which = static_cast<std::size_t>(round % 2 == 0 ? place : 1 - place);
             const std::string& program = programs[which];
-            watcher.row(
+            tell_row(
+                watcher,
                 program + ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
                 static_cast<std::size_t>(2 * round + place), static_cast<std::size_t>(2 * rounds));
             std::vector<std::string> command{program, "bench"};
@@ -67,7 +69,7 @@ std::array<measure::BenchmarkRun, 2> bench_in_turn(const std::array<std::string,
             const measure::BenchmarkRun found = report::read_benchmarks(
                 output_of(command, watcher.stop ? *watcher.stop : kGoOn), program + ": its stdout");
             runs[which] = round == 0 ? found : joined(runs[which], found);
-            watcher.frame(1, 1);
+            tell_frame(watcher, 1, 1);
         }
     return runs;
 }

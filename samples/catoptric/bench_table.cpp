@@ -1,6 +1,7 @@
 #include "bench_table.hpp"
 
 #include "core/text.hpp"
+#include "measure/interval.hpp"
 #include "measure/statistics.hpp"
 #include "table.hpp"
 

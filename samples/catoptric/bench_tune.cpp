@@ -2,14 +2,16 @@
 #include "bench_tune.hpp"
 
 #include "bench_table.hpp"
+#include "compare.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
 #include "places.hpp"
 #include "progress.hpp"
-#include "report/write.hpp"
+#include "report.hpp"
+#include "session/folders.hpp"
 #include "session/profile.hpp"
-#include "study/compare.hpp"
+#include "study/asked.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>

@@ -55,7 +55,7 @@ public:
     std::string read(const app::Watcher& watcher) const {
         std::string text;
         for (;;) {
-            watcher.check_stopped();
+            check_stopped(watcher);
             pollfd ready{out_, POLLIN, 0};
             if (::poll(&ready, 1, kLook) <= 0) continue;
             std::array<char, 1 << 16> block{};

@@ -1,15 +1,21 @@
 // catoptric compare: compares all techniques with the reference, with time and error in one table.
-#include "study/compare.hpp"
+#include "compare.hpp"
 
 #include "core/error.hpp"
 #include "core/image_module.hpp"
 #include "core/text.hpp"
+#include "measure/causes.hpp"
+#include "measure/interval.hpp"
+#include "measure/lag.hpp"
 #include "measure/row_notes.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "places.hpp"
 #include "progress.hpp"
-#include "report/report.hpp"
+#include "report/writer.hpp"
+#include "session/technique_choice.hpp"
+#include "session/watcher.hpp"
+#include "study/asked.hpp"
 #include "study/study.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
@@ -183,7 +189,7 @@ report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request
                                Progress& progress, Output& output) {
     const std::size_t row_count = rows_of(request).size();
     request.watcher = watcher_of(progress);
-    request.watcher.row("reference " + request.reference, 0, row_count);
+    tell_row(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
         output.write(index, so_far);
     };

@@ -1,5 +1,5 @@
 // catoptric diff: measures the difference of two pictures.
-#include "measure/difference.hpp"
+#include "measure/picture.hpp"
 
 #include "core/error.hpp"
 #include "json.hpp"

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "options.hpp"
 #include "session/engine.hpp"
+#include "session/technique_choice.hpp"
 
 namespace catoptric::cli {
 

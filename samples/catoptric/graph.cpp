@@ -4,6 +4,7 @@
 #include "options.hpp"
 #include "parse.hpp"
 #include "places.hpp"
+#include "session/access.hpp"
 #include "session/session.hpp"
 #include "session/why.hpp"
 #include "verbs.hpp"
@@ -75,7 +76,8 @@ int run_graph(const GraphOptions& options) {
         put_why(request, format, app::measured_slices(engine, request));
         return 0;
     }
-    std::string plan = app::Session(engine, request.scene).plan(request, format);
+    app::Session session(engine, request.scene);
+    std::string plan = app::Access::plan(session, request, format);
     if (!plan.ends_with('\n')) plan += '\n';
     put(plan);
     if (options.common.device.validate) engine.check_validation();

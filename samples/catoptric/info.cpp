@@ -5,6 +5,7 @@
 #include "json.hpp"
 #include "options.hpp"
 #include "parse.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "scene/scene_file.hpp"
 #include "scene_text.hpp"

@@ -1,8 +1,12 @@
 #include "json.hpp"
 
 #include "measure/metric.hpp"
+#include "report/comparison.hpp"
 #include "report/json.hpp"
+#include "session/access.hpp"
+#include "session/capture_budget.hpp"
 #include "session/device_facts.hpp"
+#include "session/technique_choice.hpp"
 #include "study/compare_row.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measure/difference.hpp"
+#include "measure/picture.hpp"
 #include "session/run.hpp"
 #include "session/scene_info.hpp"
 

@@ -1,6 +1,8 @@
 // Writes the JSON of `info SCENE --json`.
 #include "json.hpp"
+#include "report/comparison.hpp"
 #include "report/json.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/number.hpp"
 #include "session/engine.hpp"
 

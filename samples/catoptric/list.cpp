@@ -4,8 +4,10 @@
 #include "measure/metric.hpp"
 #include "options.hpp"
 #include "parse.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "session/engine.hpp"
+#include "session/folders.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 

@@ -7,9 +7,13 @@
 #include "core/stopwatch.hpp"
 #include "core/text.hpp"
 #include "parse.hpp"
+#include "scene/built_in.hpp"
+#include "scene/file_options.hpp"
 #include "scene/load.hpp"
 #include "session/candidates.hpp"
+#include "session/folders.hpp"
 #include "session/seeded_camera.hpp"
+#include "session/technique_choice.hpp"
 
 #include <algorithm>
 
@@ -85,7 +89,7 @@ void warn_of_no_mirror(const scene::Scene& scene) {
 
 } // namespace
 
-scene::LoadOptions load_options(const Common& common) {
+scene::FileOptions load_options(const Common& common) {
     return {.root = common.root,
             .budget = scene::budget_for(common.scene, common.budget, scene::free_memory())};
 }

@@ -3,6 +3,7 @@
 #include "command_line.hpp"
 #include "output.hpp"
 #include "scene/budget_for.hpp"
+#include "scene/file_options.hpp"
 #include "scene/load.hpp"
 #include "session/resolved_scene.hpp"
 #include "session/run.hpp"
@@ -69,7 +70,7 @@ void add_view(Verb& verb, Common& common);
 /// Adds --camera and --exposure.
 void add_camera(Verb& verb, Common& common);
 /// Returns the options for loading the scene.
-scene::LoadOptions load_options(const Common& common);
+scene::FileOptions load_options(const Common& common);
 /// Returns an exposure in stops, from -64 to 64. Throws `usage` for other text.
 double parse_stops(const std::string& text);
 

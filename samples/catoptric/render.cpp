@@ -5,14 +5,18 @@
 #include "drawn.hpp"
 #include "file_sequence.hpp"
 #include "json.hpp"
-#include "measure/difference.hpp"
+#include "measure/picture.hpp"
 #include "measure/picture_file.hpp"
 #include "measure/statistics.hpp"
 #include "options.hpp"
 #include "places.hpp"
 #include "progress.hpp"
+#include "session/capture_budget.hpp"
 #include "session/exposure.hpp"
+#include "session/frames.hpp"
 #include "session/run.hpp"
+#include "session/technique_choice.hpp"
+#include "session/watcher.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
@@ -122,12 +126,12 @@ void write_picture(const app::Part& part, const std::string& file) {
 /// Renders all frames. In a sequence, each measured frame is written to its file.
 void render(app::Frames& frames, const std::vector<std::string>& files, int warmup,
             const app::Watcher& watcher) {
-    watcher.check_stopped();
+    check_stopped(watcher);
     while (frames.next()) {
         const int measured = frames.number() - warmup;
         if (files.size() > 1 && measured > 0)
             write_picture(frames.frame().read(), files[static_cast<std::size_t>(measured - 1)]);
-        watcher.frame(frames.number(), frames.most_frames());
+        tell_frame(watcher, frames.number(), frames.most_frames());
     }
 }
 
@@ -178,7 +182,7 @@ int run_render(const RenderOptions& options) {
 
     Progress progress(manners);
     const app::Watcher watcher = watcher_of(progress);
-    watcher.row(choice.label, 0, 1);
+    tell_row(watcher, choice.label, 0, 1);
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
     app::Session session(engine, std::move(scene));

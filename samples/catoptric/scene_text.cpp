@@ -1,7 +1,9 @@
 #include "scene_text.hpp"
 
 #include "core/text.hpp"
+#include "report/comparison.hpp"
 #include "report/tables.hpp"
+#include "scene/material_facts.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>

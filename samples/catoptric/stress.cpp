@@ -7,7 +7,7 @@
 #include "parse.hpp"
 #include "places.hpp"
 #include "progress.hpp"
-#include "report/report.hpp"
+#include "report/writer.hpp"
 #include "stress/property.hpp"
 #include "table.hpp"
 #include "verbs.hpp"

@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "measure/judge.hpp"
 #include "measure/row_notes.hpp"
+#include "report/comparison.hpp"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,10 @@
 
 #include "measure/flip.hpp"
 #include "measure/picture_file.hpp"
+#include "scene/default_camera.hpp"
+#include "session/access.hpp"
+#include "session/frames.hpp"
+#include "session/watcher.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -53,12 +57,13 @@ app::Request Bench::asked(const scene::Scene& scene, const std::string& techniqu
 app::Part Bench::render(const app::Request& request) {
     app::Session session(engine_, request.scene);
     app::Frames frames(session, request);
-    while (frames.next()) watcher_.check_stopped();
+    while (frames.next()) check_stopped(watcher_);
     return frames.frame().read();
 }
 
 void Bench::plan(const app::Request& request) {
-    app::Session(engine_, request.scene).plan(request, app::PlanFormat::text);
+    app::Session session(engine_, request.scene);
+    app::Access::plan(session, request, app::PlanFormat::text);
 }
 
 void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "report/stress.hpp"
+#include "session/access.hpp"
 #include "session/run.hpp"
 #include "session/watcher.hpp"
 
@@ -22,9 +23,10 @@ public:
                        int frames = 4) const;
     app::Part render(const app::Request& request);
     /// Renders one frame of a property's own loop. Throws if the user stopped the run.
-    app::Frame frame(app::Session& session, const app::FrameSpec& spec) {
-        watcher_.check_stopped();
-        return session.frame(spec);
+    app::Frame frame(app::Session& session, const app::FrameSpec& spec,
+                     const app::FrameHooks& hooks = {}) {
+        check_stopped(watcher_);
+        return app::Access::frame(session, spec, hooks);
     }
     /// Compiles the plan of the request's frame without rendering.
     void plan(const app::Request& request);

@@ -3,8 +3,9 @@
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
-#include "measure/difference.hpp"
 #include "measure/masks.hpp"
+#include "measure/picture.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 
 #include <fmt/format.h>

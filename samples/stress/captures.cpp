@@ -8,6 +8,8 @@
 
 #include "core/format.hpp"
 #include "render/captured.hpp"
+#include "scene/build.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "scene/shapes.hpp"
 
@@ -40,9 +42,8 @@ render::Captured captured(Bench& bench, const scene::Scene& scene, std::uint32_t
         scene, fmt::format("parallax:shadow=none,face={},distance={}", edge, name_of(format)));
     request.size = {16, 16};
     request.ambient = 0;
-    request.with_captures = true;
     app::Session session(bench.engine(), scene);
-    return bench.frame(session, request).captures();
+    return app::Access::captures(bench.frame(session, request, {.with_captures = true}));
 }
 
 void judge_distances(Bench& bench) {

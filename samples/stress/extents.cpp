@@ -1,6 +1,6 @@
 // Properties of objects of very different size in one scene: the object in view keeps its
 // precision.
-#include "scene/shapes.hpp"
+#include "scene/build.hpp"
 #include "stress/double_tracer.hpp"
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"

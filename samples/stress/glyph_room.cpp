@@ -1,7 +1,6 @@
 #include "stress/glyph_room.hpp"
 
 #include "scene/build.hpp"
-#include "scene/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

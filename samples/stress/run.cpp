@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "session/device_facts.hpp"
+#include "session/watcher.hpp"
 #include "stress/property.hpp"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ report::Stress run(app::Engine& engine, const StressRequest& request) {
                           {}};
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            request.watcher.row(std::string(chosen[i]->id), i, chosen.size());
+            tell_row(request.watcher, std::string(chosen[i]->id), i, chosen.size());
             stress.rows.push_back(judged(engine, request, *chosen[i]));
             if (request.on_finished_row) request.on_finished_row(stress);
         }

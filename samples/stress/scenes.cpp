@@ -1,5 +1,6 @@
 #include "stress/scenes.hpp"
 
+#include "scene/build.hpp"
 #include "scene/shapes.hpp"
 
 #include <cmath>

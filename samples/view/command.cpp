@@ -1,5 +1,6 @@
 #include "command.hpp"
 
+#include "session/access.hpp"
 #include "session/candidates.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #include "inputs.hpp"
+#include "scene/pose.hpp"
 
 #include <GLFW/glfw3.h>
 

@@ -4,6 +4,7 @@
 #include "catoptric/signals.hpp"
 #include "core/error.hpp"
 #include "loop_impl.hpp"
+#include "scene/pose.hpp"
 #include "session/exposure.hpp"
 
 #include <fmt/format.h>
@@ -48,7 +49,7 @@ uvec2 Loop::first_window() const {
 void Loop::open(SceneOrigin scene) {
     viewer_.reset(); // releases its surface before another is made
     entries_of_.clear();
-    app::EngineOptions options = cli::engine_options(options_.common.device);
+    const app::EngineOptions options = cli::engine_options(options_.common.device);
     viewer_ = std::make_unique<Viewer>(window_, options, request_);
     controls_.give_font(viewer_->screen());
     if (scene == SceneOrigin::same) return; // the state stays the same

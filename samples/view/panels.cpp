@@ -2,6 +2,7 @@
 #include "panels.hpp"
 
 #include "inputs.hpp"
+#include "session/capture_budget.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>

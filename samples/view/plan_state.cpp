@@ -1,4 +1,5 @@
 #include "plan_state.hpp"
+#include "session/technique_choice.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/plan_entry.hpp"
+#include "core/frame_facts.hpp"
 #include "session/engine.hpp"
 
 #include <map>

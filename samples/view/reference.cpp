@@ -1,5 +1,6 @@
 #include "reference.hpp"
 
+#include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
 

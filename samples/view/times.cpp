@@ -1,4 +1,6 @@
 #include "times.hpp"
+#include "measure/interval.hpp"
+#include "measure/statistics.hpp"
 
 #include <algorithm>
 

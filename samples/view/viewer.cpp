@@ -29,9 +29,10 @@ bool same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
 
 } // namespace
 
-Viewer::Viewer(Window& window, app::EngineOptions options, const app::Request& request) {
-    window.add_to(options);
-    engine_ = std::make_unique<app::Engine>(options);
+Viewer::Viewer(Window& window, const app::EngineOptions& options, const app::Request& request) {
+    app::EngineHooks hooks;
+    window.add_to(hooks);
+    engine_.reset(new app::Engine(app::Access::make_engine(options, hooks)));
     screen_ = std::make_unique<app::Screen>(*engine_);
     session_ = std::make_unique<app::Session>(*engine_, request.scene, kInFlight);
     spec_ = request;
@@ -93,7 +94,7 @@ void Viewer::work_at_rest(const State& state) {
         cut();
         for (int k = 0; k < kHidden; ++k) {
             last_ = session_->frame(spec_);
-            if (!last_->remembers()) break;
+            if (!app::Access::remembers(*last_)) break;
         }
     }
     const bool compares = (state.mode == Mode::split || state.mode == Mode::difference) &&
@@ -127,9 +128,9 @@ std::shared_ptr<const measure::Picture> Viewer::canvas(const State& state) {
     app::FrameSpec aside = spec_;
     aside.keeps_history = true;
     const measure::Picture as_it_is = session_->frame(aside).read().display;
-    aside.ablated = state.cause;
     made_ = std::make_shared<measure::Picture>(difference_picture(
-        as_it_is, session_->frame(aside).read().display, static_cast<float>(state.gain)));
+        as_it_is, app::Access::frame(*session_, aside, {.ablated = state.cause}).read().display,
+        static_cast<float>(state.gain)));
     return made_;
 }
 
@@ -151,7 +152,8 @@ void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is
     }
     collect(kInFlight - 1);
     const double begin = now_ms();
-    app::Frame made = is_seen ? session_->show(spec_, *screen_, showing_) : session_->frame(spec_);
+    app::Frame made = is_seen ? app::Access::show(*session_, spec_, *screen_, showing_)
+                              : session_->frame(spec_);
     Times::Sample sample;
     if (is_seen)
         sample.acquire_ms = screen_->acquire_ms(), sample.present_ms = screen_->present_ms();
@@ -159,7 +161,7 @@ void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is
     sample.interval_ms = frames_ > 0 ? begin - began_ : 0;
     began_ = begin;
     last_ = made;
-    left_out_ = made.model().left_out;
+    left_out_ = app::Access::model(made).left_out;
     slices_ = made.slices();
     pending_.push_back({std::move(made), std::move(sample)});
     ++frames_;

@@ -18,7 +18,7 @@ class Viewer {
 public:
     /// Opens the request's scene with its size and first instant. Throws as Engine, Screen and
     /// Session do.
-    Viewer(Window& window, app::EngineOptions options, const app::Request& request);
+    Viewer(Window& window, const app::EngineOptions& options, const app::Request& request);
     /// Waits for frames in flight.
     ~Viewer();
 

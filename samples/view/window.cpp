@@ -87,11 +87,11 @@ Window::~Window() {
     glfwTerminate();
 }
 
-void Window::add_to(app::EngineOptions& options) const {
+void Window::add_to(app::EngineHooks& hooks) const {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
-    options.instance_extensions.assign(names, names + count);
-    options.make_surface = [window = window_](void* instance) {
+    hooks.instance_extensions.assign(names, names + count);
+    hooks.make_surface = [window = window_](void* instance) {
         return make_surface(window, instance);
     };
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "inputs.hpp"
+#include "session/access.hpp"
 #include "session/engine.hpp"
 
 #include <memory>
@@ -19,9 +20,9 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// Adds to the options what an engine needs to show pictures in this window. The window must
+    /// Adds to the hooks what an engine needs to show pictures in this window. The window must
     /// outlive the engine.
-    void add_to(app::EngineOptions& options) const;
+    void add_to(app::EngineHooks& hooks) const;
     /// Returns the input since the last call. With `wait`, sleeps up to a tenth of a second until
     /// something happens.
     Inputs poll(bool wait);

@@ -2,6 +2,7 @@
 #include "allocations/counting.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/passes.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "support/device.hpp"
 #include "support/techniques.hpp"

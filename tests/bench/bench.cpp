@@ -8,8 +8,10 @@
 #include "measure/statistics.hpp"
 #include "render/nearest.hpp"
 #include "repeats.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "scene/repair.hpp"
+#include "session/access.hpp"
 #include "support/wanted_device.hpp"
 
 #include <cstdio>
@@ -70,9 +72,9 @@ void compare(const char* title, const Side& a, const Side& b, const app::Request
 void compare_shapes(const app::Request& base, int rounds) {
     const std::string device = test::wanted_device();
     app::Engine plain({.device = device}),
-        naive_engine(
-            {.device = device, .shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}}),
-        faces_engine({.device = device, .layered = false});
+        naive_engine(app::Access::make_engine(
+            {.device = device}, {.shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}})),
+        faces_engine(app::Access::make_engine({.device = device}, {.layered = false}));
     Side fast{"default", plain, "raytrace:depth=4"},
         naive{"naive", naive_engine, "raytrace:depth=4"};
     std::printf("%s, %s\n", plain.device().name.c_str(), plain.device().driver.c_str());

@@ -6,6 +6,7 @@
 #include "benchmark/bench_subjects.hpp"
 #include "drivers/witness_rays.hpp"
 #include "measure/statistics.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 
 #include <algorithm>

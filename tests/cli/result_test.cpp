@@ -1,5 +1,6 @@
 // Tests of successful commands: lists, pictures, JSON, traces and reports.
 #include "cli/program.hpp"
+#include "measure/lag.hpp"
 #include "measure/metric.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 // and of the columns of rows.csv.
 #include "catoptric/file_sequence.hpp"
 #include "cli/program.hpp"
-#include "report/report.hpp"
+#include "report/writer.hpp"
 #include "support/refusal.hpp"
 
 #include <set>

@@ -1,6 +1,7 @@
 // Compares whole pictures of our ray tracer with pictures traced by Embree, an independent ray
 // tracer. Embree traces the same rays, one at a time and in packets.
 #include "peers/peer_scene.hpp"
+#include "scene/built_in.hpp"
 #include "support/rendering.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/geometry.hpp"
+#include "scene/built_in.hpp"
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 

@@ -2,6 +2,7 @@
 // The program exits with 75 and names what needed memory. Nothing stays alive on the device and no
 // file changes. After a failed wait nothing is destroyed at all.
 #include "faults/faults.hpp"
+#include "session/access.hpp"
 #include "support/rendering.hpp"
 
 #include <vulkan/vulkan_core.h>
@@ -14,6 +15,11 @@
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string plan_of(catoptric::app::Engine& engine, const catoptric::app::Request& request) {
+    catoptric::app::Session session(engine, request.scene);
+    return catoptric::app::Access::plan(session, request, catoptric::app::PlanFormat::json);
+}
 
 /// Vulkan calls that the engine makes and that may fail for lack of memory. Beside each call is a
 /// text that the error message must contain, because the message must say what needed memory.
@@ -219,8 +225,7 @@ TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
                 const catoptric::app::Request request = request_of(technique, size, 1);
                 std::uint64_t announced = 0;
                 const Watched watched = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
-                    const std::string plan = catoptric::app::Session(engine, request.scene)
-                                                 .plan(request, catoptric::app::PlanFormat::json);
+                    const std::string plan = plan_of(engine, request);
                     announced = nlohmann::json::parse(plan).at("bytes").get<std::uint64_t>();
                     catoptric::app::run(engine, request);
                 });

@@ -2,6 +2,8 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "scene/file_options.hpp"
+#include "scene/hash.hpp"
 #include "scene/load.hpp"
 
 #include <cstdint>
@@ -66,7 +68,8 @@ inline void load(const std::string& name) {
                                              .texels = 1 << 18,
                                              .made_bytes = 1 << 20,
                                              .cuts = 100'000};
-        const auto scene = catoptric::scene::load((folder() / name).string(), {.budget = small});
+        const auto scene = catoptric::scene::load_file((folder() / name).string(),
+                                                       {.budget = small});
         catoptric::scene::hash(scene);
         lights(catoptric::scene::at(scene, .5));
     });

@@ -1,6 +1,7 @@
 // Tests that each face of a capture shows its wall, the right way round and at the right distance.
 // A cube map lookup along a world direction must find the surface that lies in that direction.
 #include "core/shader_math.hpp"
+#include "scene/shapes.hpp"
 #include "stress/glyph_room.hpp"
 #include "stress/texels.hpp"
 #include "support/captures.hpp"

@@ -3,10 +3,12 @@
 // device is that of the other tests, so the validation layer checks it. samples/embedded is an
 // example of such a program.
 #include "core/error.hpp"
-#include "embed/embed.hpp"
+#include "embed.hpp"
 #include "gpu/buffer.hpp"
 #include "graph/physical.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
+#include "session/access.hpp"
 #include "session/session.hpp"
 #include "support/device.hpp"
 
@@ -127,7 +129,7 @@ TEST(Embed, UnusableTargetIsRefused) {
     spec.techniques.push_back("parallax");
     EXPECT_THAT(refused([&] { embed::frame_into(session, spec, {image}); }),
                 HasSubstr("one technique, not 2"));
-    EXPECT_EQ(session.counts().frames, 0u);
+    EXPECT_EQ(app::Access::counts(session).frames, 0u);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // Tests of indirect dispatches: the number of work groups is the one in the argument buffer at the
 // time when the GPU runs the dispatch.
+#include "session/access.hpp"
 #include "support/device.hpp"
 
 namespace {

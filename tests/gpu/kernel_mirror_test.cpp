@@ -1,4 +1,5 @@
 // Tests that the device and the C++ version of the BVH traversal find the same hits, bit for bit.
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "session/rays.hpp"
 #include "support/kernel.hpp"

@@ -1,6 +1,7 @@
 // Tests that captures keep their bytes whether six faces are drawn in one pass or one by one.
 // Culling objects from faces that cannot see them must not change a byte either.
 #include "render/views.hpp"
+#include "scene/built_in.hpp"
 #include "support/captures.hpp"
 #include "support/rendering.hpp"
 

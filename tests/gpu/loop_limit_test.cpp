@@ -1,5 +1,6 @@
 // Tests of a software driver that silently ends all loops of an invocation after 65,535 iterations.
 // The engine must report an error, because a picture from rays that were cut short is wrong.
+#include "session/access.hpp"
 #include "support/device.hpp"
 #include "support/rendering.hpp"
 

@@ -2,6 +2,7 @@
 // errors name the shader.
 #include "gpu/shader.hpp"
 #include "gpu/specialise.hpp"
+#include "session/access.hpp"
 #include "support/device.hpp"
 #include "support/folder.hpp"
 #include "support/process.hpp"

@@ -1,6 +1,8 @@
 // Tests of scenes that stay on the device. After any change the next frame must equal that of a new
 // session with the changed scene. No memory or work may accumulate.
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
+#include "session/access.hpp"
 #include "support/rendering.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -139,12 +141,12 @@ TEST(Session, ResumedSequenceContinues) {
     for (int k = 1; k <= 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
             const app::FrameSpec spec = spec_of(scene, techniques[i]);
-            if (k > 1) session.resume(std::move(aside[i]));
+            if (k > 1) app::Access::resume(session, std::move(aside[i]));
             const measure::Picture found = session.frame(spec).hdr();
             if (k > 1)
-                aside[i] = session.suspend();
+                aside[i] = app::Access::suspend(session);
             else
-                aside.push_back(session.suspend());
+                aside.push_back(app::Access::suspend(session));
             alone.forget();
             measure::Picture wanted;
             for (int frame = 1; frame <= k; ++frame) wanted = alone.frame(spec).hdr();
@@ -162,11 +164,11 @@ TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
     session.frame(spec), session.frame(spec);
-    app::Sequence sequence = session.suspend();
+    app::Sequence sequence = app::Access::suspend(session);
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
-    session.resume(std::move(sequence));
+    app::Access::resume(session, std::move(sequence));
     app::Session fresh(test::engine(), session.scene());
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
 }
@@ -191,11 +193,11 @@ TEST(Session, StillFramesWriteNothing) {
     app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
     for (int k = 0; k < 5; ++k) session.frame(spec);
-    EXPECT_EQ(session.counts().frames, 5u);
-    EXPECT_EQ(session.counts().updates, 1u);
+    EXPECT_EQ(app::Access::counts(session).frames, 5u);
+    EXPECT_EQ(app::Access::counts(session).updates, 1u);
     spec.camera.eye.x += .1;
     session.frame(spec);
-    EXPECT_EQ(session.counts().updates, 2u);
+    EXPECT_EQ(app::Access::counts(session).updates, 2u);
 }
 
 TEST(Session, FrameCanBeReadUntilTheNextFrame) {
@@ -261,7 +263,7 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
     for (const std::string technique : {"reuse:face=16", "raytrace", "hybrid:face=16"}) {
         session.forget();
         for (int k = 0; k < 3; ++k) session.frame(spec_of(scene, technique));
-        const app::Counts counts = session.counts();
+        const app::Counts counts = app::Access::counts(session);
         EXPECT_EQ(counts.hierarchies_built, technique == "reuse:face=16" ? 0u : 1u);
         EXPECT_EQ(counts.hierarchies_refitted, 0u);
         if (technique == "hybrid:face=16") {
@@ -280,7 +282,7 @@ TEST(Session, OnlyTracingTechniquesRefitTrees) {
             spec.time = .1 * k;
             session.frame(spec);
         }
-        const app::Counts counts = session.counts();
+        const app::Counts counts = app::Access::counts(session);
         const bool traces = technique == "raytrace";
         EXPECT_EQ(counts.hierarchies_built, traces ? 1u : 0u);
         EXPECT_EQ(counts.hierarchies_refitted, traces ? 4u : 0u);
@@ -334,13 +336,14 @@ TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     const scene::Scene scene = test::room(2, 1);
     const auto begin = std::chrono::steady_clock::now();
     app::Session session(test::engine(), scene);
-    EXPECT_EQ(session.setup().upload_ms, 0) << "nothing is written before the first frame";
+    EXPECT_EQ(app::Access::setup(session).upload_ms, 0)
+        << "nothing is written before the first frame";
     session.frame(spec_of(scene, "reuse:face=16"));
-    const app::Setup raster = session.setup();
+    const app::Setup raster = app::Access::setup(session);
     EXPECT_GT(raster.upload_ms, 0);
     EXPECT_EQ(raster.hierarchy_ms, 0) << "nobody has traced";
     session.frame(spec_of(scene, "raytrace"));
-    const app::Setup traced = session.setup();
+    const app::Setup traced = app::Access::setup(session);
     EXPECT_GT(traced.hierarchy_ms, 0);
     EXPECT_GT(traced.upload_ms, raster.upload_ms) << "the trees' way to the device";
     EXPECT_LE(traced.upload_ms + traced.hierarchy_ms, milliseconds_since(begin));
@@ -351,28 +354,28 @@ TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     app::FrameSpec spec = spec_of(scene, "raytrace");
     spec.camera.eye.x += .1;
     session.frame(spec);
-    EXPECT_EQ(session.setup().upload_ms, traced.upload_ms) << "once";
-    EXPECT_EQ(session.setup().hierarchy_ms, traced.hierarchy_ms);
+    EXPECT_EQ(app::Access::setup(session).upload_ms, traced.upload_ms) << "once";
+    EXPECT_EQ(app::Access::setup(session).hierarchy_ms, traced.hierarchy_ms);
 }
 
 TEST(Session, EngineCompilesEachPipelineOnce) {
     const scene::Scene scene = test::room(1, 1);
     const auto begin = std::chrono::steady_clock::now();
     app::Engine engine({.device = test::wanted_device()});
-    EXPECT_EQ(engine.compiled().pipelines, 0u);
-    EXPECT_EQ(engine.cache_use(), app::CacheUse::none);
+    EXPECT_EQ(app::Access::compiled(engine).pipelines, 0u);
+    EXPECT_EQ(app::Access::cache_use(engine), app::CacheUse::none);
     const app::FrameSpec spec = spec_of(scene, "raytrace:depth=1");
     app::Session(engine, scene).frame(spec).times();
-    const app::Compiled once = engine.compiled();
+    const app::Compiled once = app::Access::compiled(engine);
     EXPECT_GT(once.pipelines, 0u);
     EXPECT_GT(once.ms, 0);
     EXPECT_LE(once.ms, milliseconds_since(begin));
     app::Session(engine, scene).frame(spec).times();
-    EXPECT_EQ(engine.compiled().pipelines, once.pipelines);
-    EXPECT_EQ(engine.compiled().ms, once.ms);
+    EXPECT_EQ(app::Access::compiled(engine).pipelines, once.pipelines);
+    EXPECT_EQ(app::Access::compiled(engine).ms, once.ms);
     app::Session(engine, scene).frame(spec_of(scene, "naive:bounces=0")).times();
-    EXPECT_GT(engine.compiled().pipelines, once.pipelines);
-    EXPECT_GT(engine.compiled().ms, once.ms);
+    EXPECT_GT(app::Access::compiled(engine).pipelines, once.pipelines);
+    EXPECT_GT(app::Access::compiled(engine).ms, once.ms);
 }
 
 TEST(Session, ChangeOfSceneUnitsWaitsForFramesInFlight) {
@@ -399,10 +402,10 @@ TEST(Session, GraphOfAShapeIsPlannedOnce) {
         spec.camera.eye.x += .01;
         session.frame(spec);
     }
-    EXPECT_EQ(session.counts().plans, 1u) << "with history and without";
+    EXPECT_EQ(app::Access::counts(session).plans, 1u) << "with history and without";
     spec.size.x += 8;
     session.frame(spec);
-    EXPECT_EQ(session.counts().plans, 2u);
+    EXPECT_EQ(app::Access::counts(session).plans, 2u);
 }
 
 } // namespace

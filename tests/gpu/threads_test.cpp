@@ -1,5 +1,6 @@
 // Tests that engines are independent: two threads with an engine each must render the same pictures
 // as one thread.
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "session/session.hpp"
 

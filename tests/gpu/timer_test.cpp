@@ -2,6 +2,10 @@
 // takes about four times as long. The tests compare ratios only, because times depend on the
 // machine.
 #include "measure/statistics.hpp"
+#include "report/comparison.hpp"
+#include "scene/built_in.hpp"
+#include "session/access.hpp"
+#include "session/frames.hpp"
 #include "study/compare_row.hpp"
 #include "support/rendering.hpp"
 

@@ -2,6 +2,7 @@
 // may change a byte of a picture.
 #include "gpu/variants.hpp"
 #include "render/gpu_scene.hpp"
+#include "scene/built_in.hpp"
 #include "support/rendering.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // Tests that rasterisation and ray tracing give the same picture where no mirror is seen.
 #include "measure/lines.hpp"
+#include "scene/built_in.hpp"
 #include "support/numbers.hpp"
 #include "support/rendering.hpp"
 

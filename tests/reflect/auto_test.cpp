@@ -1,5 +1,7 @@
 // Tests of pictures drawn with `auto`, which chooses a plan for the scene.
-#include "scene/edit.hpp"
+#include "scene/build.hpp"
+#include "scene/built_in.hpp"
+#include "session/access.hpp"
 #include "support/rendering.hpp"
 
 namespace {
@@ -61,12 +63,12 @@ TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
     app::Session session(test::engine(), hall);
     app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
     EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
-    app::Sequence sequence = session.suspend();
+    app::Sequence sequence = app::Access::suspend(session);
     app::FrameSpec other = spec;
     other.techniques = {"reuse:face=16"};
     session.frame(other);
-    session.suspend();
-    session.resume(std::move(sequence));
+    app::Access::suspend(session);
+    app::Access::resume(session, std::move(sequence));
     // This view does not show the ball.
     spec.camera.eye = {.9, .9, 1.2}, spec.camera.target = {.9, 1, 1.9};
     spec.camera.vertical_fov_degrees = 10;

@@ -1,5 +1,6 @@
 // Tests of the capture cache with hand-made models of what a picture requires: which faces a frame
 // draws, and what the other faces hold.
+#include "require/model.hpp"
 #include "require/pieces.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"

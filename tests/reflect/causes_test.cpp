@@ -1,7 +1,12 @@
 // Tests of the split of an error by cause. The shares must add up to the whole error, and the cause
 // that a scene is built for must get its share.
+#include "compare.hpp"
+#include "core/mirror_id.hpp"
+#include "measure/causes.hpp"
+#include "report/comparison.hpp"
+#include "scene/built_in.hpp"
+#include "scene/material_facts.hpp"
 #include "study/causes.hpp"
-#include "study/compare.hpp"
 #include "support/boxes.hpp"
 
 #include <iostream>

@@ -1,5 +1,6 @@
 // Tests of rays between mirrors: objects that hide the mirror to which a search would continue a
 // ray, and answers from captures of other mirrors.
+#include "core/mirror_id.hpp"
 #include "support/paths.hpp"
 
 #include <iostream>

@@ -1,6 +1,8 @@
 // Tests of mirrors seen in mirrors of any shape, and of searches that read the captures of several
 // mirrors.
-#include "study/compare.hpp"
+#include "compare.hpp"
+#include "scene/built_in.hpp"
+#include "scene/shapes.hpp"
 #include "support/numbers.hpp"
 #include "support/searches.hpp"
 

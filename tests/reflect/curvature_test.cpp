@@ -1,6 +1,7 @@
 // Tests of `face=auto` on curved mirrors. The resolution of a capture must follow from the
 // curvature that the camera sees. This holds for both sides of a surface and for any direction of
 // its normals.
+#include "scene/shapes.hpp"
 #include "support/rendering.hpp"
 
 #include <cmath>

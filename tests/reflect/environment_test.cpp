@@ -301,10 +301,12 @@ TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = asked;
     session.frame(spec);
-    spec.ablated = shared::kAblateDistance | shared::kAblateDirection | shared::kAblateHidden |
-                   shared::kAblateTexels | shared::kAblateMirrors | shared::kAblateOwn |
-                   shared::kAblateShadows;
-    const measure::Picture ablated = session.frame(spec).read_all().front().hdr;
+    const std::uint32_t causes = shared::kAblateDistance | shared::kAblateDirection |
+                                 shared::kAblateHidden | shared::kAblateTexels |
+                                 shared::kAblateMirrors | shared::kAblateOwn |
+                                 shared::kAblateShadows;
+    const measure::Picture ablated =
+        app::Access::frame(session, spec, {.ablated = causes}).read().hdr;
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror(truth.hits[i])) continue;

@@ -3,6 +3,8 @@
 #include "core/knob.hpp"
 #include "places.hpp"
 #include "reflect/plan.hpp"
+#include "scene/built_in.hpp"
+#include "session/access.hpp"
 #include "support/rendering.hpp"
 
 #include <filesystem>
@@ -108,8 +110,9 @@ TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                         .choices.front();
                 const app::Request asked = test::request(test::room(mirrors, lights), {text},
                                                          {16, 16});
+                app::Session session(test::engine(), asked.scene);
                 const auto plan = nlohmann::json::parse(
-                    app::Session(test::engine(), asked.scene).plan(asked, app::PlanFormat::json));
+                    app::Access::plan(session, asked, app::PlanFormat::json));
                 EXPECT_EQ(plan.at("scene_passes"),
                           choice.technique->scene_passes(mirrors, lights, choice.settings))
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
@@ -180,8 +183,9 @@ TEST_P(EveryTechnique, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
 TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
     app::Request request = test::request(test::room(2, 2), {small()}, kEveryTechniqueSize);
     request.frames = 3;
+    app::Session session(test::engine(), request.scene);
     const auto plan = nlohmann::json::parse(
-        app::Session(test::engine(), request.scene).plan(request, app::PlanFormat::json));
+        app::Access::plan(session, request, app::PlanFormat::json));
     for (const app::FrameTimes& frame : app::run(test::engine(), request).frames) {
         ASSERT_EQ(frame.passes.size(), plan["passes"].size());
         double time = 0;

@@ -1,5 +1,6 @@
 // Tests that `face=auto` chooses the useful resolution of captures: a smaller edge looks up clearly
 // worse directions, and a larger edge improves little.
+#include "scene/built_in.hpp"
 #include "support/searches.hpp"
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // Tests that the scene files in samples/scenes render as the built-in scene.
 #include "measure/flip.hpp"
 #include "places.hpp"
+#include "scene/built_in.hpp"
 #include "support/folder.hpp"
 #include "support/rendering.hpp"
 

@@ -1,7 +1,7 @@
 // Tests of ray tracing from the triangles that the rasteriser draws (raytrace:first=raster, and
 // hybrid). The picture must be the traced one, although few camera rays and shadow rays are traced.
 #include "reflect/technique.hpp"
-#include "scene/edit.hpp"
+#include "scene/build.hpp"
 #include "support/drawn_hall.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"

@@ -1,5 +1,6 @@
 // Tests of `hybrid`, which traces only the pixels that its search cannot answer. The traced pixels
 // must equal ray tracing, and their number must be reported.
+#include "scene/built_in.hpp"
 #include "support/searches.hpp"
 
 namespace {

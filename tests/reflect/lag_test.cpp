@@ -1,5 +1,8 @@
 // Tests of lag: the error of pictures whose captures show the previous frame of a moving scene.
 #include "measure/flip.hpp"
+#include "measure/lag.hpp"
+#include "report/comparison.hpp"
+#include "scene/built_in.hpp"
 #include "study/lag.hpp"
 #include "support/rendering.hpp"
 

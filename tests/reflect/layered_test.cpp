@@ -1,6 +1,8 @@
 // Tests of captures with two layers. The second layer must hold the surfaces that a small ball
 // hides from the capture's centre, and the search must find them there.
 #include "core/shader_math.hpp"
+#include "scene/built_in.hpp"
+#include "scene/shapes.hpp"
 #include "support/captures.hpp"
 #include "support/searches.hpp"
 

@@ -1,5 +1,7 @@
 // Tests of animations: frame k shows the scene (k - 1) / 60 s after the start.
-#include "scene/edit.hpp"
+#include "scene/build.hpp"
+#include "scene/built_in.hpp"
+#include "session/frames.hpp"
 #include "support/rendering.hpp"
 
 namespace {

@@ -1,5 +1,6 @@
 // Tests of near planes. The surfaces nearest to a camera, a capture's centre or a lamp must be
 // drawn, even in the corners of a view or face.
+#include "scene/shapes.hpp"
 #include "stress/texels.hpp"
 #include "support/captures.hpp"
 #include "support/paths.hpp"

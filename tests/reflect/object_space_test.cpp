@@ -2,6 +2,7 @@
 // origin is precise enough for both, so each ball is stored in its own object space. Each ball must
 // look as in a scene without the other ball.
 #include "measure/flip.hpp"
+#include "scene/shapes.hpp"
 #include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
 

@@ -1,5 +1,7 @@
 // Tests of `parallax`, part three of the seed report. The corrected direction must reduce the
 // error, unless distances are stored in eight bits with a range of 200.
+#include "core/mirror_id.hpp"
+#include "scene/built_in.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>

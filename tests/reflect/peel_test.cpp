@@ -1,5 +1,6 @@
 // Tests of the second layer of captures. It must hold the surfaces behind the first layer, however
 // close, and never the first layer's surfaces.
+#include "scene/shapes.hpp"
 #include "stress/texels.hpp"
 #include "support/captures.hpp"
 

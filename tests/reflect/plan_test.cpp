@@ -1,6 +1,8 @@
 // Tests of plans, in which each mirror is drawn by its own technique. Each mirror's pixels must
 // equal those of a frame in which one technique draws all mirrors.
+#include "core/mirror_id.hpp"
 #include "measure/lookup.hpp"
+#include "scene/built_in.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>

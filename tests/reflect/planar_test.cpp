@@ -1,5 +1,9 @@
 // Tests of `planar`, which draws flat mirrors with mirrored views, against ray tracing.
-#include "study/compare.hpp"
+#include "compare.hpp"
+#include "core/mirror_id.hpp"
+#include "scene/material_facts.hpp"
+#include "scene/shapes.hpp"
+#include "study/asked.hpp"
 #include "support/lit.hpp"
 #include "support/paths.hpp"
 

@@ -1,5 +1,6 @@
 // Tests of precision and of the ray tracer's rules for robustness. Each rule is compared with its
 // alternative.
+#include "scene/built_in.hpp"
 #include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
 

@@ -2,6 +2,7 @@
 // mean distance over all directions that show something. The tests compute the radius from the
 // directions in which the mirror's pixels look.
 #include "render/views.hpp"
+#include "scene/shapes.hpp"
 #include "session/rays.hpp"
 #include "stress/texels.hpp"
 #include "support/rendering.hpp"

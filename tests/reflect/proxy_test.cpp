@@ -1,5 +1,7 @@
 // Tests of `proxy`, which fits a box or a sphere to the captured distances. The result must be
 // exact if the surroundings have that shape, and must do no harm if there are none.
+#include "measure/lookup.hpp"
+#include "scene/built_in.hpp"
 #include "stress/glyph_room.hpp"
 #include "support/searches.hpp"
 

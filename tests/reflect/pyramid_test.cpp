@@ -2,6 +2,8 @@
 // contain every bilinear lookup in the cell, and the search with them must be exact.
 #include "core/half.hpp"
 #include "core/shader_math.hpp"
+#include "measure/lookup.hpp"
+#include "scene/built_in.hpp"
 #include "stress/glyph_room.hpp"
 #include "support/captures.hpp"
 #include "support/searches.hpp"

@@ -1,8 +1,10 @@
 // Tests of the figures in a report. Each figure is computed again, from pictures rendered
 // separately and by code that shares nothing with the engine.
+#include "compare.hpp"
 #include "measure/flip.hpp"
-#include "report/report.hpp"
-#include "study/compare.hpp"
+#include "measure/statistics.hpp"
+#include "report/writer.hpp"
+#include "scene/built_in.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
 

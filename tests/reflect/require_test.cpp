@@ -2,6 +2,8 @@
 // captures.
 #include "render/captured.hpp"
 #include "require/model.hpp"
+#include "scene/built_in.hpp"
+#include "scene/pose.hpp"
 #include "support/drawn_hall.hpp"
 #include "support/rendering.hpp"
 
@@ -50,13 +52,13 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
                                            ",shadow_map=" + std::to_string(kShadowEdge)},
                             .camera = scene.cameras[0],
                             .size = {16, 16}};
-        spec.with_captures = true;
         const auto at = [&](double seconds) {
             spec.time = seconds;
             const scene::Scene now = scene::at(scene, seconds);
             const require::Model model = requirements.of(
                 {now, spec.camera, spec.size, kShadowEdge});
-            return std::pair(model.mirrors[0], session.frame(spec).captures());
+            return std::pair(model.mirrors[0], app::Access::captures(app::Access::frame(
+                                                   session, spec, {.with_captures = true})));
         };
         const auto [needs, captured] = at(.2);
         const auto [needs_later, captured_later] = at(.5);

@@ -1,6 +1,10 @@
 // Tests of the model `required`, which leaves out work that a picture does not need. Each picture
 // must equal that of a session that renders everything, byte for byte.
+#include "require/model.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
+#include "scene/shapes.hpp"
+#include "session/access.hpp"
 #include "support/drawn_hall.hpp"
 #include "support/rendering.hpp"
 
@@ -50,13 +54,14 @@ public:
     /// passes of the session that renders what is required.
     Names frame() {
         const auto [wanted, found] = next();
-        model_ = found.model();
+        model_ = app::Access::model(found);
         EXPECT_TRUE(same_pictures(wanted, found)) << "frame " << number_;
         if (!spec.keeps_history) {
-            EXPECT_EQ(found.remembers(), wanted.remembers());
+            EXPECT_EQ(app::Access::remembers(found), app::Access::remembers(wanted));
             // If not all faces are needed, some hold nothing, so the states differ.
-            const bool is_whole = needs_all_faces(found.model());
-            EXPECT_TRUE(!is_whole || found.state() == wanted.state()) << "frame " << number_;
+            const bool is_whole = needs_all_faces(app::Access::model(found));
+            EXPECT_TRUE(!is_whole || app::Access::state(found) == app::Access::state(wanted))
+                << "frame " << number_;
         }
         return names_of(found.times());
     }
@@ -87,7 +92,7 @@ public:
         act(few_);
     }
     const scene::Scene& scene() const { return all_.scene(); }
-    app::Counts counts() const { return few_.counts(); }
+    app::Counts counts() const { return app::Access::counts(few_); }
     const require::Model& model() const { return model_; } ///< model of the last frame
 
     app::FrameSpec spec;
@@ -330,15 +335,15 @@ TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
     Pair pair(test::room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
     std::vector<app::Sequence> aside;
-    pair.both([&](app::Session& session) { aside.push_back(session.suspend()); });
+    pair.both([&](app::Session& session) { aside.push_back(app::Access::suspend(session)); });
     for (int k = 0; k < 2; ++k) pair.frame(); // frames of another sequence with the same technique
     std::size_t i = 0;
-    pair.both([&](app::Session& session) { session.resume(std::move(aside[i++])); });
+    pair.both([&](app::Session& session) { app::Access::resume(session, std::move(aside[i++])); });
     pair.settle();
     aside.clear(), i = 0;
-    pair.both([&](app::Session& session) { aside.push_back(session.suspend()); });
+    pair.both([&](app::Session& session) { aside.push_back(app::Access::suspend(session)); });
     pair.frame();
-    pair.both([&](app::Session& session) { session.resume(std::move(aside[i++])); });
+    pair.both([&](app::Session& session) { app::Access::resume(session, std::move(aside[i++])); });
     EXPECT_EQ(pair.frame(), kSettled);
 }
 
@@ -396,9 +401,9 @@ TEST(RequiredFrames, FramesReportTheirModel) {
     spec.model = app::Modelling::required;
     const app::Frame frame = session.frame(spec);
     EXPECT_EQ(frame.read().model, app::Modelling::required);
-    EXPECT_FALSE(frame.model().is_everything);
-    EXPECT_EQ(frame.model().mirrors.size(), 1u);
-    const std::string plan = session.plan(spec, app::PlanFormat::text);
+    EXPECT_FALSE(app::Access::model(frame).is_everything);
+    EXPECT_EQ(app::Access::model(frame).mirrors.size(), 1u);
+    const std::string plan = app::Access::plan(session, spec, app::PlanFormat::text);
     EXPECT_EQ(plan.find("capture/1"), std::string::npos) << plan;
 }
 

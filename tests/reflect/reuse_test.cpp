@@ -1,5 +1,7 @@
 // Tests that `reuse`, part two of the seed report, equals `naive`, part one, byte for byte: `reuse`
 // gains one bounce a frame.
+#include "scene/built_in.hpp"
+#include "session/frames.hpp"
 #include "support/rendering.hpp"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // Tests of the secant search: without steps it must equal `parallax`.
+#include "scene/built_in.hpp"
 #include "support/searches.hpp"
 
 namespace {

@@ -1,6 +1,9 @@
 // Tests of the capture budget, under which a frame draws only some captures. The age of captures
 // must be bounded, and a still scene must converge to full captures. Every capture must get its
 // turn.
+#include "scene/built_in.hpp"
+#include "scene/shapes.hpp"
+#include "session/access.hpp"
 #include "support/drawn_hall.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
@@ -116,10 +119,10 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
         app::FrameSpec everything = spec;
         everything.model = app::Modelling::everything, everything.most_captures = 0;
         const auto settle = [&] {
-            std::vector<std::byte> state, next = all.frame(everything).state();
+            std::vector<std::byte> state, next = app::Access::state(all.frame(everything));
             int bounces = 0;
             for (; state != next; ++bounces)
-                state = std::move(next), next = all.frame(everything).state();
+                state = std::move(next), next = app::Access::state(all.frame(everything));
             return bounces;
         };
         const auto follow = [&] {
@@ -127,7 +130,8 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
             for (int k = 1; k <= frames; ++k) {
                 const app::Frame frame = few.frame(spec);
                 expect_told(frame, most);
-                EXPECT_LE(drawn(frame.times()).size(), few.counts().frames == 1 ? 3 : most);
+                EXPECT_LE(drawn(frame.times()).size(),
+                          app::Access::counts(few).frames == 1 ? 3 : most);
             }
             const app::Frame last = few.frame(spec);
             EXPECT_EQ(drawn(last.times()), std::set<int>()) << "at rest";
@@ -225,9 +229,9 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
         aside.keeps_history = true;
         EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
         if (k == 3) { // the times measured before and after this other sequence still count
-            app::Sequence sequence = little.suspend();
+            app::Sequence sequence = app::Access::suspend(little);
             EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
-            little.resume(std::move(sequence));
+            app::Access::resume(little, std::move(sequence));
         }
         spec.budget_ms = 1e9;
         EXPECT_EQ(much.frame(spec).slices()->drawn, 3u);

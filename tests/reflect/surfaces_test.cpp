@@ -1,6 +1,7 @@
 // Tests of textured surfaces and materials: rasterisation and ray tracing against known answers and
 // against each other.
 #include "core/shader_math.hpp"
+#include "scene/light.hpp"
 #include "support/rendering.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // Tests of several techniques in one frame: each must render the picture of a separate run, and all
 // passes share one timeline.
+#include "scene/built_in.hpp"
 #include "support/rendering.hpp"
 
 #include <set>

@@ -1,5 +1,6 @@
 // Tests of the hits that searches report. A continuous surface must be a hit, and a surface behind
 // the edge of a nearer one must not.
+#include "measure/lookup.hpp"
 #include "support/paths.hpp"
 #include "support/searches.hpp"
 

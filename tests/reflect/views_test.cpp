@@ -1,5 +1,6 @@
 // Tests of the errors that a comparison measures over drawn views.
-#include "study/compare.hpp"
+#include "compare.hpp"
+#include "report/comparison.hpp"
 #include "support/rendering.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // Tests how much each search reduces the error of `parallax`. All tests are in one file, so that
 // they share their rendered pictures.
+#include "scene/built_in.hpp"
 #include "support/worth.hpp"
 
 #include <algorithm>

@@ -3,8 +3,11 @@
 //   catoptric_scenes SCENE [DIR]     DIR: also writes raster-N.png, rays-N.png and judged-N.png
 // Called by ./dev scenes, which writes docs/scenes.md.
 #include "core/error.hpp"
+#include "measure/display.hpp"
 #include "measure/picture_file.hpp"
+#include "scene/material_facts.hpp"
 #include "session/exposure.hpp"
+#include "session/folders.hpp"
 #include "session/resolved_scene.hpp"
 #include "sight.hpp"
 

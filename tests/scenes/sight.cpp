@@ -1,6 +1,7 @@
 #include "sight.hpp"
 
 #include "render/views.hpp"
+#include "scene/light.hpp"
 
 #include <algorithm>
 #include <limits>

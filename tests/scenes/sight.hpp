@@ -3,6 +3,7 @@
 #include "bvh/closest_hit.hpp"
 #include "render/geometry.hpp"
 #include "render/space.hpp"
+#include "scene/light.hpp"
 #include "session/rays.hpp"
 #include "session/run.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/shapes.hpp"
 #include "support/paths.hpp"
 
 #include <vector>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/captured.hpp"
+#include "scene/default_camera.hpp"
 #include "support/device.hpp"
 #include "support/scenes.hpp"
 #include "support/techniques.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graph/run.hpp"
+#include "session/access.hpp"
 #include "session/run.hpp"
 #include "support/refusal.hpp"
 #include "support/wanted_device.hpp"
@@ -81,8 +82,8 @@ inline Bench& bench(bool staged = false) {
 inline app::Engine& engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
-        made = std::make_unique<app::Engine>(
-            app::EngineOptions{.device = wanted_device(), .validate = true, .layered = layered});
+        made.reset(new app::Engine(app::Access::make_engine(
+            {.device = wanted_device(), .validate = true}, {.layered = layered})));
     return *made;
 }
 

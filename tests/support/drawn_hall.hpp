@@ -1,6 +1,8 @@
 #pragma once
 
 #include "bvh/closest_hit.hpp"
+#include "scene/material_facts.hpp"
+#include "scene/shapes.hpp"
 #include "scene/transform.hpp"
 #include "support/numbers.hpp"
 #include "support/scenes.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bvh/bvh.hpp"
-#include "scene/shapes.hpp"
+#include "scene/build.hpp"
 #include "support/numbers.hpp"
 #include "support/scenes.hpp"
 

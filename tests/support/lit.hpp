@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measure/lines.hpp"
+#include "scene/shapes.hpp"
 #include "support/rendering.hpp"
 
 /// Outdoor scenes, and comparisons of their rasterised pictures with ray-traced ones.

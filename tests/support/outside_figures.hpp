@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/built_in.hpp"
 #include "support/rendering.hpp"
 
 #include <iomanip>

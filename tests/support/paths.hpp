@@ -1,6 +1,8 @@
 #pragma once
 
 #include "measure/lines.hpp"
+#include "scene/shapes.hpp"
+#include "session/access.hpp"
 #include "support/rendering.hpp"
 
 #include <array>

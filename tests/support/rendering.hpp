@@ -1,7 +1,8 @@
 #pragma once
 
-#include "measure/difference.hpp"
 #include "measure/masks.hpp"
+#include "measure/picture.hpp"
+#include "scene/default_camera.hpp"
 #include "support/device.hpp"
 #include "support/scenes.hpp"
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "measure/flip.hpp"
+#include "measure/lookup.hpp"
+#include "scene/built_in.hpp"
 #include "study/oracle.hpp"
 #include "support/rendering.hpp"
 

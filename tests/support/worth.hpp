@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/built_in.hpp"
 #include "support/searches.hpp"
 
 /// Bounds for the error of each search. reflect/worth_test.cpp tests them from the scene's own

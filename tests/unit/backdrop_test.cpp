@@ -4,6 +4,7 @@
 #include "render/space.hpp"
 #include "scene/load.hpp"
 #include "scene/scene.hpp"
+#include "scene/shapes.hpp"
 #include "support/scenes.hpp"
 
 #include <gmock/gmock.h>

@@ -2,7 +2,10 @@
 // scene files without them.
 #include "core/file.hpp"
 #include "measure/picture_file.hpp"
+#include "scene/built_in.hpp"
 #include "scene/camera_named.hpp"
+#include "scene/default_camera.hpp"
+#include "scene/hash.hpp"
 #include "scene/scene_file.hpp"
 #include "session/resolved_scene.hpp"
 #include "support/folder.hpp"

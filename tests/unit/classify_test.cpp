@@ -3,8 +3,10 @@
 #include "scene/build.hpp"
 #include "scene/classify.hpp"
 #include "scene/mirror_shape.hpp"
+#include "scene/motion.hpp"
 #include "scene/shapes.hpp"
 #include "scene/texel.hpp"
+#include "scene/unsupported_feature.hpp"
 #include "support/scenes.hpp"
 
 #include <gmock/gmock.h>

@@ -5,6 +5,9 @@
 #include "require/pieces.hpp"
 #include "require/shadows.hpp"
 #include "require/world.hpp"
+#include "scene/built_in.hpp"
+#include "scene/light.hpp"
+#include "scene/shapes.hpp"
 #include "support/drawn_hall.hpp"
 
 #include <gmock/gmock.h>

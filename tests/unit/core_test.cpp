@@ -3,6 +3,7 @@
 #include "bvh/closest_hit.hpp"
 #include "core/error.hpp"
 #include "render/geometry.hpp"
+#include "scene/built_in.hpp"
 #include "scene/core.hpp"
 #include "scene/repair.hpp"
 #include "scene/transform.hpp"

@@ -1,4 +1,4 @@
-#include "measure/difference.hpp"
+#include "measure/picture.hpp"
 
 #include "support/refusal.hpp"
 #include "support/special_values.hpp"

@@ -1,7 +1,7 @@
 // Tests of render::encloses, which tells whether a mirror's triangles enclose a point, and of
 // render::is_shell.
 #include "render/enclosure.hpp"
-#include "scene/shapes.hpp"
+#include "scene/build.hpp"
 #include "support/scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,8 @@
 #include "render/mirrored.hpp"
 #include "render/views.hpp"
 #include "scene/build.hpp"
+#include "scene/built_in.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // capture face edges that follow from footprints.
 #include "render/footprint.hpp"
 #include "render/views.hpp"
-#include "scene/shapes.hpp"
+#include "scene/build.hpp"
 
 #include <gtest/gtest.h>
 

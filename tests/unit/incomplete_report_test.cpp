@@ -1,8 +1,8 @@
 // Tests of incomplete reports. Every file of a running or stopped run says so, and each picture is
 // written once.
 #include "core/file.hpp"
-#include "report/report.hpp"
 #include "report/stress.hpp"
+#include "report/writer.hpp"
 #include "report_sample.hpp"
 #include "support/folder.hpp"
 
@@ -51,7 +51,8 @@ TEST(IncompleteReport, ReportOfARunningRunSaysThatTheRunHasNotEnded) {
     made.stopped.reset();
     const std::string why = "4 of 8 rows: the run had not ended when this was written";
     EXPECT_EQ(json::parse(catoptric::report::to_json(made))["incomplete"], why);
-    made.lag.emplace().complete = false;
+    made.lag = std::make_shared<catoptric::measure::Lag>();
+    made.lag->complete = false;
     EXPECT_EQ(json::parse(catoptric::report::to_json(made))["incomplete"],
               why + "; their lag was not measured to its end");
 }
@@ -96,7 +97,8 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     made.complete = false;
     made.asked = 4;
     made.rows.resize(1);
-    made.rows[0].causes.emplace().largest.resize(made.rows[0].display.pixels.size());
+    made.rows[0].causes = std::make_shared<catoptric::measure::Causes>();
+    made.rows[0].causes->largest.resize(made.rows[0].display.pixels.size());
     whole.rows[0].causes = made.rows[0].causes;
     catoptric::report::Writer writer(folder / "out");
     writer.write(made);

@@ -1,5 +1,7 @@
 // Tests of the report's section on lag (how far a moving picture is behind its still picture), with
 // made-up figures.
+#include "measure/lag.hpp"
+#include "report/comparison.hpp"
 #include "report/plot.hpp"
 #include "report_sample.hpp"
 #include "support/special_values.hpp"
@@ -42,12 +44,12 @@ LagRow lag_row(const std::string& label) {
 
 Comparison with_lag() {
     Comparison made = usual();
-    made.lag = Lag{.seconds = {0, 2},
-                   .path = 4,
-                   .jump_from = 2,
-                   .frame_cap = 3,
-                   .rows = {lag_row("reuse"), lag_row("parallax")},
-                   .without_history = {"naive", "raytrace:depth=16"}};
+    made.lag = std::make_shared<Lag>(Lag{.seconds = {0, 2},
+                                         .path = 4,
+                                         .jump_from = 2,
+                                         .frame_cap = 3,
+                                         .rows = {lag_row("reuse"), lag_row("parallax")},
+                                         .without_history = {"naive", "raytrace:depth=16"}});
     return made;
 }
 

@@ -1,6 +1,7 @@
 // Tests of the light from lamps of several shapes, read from files, against closed-form solutions.
 #include "load_fixture.hpp"
-#include "scene/shapes.hpp"
+#include "scene/build.hpp"
+#include "scene/light.hpp"
 #include "scene/topology.hpp"
 #include "support/special_values.hpp"
 

@@ -1,7 +1,7 @@
 // Tests of longest_line, which measures the longest line of wrong pixels, with masks drawn by hand.
 #include "measure/lines.hpp"
 
-#include "measure/difference.hpp"
+#include "measure/picture.hpp"
 
 #include <gtest/gtest.h>
 

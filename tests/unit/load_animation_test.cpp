@@ -1,4 +1,6 @@
 // Tests of glTF animations: each kind of track, each interpolation, and moving parents.
+#include "scene/file_options.hpp"
+#include "scene/pose.hpp"
 #include "scene/transform.hpp"
 #include "unit/load_fixture.hpp"
 
@@ -30,8 +32,8 @@ protected:
         animation["samplers"].push_back(
             {{"input", input}, {"output", output}, {"interpolation", interpolation}});
     }
-    Scene scene_of(const Gltf& gltf, const LoadOptions& options = {}) const {
-        return load(write("x.glb", gltf.glb()), options);
+    Scene scene_of(const Gltf& gltf, const FileOptions& options = {}) const {
+        return load_file(write("x.glb", gltf.glb()), options);
     }
     static dvec3 carried(const Scene& scene, double seconds, const dvec3& point = dvec3(0)) {
         const Scene now = at(scene, seconds);

@@ -1,5 +1,6 @@
 // Tests of loading budgets. A file that asks for more than a budget allows is refused before
 // anything of that size is allocated.
+#include "scene/hash.hpp"
 #include "unit/load_fixture.hpp"
 
 #include <cmath>

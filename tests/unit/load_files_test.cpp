@@ -1,5 +1,6 @@
 // Tests of the files that a scene may refer to. The file that is opened must be the file that
 // passed the checks.
+#include "scene/file_options.hpp"
 #include "unit/load_fixture.hpp"
 
 #include <sys/stat.h>
@@ -19,8 +20,8 @@ protected:
         const std::string data = gltf_text().substr(gltf_text().find("data:"));
         return gltf_text(data.substr(0, data.find('"')), uri);
     }
-    double width(const std::string& uri, const LoadOptions& options = {}) const {
-        return bounds(load(write("in/x.gltf", with_uri(uri)), options)).hi.x;
+    double width(const std::string& uri, const FileOptions& options = {}) const {
+        return bounds(load_file(write("in/x.gltf", with_uri(uri)), options)).hi.x;
     }
     std::string refused_uri(const std::string& uri, Failure failure = Failure::bad_data) const {
         return refused("in/x.gltf", with_uri(uri), failure);
@@ -160,7 +161,7 @@ TEST_F(LoadFiles, FileOfManyBuffersCountsOnce) {
     text.insert(text.rfind(']'), more);
     Budget budget;
     budget.file_bytes = text.size() + 36;
-    EXPECT_EQ(load(write("in/x.gltf", text), {.budget = budget}).files.size(), 2u);
+    EXPECT_EQ(load_file(write("in/x.gltf", text), {.budget = budget}).files.size(), 2u);
 }
 
 TEST_F(LoadFiles, RootMustBeAFolder) {

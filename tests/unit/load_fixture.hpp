@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "scene/file_options.hpp"
 #include "scene/load.hpp"
 #include "support/folder.hpp"
 
@@ -32,10 +33,10 @@ protected:
     /// its message.
     std::string refused(const std::string& name, const std::string& text,
                         Failure failure = Failure::bad_data,
-                        const LoadOptions& options = {}) const {
+                        const FileOptions& options = {}) const {
         const std::string path = write(name, text);
         try {
-            load(path, options);
+            load_file(path, options);
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, failure) << error.what();
             EXPECT_THAT(error.what(), HasSubstr(path));

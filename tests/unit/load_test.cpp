@@ -1,8 +1,10 @@
 #include "places.hpp"
 #include "scene/load.hpp"
 
+#include "scene/build.hpp"
+#include "scene/built_in.hpp"
+#include "scene/light.hpp"
 #include "scene/number.hpp"
-#include "scene/shapes.hpp"
 #include "unit/load_fixture.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+#include "core/mirror_id.hpp"
 #include "measure/masks.hpp"
 
 #include <gtest/gtest.h>

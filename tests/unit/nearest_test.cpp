@@ -1,6 +1,7 @@
 // Compares render::Nearest, which searches trees for the nearest triangle, with a search of all
 // triangles.
 #include "render/nearest.hpp"
+#include "scene/built_in.hpp"
 #include "support/numbers.hpp"
 #include "support/scenes.hpp"
 

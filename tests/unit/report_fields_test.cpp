@@ -1,7 +1,9 @@
 // Tests that a report stores every figure under the figure's own name. The test writes a row in
 // which no two figures are equal, reads each figure by its name and compares.
-#include "report/report.hpp"
+#include "report/writer.hpp"
 
+#include "measure/causes.hpp"
+#include "measure/statistics.hpp"
 #include "report/tables.hpp"
 #include "report_sample.hpp"
 
@@ -81,7 +83,8 @@ public:
         set(row.mean_clamped, "/mean_clamped", "mean_clamped");
         fill_lookup(row.lookup.emplace());
         fill_light_edges(row.light_edges.emplace());
-        fill_causes(row.causes.emplace());
+        row.causes = std::make_shared<catoptric::measure::Causes>();
+        fill_causes(*row.causes);
         row.causes->largest.resize(row.display.pixels.size());
         row.auto_face.emplace().needs.resize(2);
         set(row.auto_face->edge, "/auto_face/edge", "auto_face_edge");

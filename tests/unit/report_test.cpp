@@ -1,4 +1,4 @@
-#include "report/report.hpp"
+#include "report/writer.hpp"
 
 #include "core/error.hpp"
 #include "core/file.hpp"

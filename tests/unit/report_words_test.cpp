@@ -1,4 +1,4 @@
-#include "report/report.hpp"
+#include "report/writer.hpp"
 
 #include "report_sample.hpp"
 

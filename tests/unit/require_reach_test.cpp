@@ -3,6 +3,8 @@
 #include "require/culled_work.hpp"
 #include "require/reach.hpp"
 #include "require/suggest.hpp"
+#include "scene/built_in.hpp"
+#include "scene/light.hpp"
 #include "session/seeded_camera.hpp"
 #include "support/scenes.hpp"
 

@@ -2,7 +2,8 @@
 // lights and rigs.
 #include "unit/load_fixture.hpp"
 
-#include "scene/shapes.hpp"
+#include "scene/build.hpp"
+#include "scene/motion.hpp"
 
 #include <cmath>
 

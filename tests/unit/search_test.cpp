@@ -1,10 +1,13 @@
-// Tests of techniques that a program adds (session/technique.hpp), without a device. tests/install
+// Tests of techniques that a program adds (technique.hpp), without a device. tests/install
 // draws with such a technique.
+#include "compare.hpp"
 #include "core/error.hpp"
+#include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "session/engine.hpp"
-#include "session/technique.hpp"
-#include "study/compare.hpp"
+#include "session/technique_choice.hpp"
+#include "study/asked.hpp"
+#include "technique.hpp"
 
 #include <gmock/gmock.h>
 

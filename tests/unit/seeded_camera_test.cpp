@@ -3,6 +3,8 @@
 #include "session/seeded_camera.hpp"
 
 #include "core/error.hpp"
+#include "scene/built_in.hpp"
+#include "scene/shapes.hpp"
 #include "stress/double_tracer.hpp"
 #include "support/scenes.hpp"
 

@@ -1,3 +1,4 @@
+#include "measure/lag.hpp"
 #include "measure/settling.hpp"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 // error.
 #include "measure/causes.hpp"
 
+#include "report/comparison.hpp"
 #include "report/tables.hpp"
 #include "report_sample.hpp"
 #include "support/refusal.hpp"
@@ -104,7 +105,7 @@ Causes some_causes() {
 
 TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
     report::Row row = report::sample::row("parallax", 6, .5, .1);
-    row.causes = some_causes();
+    row.causes = std::make_shared<measure::Causes>(some_causes());
     row.light_edges.emplace().share = .5;
     const report::Table table = report::cause_table(
         report::sample::comparison({report::sample::row("raytrace", 6, 0, 0), row}));
@@ -125,7 +126,7 @@ TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
 TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     report::Row row = report::sample::row("parallax", 6, .5, .1);
     row.display.pixels[0] = vec3(1);
-    row.causes = some_causes();
+    row.causes = std::make_shared<measure::Causes>(some_causes());
     const measure::Picture picture = report::cause_picture(row);
     EXPECT_EQ(picture.pixels[0], vec3(.35F)) << "dark";
     EXPECT_EQ(picture.pixels[1], vec3(86, 180, 233) / 255.0F);

@@ -1,16 +1,20 @@
 // Tests that metrics, studies, scenes, kinds of light and techniques register themselves. Those of
 // this file are in no central list, but must appear in every report and table.
+#include "compare.hpp"
 #include "core/error.hpp"
-#include "measure/difference.hpp"
 #include "measure/flip.hpp"
 #include "measure/metric.hpp"
+#include "measure/picture.hpp"
 #include "reflect/technique.hpp"
-#include "report/report.hpp"
+#include "report/writer.hpp"
 #include "report_sample.hpp"
 #include "require/world_content_hashes.hpp"
+#include "scene/built_in.hpp"
 #include "scene/light_kind.hpp"
 #include "scene/load.hpp"
 #include "session/scene_facts.hpp"
+#include "session/technique_choice.hpp"
+#include "study/asked.hpp"
 #include "study/study.hpp"
 #include "support/folder.hpp"
 
@@ -85,7 +89,7 @@ const app::Registered kStudied{
      .run =
          [](const app::StudyInput& input) {
              for (measure::Row& row : input.comparison.rows)
-                 row.studied["test_only_half"] = input.count / 2.0;
+                 measure::set_studied(row, "test_only_half", input.count / 2.0);
          },
      .metrics = {{.name = "test_only_half",
                   .help = "half of the number",
@@ -137,7 +141,7 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
     made.studies = {"test-only"};
     EXPECT_TRUE(json::parse(report::to_json(made))["rows"][0]["test_only_half"].is_null())
         << "the study has not run yet";
-    made.rows[0].studied["test_only_half"] = 1.5;
+    measure::set_studied(made.rows[0], "test_only_half", 1.5);
     EXPECT_EQ(json::parse(report::to_json(made))["rows"][0]["test_only_half"], 1.5);
     EXPECT_THAT(report::to_csv(made), HasSubstr(",test_only_half,"));
     for (const std::string& text : {report::to_markdown(made), report::to_html(made)}) {

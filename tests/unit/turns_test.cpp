@@ -1,6 +1,7 @@
 // Tests of the capture budget: which captures a frame draws if it may not draw all, and how long
 // the others wait.
 #include "render/turns.hpp"
+#include "scene/motion.hpp"
 #include "session/capture_budget.hpp"
 #include "session/capture_cost.hpp"
 #include "support/numbers.hpp"

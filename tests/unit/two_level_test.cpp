@@ -1,7 +1,7 @@
 // Tests of two-level trees: properties of a flat tree must also hold for instances in object space.
 #include "bvh/closest_hit.hpp"
 #include "bvh/tlas.hpp"
-#include "scene/shapes.hpp"
+#include "scene/build.hpp"
 #include "support/crowd.hpp"
 #include "support/numbers.hpp"
 #include "support/special_values.hpp"

@@ -2,7 +2,11 @@
 // exposure.
 #include "scene/build.hpp"
 #include "scene/camera_named.hpp"
+#include "scene/light.hpp"
 #include "scene/load.hpp"
+#include "scene/material_facts.hpp"
+#include "scene/motion.hpp"
+#include "scene/pose.hpp"
 #include "scene/scene_overrides.hpp"
 #include "session/candidates.hpp"
 #include "session/exposure.hpp"

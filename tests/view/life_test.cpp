@@ -38,7 +38,8 @@ TEST_F(ViewLife, MemoryStaysConstantOverFrames) {
     driver.after = [&](const Report& report) {
         if (report.frame < 200 || report.frame % kFrames != 0) return;
         resident.push_back(resident_bytes());
-        on_device.push_back(const_cast<Viewer&>(report.viewer).session().counts().memory_bytes);
+        on_device.push_back(
+            app::Access::counts(const_cast<Viewer&>(report.viewer).session()).memory_bytes);
     };
     EXPECT_EQ(view({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32", "--frames",
                     "800", "--animate"},

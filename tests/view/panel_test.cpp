@@ -2,6 +2,7 @@
 // a window or a device.
 #include "core/error.hpp"
 #include "scene/load.hpp"
+#include "session/technique_choice.hpp"
 #include "view/panels.hpp"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "report.hpp"
 #include "report/comparison.hpp"
-#include "report/write.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,11 @@
 
 namespace catoptric::report {
 
+/// Columns of rows.csv.
+enum class CsvColumns : std::uint8_t {
+    table, ///< metrics of the report's table of rows, and fields that tell runs apart
+    all,   ///< each metric over each mask, mirror, pass and round
+};
 /// Pictures of a comparison as PNG. Each is encoded once, however often the page is written.
 struct EncodedPictures {
     struct OfRow {
@@ -33,6 +39,8 @@ struct EncodedPictures {
 void encode_new(EncodedPictures& pictures, const Comparison& comparison,
                 const std::filesystem::path& images = {});
 
+/// Returns rows.csv with these columns.
+std::string to_csv(const Comparison& comparison, CsvColumns which);
 /// Returns rows.csv of several comparisons under one header.
 std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which);
 /// Writes the results of the finished rows into a folder, which is made as create_folder does.

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+// Scenes that need no file: their table, and those that C++ code asks for.
+namespace catoptric::scene {
+
+/// Scene that needs no file. The .cpp file that builds the scene also registers it; nothing else
+/// lists it.
+struct BuiltIn {
+    std::string name;
+    std::string summary; ///< one line for `list`
+    Scene (*make)();     ///< builds the scene; Scene::name equals `name`
+    int order = 1000;    ///< place in lists; equal orders are sorted by name
+};
+/// Registration of a built-in scene. A variable of this type at namespace scope adds the scene to
+/// the table while the program starts.
+struct RegisteredScene {
+    explicit RegisteredScene(BuiltIn scene);
+};
+/// Returns every built-in scene, sorted by `order`, then by name.
+const std::vector<BuiltIn>& built_in_scenes();
+
+/// Builds the Cornell box with four mirror balls (contract: "The built-in scene").
+Scene cornell_mirrors();
+/// Builds the same box with a white front wall that camera rays ignore.
+Scene cornell_mirrors_closed();
+/// Builds a closed room with one flat mirror.
+Scene flat();
+/// Builds a furnished room: textures, shared meshes, a wall mirror, a smooth floor, two lamps, a
+/// spot.
+Scene furnished_room();
+/// Builds a hall with sixteen mirrors through which the camera walks.
+Scene gallery();
+/// Builds an open court under a sky, with a hollow dish.
+Scene courtyard();
+
+} // namespace catoptric::scene

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "scene/material.hpp"
+
+#include <string_view>
+
+// Lists over the members of a material, and facts that follow from them.
+namespace catoptric::scene {
+
+/// A number from 0 to 1 that scales a property of a material. glTF reading and writing, `info` and
+/// the device's MaterialParameters (shaders/shared.h) follow from the rows of kMaterialFactors.
+struct MaterialFactor {
+    std::string_view name; ///< as in MATERIAL_FACTORS of shaders/shared.h
+    float Material::*member;
+    std::string_view extension; ///< glTF extension, or kCoreFactors
+    std::string_view key;       ///< member of that extension
+    float gltf_default;         ///< value without this key
+};
+/// The part of a glTF material that holds the factors of glTF itself.
+inline constexpr std::string_view kCoreFactors = "pbrMetallicRoughness";
+inline constexpr MaterialFactor kMaterialFactors[] = {
+    {"metallic", &Material::metallic, kCoreFactors, "metallicFactor", 1},
+    {"roughness", &Material::roughness, kCoreFactors, "roughnessFactor", 1},
+};
+
+/// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
+/// this list; a member that is missing here does not compile.
+template <typename Visit>
+inline void visit_members(const Material& material, Visit&& visit) {
+    const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
+                 metallic, roughness, dielectric_f0, dielectric_f90, alpha, alpha_cutoff,
+                 albedo_texture, emission_texture, roughness_texture, light] = material;
+    visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
+    visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
+    visit(dielectric_f0), visit(dielectric_f90), visit(alpha), visit(alpha_cutoff);
+    visit(albedo_texture), visit(emission_texture), visit(roughness_texture), visit(light);
+}
+
+/// Returns whether camera and reflected rays see the surface only from its front. This holds for
+/// `front_only` and for a light that shines to one side. All surfaces but lights cast their shadow
+/// from both sides.
+bool is_one_sided(const Material& material);
+/// Returns whether the surface can be seen by its own light.
+bool glows(const Material& material);
+/// Returns the radiance with which the surface lights others; 0 if it lights nothing.
+vec3 light_of(const Material& material);
+/// Returns whether an alpha mask may cut out parts of the surface.
+bool is_masked(const Material& material);
+
+} // namespace catoptric::scene

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+// Folders of the user in which programs of this tree keep files.
+namespace catoptric::app {
+
+/// Returns XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty if neither is an absolute
+/// path.
+std::filesystem::path cache_folder();
+/// Returns XDG_CONFIG_HOME/catoptric/devices, or HOME/.config/catoptric/devices; empty if neither
+/// is an absolute path.
+std::filesystem::path profile_folder();
+
+} // namespace catoptric::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "compare.hpp"
+
+#include <string>
+#include <vector>
+
+// The rows that a comparison measures if none are named, and the checks of a request.
+namespace catoptric::app {
+
+/// Returns the rows that each technique of the table proposes (reflect::Technique::compared), and
+/// `auto`. Leaves out rows that fit no mirror of the scene as `base` shows it.
+std::vector<std::string> default_techniques(const Request& base);
+/// Throws `bad_data` if the scene has no mirror. The message says how to make one.
+void check_has_mirror(const scene::Scene& scene);
+
+/// Throws `usage` if the rounds are too few for a confidence interval of the median.
+void check_rounds(int rounds);
+/// Throws `usage` for unknown rows, and for two rows with the same settings.
+void check_rows(const std::vector<std::string>& techniques);
+
+/// Applies all checks above. Also refuses plans that do not fit the mirrors, and rows that are
+/// asked for in both models and in one frame.
+void check_asked(const CompareRequest& request);
+
+} // namespace catoptric::app
