@@ -37,45 +37,50 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+bool is_same(const Knob& a, const Knob& b) {
+    return a.name == b.name && a.special == b.special && a.choices.data() == b.choices.data();
+}
+
 } // namespace
 
 Settings::Settings(std::span<const Knob> knobs) : knobs_(knobs) {
     for (const Knob& knob : knobs) values_.push_back(knob.value);
 }
 
-std::size_t Settings::index(std::string_view knob) const {
-    const auto found = std::ranges::find(knobs_, knob, &Knob::name);
-    check(found != knobs_.end(), Failure::internal, "there is no knob '", knob, "'");
+std::size_t Settings::index(const Knob& knob) const {
+    const auto found = std::ranges::find_if(
+        knobs_, [&](const Knob& known) { return is_same(known, knob); });
+    check(found != knobs_.end(), Failure::internal, "there is no knob '", knob.name, "'");
     return static_cast<std::size_t>(found - knobs_.begin());
 }
 
-bool Settings::has(std::string_view knob) const {
-    return std::ranges::find(knobs_, knob, &Knob::name) != knobs_.end();
+bool Settings::has(const Knob& knob) const {
+    return std::ranges::any_of(knobs_, [&](const Knob& known) { return is_same(known, knob); });
 }
 
-double Settings::number(std::string_view knob) const {
+double Settings::number(const Knob& knob) const {
     const std::size_t i = index(knob);
-    check(values_[i].has_value(), Failure::internal, "knob '", knob, "' is '", knobs_[i].special,
-          "', no number");
+    check(values_[i].has_value(), Failure::internal, "knob '", knob.name, "' is '",
+          knobs_[i].special, "', no number");
     return *values_[i];
 }
 
-std::string_view Settings::choice(std::string_view knob) const {
+std::string_view Settings::choice(const Knob& knob) const {
     const std::size_t i = index(knob);
-    check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob, "' is not a choice");
+    check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob.name, "' is not a choice");
     return knobs_[i].choices[static_cast<std::size_t>(number(knob))];
 }
 
-bool Settings::is_special(std::string_view knob) const { return !values_[index(knob)].has_value(); }
-
-void Settings::set(std::string_view knob, double value) { values_[index(knob)] = value; }
+bool Settings::is_special(const Knob& knob) const { return !values_[index(knob)].has_value(); }
 
 void Settings::set(std::string_view owner, std::string_view name, std::string_view text) {
     std::vector<std::string> names;
     for (const Knob& knob : knobs_) names.emplace_back(knob.name);
-    check(has(name), Failure::usage, "technique '", owner, "' has no knob '", name, "'",
+    const auto named = std::ranges::find(knobs_, name, &Knob::name);
+    check(named != knobs_.end(), Failure::usage, "technique '", owner, "' has no knob '", name, "'",
           did_you_mean(name, names));
-    const Knob& knob = knobs_[index(name)];
+    const Knob& knob = *named;
+    std::optional<double>& target = values_[static_cast<std::size_t>(named - knobs_.begin())];
     if (!knob.choices.empty()) {
         const auto found = std::ranges::find(knob.choices, text);
         const std::vector<std::string> choices(knob.choices.begin(), knob.choices.end());
@@ -83,11 +88,11 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
         for (const std::string& choice : choices) wanted += (wanted.empty() ? "" : "|") + choice;
         check(found != knob.choices.end(), Failure::usage, "knob '", name, "' of '", owner,
               "' takes ", wanted, ", not '", text, "'", did_you_mean(text, choices));
-        values_[index(name)] = static_cast<double>(found - knob.choices.begin());
+        target = static_cast<double>(found - knob.choices.begin());
         return;
     }
     if (!knob.special.empty() && text == knob.special) {
-        values_[index(name)] = std::nullopt;
+        target = std::nullopt;
         return;
     }
     const std::string range = format(knob.low) + " to " + format(knob.high) +
@@ -101,13 +106,12 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
           did_you_mean(text, std::vector{std::string(knob.special)}));
     check(value >= knob.low && value <= knob.high, Failure::usage, "knob '", name, "' of '", owner,
           "' takes ", range, ", not ", text);
-    values_[index(name)] = value;
+    target = value;
 }
 
-std::string Settings::text(std::string_view knob) const {
-    const Knob& row = knobs_[index(knob)];
-    if (is_special(knob)) return std::string(row.special);
-    return row.choices.empty() ? format(number(knob)) : std::string(choice(knob));
+std::string Settings::text(const Knob& knob) const {
+    if (is_special(knob)) return std::string(knob.special);
+    return knob.choices.empty() ? format(number(knob)) : std::string(choice(knob));
 }
 
 std::string nearest_name(std::string_view word, std::span<const std::string> names) {

@@ -31,26 +31,30 @@ public:
 
     /// Returns the knob's number, or the index of its choice. Throws `internal` if there is no such
     /// knob, or if its special word is set.
-    double number(std::string_view knob) const;
-    int integer(std::string_view knob) const { return static_cast<int>(number(knob)); }
-    std::string_view choice(std::string_view knob) const;
+    double number(const Knob& knob) const;
+    int integer(const Knob& knob) const { return static_cast<int>(number(knob)); }
+    /// Returns the knob's choice as a value of an enumeration, which names the choices in order.
+    template <typename Enum>
+    Enum as(const Knob& knob) const {
+        return static_cast<Enum>(integer(knob));
+    }
+    std::string_view choice(const Knob& knob) const;
     /// Returns whether the knob's special word is set instead of a number.
-    bool is_special(std::string_view knob) const;
-    bool has(std::string_view knob) const;
+    bool is_special(const Knob& knob) const;
+    /// Returns whether the technique has this knob. Another knob of the same name, with other
+    /// choices or another special word, does not count.
+    bool has(const Knob& knob) const;
 
     /// Sets a knob from text. Throws `Failure::usage`, naming the nearest knob or the range.
     void set(std::string_view owner, std::string_view knob, std::string_view text);
-    /// Sets a knob to a value that is known to be in range.
-    void set(std::string_view knob, double value);
-
     std::span<const Knob> knobs() const { return knobs_; }
     /// Returns the value as the user would type it.
-    std::string text(std::string_view knob) const;
+    std::string text(const Knob& knob) const;
 
     friend bool operator==(const Settings& a, const Settings& b) { return a.values_ == b.values_; }
 
 private:
-    std::size_t index(std::string_view knob) const;
+    std::size_t index(const Knob& knob) const;
     std::span<const Knob> knobs_;
     std::vector<std::optional<double>> values_; ///< no value: the special word
 };

@@ -2,41 +2,70 @@
 
 namespace catoptric::reflect {
 
+namespace {
+
+SharedKnobs::Shadow shadow_of(const Settings& settings) {
+    using enum SharedKnobs::Shadow;
+    constexpr SharedKnobs::Shadow kRastered[] = {map, none}, kTraced[] = {ray, map, none};
+    if (settings.has(kShadow)) return kRastered[settings.integer(kShadow)];
+    return settings.has(kTracedShadow) ? kTraced[settings.integer(kTracedShadow)] : none;
+}
+
+/// Returns the value of a knob, or nothing if there is no such knob or its special word is set.
+std::optional<std::uint32_t> number_of(const Settings& settings, const Knob& knob) {
+    if (!settings.has(knob) || settings.is_special(knob)) return std::nullopt;
+    return static_cast<std::uint32_t>(settings.integer(knob));
+}
+
+/// Returns whether a knob of two choices has the second.
+bool has_second(const Settings& settings, const Knob& knob) {
+    return settings.has(knob) && settings.integer(knob) == 1;
+}
+
+} // namespace
+
+SharedKnobs shared_knobs(const Settings& settings) {
+    constexpr Format kFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};
+    SharedKnobs knobs{.shadow = shadow_of(settings)};
+    knobs.shadow_map = number_of(settings, kShadowMapEdge).value_or(1);
+    knobs.face = number_of(settings, kFace);
+    knobs.chooses_face = settings.has(kFace) && !knobs.face;
+    knobs.stores_floats = has_second(settings, kColour);
+    if (settings.has(kDistance)) knobs.distance = kFormats[settings.integer(kDistance)];
+    if (settings.has(kRange)) knobs.range = settings.number(kRange);
+    knobs.continues = number_of(settings, kContinue).value_or(0);
+    knobs.by_object = has_second(settings, kLookup);
+    knobs.asks_all = has_second(settings, kCaptures);
+    knobs.leaves_out_spheres = has_second(settings, kMirrors);
+    knobs.capture = number_of(settings, kCapture);
+    knobs.is_black_in_others = settings.has(kCapture) && !knobs.capture;
+    return knobs;
+}
+
 int shadow_passes(int lights, const Settings& settings) {
-    return settings.choice("shadow") == "map" ? lights : 0;
+    return shadow_of(settings) == SharedKnobs::Shadow::map ? lights : 0;
 }
 
 render::CaptureOptions capture_options(const render::FrameInputs& inputs,
                                        const Settings& settings) {
+    const SharedKnobs knobs = shared_knobs(settings);
     render::CaptureOptions options;
-    options.face = settings.is_special("face")
-                       ? inputs.scene.common_face()
-                       : static_cast<std::uint32_t>(settings.integer("face"));
-    if (settings.choice("colour") == "float") {
+    options.face = knobs.face ? *knobs.face : inputs.scene.common_face();
+    if (knobs.stores_floats) {
         check(inputs.scene.device().filters_floats(), Failure::no_device,
               "colour=float filters images of 32-bit floats, which device '",
               inputs.scene.device().info().name, "' cannot; take colour=half");
         options.colour = Format::rgba32f;
     }
-    if (!settings.has("distance")) return options;
-    constexpr Format kFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};
-    options.distance = kFormats[settings.integer("distance")];
+    if (!knobs.distance) return options;
+    options.distance = knobs.distance;
     if (options.distance == Format::r8_unorm)
-        options.stored_unit = inputs.scene.space().length(settings.number("range"));
-    if (settings.has("without")) options.saturates = settings.choice("without") != "saturation";
-    const bool continues = settings.has("continue") && settings.integer("continue") > 0;
-    const auto chosen = [&](const char* knob, const char* choice) {
-        return settings.has(knob) && settings.choice(knob) == choice;
-    };
-    options.surfaces = chosen("lookup", "object") || chosen("captures", "all") ||
+        options.stored_unit = inputs.scene.space().length(knobs.range);
+    const bool continues = knobs.continues > 0;
+    options.surfaces = knobs.by_object || knobs.asks_all ||
                        (continues && inputs.scene.has_other_mirrors());
-    options.leaves_out_spheres = continues && chosen("mirrors", "left_out");
+    options.leaves_out_spheres = continues && knobs.leaves_out_spheres;
     return options;
-}
-
-bool visits_others(const Settings& settings) {
-    return (settings.has("continue") && settings.integer("continue") > 0) ||
-           (settings.has("captures") && settings.choice("captures") == "all");
 }
 
 render::MirrorShader shading_with_captures(const MirrorInputs& around, std::string fragment,
@@ -46,11 +75,11 @@ render::MirrorShader shading_with_captures(const MirrorInputs& around, std::stri
     const auto set = [&](const char* constant, int value) {
         look.constants.emplace_back(constant, static_cast<std::uint32_t>(value));
     };
-    for (const auto& [knob, constant] : {std::pair{"continue", "hops"},
-                                         {"lookup", "by_object"},
-                                         {"captures", "asks_others"},
-                                         {"show", "show"}})
-        if (settings.has(knob)) set(constant, settings.integer(knob));
+    for (const auto& [knob, constant] : {std::pair{&kContinue, "hops"},
+                                         {&kLookup, "by_object"},
+                                         {&kCaptures, "asks_others"},
+                                         {&kShow, "show"}})
+        if (settings.has(*knob)) set(constant, settings.integer(*knob));
     // The captures of mirrors that share a technique all hold surface numbers, or none does. Some
     // mirrors may have no capture, so all are checked.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
@@ -67,7 +96,7 @@ render::MirrorShader shading_of_search(const Technique& technique, const MirrorI
     render::MirrorShader look = shading_with_captures(around, technique.search, settings);
     for (const Knob& knob : technique.knobs) {
         if (std::ranges::find(kSearchKnobs, knob.name, &Knob::name) != kSearchKnobs.end()) continue;
-        const double value = settings.number(knob.name);
+        const double value = settings.number(knob);
         if (knob.is_real)
             look.constants.emplace_back(knob.name, static_cast<float>(value));
         else

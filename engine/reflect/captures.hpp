@@ -36,6 +36,11 @@ inline constexpr Knob kShadow{.name = "shadow",
                               .help = "shadows: from shadow maps or none",
                               .high = 1,
                               .choices = kShadowChoices};
+inline constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
+inline constexpr Knob kTracedShadow{.name = "shadow",
+                                    .help = "shadows: from rays, from shadow maps, or none",
+                                    .high = 2,
+                                    .choices = kTracedShadowChoices};
 inline constexpr Knob kShadowMapEdge{.name = "shadow_map",
                                      .help = "edge of a shadow map's face in texels",
                                      .low = 1,
@@ -65,41 +70,36 @@ inline constexpr std::array<std::string_view, 2> kCapturesChoices{"own", "all"};
 inline constexpr std::array<std::string_view, 2> kMirrorsChoices{"captured", "left_out"};
 inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state", "residual"};
 
-/// Knobs that every search has, in lists after the search's own knobs.
-inline constexpr std::array kSearchKnobs{
-    kFace,
-    kColour,
-    kDistance,
-    kRange,
-    kContinue,
-    Knob{.name = "lookup",
-         .help =
-             "interpolation of colour: bilinear mixes four texels; object mixes only texels that "
-             "show the same object",
-         .high = 1,
-         .value = 1,
-         .choices = kLookupChoices},
-    Knob{
-        .name = "captures",
-        .help = "captures that a search reads: own, or all (other mirrors' captures if the own one "
-                "answers unknown)",
-        .high = 1,
-        .choices = kCapturesChoices},
-    Knob{
-        .name = "mirrors",
-        .help =
-            "mirrors in captures: captured, or left_out (without exact spheres, through which rays "
+inline constexpr Knob kLookup{
+    .name = "lookup",
+    .help = "interpolation of colour: bilinear mixes four texels; object mixes only texels that "
+            "show the same object",
+    .high = 1,
+    .value = 1,
+    .choices = kLookupChoices};
+inline constexpr Knob kCaptures{
+    .name = "captures",
+    .help = "captures that a search reads: own, or all (other mirrors' captures if the own one "
+            "answers unknown)",
+    .high = 1,
+    .choices = kCapturesChoices};
+inline constexpr Knob kMirrors{
+    .name = "mirrors",
+    .help = "mirrors in captures: captured, or left_out (without exact spheres, through which rays "
             "are followed)",
-        .high = 1,
-        .choices = kMirrorsChoices},
-    Knob{.name = "show",
-         .help =
-             "picture on mirrors: colour; state of the search, hit (green), unknown (red) or miss "
-             "(blue); residual of the search",
-         .high = 2,
-         .choices = kShowChoices},
-    kShadow,
-    kShadowMapEdge};
+    .high = 1,
+    .choices = kMirrorsChoices};
+inline constexpr Knob kShow{
+    .name = "show",
+    .help = "picture on mirrors: colour; state of the search, hit (green), unknown (red) or miss "
+            "(blue); residual of the search",
+    .high = 2,
+    .choices = kShowChoices};
+
+/// Knobs that every search has, in lists after the search's own knobs.
+inline constexpr std::array kSearchKnobs{kFace,     kColour, kDistance,     kRange,
+                                         kContinue, kLookup, kCaptures,     kMirrors,
+                                         kShow,     kShadow, kShadowMapEdge};
 
 template <std::size_t N>
 constexpr std::array<Knob, N + kSearchKnobs.size()> search_knobs(const std::array<Knob, N>& own) {
@@ -118,7 +118,9 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs, const 
 
 /// Returns whether the search may read captures of other mirrors (`continue` above 0 or
 /// `captures=all`).
-bool visits_others(const Settings& settings);
+inline bool visits_others(const SharedKnobs& knobs) {
+    return knobs.continues > 0 || knobs.asks_all;
+}
 
 /// Returns a mirror shading that looks into the captures with the fragment shader `fragment`. The
 /// knobs `continue`, `lookup`, `captures` and `show`, where they exist, become shader constants.

@@ -11,9 +11,9 @@ namespace catoptric::reflect {
 
 namespace {
 
-std::optional<std::uint32_t> map_edge(const Settings& settings) {
-    if (settings.choice("shadow") != "map") return std::nullopt;
-    return static_cast<std::uint32_t>(settings.integer("shadow_map"));
+std::optional<std::uint32_t> map_edge(const SharedKnobs& knobs) {
+    if (knobs.shadow != SharedKnobs::Shadow::map) return std::nullopt;
+    return knobs.shadow_map;
 }
 
 /// Shadow maps by edge in texels. Each is added to the graph once.
@@ -39,19 +39,20 @@ private:
 
 /// Returns whether a tracer completes the whole view (Technique::completes_view).
 bool is_completed(const std::vector<Choice>& choices) {
-    const auto& [technique, settings, label] = choices.front();
-    return choices.size() == 1 && technique->completes_view && technique->completes_view(settings);
+    const Choice& choice = choices.front();
+    const Technique& technique = *choice.technique;
+    return choices.size() == 1 && technique.completes_view &&
+           technique.completes_view(choice.settings);
 }
 
 /// Returns the shadow map edge for the view, in texels; none: no map. `is_drawn`: the view is
 /// rasterised although a technique traces shadow rays, so that it needs a map even for them.
 std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices, bool is_drawn) {
     std::optional<std::uint32_t> finest;
-    if (!is_drawn) return map_edge(choices.front().settings);
-    for (const auto& [technique, settings, label] : choices)
-        if (settings.choice("shadow") != "none")
-            finest = std::max(finest.value_or(1),
-                              static_cast<std::uint32_t>(settings.integer("shadow_map")));
+    if (!is_drawn) return map_edge(choices.front().shared);
+    for (const Choice& choice : choices)
+        if (choice.shared.shadow != SharedKnobs::Shadow::none)
+            finest = std::max(finest.value_or(1), choice.shared.shadow_map);
     return finest;
 }
 
@@ -63,18 +64,19 @@ std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs
                                                        const render::Lighting& view_lighting) {
     std::vector<render::CaptureOptions> of_choice;
     render::CaptureOptions shared;
-    for (const auto& [technique, settings, label] : assignment.choices) {
+    for (const Choice& choice : assignment.choices) {
+        const Technique* const technique = choice.technique;
         render::CaptureOptions options{.face = 0, .lighting = view_lighting};
         if (technique->capture) {
-            options = technique->capture(inputs, settings);
-            options.lighting = maps.of(map_edge(settings));
-            if (visits_others(settings)) {
+            options = technique->capture(inputs, choice.settings);
+            options.lighting = maps.of(map_edge(choice.shared));
+            if (visits_others(choice.shared)) {
                 shared.surfaces = shared.surfaces || options.surfaces;
                 shared.second_layer = shared.second_layer || options.second_layer;
                 shared.distance = Format::r32f;
             }
-        } else if (!settings.is_special("capture")) {
-            options.face = static_cast<std::uint32_t>(settings.integer("capture"));
+        } else if (choice.shared.capture) {
+            options.face = *choice.shared.capture;
             options.distance = Format::r32f; // one-step parallax correction reads distance
         }
         of_choice.push_back(options);
@@ -163,7 +165,7 @@ render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignm
         if (has_mirrored_views(assignment.choices[i])) look = {};
         if (technique.capture || !technique.picture) continue;
         look = {};
-        if (assignment.choices[i].settings.is_special("capture") || !outputs.captures) continue;
+        if (assignment.choices[i].shared.is_black_in_others || !outputs.captures) continue;
         look.fragment = "reflect/parallax.frag";
         look.captures = outputs.captures;
     }
@@ -196,7 +198,7 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         const Settings& settings = choices[i].settings;
         const Technique& technique = *choices[i].technique;
         const MirrorInputs around{outputs.captures,
-                                  completes ? lighting : maps.of(map_edge(settings)),
+                                  completes ? lighting : maps.of(map_edge(choices[i].shared)),
                                   mirrors_of(i, assignment)};
         MirrorShading look = technique.search
                                  ? MirrorShading{shading_of_search(technique, around, settings), {}}

@@ -8,25 +8,27 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
-constexpr auto kKnobs = search_knobs(
-    std::array{Knob{.name = "force",
-                    .help = "pixels to trace: those for which the search answers unknown, or all",
-                    .high = 1,
-                    .choices = kForceChoices}});
+enum class Force { search, unknown };
+constexpr Knob kForce{.name = "force",
+                      .help = "pixels to trace: those for which the search answers unknown, or all",
+                      .high = 1,
+                      .choices = kForceChoices};
+constexpr auto kKnobs = search_knobs(std::array{kForce});
 
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
 MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
                    const MirrorInputs& around) {
     MirrorShading look = shading_with_pyramid(graph, inputs, settings, around);
-    if (settings.choice("force") == "unknown")
+    if (settings.as<Force>(kForce) == Force::unknown)
         look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
     if (inputs.scene.device().numbers_triangles()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }
-    if (settings.choice("shadow") == "none") look.tracer->shadow = Tracer::Shadow::none;
+    if (shared_knobs(settings).shadow == SharedKnobs::Shadow::none)
+        look.tracer->shadow = Tracer::Shadow::none;
     return look;
 }
 

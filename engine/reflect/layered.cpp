@@ -6,12 +6,12 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = search_knobs(
-    std::array{Knob{.name = "steps",
-                    .help = "number of steps of equal angle along the reflected ray",
-                    .low = 1,
-                    .high = 256,
-                    .value = 16}});
+constexpr Knob kSteps{.name = "steps",
+                      .help = "number of steps of equal angle along the reflected ray",
+                      .low = 1,
+                      .high = 256,
+                      .value = 16};
+constexpr auto kKnobs = search_knobs(std::array{kSteps});
 
 render::CaptureOptions capture(const render::FrameInputs& inputs, const Settings& settings) {
     render::CaptureOptions options = capture_options(inputs, settings);
@@ -23,7 +23,7 @@ MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& se
                    const MirrorInputs& around) {
     MirrorShading look{shading_with_captures(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back("steps",
-                                       static_cast<std::uint32_t>(settings.integer("steps")));
+                                       static_cast<std::uint32_t>(settings.integer(kSteps)));
     // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
     // binding.
     const auto images = [&](const char* name, auto&& image) {

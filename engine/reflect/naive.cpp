@@ -8,16 +8,12 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kKnobs[] = {{.name = "bounces",
-                            .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
-                            .low = 0,
-                            .high = 8,
-                            .value = 3},
-                           kFace,
-                           kColour,
-                           kShadow,
-                           kShadowMapEdge,
-                           kCapture};
+constexpr Knob kBounces{.name = "bounces",
+                        .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
+                        .low = 0,
+                        .high = 8,
+                        .value = 3};
+constexpr Knob kKnobs[] = {kBounces, kFace, kColour, kShadow, kShadowMapEdge, kCapture};
 
 /// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
 /// technique, since only these look into it.
@@ -26,7 +22,7 @@ MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const
     render::CaptureOptions options = capture_options(inputs, settings);
     options.lighting = around.lighting;
     render::MirrorShader look; // no fragment shader: black
-    const int bounces = settings.integer("bounces");
+    const int bounces = settings.integer(kBounces);
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;
         if (bounce == bounces) of_others.face = 0;
@@ -54,7 +50,7 @@ constexpr Technique kNaive{
     .compared = kCompared,
     .scene_passes =
         [](int mirrors, int lights, const Settings& settings) {
-            return mirrors * settings.integer("bounces") + shadow_passes(lights, settings) + 1;
+            return mirrors * settings.integer(kBounces) + shadow_passes(lights, settings) + 1;
         },
     .look = look};
 const Registered kRow{kNaive};

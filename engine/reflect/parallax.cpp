@@ -9,16 +9,18 @@ namespace {
 
 constexpr const char* kFragment = "reflect/parallax.frag";
 constexpr std::array<std::string_view, 3> kRules{"none", "saturation", "void_test"};
-constexpr Knob kKnobs[] = {kFace,
-                           kColour,
-                           kDistance,
-                           kRange,
-                           kShadow,
-                           kShadowMapEdge,
-                           {.name = "without",
-                            .help = "rule of robustness to leave out, to measure its cost",
-                            .high = 2,
-                            .choices = kRules}};
+enum class Rule { none, saturation, void_test };
+constexpr Knob kWithout{.name = "without",
+                        .help = "rule of robustness to leave out, to measure its cost",
+                        .high = 2,
+                        .choices = kRules};
+constexpr Knob kKnobs[] = {kFace, kColour, kDistance, kRange, kShadow, kShadowMapEdge, kWithout};
+
+render::CaptureOptions capture(const render::FrameInputs& inputs, const Settings& settings) {
+    render::CaptureOptions options = capture_options(inputs, settings);
+    options.saturates = settings.as<Rule>(kWithout) != Rule::saturation;
+    return options;
+}
 
 constexpr std::string_view kCompared[] = {"parallax"};
 
@@ -29,12 +31,12 @@ constexpr Technique kParallax{
     .knobs = kKnobs,
     .compared = kCompared,
     .scene_passes = feedback_passes,
-    .capture = capture_options,
+    .capture = capture,
     .in_captures = kFragment,
     .look = [](graph::Graph&, const render::FrameInputs&, const Settings& settings,
                const MirrorInputs& around) {
         MirrorShading look{shading_with_captures(around, kFragment, settings), {}};
-        if (settings.choice("without") == "void_test")
+        if (settings.as<Rule>(kWithout) == Rule::void_test)
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;
     }};

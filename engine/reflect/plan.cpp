@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "reflect/captures.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -73,22 +74,18 @@ std::uint32_t index_of(const Choice& choice, std::vector<Choice>& choices) {
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
-/// Returns whether a search may read the captures of all mirrors.
-bool asks_all(const Settings& settings) {
-    return settings.has("captures") && settings.choice("captures") == "all";
-}
-
-/// Returns the technique that the knob `rest` names, with the shadow settings of `choice`.
+/// Returns the technique of unfit mirrors, with the shadow settings of `choice`.
 Choice rest_of(const Choice& choice) {
-    Choice rest = parse_choice(choice.settings.choice("rest"));
+    Choice rest = *choice.rest;
     const Settings defaults(choice.technique->knobs);
-    for (const char* knob : {"shadow", "shadow_map"}) {
-        const std::string value = choice.settings.text(knob);
-        if (value == defaults.text(knob)) continue;
-        rest.settings.set(rest.technique->name, knob, value);
-        rest.label += (rest.label.find(':') == std::string::npos ? ":" : ",") + std::string(knob) +
-                      "=" + value;
+    for (const Knob* const knob : {&kShadow, &kShadowMapEdge}) {
+        const std::string value = choice.settings.text(*knob);
+        if (value == defaults.text(*knob)) continue;
+        rest.settings.set(rest.technique->name, knob->name, value);
+        rest.label += (rest.label.find(':') == std::string::npos ? ":" : ",") +
+                      std::string(knob->name) + "=" + value;
     }
+    rest.settle();
     return rest;
 }
 
@@ -175,15 +172,11 @@ void demand(require::Question& question, const std::vector<Plan>& plans) {
     std::optional<std::uint32_t> coarsest;
     for (const Plan& plan : plans)
         for (const auto& [pattern, choice] : plan.rules) {
-            const Settings& settings = choice.settings;
-            const std::string_view rest = settings.has("rest") ? settings.choice("rest")
-                                                               : choice.technique->name;
-            question.whole_cubes = question.whole_cubes || find_technique(rest).reads_whole_cubes;
-            question.asks_all = question.asks_all || asks_all(rest == choice.technique->name
-                                                                  ? settings
-                                                                  : parse_choice(rest).settings);
-            if (settings.choice("shadow") == "none") continue;
-            const auto edge = static_cast<std::uint32_t>(settings.integer("shadow_map"));
+            const Choice& searching = choice.rest ? *choice.rest : choice;
+            question.whole_cubes = question.whole_cubes || searching.technique->reads_whole_cubes;
+            question.asks_all = question.asks_all || searching.shared.asks_all;
+            if (choice.shared.shadow == SharedKnobs::Shadow::none) continue;
+            const std::uint32_t edge = choice.shared.shadow_map;
             coarsest = std::min(coarsest.value_or(edge), edge);
         }
     question.shadow_edge = coarsest.value_or(question.shadow_edge);

@@ -12,19 +12,17 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kRestChoices{
     "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
-constexpr Knob kKnobs[] = {
-    {.name = "bounces",
-     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
-     .low = 0,
-     .high = 16,
-     .value = 2},
-    {.name = "rest",
-     .help = "technique of mirrors that are not flat",
-     .high = kRestChoices.size() - 1,
-     .choices = kRestChoices},
-    kShadow,
-    kShadowMapEdge,
-    kCapture};
+constexpr Knob kBounces{
+    .name = "bounces",
+    .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
+    .low = 0,
+    .high = 16,
+    .value = 2};
+constexpr Knob kRest{.name = "rest",
+                     .help = "technique of mirrors that are not flat",
+                     .high = kRestChoices.size() - 1,
+                     .choices = kRestChoices};
+constexpr Knob kKnobs[] = {kBounces, kRest, kShadow, kShadowMapEdge, kCapture};
 
 std::string unfit(const scene::FlatFaces& flats, double tolerance) {
     if (flats.share(tolerance) >= scene::kFlatEnough) return {};
@@ -47,8 +45,9 @@ constexpr Technique kPlanar{
                        const Settings& settings) { return shadow_passes(lights, settings) + 1; },
     .look = [](graph::Graph&, const render::FrameInputs&, const Settings&,
                const MirrorInputs&) { return MirrorShading{}; },
-    .mirrored_bounces = [](const Settings& settings) { return settings.integer("bounces"); },
-    .unfit = unfit};
+    .mirrored_bounces = [](const Settings& settings) { return settings.integer(kBounces); },
+    .unfit = unfit,
+    .rest = &kRest};
 const Registered kRow{kPlanar};
 
 } // namespace

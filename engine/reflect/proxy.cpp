@@ -8,12 +8,13 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShapes{"box", "sphere"};
+constexpr Knob kShape{.name = "shape",
+                      .help = "shape that approximates the surroundings",
+                      .high = 1,
+                      .choices = kShapes};
 constexpr auto kKnobs = [] {
-    auto knobs = search_knobs(std::array{Knob{.name = "shape",
-                                              .help = "shape that approximates the surroundings",
-                                              .high = 1,
-                                              .choices = kShapes}});
-    std::ranges::find(knobs, "continue", &Knob::name)->value =
+    auto knobs = search_knobs(std::array{kShape});
+    std::ranges::find(knobs, kContinue.name, &Knob::name)->value =
         0; // as published, without following rays through other mirrors
     return knobs;
 }();
@@ -60,7 +61,7 @@ MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const
     MirrorShading look{shading_with_captures(around, "reflect/proxy.frag", settings), {}};
     look.mirror.buffers.emplace_back("Proxies", add_proxies(graph, inputs, around.captures));
     look.mirror.constants.emplace_back("shape",
-                                       static_cast<std::uint32_t>(settings.integer("shape")));
+                                       static_cast<std::uint32_t>(settings.integer(kShape)));
     return look;
 }
 

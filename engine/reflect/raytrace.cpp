@@ -5,71 +5,73 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
 constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kFirstChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitChoices{"f32", "f64"};
 /// Numbered as in shaders/lib/plain.glsl.
 constexpr std::array<std::string_view, 6> kRules{"none",        "watertight", "box_slack",
                                                  "spawn_bound", "shadow_end", "stable_sphere"};
-constexpr Knob kKnobs[] = {
-    {.name = "depth",
-     .help = "largest number of mirror bounces; longer paths end black",
-     .low = 0,
-     .high = 64,
-     .value = 8},
-    {.name = "samples",
-     .help = "rays per pixel: 1 = the centre, n*n = a regular grid, other numbers = stratified",
-     .low = 1,
-     .high = 65536,
-     .value = 1},
-    {.name = "shadow",
-     .help = "shadows: from rays, from shadow maps, or none",
-     .high = 2,
-     .choices = kTracedShadowChoices},
-    {.name = "sphere",
-     .help = "shape of balls: triangles or exact spheres",
-     .high = 1,
-     .choices = kSphereChoices},
-    {.name = "first",
-     .help = "how the surface that the camera sees is found: by a ray, or by the rasteriser",
-     .high = 1,
-     .choices = kFirstChoices},
-    {.name = "hit",
-     .help = "precision of hit points: single or double",
-     .high = 1,
-     .choices = kHitChoices},
-    {.name = "without",
-     .help = "rule of robustness to leave out, to measure its cost",
-     .high = 5,
-     .choices = kRules},
-    kShadowMapEdge,
-    kCapture};
+enum class Shape { mesh, exact };
+enum class First { ray, raster };
+enum class Precision { f32, f64 };
+constexpr Knob kDepth{.name = "depth",
+                      .help = "largest number of mirror bounces; longer paths end black",
+                      .low = 0,
+                      .high = 64,
+                      .value = 8};
+constexpr Knob kSamples{
+    .name = "samples",
+    .help = "rays per pixel: 1 = the centre, n*n = a regular grid, other numbers = stratified",
+    .low = 1,
+    .high = 65536,
+    .value = 1};
+constexpr Knob kSphere{.name = "sphere",
+                       .help = "shape of balls: triangles or exact spheres",
+                       .high = 1,
+                       .choices = kSphereChoices};
+constexpr Knob kFirst{
+    .name = "first",
+    .help = "how the surface that the camera sees is found: by a ray, or by the rasteriser",
+    .high = 1,
+    .choices = kFirstChoices};
+constexpr Knob kHit{.name = "hit",
+                    .help = "precision of hit points: single or double",
+                    .high = 1,
+                    .choices = kHitChoices};
+constexpr Knob kWithout{.name = "without",
+                        .help = "rule of robustness to leave out, to measure its cost",
+                        .high = 5,
+                        .choices = kRules};
+constexpr Knob kKnobs[] = {kDepth, kSamples, kTracedShadow,  kSphere, kFirst,
+                           kHit,   kWithout, kShadowMapEdge, kCapture};
 
-bool is_first_raster(const Settings& settings) { return settings.choice("first") == "raster"; }
+bool is_first_raster(const Settings& settings) {
+    return settings.as<First>(kFirst) == First::raster;
+}
 
 Tracer tracer_of(const Settings& settings, const render::Lighting& lighting) {
-    const std::string_view shadow = settings.choice("shadow");
-    return {.depth = static_cast<std::uint32_t>(settings.integer("depth")),
-            .samples = settings.integer("samples"),
+    const SharedKnobs::Shadow shadow = shared_knobs(settings).shadow;
+    return {.depth = static_cast<std::uint32_t>(settings.integer(kDepth)),
+            .samples = settings.integer(kSamples),
             // A scene without lights has no shadow map, and no light needs a shadow test.
-            .shadow = shadow == "none"                         ? Tracer::Shadow::none
-                      : shadow == "map" && lighting.shadow_map ? Tracer::Shadow::map
-                                                               : Tracer::Shadow::ray,
+            .shadow = shadow == SharedKnobs::Shadow::none ? Tracer::Shadow::none
+                      : shadow == SharedKnobs::Shadow::map && lighting.shadow_map
+                          ? Tracer::Shadow::map
+                          : Tracer::Shadow::ray,
             .lighting = lighting,
-            .exact_spheres = settings.choice("sphere") == "exact",
+            .exact_spheres = settings.as<Shape>(kSphere) == Shape::exact,
             .first_raster = is_first_raster(settings),
-            .doubles = settings.choice("hit") == "f64",
-            .without = static_cast<std::uint32_t>(settings.integer("without"))};
+            .doubles = settings.as<Precision>(kHit) == Precision::f64,
+            .without = static_cast<std::uint32_t>(settings.integer(kWithout))};
 }
 
 std::string conflict(const Settings& settings) {
     if (!is_first_raster(settings)) return {};
-    if (settings.integer("samples") > 1)
+    if (settings.integer(kSamples) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
-               settings.text("samples");
-    if (settings.choice("sphere") == "exact")
+               settings.text(kSamples);
+    if (settings.as<Shape>(kSphere) == Shape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
     return {};
 }
@@ -77,7 +79,7 @@ std::string conflict(const Settings& settings) {
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
 int scene_passes(int, int lights, const Settings& settings) {
     if (!is_first_raster(settings)) return shadow_passes(lights, settings);
-    return 1 + (settings.choice("shadow") == "none" ? 0 : lights);
+    return 1 + (shared_knobs(settings).shadow == SharedKnobs::Shadow::none ? 0 : lights);
 }
 
 Outputs picture(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,

@@ -6,16 +6,16 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = search_knobs(
-    std::array{Knob{.name = "steps",
-                    .help = "number of secant steps after the first; 0 equals parallax",
-                    .low = 0,
-                    .high = 8,
-                    .value = 2}});
+constexpr Knob kSteps{.name = "steps",
+                      .help = "number of secant steps after the first; 0 equals parallax",
+                      .low = 0,
+                      .high = 8,
+                      .value = 2};
+constexpr auto kKnobs = search_knobs(std::array{kSteps});
 
 MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
                    const MirrorInputs& around) {
-    const int steps = settings.integer("steps");
+    const int steps = settings.integer(kSteps);
     if (steps == 0) // without the knobs of a search, which `parallax` does not have
         return {shading_with_captures(around, "reflect/parallax.frag", Settings({})), {}};
     MirrorShading look{shading_with_captures(around, "reflect/secant.frag", settings), {}};

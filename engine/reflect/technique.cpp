@@ -44,24 +44,31 @@ std::string Choice::file_name() const {
     return name;
 }
 
+void Choice::settle() {
+    shared = shared_knobs(settings);
+    rest = technique->rest
+               ? std::make_shared<const Choice>(parse_choice(settings.choice(*technique->rest)))
+               : nullptr;
+}
+
 Choice parse_choice(std::string_view text) {
     const auto colon = text.find(':');
     const Technique& technique = find_technique(text.substr(0, colon));
     Choice choice{&technique, Settings(technique.knobs), std::string(text)};
     std::string_view rest = colon == std::string_view::npos ? "" : text.substr(colon + 1);
-    bool goes_on = colon != std::string_view::npos;
-    while (goes_on) {
+    while (colon != std::string_view::npos) {
         const auto comma = rest.find(',');
         const std::string_view item = rest.substr(0, comma);
         const auto equals = item.find('=');
         check(equals != std::string_view::npos, Failure::usage, "technique '", text, "': '", item,
               "' should read knob=value");
         choice.settings.set(technique.name, item.substr(0, equals), item.substr(equals + 1));
-        goes_on = comma != std::string_view::npos;
-        if (goes_on) rest = rest.substr(comma + 1);
+        if (comma == std::string_view::npos) break;
+        rest = rest.substr(comma + 1);
     }
     const std::string conflict = technique.conflict ? technique.conflict(choice.settings) : "";
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
+    choice.settle();
     return choice;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/format.hpp"
 #include "core/knob.hpp"
 #include "reflect/tracer.hpp"
 #include "render/capture_cache.hpp"
@@ -44,6 +45,30 @@ struct MirrorShading {
     std::optional<Tracer> tracer; ///< traces the pixels that the mirror's shader leaves to rays
 };
 
+/// Values of the knobs that techniques share, as typed values.
+struct SharedKnobs {
+    enum class Shadow { none, map, ray };
+    Shadow shadow = Shadow::none;
+    std::uint32_t shadow_map = 1; ///< edge of a shadow map's face in texels
+    /// Edge of a capture's face in texels; none: `auto`, or the technique has no such knob.
+    std::optional<std::uint32_t> face;
+    bool chooses_face = false;       ///< face=auto
+    bool stores_floats = false;      ///< colour=float
+    std::optional<Format> distance;  ///< none: the technique has no such knob
+    double range = 0;                ///< largest distance for `distance=unorm8`, in world units
+    std::uint32_t continues = 0;     ///< further mirrors through which a ray is followed
+    bool by_object = false;          ///< lookup=object
+    bool asks_all = false;           ///< captures=all
+    bool leaves_out_spheres = false; ///< mirrors=left_out
+    /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
+    /// `capture=none`, or the technique has no such knob.
+    std::optional<std::uint32_t> capture;
+    bool is_black_in_others = false; ///< capture=none
+};
+
+/// Reads the shared knobs.
+SharedKnobs shared_knobs(const Settings& settings);
+
 struct Technique {
     std::string_view name;
     std::string_view summary; ///< one sentence for `list` and the report
@@ -70,9 +95,10 @@ struct Technique {
     /// technique has no mirrored views (reflect/mirrored.hpp).
     int (*mirrored_bounces)(const Settings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
-    /// Null: the technique draws any mirror. The technique that the knob `rest` names draws the
-    /// mirrors that are unfit. `tolerance`: scene::flat_tolerance.
+    /// Null: the technique draws any mirror. `tolerance`: scene::flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
+    /// Knob whose choice is the technique that draws the mirrors that are unfit; null: `unfit` is.
+    const Knob* rest = nullptr;
     /// Returns why the technique cannot draw with these settings together, as words after
     /// "technique
     /// '...': "; empty: it can. Null: it can with all settings.
@@ -101,8 +127,12 @@ const Technique& find_technique(std::string_view name);
 struct Choice {
     const Technique* technique = nullptr;
     Settings settings{{}};
-    std::string label; ///< the technique as the user wrote it
+    std::string label;                  ///< the technique as the user wrote it
+    SharedKnobs shared = {};            ///< read from `settings`
+    std::shared_ptr<const Choice> rest; ///< draws the mirrors that are unfit; null: none are
 
+    /// Reads `shared` and `rest` again, after a change of `settings`.
+    void settle();
     /// Returns the label as a file name: "naive-bounces3".
     std::string file_name() const;
     /// Returns whether technique and knob values are the same. The spelling of the labels does not

@@ -188,8 +188,7 @@ std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::
         std::string why = patterns[i].empty() ? "one technique was asked for"
                                               : "rule '" + patterns[i] + "'";
         if (!reasons[i].empty()) why = reasons[i];
-        const bool is_left_out = choices.size() > 1 && choice.settings.has("capture") &&
-                                 choice.settings.is_special("capture");
+        const bool is_left_out = choices.size() > 1 && choice.shared.is_black_in_others;
         if (is_left_out) why += "; black in the captures of others, capture=none";
         entries.push_back({static_cast<std::uint32_t>(i + 1), mirrors[i],
                            std::string(choice.technique->name), settings_of(choice),
@@ -240,7 +239,7 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     part.notes = outputs.notes;
     std::ranges::move(shortfalls_of(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::Choice& choice : declared.assignment.choices)
-        if (choice.settings.has("face") && choice.settings.is_special("face"))
+        if (choice.shared.chooses_face)
             part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
     for (const graph::BufferHandle counters : outputs.counters)
         add_counters(runner.read(ticket, counters), part);

@@ -62,6 +62,7 @@ reflect::Rule rule_of(const PlanJson& rule, const std::string& place) {
         choice.settings.set(choice.technique->name, knob,
                             value.is_string() ? value.get<std::string>() : value.dump());
     }
+    choice.settle();
     return {std::move(pattern), std::move(choice)};
 }
 

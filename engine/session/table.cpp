@@ -17,7 +17,7 @@ std::vector<TechniqueInfo> techniques() {
                                   std::string(knob.help),
                                   knob.low,
                                   knob.high,
-                                  defaults.text(knob.name),
+                                  defaults.text(knob),
                                   {knob.choices.begin(), knob.choices.end()},
                                   std::string(knob.special)});
         infos.push_back(std::move(info));
@@ -29,12 +29,11 @@ std::vector<Setting> settings_of(const reflect::Choice& choice) {
     std::vector<Setting> settings;
     const Settings defaults(choice.technique->knobs);
     for (const catoptric::Knob& knob : choice.technique->knobs) {
-        const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob.name);
-        const std::string value = choice.settings.text(knob.name);
-        settings.push_back(
-            {std::string(knob.name), value,
-             is_number ? std::optional(choice.settings.number(knob.name)) : std::nullopt,
-             value != defaults.text(knob.name)});
+        const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob);
+        const std::string value = choice.settings.text(knob);
+        settings.push_back({std::string(knob.name), value,
+                            is_number ? std::optional(choice.settings.number(knob)) : std::nullopt,
+                            value != defaults.text(knob)});
     }
     return settings;
 }

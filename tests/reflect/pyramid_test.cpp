@@ -85,9 +85,8 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
     }
     graph.mark_output(pyramid);
     test::run(runner, graph);
-    return {static_cast<std::uint32_t>(choice.settings.integer("face")),
-            test::read_as<std::uint32_t>(runner, pyramid), test::read_as<vec4>(runner, found[0]),
-            test::read_as<vec4>(runner, found[1])};
+    return {*choice.shared.face, test::read_as<std::uint32_t>(runner, pyramid),
+            test::read_as<vec4>(runner, found[0]), test::read_as<vec4>(runner, found[1])};
 }
 
 /// Returns random directions, many of them along edges and at corners of cube faces. The component

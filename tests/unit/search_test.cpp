@@ -2,6 +2,8 @@
 // draws with such a technique.
 #include "compare.hpp"
 #include "core/error.hpp"
+#include "reflect/plan.hpp"
+#include "require/model.hpp"
 #include "scene/built_in.hpp"
 #include "scene/load.hpp"
 #include "session/engine.hpp"
@@ -65,6 +67,26 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
                     HasSubstr("technique 'test_short' has no knob '"));
     const app::TechniqueChoice choice = app::parse_technique("test_short:face=64,show=state");
     EXPECT_EQ(choice.settings.size() + 3, app::parse_technique("test_search").settings.size() - 1);
+}
+
+/// Returns what a picture of the built-in room by the technique demands.
+bool asks_all_captures(const std::string& technique) {
+    const scene::Scene room = scene::cornell_mirrors();
+    require::Question question{.now = room, .camera = room.cameras.front()};
+    reflect::demand(question, {reflect::parse_plan(technique)});
+    return question.asks_all;
+}
+
+TEST(Search, AddedSearchMayAskTheCapturesOfAllMirrors) {
+    EXPECT_FALSE(asks_all_captures("test_search"));
+    EXPECT_TRUE(asks_all_captures("test_search:captures=all"));
+}
+
+TEST(Search, OwnKnobsMayHaveNamesOfKnobsThatOtherTechniquesHave) {
+    app::add_search({.name = "test_names",
+                     .shader = "test_names.frag",
+                     .knobs = {{.name = "rest"}, {.name = "without"}, {.name = "capture"}}});
+    EXPECT_FALSE(asks_all_captures("test_names:rest=1,without=1,capture=0"));
 }
 
 TEST(Search, InvalidSearchIsRefusedWithTheReason) {
