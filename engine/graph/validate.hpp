@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/error.hpp"
 #include "graph/access.hpp"
 
 namespace catoptric::graph {
