@@ -10,6 +10,7 @@
 #include "report_sample.hpp"
 #include "require/world_content_hashes.hpp"
 #include "scene/built_in.hpp"
+#include "scene/hash.hpp"
 #include "scene/light_kind.hpp"
 #include "scene/load.hpp"
 #include "session/scene_facts.hpp"
