@@ -15,11 +15,11 @@ namespace catoptric::embed {
 /// Features that the device must be created with, for Vulkan 1.3. The features are chained in the
 /// member `core`. VkDeviceCreateInfo::pNext must point to `core`, and pEnabledFeatures must be
 /// null. You may enable other features in the chain, too. No extension is needed.
-struct Features {
+struct RequiredDeviceFeatures {
     /// Fills the chain. Throws `no_device` with the names of features that the device lacks.
-    CATOPTRIC_API explicit Features(VkPhysicalDevice device);
-    Features(const Features&) = delete;
-    Features& operator=(const Features&) = delete;
+    CATOPTRIC_API explicit RequiredDeviceFeatures(VkPhysicalDevice device);
+    RequiredDeviceFeatures(const RequiredDeviceFeatures&) = delete;
+    RequiredDeviceFeatures& operator=(const RequiredDeviceFeatures&) = delete;
     VkPhysicalDeviceFeatures2 core{};
     VkPhysicalDeviceVulkan11Features v11{};
     VkPhysicalDeviceVulkan12Features v12{};
@@ -57,7 +57,7 @@ struct Target {
 /// presenting a swapchain's image. Wait for the acquired image in a submit of your own before the
 /// frame, and signal for presenting in one after it. The image must live until the frame has ended
 /// (Frame::times). Throws `usage` for several techniques, no image, and another layout.
-CATOPTRIC_API app::Frame frame_into(app::Session& session, const app::FrameSpec& spec,
-                                    const Target& target);
+CATOPTRIC_API app::Frame render_frame_into(app::Session& session, const app::FrameSpec& spec,
+                                           const Target& target);
 
 } // namespace catoptric::embed

@@ -8,5 +8,5 @@ layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_colour;
 
 void main() {
-    if (fails_alpha_test(drawn_numbers.z, Attribute(in_uv, in_colour))) discard;
+    if (fails_alpha_test(drawn_numbers.z, VertexAttribute(in_uv, in_colour))) discard;
 }

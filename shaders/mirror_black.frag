@@ -7,11 +7,11 @@ void main() {
     vec3 shown = vec3(0), facet = vec3(0);
     if (lights_mirrors != 0u) facet = cross(dFdx(from_eye), dFdy(from_eye));
     if (peels != 0u && is_peeled()) discard;
-    leave_out_what_is_cut();
+    discard_cut_out_fragments();
     if (lights_mirrors != 0u) {
         vec3 n = normalize(normal);
-        Surface surface = surface_here(n, facet);
-        shown = shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
+        Surface surface = surface_at_fragment(n, facet);
+        shown = shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
     }
     write_surface(shown);
 }

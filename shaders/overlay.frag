@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 
-layout(push_constant, scalar) uniform Push { Overlaying overlaying; };
+layout(push_constant, scalar) uniform Push { OverlayParameters overlaying; };
 layout(set = 0, binding = 21, scalar) readonly buffer Font { uint font[]; };
 layout(location = 0) in vec2 uv;
 layout(location = 1) in vec4 colour;

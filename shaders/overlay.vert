@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 
-layout(push_constant, scalar) uniform Push { Overlaying overlaying; };
+layout(push_constant, scalar) uniform Push { OverlayParameters overlaying; };
 layout(set = 0, binding = 20, scalar) readonly buffer Corners { OverlayVertex corners[]; };
 layout(location = 0) out vec2 out_uv;
 layout(location = 1) out vec4 out_colour;

@@ -9,15 +9,15 @@
 #include "lib/trace_list.glsl"
 
 layout(set = 0, binding = PICTURE_BINDING, rgba32f) uniform image2D picture;
-layout(push_constant, scalar) uniform Push { Trace trace; };
+layout(push_constant, scalar) uniform Push { TraceParameters trace; };
 
 #ifdef LISTED
 
 layout(local_size_x = 64) in; // 64 invocations: kListGroup
 layout(set = 0, binding = LIST_BINDING, scalar) readonly buffer List { uint list[]; };
 
-bool has_pixel(out uvec2 pixel) {
-    uint place = work_group() * kListGroup + gl_LocalInvocationIndex;
+bool find_pixel_to_trace(out uvec2 pixel) {
+    uint place = assigned_work_group() * kListGroup + gl_LocalInvocationIndex;
     if (place >= counters.value.listed) return false;
     pixel = uvec2(list[place] % trace.size.x, list[place] / trace.size.x);
     return true;
@@ -29,27 +29,27 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = PIXELS_IN_ROWS_CONSTANT) const uint pixels_in_rows = 0u;
 
 // Maps invocation `i` of a work group to its pixel: each eight invocations take a block of 4x2 pixels, or a row of 8.
-uvec2 place_in_group(uint i) {
+uvec2 pixel_in_work_group(uint i) {
     return pixels_in_rows != 0u ? uvec2(i & 7u, i >> 3) : uvec2(i & 3u | i >> 1 & 4u, i >> 2 & 1u | i >> 3 & 6u);
 }
 
-bool has_pixel(out uvec2 pixel) {
+bool find_pixel_to_trace(out uvec2 pixel) {
     uint across = (trace.size.x + 7u) / 8u;
-    uint group = work_group();
-    pixel = uvec2(group % across, group / across) * 8u + place_in_group(gl_LocalInvocationIndex);
+    uint group = assigned_work_group();
+    pixel = uvec2(group % across, group / across) * 8u + pixel_in_work_group(gl_LocalInvocationIndex);
     return all(lessThan(pixel, trace.size));
 }
 
 #endif
 
 void main() {
-    Trace asked = trace; // push constants are read before the lanes diverge
+    TraceParameters asked = trace; // push constants are read before the lanes diverge
     uvec2 pixel;
-    bool inside = has_pixel(pixel);
+    bool inside = find_pixel_to_trace(pixel);
     if (inside) {
         uint met;
         if (first_raster != 0u) first_words = imageLoad(picture, ivec2(pixel));
-        vec3 sum = radiance(camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
+        vec3 sum = trace_radiance(make_camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
         // The picture's alpha holds the numbers of the mirrors that the ray of the first sample meets.
         vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhTag));
         if (asked.sample_index > 0u) before = imageLoad(picture, ivec2(pixel));
@@ -57,5 +57,5 @@ void main() {
         if (asked.sample_index + 1u == asked.sample_count) sum /= float(asked.sample_count);
         imageStore(picture, ivec2(pixel), vec4(sum, before.a));
     }
-    count();
+    count_rays();
 }

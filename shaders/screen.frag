@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 
-layout(push_constant, scalar) uniform Push { Screening screening; };
+layout(push_constant, scalar) uniform Push { ScreenParameters screening; };
 layout(set = 0, binding = 20) uniform sampler2D first;
 layout(set = 0, binding = 21) uniform sampler2D second;
 layout(set = 0, binding = 22, scalar) readonly buffer Canvas { uint canvas[]; };

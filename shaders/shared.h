@@ -53,7 +53,7 @@ const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
 // The parameters of a glTF material that Surface does not hold. Objects with equal parameters share one element.
 struct IN_QUADS MaterialParameters {
     uint flags;             // material flags, kMaterial...
-    uint first_attribute;   // index of a vertex's Attribute, minus the index of the vertex
+    uint first_attribute;   // index of a vertex's VertexAttribute, minus the index of the vertex
     float max_specular_roughness; // highest roughness at which the surface still reflects sharply
     float alpha;
     float alpha_cutoff;     // alpha below which the surface is cut out; 0: no alpha test
@@ -80,7 +80,7 @@ const uint kMaterialTurns = 16u;     // material flag: two-sided, the normal tur
 const uint kMaterialFacets = 32u;
 
 // The data of a vertex other than position and normal.
-struct Attribute {
+struct VertexAttribute {
     vec4 uv;     // two sets of texture coordinates
     vec4 colour; // vertex colour, linear, with alpha
 };
@@ -169,7 +169,7 @@ struct Frame {
 
 // Push constants of a pass that draws objects. All objects of the pass share them, because a driver may copy its state
 // for each draw that changes push constants.
-struct Draw {
+struct DrawParameters {
     uint first_view; // index of the view that layer 0 shows
     uint ablated;     // causes of error to remove, kAblate...; used by variants with ABLATE (lib/ablate.glsl)
 };
@@ -194,7 +194,7 @@ const uint kAblateOwn = 32u;       // ablation: a mirror shows its reflection in
 const uint kAblateShadows = 64u;   // ablation: the shadow map becomes a shadow ray
 
 // Push constants of one dispatch of the ray tracer.
-struct Trace {
+struct TraceParameters {
     vec2 sample_offset; // position of the sample inside the pixel; (0.5, 0.5) is the centre
     uint sample_index;  // number of the sample, from 0; sample 0 starts the sum
     uint sample_count;  // samples a pixel; the last sample divides the sum by this count
@@ -217,7 +217,7 @@ struct Counters {
 };
 
 // Push constants of the pass that shows pictures in a window (engine/session/screen.cpp).
-struct Screening {
+struct ScreenParameters {
     uvec2 size;      // size of the pictures, pixels
     uint kind;       // kind of display, kShow...
     uint from_canvas; // 1: the first picture is the canvas; 2: the second picture is the canvas; 3: both are
@@ -233,7 +233,7 @@ struct OverlayVertex {
     uint colour;   // vertex colour: r | g << 8 | b << 16 | a << 24
 };
 // Push constants of the pass that draws controls and text.
-struct Overlaying {
+struct OverlayParameters {
     uvec2 window; // size of the window, pixels
     uvec2 font;   // size of the font texture, texels
 };
@@ -248,17 +248,17 @@ static_assert(sizeof(Surface) == 60);
 static_assert(sizeof(Light) == 92);
 static_assert(sizeof(TextureUse) == 36);
 static_assert(sizeof(MaterialParameters) == 16 * kMaterialQuads);
-static_assert(sizeof(Attribute) == 32);
+static_assert(sizeof(VertexAttribute) == 32);
 static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows
 static_assert(sizeof(View) == 84);
 static_assert(sizeof(Sky) == 128);
 static_assert(sizeof(Frame) == 20);
-static_assert(sizeof(Draw) == 8);
+static_assert(sizeof(DrawParameters) == 8);
 static_assert(sizeof(Placement) == 60);
-static_assert(sizeof(Trace) == 24);
+static_assert(sizeof(TraceParameters) == 24);
 static_assert(sizeof(Counters) == 28);
-static_assert(sizeof(Screening) == 24);
+static_assert(sizeof(ScreenParameters) == 24);
 static_assert(sizeof(OverlayVertex) == 20);
 } // namespace catoptric::shared
 #endif

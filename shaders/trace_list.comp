@@ -24,7 +24,7 @@ layout(push_constant, scalar) uniform Push { uvec2 size; };
 
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 
-uvec2 groups_for(uint pixels) {
+uvec2 count_work_groups(uint pixels) {
     uint groups = (pixels + kListGroup - 1u) / kListGroup;
     return uvec2(min(groups, kListGroups), (groups + kListGroups - 1u) / kListGroups);
 }
@@ -38,8 +38,8 @@ void main() {
     uint is_mirror = uint(inside) & uint(is_of_mirror(words));
     uint is_listed = uint(inside) & uint(is_for(words, tracer));
 #else
-    // `mark` is the number of the tracer that takes the pixel, or 0. `looked_up` is 0 where no mirror looked its
-    // reflection up in a capture (lib/surface.glsl).
+    // `mark` is the number of the tracer that takes the pixel, or 0. `ablated_lookup_colour` is 0 where no mirror
+    // looked its reflection up in a capture (lib/surface.glsl).
     float mark = imageLoad(marks, place).r, looked_up = imageLoad(lookup, place).w;
     uint is_mirror = uint(inside) & (uint(mark != 0.0) | uint(looked_up != 0.0));
     uint is_listed = uint(inside) & uint(mark == float(tracer));
@@ -56,7 +56,7 @@ void main() {
     if (is_first && listed > 0u) {
         // Adds the work groups that the list needs beyond those of the pixels listed before. The sum over all subgroups
         // is the number of work groups for the whole list.
-        uvec2 more = groups_for(first + listed) - groups_for(first);
+        uvec2 more = count_work_groups(first + listed) - count_work_groups(first);
         if (more.x > 0u) atomicAdd(arguments.groups.x, more.x);
         if (more.y > 0u) atomicAdd(arguments.groups.y, more.y);
     }

@@ -28,7 +28,7 @@ constexpr int kSettles = 14; // frames until mirrors seen in mirrors no longer c
 /// Prints how much the prototypes' pictures differ from ours. Returns whether the pictures of the
 /// prototypes that trace rays equal ours.
 bool check_prototypes(app::Session& session, app::Request request, Prototypes& prototypes) {
-    for (app::Subject& subject : prototypes.subjects(0))
+    for (app::BenchmarkSubject& subject : prototypes.subjects(0))
         for (int i = 0; i < kSettles; ++i) subject.work();
     request.techniques = {kPairs[0].technique};
     const measure::Picture traced = session.frame(request).read().hdr;
@@ -60,10 +60,10 @@ bool check_prototypes(app::Session& session, app::Request request, Prototypes& p
 } // namespace
 
 bool compare_built_in(const Bench& bench) {
-    app::Request request = request_of(scene::cornell_mirrors());
+    app::Request request = request_of(scene::make_cornell_mirrors());
     const auto session = std::make_shared<app::Session>(bench.engine, request.scene);
     const int frames = bench.rounds * kFramesARound;
-    std::vector<app::Subject> subjects;
+    std::vector<app::BenchmarkSubject> subjects;
     bool same = true;
     double rays = 0;
     for (const Pair& pair : kPairs) {
@@ -78,10 +78,10 @@ bool compare_built_in(const Bench& bench) {
     std::ranges::move(prototypes.subjects(kWarmup), std::back_inserter(subjects));
     for (const auto& [technique, face] : kOthers) {
         request.techniques = {technique};
-        subjects.push_back(app::frame_subject(session, request, frames));
+        subjects.push_back(app::make_frame_subject(session, request, frames));
         subjects.back().name = technique, subjects.back().caller.clear();
     }
-    const std::vector<Benchmark> list = app::measure_rounds(
+    const std::vector<Benchmark> list = app::measure_in_rounds(
         subjects, bench.meter, {.iterations = frames, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
     for (const Benchmark& benchmark : list)

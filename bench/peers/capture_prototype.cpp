@@ -45,12 +45,12 @@ CapturePrototype::CapturePrototype(gpu::Device& device, gpu::Pipelines& pipeline
 }
 
 void CapturePrototype::add_scene(const app::Request& request) {
-    const render::Space space = render::space_of(request.scene);
-    const scene::Scene now = scene::at(request.scene, request.time);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
+    const scene::Scene now = scene::scene_at_time(request.scene, request.time);
     geometry_ = render::make_geometry(now, space);
-    const scene::PointLight light = scene::lights(now).at(0);
+    const scene::PointLight light = scene::list_lights(now).at(0);
     const vec3 at = space.point(light.position);
-    views_ = {render::camera_view(request.camera, space, request.size, 1)};
+    views_ = {render::make_camera_view(request.camera, space, request.size, 1)};
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const scene::Material& material = now.materials[now.objects[i].material];
         const bool mirror = scene::is_mirror(now, now.objects[i]);
@@ -58,10 +58,11 @@ void CapturePrototype::add_scene(const app::Request& request) {
             {vec4(mirror ? material.reflectance : material.albedo, 0), vec4(material.emission, 0)});
         if (!mirror) continue;
         mirrors_.push_back(i);
-        for (const shared::View& view : render::cube_views(geometry_.ranges[i].bounds.centre(), 1))
+        for (const shared::View& view :
+             render::make_cube_views(geometry_.ranges[i].bounds.centre(), 1))
             views_.push_back(view);
     }
-    for (const shared::View& view : render::cube_views(at, 1))
+    for (const shared::View& view : render::make_cube_views(at, 1))
         if (dot(view.forward, vec3(light.normal)) > -.5f) views_.push_back(view);
     Frame frame{};
     check(views_.size() == std::size(frame.clip_from_scene), Failure::usage,
@@ -72,9 +73,10 @@ void CapturePrototype::add_scene(const app::Request& request) {
     frame.light_normal = vec4(vec3(light.normal), kNear);
     frame.intensity = vec4(
         light.emission * static_cast<float>(light.area * space.scale * space.scale), 0);
-    gpu::upload(device_, vertices_, "vertices", geometry_.vertices, BufferUsage::vertex);
-    gpu::upload(device_, indices_, "indices", geometry_.indices, BufferUsage::index);
-    gpu::upload(device_, frame_, "frame", std::vector<Frame>{frame}, BufferUsage::uniform);
+    gpu::upload_to_buffer(device_, vertices_, "vertices", geometry_.vertices, BufferUsage::vertex);
+    gpu::upload_to_buffer(device_, indices_, "indices", geometry_.indices, BufferUsage::index);
+    gpu::upload_to_buffer(device_, frame_, "frame", std::vector<Frame>{frame},
+                          BufferUsage::uniform);
 }
 
 void CapturePrototype::make_images(uvec2 size) {
@@ -146,7 +148,7 @@ void CapturePrototype::draw_object(VkCommandBuffer commands, const Bound& progra
                                 materials_[object].emission, vec4(centre, 0), first_view,
                                 static_cast<float>(mirror - mirrors_.begin())});
     const auto meets = [&](std::uint32_t layer) {
-        return render::may_meet(views_[first_view + layer], range);
+        return render::may_view_show_box(views_[first_view + layer], range);
     };
     for (std::uint32_t layer = 0, end; layer < layers; layer = end + 1) {
         for (end = layer; end < layers && meets(end);) ++end;

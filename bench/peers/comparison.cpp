@@ -10,7 +10,7 @@ namespace peers {
 
 using namespace catoptric;
 using measure::Benchmark;
-using measure::Cost;
+using measure::CostKind;
 
 std::string our_name(const std::string& pair) { return "ours/" + pair; }
 std::string peer_name(const std::string& pair, int width) {
@@ -38,12 +38,12 @@ std::size_t other_pixels(const measure::Picture& ours, const std::vector<Vector>
 Shown show(const EmbreeDevice& device, std::shared_ptr<app::Session> session, app::Request request,
            const Pair& pair, int threads, int frames) {
     request.techniques = {pair.technique};
-    const app::Part ours = session->frame(request).read();
-    const app::RayCounts rays = ours.rays.value();
+    const app::TechniqueResult ours = session->frame(request).read();
+    const catoptric::RayCounts rays = ours.rays.value();
     std::printf("%-23s %llu rays\n", our_name(pair.name).c_str(),
                 static_cast<unsigned long long>(rays.primary + rays.mirror + rays.shadow));
     Shown shown{.same = true};
-    shown.subjects.push_back(app::frame_subject(std::move(session), request, frames));
+    shown.subjects.push_back(app::make_frame_subject(std::move(session), request, frames));
     shown.subjects.back().name = our_name(pair.name), shown.subjects.back().caller.clear();
     const auto peer = std::make_shared<PeerScene>(device, request, kDepth, pair.exact);
     for (const int width : kWidths) {
@@ -55,28 +55,31 @@ Shown show(const EmbreeDevice& device, std::shared_ptr<app::Session> session, ap
                     static_cast<double>(kSame));
         shown.same = shown.same && other <= kMostOther;
         shown.rays = static_cast<double>(theirs.rays.all());
-        shown.subjects.push_back(app::subject_of(
+        shown.subjects.push_back(app::make_subject(
             name, [peer, width, threads] { peer->trace(width, threads); }, kWarmup));
     }
     return shown;
 }
 
 void print(const Benchmark& benchmark, const char* what, double millions) {
-    const double ms = measure::percentile(costs_of(benchmark, Cost::real_time), .5);
+    const double ms = measure::compute_percentile(list_round_costs(benchmark, CostKind::real_time),
+                                                  .5);
     std::printf("%-23s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
-                measure::percentile(costs_of(benchmark, Cost::cpu_time), .5));
+                measure::compute_percentile(list_round_costs(benchmark, CostKind::cpu_time), .5));
     if (benchmark.rounds.front().cycles)
         std::printf(" %9.1f Mcycles",
-                    measure::percentile(costs_of(benchmark, Cost::cycles), .5) / 1e6);
+                    measure::compute_percentile(list_round_costs(benchmark, CostKind::cycles), .5) /
+                        1e6);
     if (millions > 0) std::printf(" %8.2f M%s/s", 1e3 * millions / ms, what);
     std::printf("\n");
 }
 
 void print_ratio(const Benchmark& a, const Benchmark& b) {
-    const Cost cost = a.rounds.front().cycles ? Cost::cycles : Cost::cpu_time;
-    const measure::Ratio ratio = measure::ratio_of(costs_of(a, cost), costs_of(b, cost));
-    const measure::Ratio real = measure::ratio_of(costs_of(a, Cost::real_time),
-                                                  costs_of(b, Cost::real_time));
+    const CostKind cost = a.rounds.front().cycles ? CostKind::cycles : CostKind::cpu_time;
+    const measure::CostRatio ratio = measure::compute_cost_ratio(list_round_costs(a, cost),
+                                                                 list_round_costs(b, cost));
+    const measure::CostRatio real = measure::compute_cost_ratio(
+        list_round_costs(a, CostKind::real_time), list_round_costs(b, CostKind::real_time));
     std::printf("%-19s / %-23s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
                 a.name.c_str(), b.name.c_str(), ratio.median, ratio.ci95.low, ratio.ci95.high,
                 measure::name_of(cost).c_str(), real.median, real.ci95.low, real.ci95.high);

@@ -32,7 +32,7 @@ std::size_t other_pixels(const catoptric::measure::Picture& ours,
 
 /// The benchmarks of a pair: ours first, then Embree with each width of kWidths.
 struct Shown {
-    std::vector<catoptric::app::Subject> subjects;
+    std::vector<catoptric::app::BenchmarkSubject> subjects;
     double rays = 0;   ///< rays that Embree traces for one picture
     bool same = false; ///< whether at most kMostOther pixels differ
 };

@@ -18,7 +18,7 @@ constexpr std::size_t kRoom = 2;  // most primitives per triangle after splits
 
 struct Node {
     std::size_t triangles = 0; ///< number of triangles of a leaf; 0: an inner node
-    Box boxes[2];
+    BoundingBox boxes[2];
     Node* children[2] = {};
 };
 
@@ -27,19 +27,19 @@ double cost_of(const Node& node) {
     for (int side = 0; side < 2; ++side) {
         const Node& child = *node.children[side];
         const bool is_leaf = child.triangles > 0;
-        sum += bvh::area(node.boxes[side]) *
+        sum += bvh::box_area(node.boxes[side]) *
                    (is_leaf ? static_cast<double>(child.triangles) : bvh::kTraversalCost) +
                (is_leaf ? 0 : cost_of(child));
     }
     return sum;
 }
 
-Box box_of(const RTCBounds& bounds) {
+BoundingBox box_of(const RTCBounds& bounds) {
     return {{bounds.lower_x, bounds.lower_y, bounds.lower_z},
             {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
 }
 
-RTCBounds bounds_of(const Box& box) {
+RTCBounds bounds_of(const BoundingBox& box) {
     return {box.lo.x, box.lo.y, box.lo.z, 0, box.hi.x, box.hi.y, box.hi.z, 0};
 }
 
@@ -54,7 +54,7 @@ void split(const RTCBuildPrimitive* primitive, unsigned axis_number, float place
     const auto axis = static_cast<glm::length_t>(axis_number);
     const bvh::Triangle& t = static_cast<const bvh::Triangle*>(triangles)[primitive->primID];
     const vec3 corners[] = {t.a, t.b, t.c};
-    Box sides[2];
+    BoundingBox sides[2];
     for (int i = 0; i < 3; ++i) {
         const vec3 from = corners[i], to = corners[(i + 1) % 3];
         if (from[axis] <= place) sides[0].add(from);
@@ -66,7 +66,7 @@ void split(const RTCBuildPrimitive* primitive, unsigned axis_number, float place
     }
     const vec3 lo(primitive->lower_x, primitive->lower_y, primitive->lower_z),
         hi(primitive->upper_x, primitive->upper_y, primitive->upper_z);
-    for (Box& side : sides) side = {max(side.lo, lo), min(side.hi, hi)};
+    for (BoundingBox& side : sides) side = {max(side.lo, lo), min(side.hi, hi)};
     *left = bounds_of(sides[0]), *right = bounds_of(sides[1]);
 }
 
@@ -101,7 +101,7 @@ double embree_cost(const EmbreeDevice& device, std::span<const bvh::Triangle> tr
     std::vector<RTCBuildPrimitive> primitives(kRoom * triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const bvh::Triangle& t = triangles[i];
-        const Box box = bvh::box_of(t.a, t.b, t.c, t.flags);
+        const BoundingBox box = bvh::triangle_bounds(t.a, t.b, t.c, t.flags);
         primitives[i] = {box.lo.x, box.lo.y, box.lo.z, 0,
                          box.hi.x, box.hi.y, box.hi.z, static_cast<unsigned>(i)};
     }

@@ -78,14 +78,14 @@ bool compare_rays(const Bench& bench, const NamedScene& of) {
     EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     tree.add_and_release(triangle_geometry(bench.device, triangles));
     tree.commit();
-    std::vector<app::Subject> subjects{app::subject_of(
+    std::vector<app::BenchmarkSubject> subjects{app::make_subject(
         our_name(name), [&] { list.trace(); }, kWarmup)};
     for (const int width : kWidths) {
         const auto theirs = [&, width] { return meet(tree.get(), rays, width, bench.threads); };
         same = meet_the_same(peer_name(name, width), ours, theirs()) && same;
-        subjects.push_back(app::subject_of(peer_name(name, width), theirs, kWarmup));
+        subjects.push_back(app::make_subject(peer_name(name, width), theirs, kWarmup));
     }
-    const std::vector<Benchmark> found = app::measure_rounds(
+    const std::vector<Benchmark> found = app::measure_in_rounds(
         subjects, bench.meter,
         {.iterations = bench.rounds * kFramesARound, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");

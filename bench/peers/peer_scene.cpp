@@ -25,7 +25,7 @@ Surface surface_of(const scene::Scene& scene, const scene::Object& object,
     surface.is_sharp = range.varies && !surface.is_mirror &&
                        material.roughness <= scene.mirror_max_roughness;
     surface.turns = range.turns;
-    surface.fades = render::leaves_facets(scene.meshes[object.mesh]);
+    surface.fades = render::normals_differ_from_facets(scene.meshes[object.mesh]);
     if (surface.is_mirror) surface.reflectance = plain(material.reflectance);
     if (surface.is_sharp) surface.reflectance = plain(material.dielectric_f0);
     if (material.albedo_texture) surface.texture = object.material;
@@ -76,8 +76,9 @@ PeerScene::PeerScene(const EmbreeDevice& device, const app::Request& request, in
 
 void PeerScene::add_objects(const EmbreeDevice& device, const app::Request& request, bool exact) {
     const scene::Scene& scene = request.scene;
-    const render::Space space = render::space_of(scene);
-    const render::Geometry geometry = render::make_geometry(scene::at(scene, request.time), space);
+    const render::SceneUnits space = render::make_scene_units(scene);
+    const render::Geometry geometry = render::make_geometry(
+        scene::scene_at_time(scene, request.time), space);
     std::ranges::transform(scene.materials, std::back_inserter(whitted_.textures), texture_of);
     std::vector<bvh::Triangle> triangles;
     // Separate, because shadow rays to the point inside a lamp must pass through it.
@@ -130,12 +131,12 @@ void PeerScene::add_triangles(const render::Geometry& geometry, std::size_t obje
 }
 
 void PeerScene::add_view(const app::Request& request) {
-    const render::Space space = render::space_of(request.scene);
-    for (const scene::PointLight& light : scene::lights(request.scene)) {
+    const render::SceneUnits space = render::make_scene_units(request.scene);
+    for (const scene::PointLight& light : scene::list_lights(request.scene)) {
         Light& added = whitted_.lights.emplace_back();
         check(light.cosines == dvec3(0), Failure::usage, "a lamp of two sides is closed, or none");
         const bool has_cosine = light.normal != dvec3(0);
-        const double share = has_cosine ? 1 : scene::share_towards(light, {0, 0, 1});
+        const double share = has_cosine ? 1 : scene::light_share_towards(light, {0, 0, 1});
         const double area = share * light.area * space.scale * space.scale;
         added.position = plain(space.point(light.position));
         added.normal = plain(vec3(light.normal));
@@ -146,7 +147,7 @@ void PeerScene::add_view(const app::Request& request) {
         added.sharpness = static_cast<float>(1 / std::max(.001, light.cos_inner - light.cos_outer));
     }
     whitted_.ambient = static_cast<float>(request.ambient);
-    const shared::View view = render::camera_view(request.camera, space, request.size, 1);
+    const shared::View view = render::make_camera_view(request.camera, space, request.size, 1);
     whitted_.eye = plain(view.eye), whitted_.forward = plain(view.forward);
     whitted_.right = plain(view.right / dot(view.right, view.right));
     whitted_.down = plain(view.down / dot(view.down, view.down));
@@ -155,8 +156,8 @@ void PeerScene::add_view(const app::Request& request) {
 }
 
 std::vector<bvh::Triangle> triangles_of(const scene::Scene& scene) {
-    const render::Geometry geometry = render::make_geometry(scene::at(scene, 0),
-                                                            render::space_of(scene));
+    const render::Geometry geometry = render::make_geometry(scene::scene_at_time(scene, 0),
+                                                            render::make_scene_units(scene));
     std::vector<bvh::Triangle> triangles;
     for (std::size_t k = 0; k < geometry.indices.size() / 3; ++k)
         triangles.push_back(triangle_at(geometry, k));

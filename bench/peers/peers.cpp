@@ -14,6 +14,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 
 namespace {
 
@@ -73,7 +74,8 @@ int take_rounds(std::vector<std::string>& words) {
 } // namespace
 
 int main(int argc, char** argv) try {
-    const app::UsageMeter meter(app::UsageMeter::Of::process); // created before other threads start
+    const app::UsageMeter meter(
+        app::UsageMeter::CountedThreads::process); // created before other threads start
     std::vector<std::string> words(argv + 1, argv + argc);
     const int rounds = std::max(static_cast<int>(measure::kFewest), take_rounds(words));
     const std::vector<Case> cases = cases_of(words);

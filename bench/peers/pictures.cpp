@@ -15,7 +15,7 @@ bool compare_pictures(const Bench& bench, const NamedScene& of) {
     const Shown shown = show(bench.device,
                              std::make_shared<app::Session>(bench.engine, request.scene), request,
                              {of.name, "raytrace:depth=4"}, bench.threads, frames);
-    const std::vector<Benchmark> list = app::measure_rounds(
+    const std::vector<Benchmark> list = app::measure_in_rounds(
         shown.subjects, bench.meter, {.iterations = frames, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
     for (const Benchmark& benchmark : list) print(benchmark, "rays", shown.rays / 1e6);

@@ -22,7 +22,7 @@ PlainImage::PlainImage(gpu::Device& device, Format format, uvec2 size, std::uint
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     create.flags = layers % 6 == 0 ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     create.imageType = VK_IMAGE_TYPE_2D;
-    create.format = gpu::vk_format(format);
+    create.format = gpu::to_vk_format(format);
     create.extent = {size.x, size.y, 1};
     create.mipLevels = 1;
     create.arrayLayers = layers;
@@ -53,7 +53,7 @@ VkImageView PlainImage::view(VkImageViewType type, std::uint32_t first, std::uin
     VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     create.image = image_;
     create.viewType = type;
-    create.format = gpu::vk_format(format_);
+    create.format = gpu::to_vk_format(format_);
     create.subresourceRange = {aspect_of(format_), 0, 1, first, count};
     VkImageView view = VK_NULL_HANDLE;
     check_vk(vkCreateImageView(device_, &create, nullptr, &view), "view a plain image");
@@ -108,7 +108,7 @@ Bound PlainSets::bind(const gpu::Pipeline& pipeline, const Resources& resources)
     allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     check_vk(vkAllocateDescriptorSets(device_.handle(), &allocate, &set), "allocate a set");
-    for (const gpu::Binding& binding : pipeline.bindings) {
+    for (const gpu::ShaderBinding& binding : pipeline.bindings) {
         const auto found = resources.find(binding.name);
         check(found != resources.end(), Failure::internal, "a prototype lacks '", binding.name,
               "'");
@@ -121,7 +121,7 @@ Bound PlainSets::bind(const gpu::Pipeline& pipeline, const Resources& resources)
         write.dstSet = set;
         write.dstBinding = binding.binding;
         write.descriptorCount = 1;
-        write.descriptorType = gpu::descriptor_type(binding.kind);
+        write.descriptorType = gpu::descriptor_type_of_binding(binding.kind);
         write.pImageInfo = &image, write.pBufferInfo = &bytes, write.pTexelBufferView = &texels;
         vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     }

@@ -44,13 +44,13 @@ std::vector<std::string> Prototypes::tracers() {
     return names;
 }
 
-std::vector<app::Subject> Prototypes::subjects(int warmup) {
-    std::vector<app::Subject> subjects;
+std::vector<app::BenchmarkSubject> Prototypes::subjects(int warmup) {
+    std::vector<app::BenchmarkSubject> subjects;
     for (const auto& [name, tracer] : impl_->tracers)
-        subjects.push_back(app::subject_of(
+        subjects.push_back(app::make_subject(
             name, [&one = *tracer] { one.trace(); }, warmup));
     for (const auto& [name, capture] : impl_->captures)
-        subjects.push_back(app::subject_of(
+        subjects.push_back(app::make_subject(
             name, [&one = *capture] { one.draw(); }, warmup));
     return subjects;
 }

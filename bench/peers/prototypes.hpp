@@ -29,7 +29,7 @@ public:
 
     /// Returns benchmarks that each draw a frame and wait for the device. They must not outlive the
     /// prototypes.
-    std::vector<catoptric::app::Subject> subjects(int warmup);
+    std::vector<catoptric::app::BenchmarkSubject> subjects(int warmup);
     /// Returns a prototype's picture of its last frame, linear. Throws if no prototype has the
     /// name.
     std::vector<Vector> read(const std::string& name);

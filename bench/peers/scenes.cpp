@@ -12,7 +12,7 @@ namespace {
 /// Returns the built-in scene with more triangles: balls of 4^(levels+1) triangles, and a diffuse
 /// torus of around^2 triangles.
 scene::Scene finer(int levels, int around) {
-    scene::Scene scene = scene::cornell_mirrors();
+    scene::Scene scene = scene::make_cornell_mirrors();
     // All four balls share this mesh.
     scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels);
     scene::add_mesh(scene, scene::torus("ring", 130, 50, around),
@@ -21,7 +21,7 @@ scene::Scene finer(int levels, int around) {
     return scene;
 }
 
-constexpr NamedScene kScenes[] = {{"built-in", scene::cornell_mirrors},
+constexpr NamedScene kScenes[] = {{"built-in", scene::make_cornell_mirrors},
                                   {"100k", [] { return finer(6, 186); }},
                                   {"1M", [] { return finer(7, 860); }},
                                   {"room", [] { return scene::load("room"); }}};

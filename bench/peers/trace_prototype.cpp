@@ -57,11 +57,11 @@ TracePrototype::TracePrototype(gpu::Device& device, gpu::Pipelines& pipelines,
 
 void TracePrototype::upload(const Whitted& scene, std::span<const bvh::Triangle> triangles,
                             Tree tree) {
-    const bvh::Bvh hierarchy = bvh::build(triangles);
+    const bvh::Bvh hierarchy = bvh::build_bvh(triangles);
     std::vector<vec4> corners, normals, surfaces;
     for (std::size_t i = 0; i < hierarchy.triangles.size(); i += 3) {
         const vec4* const at = &hierarchy.triangles[i];
-        const std::size_t number = bvh::number_of(at[1].w);
+        const std::size_t number = bvh::float_word_to_integer(at[1].w);
         const vec3 a(at[0]);
         corners.emplace_back(a, static_cast<float>(scene.triangle_objects[number]));
         corners.emplace_back(vec3(at[1]) - a, 0), corners.emplace_back(vec3(at[2]) - a, 0);
@@ -78,10 +78,10 @@ void TracePrototype::upload(const Whitted& scene, std::span<const bvh::Triangle>
         view_.grid = vec4(list.lowest, list.steps);
         nodes = std::move(list.nodes);
     }
-    gpu::upload(device_, nodes_, "nodes", nodes, BufferUsage::texels);
-    gpu::upload(device_, triangles_, "triangles", corners, BufferUsage::texels);
-    gpu::upload(device_, normals_, "normals", normals, BufferUsage::texels);
-    gpu::upload(device_, surfaces_, "surfaces", surfaces, BufferUsage::texels);
+    gpu::upload_to_buffer(device_, nodes_, "nodes", nodes, BufferUsage::texels);
+    gpu::upload_to_buffer(device_, triangles_, "triangles", corners, BufferUsage::texels);
+    gpu::upload_to_buffer(device_, normals_, "normals", normals, BufferUsage::texels);
+    gpu::upload_to_buffer(device_, surfaces_, "surfaces", surfaces, BufferUsage::texels);
 }
 
 void TracePrototype::trace() {

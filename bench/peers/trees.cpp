@@ -24,11 +24,11 @@ void compare_builds(const Bench& bench, const std::vector<bvh::Triangle>& triang
         tree.commit();
     };
     const auto ours = [&](unsigned threads) {
-        return [&triangles, threads] { bvh::build(triangles, {}, bvh::kMaxLeaf, threads); };
+        return [&triangles, threads] { bvh::build_bvh(triangles, {}, bvh::kMaxLeaf, threads); };
     };
-    const std::vector<Benchmark> list = app::measure_rounds(
-        {app::subject_of("ours/build", ours(0)), app::subject_of("ours/build/1", ours(1)),
-         app::subject_of("embree/build", theirs)},
+    const std::vector<Benchmark> list = app::measure_in_rounds(
+        {app::make_subject("ours/build", ours(0)), app::make_subject("ours/build/1", ours(1)),
+         app::make_subject("embree/build", theirs)},
         bench.meter, {.iterations = bench.rounds, .rounds = bench.rounds, .watcher = {}});
     rtcReleaseGeometry(geometry);
     std::printf("\n%zu triangles\n", triangles.size());
@@ -42,7 +42,7 @@ void compare_builds(const Bench& bench, const std::vector<bvh::Triangle>& triang
 /// qualities.
 void compare_costs(const EmbreeDevice& device, const std::string& name,
                    const std::vector<bvh::Triangle>& triangles) {
-    const double ours = bvh::cost(bvh::build(triangles));
+    const double ours = bvh::compute_sah_cost(bvh::build_bvh(triangles));
     std::printf("%-24s %8zu triangles, cost of the tree / Embree's: medium %.3f, high %.3f\n",
                 name.c_str(), triangles.size(),
                 ours / embree_cost(device, triangles, RTC_BUILD_QUALITY_MEDIUM),
@@ -64,7 +64,7 @@ void compare_trees(const Bench& bench) {
     compare_builds(bench, million);
     std::printf("\n");
     compare_costs(bench.device, "torus", million);
-    for (const scene::BuiltIn& scene : scene::built_in_scenes())
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes())
         compare_costs(bench.device, scene.name, triangles_of(scene.make()));
 }
 

@@ -11,7 +11,7 @@ inline constexpr double kTraversalCost = 2; // cost of visiting a node, in trian
 
 /// Returns the surface area of a box. Computes in double, where the extents of finite floats cannot
 /// overflow.
-inline double area(const BoundingBox& box) {
+inline double box_area(const BoundingBox& box) {
     return Bounds<double>{dvec3(box.lo), dvec3(box.hi)}.area();
 }
 
@@ -20,7 +20,7 @@ inline double area(const BoundingBox& box) {
 /// the core. That slack is too small for a triangle that reaches out of the core. This pad adds the
 /// same fraction of the triangle's distance from the middle of the core. Returns 0 for a box inside
 /// the core.
-inline float pad_of(const BoundingBox& box, const BoundingBox& core) {
+inline float compute_box_padding(const BoundingBox& box, const BoundingBox& core) {
     const bool inside = all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
     if (inside) return 0;
     const vec3 middle = core.lo * 0.5f + core.hi * 0.5f;
@@ -30,13 +30,14 @@ inline float pad_of(const BoundingBox& box, const BoundingBox& core) {
 }
 
 /// Returns the box, grown by `pad` on each side and clamped to the range of finite floats.
-inline BoundingBox padded(const BoundingBox& box, float pad) {
+inline BoundingBox pad_box(const BoundingBox& box, float pad) {
     return {max(box.lo - pad, vec3(-f32::kLargest)), min(box.hi + pad, vec3(f32::kLargest))};
 }
 
 /// Returns the bounds of a triangle. If `flags` has kBall, returns the bounds of a sphere, grown by
 /// the rounding errors of the sphere test.
-inline BoundingBox box_of(const vec3& a, const vec3& b, const vec3& c, std::uint32_t flags) {
+inline BoundingBox triangle_bounds(const vec3& a, const vec3& b, const vec3& c,
+                                   std::uint32_t flags) {
     BoundingBox box;
     if ((flags & kBall) != 0) {
         const float reach = b.x + f32::gamma_bound(16) * (b.x + f32::largest(abs(a)));

@@ -17,15 +17,16 @@ constexpr std::size_t kRunCount = 8192; // triangles that one task of a thread r
 
 /// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
 /// `core` means that all triangles lie in the core. Returns the part that the references make up.
-ReferenceRange refer(std::span<const Triangle> triangles, std::size_t first,
-                     const BoundingBox& core, TriangleReference* into) {
+ReferenceRange write_triangle_references(std::span<const Triangle> triangles, std::size_t first,
+                                         const BoundingBox& core, TriangleReference* into) {
     ReferenceRange part;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         if (!is_finite(t)) continue;
-        BoundingBox box = box_of(t.a, t.b, t.c, t.flags);
-        if (!core.empty()) box = padded(box, pad_of(box, core));
-        const TriangleReference r{lanes(box.lo, id_word(first + i)), lanes(box.hi, 0)};
+        BoundingBox box = triangle_bounds(t.a, t.b, t.c, t.flags);
+        if (!core.empty()) box = pad_box(box, compute_box_padding(box, core));
+        const TriangleReference r{load_lanes(box.lo, id_to_float_word(first + i)),
+                                  load_lanes(box.hi, 0)};
         part.add(r);
         *into++ = r;
     }
@@ -34,13 +35,15 @@ ReferenceRange refer(std::span<const Triangle> triangles, std::size_t first,
 
 /// Writes references to all finite triangles, on several threads. Returns the part that they make
 /// up.
-ReferenceRange refer_all(std::span<const Triangle> triangles, const BoundingBox& core,
-                         References into, unsigned threads) {
+ReferenceRange write_references_in_parallel(std::span<const Triangle> triangles,
+                                            const BoundingBox& core, TriangleReferences into,
+                                            unsigned threads) {
     std::vector<ReferenceRange> runs((triangles.size() + kRunCount - 1) / kRunCount);
-    in_parallel(runs.size(), threads, [&](std::size_t i) {
+    run_in_parallel(runs.size(), threads, [&](std::size_t i) {
         const std::size_t first = i * kRunCount,
                           count = std::min(kRunCount, triangles.size() - first);
-        runs[i] = refer(triangles.subspan(first, count), first, core, &into[first]);
+        runs[i] = write_triangle_references(triangles.subspan(first, count), first, core,
+                                            &into[first]);
     });
     ReferenceRange all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -53,26 +56,27 @@ ReferenceRange refer_all(std::span<const Triangle> triangles, const BoundingBox&
 
 } // namespace
 
-Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf,
-          unsigned threads) {
-    return build(triangles, core, Copies::of_object, leaf, threads);
+Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf,
+              unsigned threads) {
+    return build_bvh(triangles, core, CopyHandling::of_object, leaf, threads);
 }
 
-Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies copies,
-          std::uint32_t leaf, unsigned threads) {
+Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, CopyHandling copies,
+              std::uint32_t leaf, unsigned threads) {
     check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
-    if (threads == 0) threads = all_threads();
+    if (threads == 0) threads = hardware_thread_count();
     // The memory stays uninitialised because each reference is written before it is read.
     const auto memory = std::make_unique_for_overwrite<TriangleReference[]>(2 * triangles.size());
-    const References references(memory.get(), 2 * triangles.size());
+    const TriangleReferences references(memory.get(), 2 * triangles.size());
     advise_large_pages(references.data(), references.size_bytes());
-    Workspace work{triangles,
-                   {references.first(triangles.size()), references.last(triangles.size())},
-                   nullptr,
-                   leaf,
-                   copies};
-    const ReferenceRange root = refer_all(triangles, core, work.buffers[0], threads);
+    BuildWorkspace work{triangles,
+                        {references.first(triangles.size()), references.last(triangles.size())},
+                        nullptr,
+                        leaf,
+                        copies};
+    const ReferenceRange root = write_references_in_parallel(triangles, core, work.buffers[0],
+                                                             threads);
     Bvh bvh;
     bvh.dropped = triangles.size() - root.count;
     bvh.triangles.reserve(3 * root.count);
@@ -80,18 +84,18 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies
     bvh.triangles.resize(3 * root.count);
     work.triangles = bvh.triangles.data();
     bvh.nodes.resize(4, vec4(0));
-    const std::size_t kept = build_tree(work, root, threads, bvh.nodes);
+    const std::size_t kept = build_tree_in_parallel(work, root, threads, bvh.nodes);
     bvh.copies = root.count - kept;
     bvh.triangles.resize(3 * kept);
     const BoundingBox slack = core.empty() ? root.box.box() : core;
-    bvh.nodes[0] = vec4(slack.lo, id_word(triangle_count(bvh)));
-    bvh.nodes[1] = vec4(slack.hi, id_word(node_count(bvh)));
-    bvh.cost = cost(bvh);
+    bvh.nodes[0] = vec4(slack.lo, id_to_float_word(count_triangles(bvh)));
+    bvh.nodes[1] = vec4(slack.hi, id_to_float_word(count_nodes(bvh)));
+    bvh.cost = compute_sah_cost(bvh);
     return bvh;
 }
 
-std::size_t node_count(const Bvh& bvh) { return bvh.nodes.size() / 4; }
+std::size_t count_nodes(const Bvh& bvh) { return bvh.nodes.size() / 4; }
 
-std::size_t triangle_count(const Bvh& bvh) { return bvh.triangles.size() / 3; }
+std::size_t count_triangles(const Bvh& bvh) { return bvh.triangles.size() / 3; }
 
 } // namespace catoptric::bvh

@@ -22,15 +22,15 @@ inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands fo
 inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided;
 /// Flag of triangles that alpha masks may cut out in part.
 inline constexpr std::uint32_t kMasked = f32::kBvhMasked;
-/// A sphere in place of a triangle: see `sphere`.
+/// A sphere in place of a triangle: see `make_sphere_primitive`.
 inline constexpr std::uint32_t kBall = f32::kBvhBall;
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
 
 /// Returns a sphere that takes the place of a triangle. Only walks with TRACE_BALLS set
 /// (shaders/lib/trace.glsl) can intersect spheres.
-inline Triangle sphere(const vec3& centre, float radius, std::uint32_t object,
-                       std::uint32_t flags) {
+inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uint32_t object,
+                                      std::uint32_t flags) {
     return {centre, vec3(radius, 0, 0), vec3(0), object, flags | kBall};
 }
 
@@ -65,7 +65,7 @@ struct Bvh {
     /// Node of the first instance's record (bvh/tlas.hpp); 0: no instances. The record of instance
     /// i begins kBvhRecordNodes * i nodes later.
     std::uint32_t first_record = 0;
-    double cost = 0; ///< result of the function `cost`; `refit` updates it incrementally
+    double cost = 0; ///< result of the function `cost`; `refit_bvh` updates it incrementally
 };
 
 /// Builds a hierarchy with the binned surface area heuristic. Where a path would grow deeper than
@@ -84,8 +84,8 @@ struct Bvh {
 /// `threads`: the most threads to use; 0: as many as the machine runs at once. The tree does not
 /// depend on it.
 /// Throws `Failure::exhausted` above 2^27 - 1 triangles.
-Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {},
-          std::uint32_t leaf = kMaxLeaf, unsigned threads = 0);
+Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core = {},
+              std::uint32_t leaf = kMaxLeaf, unsigned threads = 0);
 
 /// A half-open range of indices: `first` is included, `end` is not.
 struct IndexRange {
@@ -94,30 +94,30 @@ struct IndexRange {
 };
 
 /// The parts of a tree that a refit must visit when some objects move.
-struct Reach {
+struct RefitRegion {
     std::vector<std::uint32_t> triangles; ///< places in the order of the leaves, ascending
     std::vector<std::uint32_t> boxes; ///< 2 * node + side; descendants come before their ancestors
 };
 
 /// Returns the triangles of the moving objects and the boxes that hold some of them. `objects`: by
 /// object index, non-zero for an object that may move. Costs O(n).
-Reach reach_of(const Bvh& bvh, std::span<const char> objects);
+RefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects);
 
 /// Updates the boxes of a tree after its triangles have moved. The structure of the tree stays.
-/// `triangles`: the list given to `build`, in the same order, with the new positions.
+/// `triangles`: the list given to `build_bvh`, in the same order, with the new positions.
 /// `reach`: the parts of all objects that may have moved; null: all objects may have moved.
 /// Returns the range of Bvh::triangles that holds every changed element. A refitted tree and a
 /// rebuilt tree give the same hits. Costs O(size of `reach`); refitting everything costs a tenth of
 /// a build. Throws `Failure::internal` if a triangle that was finite no longer is.
-IndexRange refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
-                 const Reach* reach = nullptr);
+IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
+                     const RefitRegion* reach = nullptr);
 
 /// Returns the walk cost of a ray that the surface area heuristic expects, times the area of the
 /// whole tree. The value rises as the triangles of a refitted tree move away from their neighbours.
 /// Costs O(n).
-double cost(const Bvh& bvh);
+double compute_sah_cost(const Bvh& bvh);
 
-std::size_t node_count(const Bvh& bvh);     ///< including the header
-std::size_t triangle_count(const Bvh& bvh); ///< of the triangles that the build kept
+std::size_t count_nodes(const Bvh& bvh);     ///< including the header
+std::size_t count_triangles(const Bvh& bvh); ///< of the triangles that the build kept
 
 } // namespace catoptric::bvh

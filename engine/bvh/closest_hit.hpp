@@ -32,7 +32,7 @@ struct RayHit {
 };
 
 /// Counters of node visits and triangle tests.
-struct Steps {
+struct TraversalCounters {
     std::size_t nodes = 0;
     std::size_t triangles = 0;
     std::size_t total() const { return nodes + triangles; }
@@ -40,71 +40,74 @@ struct Steps {
 
 namespace detail {
 
-using f32::box_ray, f64::box_ray;
 using f32::is_from_behind, f64::is_from_behind;
-using f32::own_ray, f64::own_ray;
-using f32::ray_shear, f64::ray_shear;
+using f32::make_box_ray, f64::make_box_ray;
+using f32::make_ray_shear, f64::make_ray_shear;
+using f32::ray_in_object_space, f64::ray_in_object_space;
 using f32::sphere_test, f64::sphere_test;
 using f32::triangle_test, f64::triangle_test;
 
 template <typename Real>
-Vec3<Real> corner(const vec4& texel) {
+Vec3<Real> read_corner(const vec4& texel) {
     return Vec3<Real>(vec3(texel));
 }
 
 template <typename Real>
-using InstancePlace = std::conditional_t<std::is_same_v<Real, float>, f32::Place, f64::Place>;
+using InstancePlacement =
+    std::conditional_t<std::is_same_v<Real, float>, f32::ObjectPlacement, f64::ObjectPlacement>;
 
 /// Returns the position and axes that an instance's record stores (see tlas.hpp).
 template <typename Real>
-InstancePlace<Real> place_at(const Bvh& bvh, std::uint32_t record) {
+InstancePlacement<Real> read_instance_placement(const Bvh& bvh, std::uint32_t record) {
     const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
-    return {corner<Real>(texel[0]), corner<Real>(texel[1]), corner<Real>(texel[2]),
-            corner<Real>(texel[4]), corner<Real>(texel[5]), corner<Real>(texel[6]),
-            corner<Real>(texel[3]), corner<Real>(texel[7])};
+    return {read_corner<Real>(texel[0]), read_corner<Real>(texel[1]), read_corner<Real>(texel[2]),
+            read_corner<Real>(texel[4]), read_corner<Real>(texel[5]), read_corner<Real>(texel[6]),
+            read_corner<Real>(texel[3]), read_corner<Real>(texel[7])};
 }
 
 /// The closest hit that the traversal has found, and the state that a triangle test needs.
 template <typename Real>
-struct HitSearch {
+struct ClosestHitSearch {
     const Bvh& bvh;
     Ray<Real> ray; ///< the ray in the coordinates of the tree that is traversed at the moment
     Real t_max;    ///< exclusive; shrinks to the closest hit
     std::uint32_t skipped_flags;
     std::optional<RayHit<Real>> best{};
-    decltype(ray_shear(Vec3<Real>{})) shear = ray_shear(ray.direction);
+    decltype(make_ray_shear(Vec3<Real>{})) shear = make_ray_shear(ray.direction);
     std::uint32_t record = 0;
 
     /// Continues in the tree of a record, or returns to the tree above (0).
-    void enter(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
+    void enter_tree(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
         record = into, ray = as_it_sees_it;
-        shear = ray_shear(ray.direction);
+        shear = make_ray_shear(ray.direction);
     }
 
-    void test(std::uint32_t place) {
+    void test_triangle(std::uint32_t place) {
         const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
         const vec4* of = &bvh.nodes[4 * std::size_t{record}];
-        const std::uint32_t triangle = number_of(texel[1].w) + (record ? number_of(of[2].w) : 0);
-        const std::uint32_t flags = number_of(record ? of[3].w : texel[2].w);
+        const std::uint32_t triangle = float_word_to_integer(texel[1].w) +
+                                       (record ? float_word_to_integer(of[2].w) : 0);
+        const std::uint32_t flags = float_word_to_integer(record ? of[3].w : texel[2].w);
         const std::uint32_t skips = flags & skipped_flags;
         if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
-        if (skips != 0 && is_from_behind(corner<Real>(texel[0]), corner<Real>(texel[1]),
-                                         corner<Real>(texel[2]), ray.direction))
+        if (skips != 0 && is_from_behind(read_corner<Real>(texel[0]), read_corner<Real>(texel[1]),
+                                         read_corner<Real>(texel[2]), ray.direction))
             return;
         Real t;
         Vec3<Real> weights;
         if ((flags & f32::kBvhBall) != 0) {
-            if (!sphere_test(corner<Real>(texel[0]), Real{texel[1].x}, ray, Real{f32::kLargest}, t))
+            if (!sphere_test(read_corner<Real>(texel[0]), Real{texel[1].x}, ray,
+                             Real{f32::kLargest}, t))
                 return;
             weights = {1, 0, 0};
-        } else if (!triangle_test(corner<Real>(texel[0]), corner<Real>(texel[1]),
-                                  corner<Real>(texel[2]), ray.origin, shear, t, weights)) {
+        } else if (!triangle_test(read_corner<Real>(texel[0]), read_corner<Real>(texel[1]),
+                                  read_corner<Real>(texel[2]), ray.origin, shear, t, weights)) {
             return;
         }
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
             best = RayHit<Real>{t,        barycentric(weights),
-                                triangle, number_of((record ? of[1] : texel[0]).w),
+                                triangle, float_word_to_integer((record ? of[1] : texel[0]).w),
                                 place,    record};
         }
     }
@@ -115,39 +118,40 @@ struct HitSearch {
 };
 
 template <typename Real>
-bool can_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
+bool is_hittable(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
     return is_valid(ray) && t_max > 0 && !bvh.triangles.empty();
 }
 
 template <typename Real>
-auto boxes_outside(const Bvh& bvh, const Ray<Real>& ray) {
+auto make_box_rays_outside(const Bvh& bvh, const Ray<Real>& ray) {
     const vec4* header = bvh.nodes.data();
     const Real times = header[2].x > 0 ? Real{header[2].x} : Real{1};
-    return box_ray(ray, corner<Real>(header[0]), corner<Real>(header[1]), times);
+    return make_box_ray(ray, read_corner<Real>(header[0]), read_corner<Real>(header[1]), times);
 }
 
 template <typename Real>
-std::optional<RayHit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low,
-                                 Real t_max, std::uint32_t skipped_flags, bool any, Steps* steps) {
-    if (!can_hit(bvh, ray, t_max)) return {};
-    HitSearch<Real> search{bvh, ray, t_max, skipped_flags};
-    auto boxes = boxes_outside<Real>(bvh, ray);
+std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low,
+                                     Real t_max, std::uint32_t skipped_flags, bool any,
+                                     TraversalCounters* steps) {
+    if (!is_hittable(bvh, ray, t_max)) return {};
+    ClosestHitSearch<Real> search{bvh, ray, t_max, skipped_flags};
+    auto boxes = make_box_rays_outside<Real>(bvh, ray);
     std::array<std::uint32_t, f32::kBvhMaxStack> stack;
     std::size_t waiting = 0;
-    Steps count;
+    TraversalCounters count;
     std::uint32_t child = f32::kBvhRoot;
     while (child != f32::kBvhNothing) {
         if (f32::bvh_is_inner(child)) {
             ++count.nodes;
             const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
             Real near_0, near_1;
-            const bool meets_0 = slab_test(corner<Real>(node[0]), corner<Real>(node[1]), boxes,
-                                           search.t_max, near_0);
-            const bool meets_1 = slab_test(corner<Real>(node[2]), corner<Real>(node[3]), boxes,
-                                           search.t_max, near_1);
+            const bool meets_0 = slab_test(read_corner<Real>(node[0]), read_corner<Real>(node[1]),
+                                           boxes, search.t_max, near_0);
+            const bool meets_1 = slab_test(read_corner<Real>(node[2]), read_corner<Real>(node[3]),
+                                           boxes, search.t_max, near_1);
             const bool second_first = meets_1 && (!meets_0 || near_1 < near_0);
-            const std::uint32_t first = bits(node[second_first ? 1 : 0].w);
-            const std::uint32_t second = bits(node[second_first ? 0 : 1].w);
+            const std::uint32_t first = float_to_bits(node[second_first ? 1 : 0].w);
+            const std::uint32_t second = float_to_bits(node[second_first ? 0 : 1].w);
             if (meets_0 && meets_1) stack.at(waiting++) = second;
             if (meets_0 || meets_1) {
                 child = first;
@@ -155,21 +159,23 @@ std::optional<RayHit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec
             }
         } else if (child == f32::kBvhReturns) {
             ++count.nodes;
-            search.enter(0, ray);
-            boxes = boxes_outside<Real>(bvh, ray);
+            search.enter_tree(0, ray);
+            boxes = make_box_rays_outside<Real>(bvh, ray);
         } else if (f32::bvh_count(child) == f32::kBvhEnters) {
             ++count.nodes;
             const std::uint32_t record = f32::bvh_index(child);
             const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
-            search.enter(record, own_ray(place_at<Real>(bvh, record), ray, low));
-            boxes = box_ray(search.ray, corner<Real>(texel[8]), corner<Real>(texel[9]), Real{1});
+            search.enter_tree(
+                record, ray_in_object_space(read_instance_placement<Real>(bvh, record), ray, low));
+            boxes = make_box_ray(search.ray, read_corner<Real>(texel[8]),
+                                 read_corner<Real>(texel[9]), Real{1});
             stack.at(waiting++) = f32::kBvhReturns;
-            child = bits(texel[0].w);
+            child = float_to_bits(texel[0].w);
             continue;
         } else {
             for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
                 ++count.triangles;
-                search.test(f32::bvh_index(child) + i);
+                search.test_triangle(f32::bvh_index(child) + i);
                 if (any && search.best) break;
             }
             if (any && search.best) break;
@@ -187,27 +193,27 @@ std::optional<RayHit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec
 /// ray never hits the triangle that it leaves. `low`: the rounding error of the ray's origin, so
 /// that origin + low is the exact start.
 template <typename Real>
-std::optional<RayHit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                                        std::uint32_t skipped = 0, Steps* steps = nullptr,
-                                        const Vec3<Real>& low = Vec3<Real>(0)) {
-    return detail::walk<Real>(bvh, ray, low, t_max, skipped, false, steps);
+std::optional<RayHit<Real>>
+find_closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
+                 TraversalCounters* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
+    return detail::walk_bvh<Real>(bvh, ray, low, t_max, skipped, false, steps);
 }
 
 /// Returns whether the ray meets any triangle at a t in (0, t_max).
 template <typename Real>
-bool any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
-             Steps* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
-    return detail::walk<Real>(bvh, ray, low, t_max, skipped, true, steps).has_value();
+bool has_any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
+                 TraversalCounters* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
+    return detail::walk_bvh<Real>(bvh, ray, low, t_max, skipped, true, steps).has_value();
 }
 
-/// Returns the same as `closest_hit`, by testing every triangle. Valid only for hierarchies without
-/// instances.
+/// Returns the same as `find_closest_hit`, by testing every triangle. Valid only for hierarchies
+/// without instances.
 template <typename Real>
-std::optional<RayHit<Real>> brute_force(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                                        std::uint32_t skipped = 0) {
-    if (!detail::can_hit(bvh, ray, t_max)) return {};
-    detail::HitSearch<Real> search{bvh, ray, t_max, skipped};
-    for (std::uint32_t i = 0; i < triangle_count(bvh); ++i) search.test(i);
+std::optional<RayHit<Real>> find_closest_hit_by_brute_force(const Bvh& bvh, const Ray<Real>& ray,
+                                                            Real t_max, std::uint32_t skipped = 0) {
+    if (!detail::is_hittable(bvh, ray, t_max)) return {};
+    detail::ClosestHitSearch<Real> search{bvh, ray, t_max, skipped};
+    for (std::uint32_t i = 0; i < count_triangles(bvh); ++i) search.test_triangle(i);
     return search.best;
 }
 

@@ -6,33 +6,35 @@
 namespace catoptric::bvh {
 
 /// The x, y and z of a box corner. The owner of the box defines the fourth element.
-using Lanes = float __attribute__((vector_size(16)));
+using SimdLanes = float __attribute__((vector_size(16)));
 
-inline Lanes lanes(const vec3& v, float fourth) { return Lanes{v.x, v.y, v.z, fourth}; }
-inline Lanes all_lanes(float v) { return Lanes{v, v, v, v}; }
-inline vec3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
+inline SimdLanes load_lanes(const vec3& v, float fourth) {
+    return SimdLanes{v.x, v.y, v.z, fourth};
+}
+inline SimdLanes broadcast_lanes(float v) { return SimdLanes{v, v, v, v}; }
+inline vec3 lanes_to_vec3(SimdLanes v) { return {v[0], v[1], v[2]}; }
 /// Returns the element-wise minimum and maximum; `a` if both are equal or one is NaN.
-inline Lanes smaller(Lanes a, Lanes b) { return b < a ? b : a; }
-inline Lanes larger(Lanes a, Lanes b) { return b > a ? b : a; }
+inline SimdLanes lanes_min(SimdLanes a, SimdLanes b) { return b < a ? b : a; }
+inline SimdLanes lanes_max(SimdLanes a, SimdLanes b) { return b > a ? b : a; }
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A box, empty at first. The fourth elements have no meaning.
-struct Extent {
-    Lanes lo = all_lanes(kInfinity);
-    Lanes hi = all_lanes(-kInfinity);
+struct BoxExtent {
+    SimdLanes lo = broadcast_lanes(kInfinity);
+    SimdLanes hi = broadcast_lanes(-kInfinity);
 
-    void add(Lanes point) { lo = smaller(lo, point), hi = larger(hi, point); }
+    void add(SimdLanes point) { lo = lanes_min(lo, point), hi = lanes_max(hi, point); }
     /// Adds the point if `away` is 0; does nothing if `away` is infinite.
-    void add_moved(Lanes point, Lanes away) {
-        lo = smaller(lo, point + away), hi = larger(hi, point - away);
+    void add_moved(SimdLanes point, SimdLanes away) {
+        lo = lanes_min(lo, point + away), hi = lanes_max(hi, point - away);
     }
-    void add(const Extent& other) { lo = smaller(lo, other.lo), hi = larger(hi, other.hi); }
-    BoundingBox box() const { return {vector(lo), vector(hi)}; }
+    void add(const BoxExtent& other) { lo = lanes_min(lo, other.lo), hi = lanes_max(hi, other.hi); }
+    BoundingBox box() const { return {lanes_to_vec3(lo), lanes_to_vec3(hi)}; }
     /// Returns half the surface area. The box must not be empty. Computes in double, where products
     /// of finite floats cannot overflow.
     double half_area() const {
-        const Lanes size = hi - lo;
+        const SimdLanes size = hi - lo;
         const double x = double{size[0]}, y = double{size[1]}, z = double{size[2]};
         return x * (y + z) + y * z;
     }

@@ -13,23 +13,23 @@ namespace catoptric::bvh {
 
 /// A triangle while the tree is being built.
 struct TriangleReference {
-    Lanes lo; ///< low corner of the box; the fourth element is the triangle's number as a word
-    Lanes hi;
+    SimdLanes lo; ///< low corner of the box; the fourth element is the triangle's number as a word
+    SimdLanes hi;
 
-    std::uint32_t triangle() const { return number_of(lo[3]); }
+    std::uint32_t triangle() const { return float_word_to_integer(lo[3]); }
     /// Returns the centre of the box. Halves before adding, because the sum itself may overflow.
-    Lanes centre() const { return lo * .5f + hi * .5f; }
-    Extent extent() const { return {lo, hi}; }
+    SimdLanes centre() const { return lo * .5f + hi * .5f; }
+    BoxExtent extent() const { return {lo, hi}; }
 };
 
-using References = std::span<TriangleReference>;
+using TriangleReferences = std::span<TriangleReference>;
 
 /// The references below a node.
 struct ReferenceRange {
     std::size_t first = 0, count = 0; ///< place among all references
     bool in_second = false;           ///< lies in the second of the two buffers
     bool is_heap = false; ///< all centres are equal, copies are gone, and the order is by number
-    Extent box, centres;
+    BoxExtent box, centres;
 
     void add(const TriangleReference& r) { box.add(r.extent()), centres.add(r.centre()), ++count; }
 };
@@ -37,60 +37,60 @@ struct ReferenceRange {
 inline constexpr int kBinCount = 16;
 
 /// A map from centres to bins along each axis of the centres' bounds.
-struct Binning {
-    Lanes lo, bins_per_unit;
+struct BinMapping {
+    SimdLanes lo, bins_per_unit;
 
-    explicit Binning(const Extent& centres);
+    explicit BinMapping(const BoxExtent& centres);
     /// Returns the position in units of bins, 0 to kBinCount inclusive. The result is not finite if
     /// the bounds are too small or too large for a float quotient. In that case all references go
     /// to one bin.
-    Lanes place(Lanes centre) const { return (centre - lo) * bins_per_unit; }
+    SimdLanes bin_position(SimdLanes centre) const { return (centre - lo) * bins_per_unit; }
 };
 
-struct Split;
+struct BinSplit;
 
 /// The contents of the bins of each axis.
-class Bins {
+class SplitBins {
 public:
-    void add(std::span<const TriangleReference> references, const Binning& binning);
-    void add(const Bins& other);
-    std::size_t left_count(const Split& split) const;
+    void add(std::span<const TriangleReference> references, const BinMapping& binning);
+    void add(const SplitBins& other);
+    std::size_t left_count(const BinSplit& split) const;
     /// Returns the bounds of both sides.
-    std::array<Extent, 2> extents(const Split& split) const;
+    std::array<BoxExtent, 2> extents(const BinSplit& split) const;
 
 private:
-    friend std::optional<Split> best_split(const Bins& bins, std::size_t most);
-    std::array<std::array<Extent, kBinCount>, 3> extents_{};
+    friend std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most);
+    std::array<std::array<BoxExtent, kBinCount>, 3> extents_{};
     std::array<std::array<std::uint32_t, kBinCount>, 3> counts_{};
 };
 
 /// A plane between two bins.
-struct Split {
+struct BinSplit {
     int axis;
     int first_right; ///< the first bin on the right side
 
     /// Copies the references of each side, in order, to the addresses in `to`. Adds their centres
     /// to `centres`.
-    void scatter(std::span<const TriangleReference> references, const Binning& binning,
-                 std::array<TriangleReference*, 2> to, std::array<Extent, 2>& centres) const;
+    void scatter(std::span<const TriangleReference> references, const BinMapping& binning,
+                 std::array<TriangleReference*, 2> to, std::array<BoxExtent, 2>& centres) const;
 };
 
-using SplitParts = std::array<ReferenceRange, 2>;
+using SplitRanges = std::array<ReferenceRange, 2>;
 
 /// Returns the two ranges of references into which a split divides a node, in the buffer that does
 /// not hold the node. `centres`: bounds of the centres on each side.
-SplitParts sides_of(const ReferenceRange& part, const Bins& bins, const Split& split,
-                    const std::array<Extent, 2>& centres);
+SplitRanges partition_ranges(const ReferenceRange& part, const SplitBins& bins,
+                             const BinSplit& split, const std::array<BoxExtent, 2>& centres);
 
 /// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
 /// Returns nothing if no plane does so, for example because one bin holds all references.
-std::optional<Split> best_split(const Bins& bins, std::size_t most);
+std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most);
 
-/// The most references that `sweep` accepts.
+/// The most references that `find_best_division_by_sweep` accepts.
 inline constexpr std::size_t kSweepCount = 8;
 
 /// The cheapest way to cut a list of references in two along an axis.
-struct Division {
+struct SweepDivision {
     double cost;        ///< sum over the sides of half area times count
     std::size_t middle; ///< index of the first reference on the right
 };
@@ -98,16 +98,18 @@ struct Division {
 /// Sorts references by centre, then by number, along the axis with the cheapest division, and
 /// returns that division. Returns nothing if one side would always have more than `most`. Accepts
 /// at most kSweepCount references.
-std::optional<Division> sweep(References references, std::size_t most);
+std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences references,
+                                                         std::size_t most);
 
 /// Moves the half with the smaller centres, along the longest axis of their bounds, to the front.
 /// Breaks ties by number. Returns the index of the first reference of the other half.
-std::size_t halve(References references, const Extent& centres);
+std::size_t partition_at_median(TriangleReferences references, const BoxExtent& centres);
 
 /// Keeps one reference for each set of equal triangles, the one with the lowest number. Returns
 /// them in order of number. If more triangles share a centre than fit into a leaf, a ray would test
 /// every copy: all are at the same t and the lowest number wins.
-References without_copies(References references, std::span<const Triangle> triangles,
-                          Copies copies);
+TriangleReferences remove_duplicate_triangles(TriangleReferences references,
+                                              std::span<const Triangle> triangles,
+                                              CopyHandling copies);
 
 } // namespace catoptric::bvh

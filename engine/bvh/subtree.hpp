@@ -7,24 +7,24 @@ namespace catoptric::bvh {
 
 /// The references of a tree and the memory for its triangles, both in the order of the leaves. A
 /// split moves a part from one buffer to the other.
-struct Workspace {
+struct BuildWorkspace {
     std::span<const Triangle> input;
-    std::array<References, 2> buffers;
+    std::array<TriangleReferences, 2> buffers;
     vec4* triangles;    ///< Bvh::triangles, with room for all triangles
     std::uint32_t most; ///< the most triangles in a leaf
-    Copies copies;
+    CopyHandling copies;
 
-    References of(const ReferenceRange& part) const {
+    TriangleReferences references_of(const ReferenceRange& part) const {
         return buffers[part.in_second ? 1 : 0].subspan(part.first, part.count);
     }
     /// Returns the place in the other buffer that the two sides of the part will fill.
-    References other(const ReferenceRange& part) const {
+    TriangleReferences other_buffer_of(const ReferenceRange& part) const {
         return buffers[part.in_second ? 0 : 1].subspan(part.first, part.count);
     }
 };
 
 /// Returns how many triangles fit into a subtree with `depth` inner nodes above it.
-inline std::size_t capacity(const Workspace& work, std::uint32_t depth) {
+inline std::size_t max_triangles_below(const BuildWorkspace& work, std::uint32_t depth) {
     return std::size_t{work.most} << (kMaxDepth - depth);
 }
 
@@ -36,6 +36,6 @@ struct Subtree {
 };
 
 /// Builds the subtree of a part with `depth` inner nodes above it. Costs O(n log^2 n).
-Subtree build_subtree(const Workspace& work, const ReferenceRange& part, std::uint32_t depth);
+Subtree build_subtree(const BuildWorkspace& work, const ReferenceRange& part, std::uint32_t depth);
 
 } // namespace catoptric::bvh

@@ -16,10 +16,12 @@ namespace {
 
 constexpr double kRoundings = 0x1p-22; // relative error of a box that becomes float
 
-BoundingBox own_bounds(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
+BoundingBox compute_object_space_bounds(const Bvh& tree) {
+    return {vec3(tree.nodes[0]), vec3(tree.nodes[1])};
+}
 
 /// Returns the bounds of everything below a node.
-BoundingBox node_bounds(const Bvh& bvh, std::size_t node) {
+BoundingBox compute_node_bounds(const Bvh& bvh, std::size_t node) {
     BoundingBox box;
     for (std::size_t side = 0; side < 2; ++side)
         box.add(BoundingBox{vec3(bvh.nodes[4 * node + 2 * side]),
@@ -28,13 +30,13 @@ BoundingBox node_bounds(const Bvh& bvh, std::size_t node) {
 }
 
 /// Appends a tree without its header. Returns the word of its root.
-std::uint32_t append(Bvh& into, const Bvh& part) {
-    const auto nodes = static_cast<std::uint32_t>(node_count(into) - 1),
-               triangles = static_cast<std::uint32_t>(triangle_count(into));
-    for (std::size_t node = 1; node < node_count(part); ++node)
+std::uint32_t append_tree(Bvh& into, const Bvh& part) {
+    const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1),
+               triangles = static_cast<std::uint32_t>(count_triangles(into));
+    for (std::size_t node = 1; node < count_nodes(part); ++node)
         for (std::size_t k = 0; k < 4; ++k) {
             vec4 texel = part.nodes[4 * node + k];
-            const std::uint32_t child = bits(texel.w);
+            const std::uint32_t child = float_to_bits(texel.w);
             if (k < 2 && child != f32::kBvhNothing)
                 texel.w = std::bit_cast<float>(child +
                                                (f32::bvh_is_inner(child) ? nodes : triangles));
@@ -45,22 +47,22 @@ std::uint32_t append(Bvh& into, const Bvh& part) {
     return f32::kBvhTag | (nodes + 1);
 }
 
-void add_record(Bvh& bvh, const Instance& instance, std::uint32_t root) {
+void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t root) {
     const dmat3 own_from_scene = glm::inverse(instance.scene_from_own);
     const vec3 centre(instance.centre);
     const auto row = [&](int i) {
         return vec3(own_from_scene[0][i], own_from_scene[1][i], own_from_scene[2][i]);
     };
-    const BoundingBox own = own_bounds(*instance.tree);
+    const BoundingBox own = compute_object_space_bounds(*instance.tree);
     const std::array<vec4, 4 * f32::kBvhRecordNodes> texels{
         vec4(row(0), std::bit_cast<float>(root)),
-        vec4(row(1), word(instance.object)),
-        vec4(row(2), word(instance.shift)),
-        vec4(centre, word(instance.flags)),
+        vec4(row(1), integer_to_float_word(instance.object)),
+        vec4(row(2), integer_to_float_word(instance.shift)),
+        vec4(centre, integer_to_float_word(instance.flags)),
         vec4(vec3(instance.scene_from_own[0]), 0),
         vec4(vec3(instance.scene_from_own[1]), 0),
         vec4(vec3(instance.scene_from_own[2]), 0),
-        vec4(low_part(instance.centre), 0),
+        vec4(float_rounding_error(instance.centre), 0),
         vec4(own.lo, 0),
         vec4(own.hi, instance.radius)};
     bvh.nodes.insert(bvh.nodes.end(), texels.begin(), texels.end());
@@ -68,8 +70,8 @@ void add_record(Bvh& bvh, const Instance& instance, std::uint32_t root) {
 
 /// Returns the bounds of the instance in scene units, padded for rounding to float. The bounds
 /// include the exact sphere, if the instance has one.
-BoundingBox scene_bounds(const Instance& instance) {
-    BoundingBox own = own_bounds(*instance.tree);
+BoundingBox compute_instance_bounds(const BvhInstance& instance) {
+    BoundingBox own = compute_object_space_bounds(*instance.tree);
     if (instance.radius > 0) own.add(BoundingBox{vec3(-instance.radius), vec3(instance.radius)});
     Bounds<double> box;
     for (int corner = 0; corner < 8; ++corner)
@@ -82,11 +84,11 @@ BoundingBox scene_bounds(const Instance& instance) {
 }
 
 /// Builds the tree over the instances' boxes, one in each leaf. Each leaf word refers to a record.
-Bvh build_over(std::span<const Instance> instances, const BoundingBox& core, double times,
-               std::uint32_t first_record) {
+Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBox& core,
+                        double times, std::uint32_t first_record) {
     std::vector<Triangle> boxes;
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        BoundingBox box = scene_bounds(instances[i]);
+        BoundingBox box = compute_instance_bounds(instances[i]);
         const vec3 beyond = max(max(core.lo - box.lo, box.hi - core.hi), vec3(0));
         const vec3 size = max(abs(box.lo), abs(box.hi));
         if (f32::largest(beyond) > 0) { // beyond the slack of the walk
@@ -96,29 +98,30 @@ Bvh build_over(std::span<const Instance> instances, const BoundingBox& core, dou
         }
         boxes.push_back({box.lo, box.hi, box.hi, static_cast<std::uint32_t>(i), 0});
     }
-    Bvh top = build(boxes, core, 1);
+    Bvh top = build_bvh(boxes, core, 1);
     check(top.dropped == 0, Failure::exhausted,
           "a thing in a space of its own has no finite place");
-    for (std::size_t node = 1; node < node_count(top); ++node)
+    for (std::size_t node = 1; node < count_nodes(top); ++node)
         for (std::size_t side = 0; side < 2; ++side) {
             float& child = top.nodes[4 * node + side].w;
-            const std::uint32_t leaf = bits(child);
+            const std::uint32_t leaf = float_to_bits(child);
             if (leaf == f32::kBvhNothing || f32::bvh_is_inner(leaf)) continue;
-            const std::uint32_t number = number_of(top.triangles[3 * f32::bvh_index(leaf) + 1].w);
-            child = word(f32::kBvhEnters << f32::kBvhCountShift |
-                         (first_record + f32::kBvhRecordNodes * number));
+            const std::uint32_t number = float_word_to_integer(
+                top.triangles[3 * f32::bvh_index(leaf) + 1].w);
+            child = integer_to_float_word(f32::kBvhEnters << f32::kBvhCountShift |
+                                          (first_record + f32::kBvhRecordNodes * number));
         }
     top.triangles.clear();
     return top;
 }
 
-/// Appends like `append`, for a tree whose leaf words already refer to records.
-std::uint32_t append_top(Bvh& into, const Bvh& top) {
-    const auto nodes = static_cast<std::uint32_t>(node_count(into) - 1);
+/// Appends like `append_tree`, for a tree whose leaf words already refer to records.
+std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
+    const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1);
     for (std::size_t i = 4; i < top.nodes.size(); ++i) {
         vec4 texel = top.nodes[i];
-        if (i % 4 < 2 && f32::bvh_is_inner(bits(texel.w)))
-            texel.w = std::bit_cast<float>(bits(texel.w) + nodes);
+        if (i % 4 < 2 && f32::bvh_is_inner(float_to_bits(texel.w)))
+            texel.w = std::bit_cast<float>(float_to_bits(texel.w) + nodes);
         into.nodes.push_back(texel);
     }
     return f32::kBvhTag | (nodes + 1);
@@ -126,7 +129,7 @@ std::uint32_t append_top(Bvh& into, const Bvh& top) {
 
 } // namespace
 
-vec3 low_part(const dvec3& v) {
+vec3 float_rounding_error(const dvec3& v) {
     vec3 low;
     for (int i = 0; i < 3; ++i) {
         // `volatile`, because g++ 12 otherwise vectorises this and drops the rounding.
@@ -136,7 +139,7 @@ vec3 low_part(const dvec3& v) {
     return low;
 }
 
-double stretch(const dmat3& matrix) {
+double bound_rounding_amplification(const dmat3& matrix) {
     const dmat3 inverse = glm::inverse(matrix);
     double most = 0;
     for (int row = 0; row < 3; ++row) {
@@ -150,34 +153,36 @@ double stretch(const dmat3& matrix) {
     return std::isfinite(most) && most > 0 ? most : std::numeric_limits<double>::infinity();
 }
 
-Bvh assemble(const Bvh& flat, std::span<const Instance> instances) {
+Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instances) {
     if (instances.empty()) return flat;
     Bvh result;
     result.nodes.resize(8, vec4(0));
-    const BoundingBox in_flat = node_bounds(flat, 1);
-    const std::uint32_t flat_root = triangle_count(flat) > 0 ? append(result, flat)
-                                                             : f32::kBvhNothing;
+    const BoundingBox in_flat = compute_node_bounds(flat, 1);
+    const std::uint32_t flat_root = count_triangles(flat) > 0 ? append_tree(result, flat)
+                                                              : f32::kBvhNothing;
     std::map<const Bvh*, std::uint32_t> roots;
     double worst = 1;
-    BoundingBox core = own_bounds(flat);
-    for (const Instance& instance : instances) {
-        worst = std::max(worst, stretch(instance.scene_from_own));
-        if (triangle_count(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
-            core.add(scene_bounds(instance));
-        if (!roots.contains(instance.tree)) roots[instance.tree] = append(result, *instance.tree);
+    BoundingBox core = compute_object_space_bounds(flat);
+    for (const BvhInstance& instance : instances) {
+        worst = std::max(worst, bound_rounding_amplification(instance.scene_from_own));
+        if (count_triangles(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
+            core.add(compute_instance_bounds(instance));
+        if (!roots.contains(instance.tree))
+            roots[instance.tree] = append_tree(result, *instance.tree);
     }
-    const auto first_record = result.first_record = static_cast<std::uint32_t>(node_count(result));
-    for (const Instance& instance : instances)
-        add_record(result, instance, roots.at(instance.tree));
+    const auto first_record = result.first_record = static_cast<std::uint32_t>(count_nodes(result));
+    for (const BvhInstance& instance : instances)
+        add_instance_record(result, instance, roots.at(instance.tree));
     const double times = 1 + 4 * worst;
-    const Bvh top = build_over(instances, core, times, first_record);
-    const BoundingBox in_top = node_bounds(top, 1);
-    const std::uint32_t top_root = append_top(result, top);
-    check(node_count(result) <= f32::kBvhIndexMask && triangle_count(result) <= f32::kBvhIndexMask,
-          Failure::exhausted, "bounding volume hierarchy wants ", node_count(result), " nodes and ",
-          triangle_count(result), " triangles, its words hold ", f32::kBvhIndexMask, " each");
-    result.nodes[0] = vec4(core.lo, id_word(triangle_count(result)));
-    result.nodes[1] = vec4(core.hi, id_word(node_count(result)));
+    const Bvh top = build_instance_tree(instances, core, times, first_record);
+    const BoundingBox in_top = compute_node_bounds(top, 1);
+    const std::uint32_t top_root = append_top_level_tree(result, top);
+    check(
+        count_nodes(result) <= f32::kBvhIndexMask && count_triangles(result) <= f32::kBvhIndexMask,
+        Failure::exhausted, "bounding volume hierarchy wants ", count_nodes(result), " nodes and ",
+        count_triangles(result), " triangles, its words hold ", f32::kBvhIndexMask, " each");
+    result.nodes[0] = vec4(core.lo, id_to_float_word(count_triangles(result)));
+    result.nodes[1] = vec4(core.hi, id_to_float_word(count_nodes(result)));
     result.nodes[2].x = static_cast<float>(times);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));
     result.nodes[5] = vec4(in_flat.hi, std::bit_cast<float>(top_root));

@@ -15,7 +15,7 @@ constexpr std::size_t kSubtreeCount = 8192;
 constexpr std::size_t kPieceCount = 4096; // the most references that one task bins or moves
 
 /// A node of the top-level tree, or a subtree below it.
-struct Branch {
+struct TreeBranch {
     ReferenceRange part;
     std::uint32_t depth = 0;
     std::size_t sides = 0; ///< index of the first of two branches; 0: a subtree
@@ -26,43 +26,44 @@ struct Branch {
 };
 
 /// The division of a branch.
-struct Cut {
+struct BranchCut {
     std::size_t branch;
-    Binning binning;
-    Bins bins{};
-    std::optional<Split> split{};
+    BinMapping binning;
+    SplitBins bins{};
+    std::optional<BinSplit> split{};
 };
 
 /// A share of a branch's references, for one task.
 struct BranchChunk {
     std::size_t cut;
-    References references;
-    Bins bins{};
+    TriangleReferences references;
+    SplitBins bins{};
     std::array<TriangleReference*, 2> to{};
-    std::array<Extent, 2> centres{};
+    std::array<BoxExtent, 2> centres{};
 };
 
-class TopLevelTree {
+class TopLevelTreeBuilder {
 public:
-    TopLevelTree(const Workspace& work, unsigned threads) : work_(work), threads_(threads) {}
+    TopLevelTreeBuilder(const BuildWorkspace& work, unsigned threads)
+        : work_(work), threads_(threads) {}
 
-    void grow(const ReferenceRange& root) {
+    void build_from_root(const ReferenceRange& root) {
         branches_.push_back({root});
         std::vector<std::size_t> level{0};
-        while (!level.empty()) level = divide(level);
+        while (!level.empty()) level = divide_level(level);
         build_subtrees();
     }
 
     std::size_t append_to(std::vector<vec4>& nodes) {
         node_count_ = nodes.size() / 4;
-        number(0);
+        number_nodes(0);
         const bool is_node = f32::bvh_is_inner(branches_[0].word);
         nodes.reserve(4 * (node_count_ + (is_node ? 0 : 1)));
         advise_large_pages(nodes.data(), nodes.capacity() * sizeof(vec4));
         nodes.resize(nodes.capacity(), vec4(0));
-        if (!is_node) write_node(&nodes[4], branches_[0], Branch{});
-        in_parallel(branches_.size(), threads_, [&](std::size_t i) {
-            const Branch& branch = branches_[i];
+        if (!is_node) write_node(&nodes[4], branches_[0], TreeBranch{});
+        run_in_parallel(branches_.size(), threads_, [&](std::size_t i) {
+            const TreeBranch& branch = branches_[i];
             vec4* texel = nodes.data() + 4 * branch.first_node;
             if (branch.sides != 0)
                 write_node(texel, branches_[branch.sides], branches_[branch.sides + 1]);
@@ -74,43 +75,43 @@ public:
 
 private:
     /// Divides all branches of a level. Returns the branches one level deeper.
-    std::vector<std::size_t> divide(const std::vector<std::size_t>& level) {
-        std::vector<Cut> cuts;
+    std::vector<std::size_t> divide_level(const std::vector<std::size_t>& level) {
+        std::vector<BranchCut> cuts;
         std::vector<BranchChunk> pieces;
         for (const std::size_t i : level) {
             const ReferenceRange& part = branches_[i].part;
             if (part.count <= kSubtreeCount || part.centres.is_point()) continue;
-            for (References rest = work_.of(part); !rest.empty();) {
+            for (TriangleReferences rest = work_.references_of(part); !rest.empty();) {
                 const std::size_t count = std::min(kPieceCount, rest.size());
                 pieces.push_back({cuts.size(), rest.first(count)});
                 rest = rest.subspan(count);
             }
-            cuts.push_back({i, Binning(part.centres)});
+            cuts.push_back({i, BinMapping(part.centres)});
         }
-        in_parallel(pieces.size(), threads_, [&](std::size_t i) {
+        run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
             pieces[i].bins.add(pieces[i].references, cuts[pieces[i].cut].binning);
         });
-        choose(cuts, pieces);
-        in_parallel(pieces.size(), threads_, [&](std::size_t i) {
-            const Cut& cut = cuts[pieces[i].cut];
+        choose_cuts(cuts, pieces);
+        run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
+            const BranchCut& cut = cuts[pieces[i].cut];
             if (cut.split)
                 cut.split->scatter(pieces[i].references, cut.binning, pieces[i].to,
                                    pieces[i].centres);
         });
-        return fork(cuts, pieces);
+        return create_child_branches(cuts, pieces);
     }
 
-    void choose(std::vector<Cut>& cuts, std::vector<BranchChunk>& pieces) const {
+    void choose_cuts(std::vector<BranchCut>& cuts, std::vector<BranchChunk>& pieces) const {
         for (const BranchChunk& piece : pieces) cuts[piece.cut].bins.add(piece.bins);
         std::vector<std::array<TriangleReference*, 2>> to;
-        for (Cut& cut : cuts) {
-            const Branch& branch = branches_[cut.branch];
-            cut.split = best_split(cut.bins, capacity(work_, branch.depth + 1));
-            TriangleReference* into = work_.other(branch.part).data();
+        for (BranchCut& cut : cuts) {
+            const TreeBranch& branch = branches_[cut.branch];
+            cut.split = find_best_split(cut.bins, max_triangles_below(work_, branch.depth + 1));
+            TriangleReference* into = work_.other_buffer_of(branch.part).data();
             to.push_back({into, into + (cut.split ? cut.bins.left_count(*cut.split) : 0)});
         }
         for (BranchChunk& piece : pieces) {
-            const Cut& cut = cuts[piece.cut];
+            const BranchCut& cut = cuts[piece.cut];
             if (!cut.split) continue;
             const std::size_t left = piece.bins.left_count(*cut.split);
             piece.to = to[piece.cut];
@@ -118,9 +119,9 @@ private:
         }
     }
 
-    std::vector<std::size_t> fork(const std::vector<Cut>& cuts,
-                                  const std::vector<BranchChunk>& pieces) {
-        std::vector<std::array<Extent, 2>> centres(cuts.size());
+    std::vector<std::size_t> create_child_branches(const std::vector<BranchCut>& cuts,
+                                                   const std::vector<BranchChunk>& pieces) {
+        std::vector<std::array<BoxExtent, 2>> centres(cuts.size());
         for (const BranchChunk& piece : pieces)
             for (std::size_t side = 0; side < 2; ++side)
                 centres[piece.cut][side].add(piece.centres[side]);
@@ -128,10 +129,10 @@ private:
         for (std::size_t i = 0; i < cuts.size(); ++i) {
             if (!cuts[i].split) continue;
             const std::size_t sides = branches_.size();
-            const Branch& branch = branches_[cuts[i].branch];
+            const TreeBranch& branch = branches_[cuts[i].branch];
             const std::uint32_t depth = branch.depth + 1;
-            const SplitParts parts = sides_of(branch.part, cuts[i].bins, *cuts[i].split,
-                                              centres[i]);
+            const SplitRanges parts = partition_ranges(branch.part, cuts[i].bins, *cuts[i].split,
+                                                       centres[i]);
             branches_[cuts[i].branch].sides = sides;
             for (const ReferenceRange& part : parts) branches_.push_back({part, depth});
             next.insert(next.end(), {sides, sides + 1});
@@ -146,23 +147,23 @@ private:
         // Largest first, so that no thread starts a large subtree when the others have finished.
         std::ranges::stable_sort(order, std::greater(),
                                  [&](std::size_t i) { return branches_[i].part.count; });
-        in_parallel(order.size(), threads_, [&](std::size_t i) {
-            Branch& branch = branches_[order[i]];
+        run_in_parallel(order.size(), threads_, [&](std::size_t i) {
+            TreeBranch& branch = branches_[order[i]];
             branch.subtree = build_subtree(work_, branch.part, branch.depth);
         });
     }
 
     /// Numbers nodes and triangles in the order of a depth-first walk, left side first.
-    void number(std::size_t i) {
-        Branch& branch = branches_[i];
+    void number_nodes(std::size_t i) {
+        TreeBranch& branch = branches_[i];
         branch.first_node = node_count_;
         if (branch.sides != 0) {
             branch.word = f32::kBvhTag | static_cast<std::uint32_t>(node_count_++);
-            number(branch.sides), number(branch.sides + 1);
+            number_nodes(branch.sides), number_nodes(branch.sides + 1);
             return;
         }
         branch.copies = branch.part.first - triangle_count_;
-        branch.word = in_whole(branch, branch.subtree.root);
+        branch.word = to_whole_tree_word(branch, branch.subtree.root);
         if (branch.copies > 0)
             std::copy_n(work_.triangles + 3 * branch.part.first, 3 * branch.subtree.triangles,
                         work_.triangles + 3 * triangle_count_);
@@ -171,13 +172,13 @@ private:
     }
 
     /// Converts a word of the branch's subtree to a word of the whole tree.
-    static std::uint32_t in_whole(const Branch& branch, std::uint32_t word) {
+    static std::uint32_t to_whole_tree_word(const TreeBranch& branch, std::uint32_t word) {
         if (word == f32::kBvhNothing) return word;
         return word + static_cast<std::uint32_t>(f32::bvh_is_inner(word) ? branch.first_node - 1
                                                                          : -branch.copies);
     }
 
-    static void write_node(vec4* texel, const Branch& left, const Branch& right) {
+    static void write_node(vec4* texel, const TreeBranch& left, const TreeBranch& right) {
         const std::array sides{&left, &right};
         for (std::size_t i = 0; i < 2; ++i) {
             const BoundingBox box = sides[i]->part.box.box();
@@ -187,25 +188,27 @@ private:
         }
     }
 
-    static void copy_nodes(vec4* texel, const Branch& branch) {
+    static void copy_nodes(vec4* texel, const TreeBranch& branch) {
         for (std::size_t i = 0; i < branch.subtree.nodes.size(); ++i) {
             texel[i] = branch.subtree.nodes[i];
-            if (i % 4 < 2) texel[i].w = std::bit_cast<float>(in_whole(branch, bits(texel[i].w)));
+            if (i % 4 < 2)
+                texel[i].w = std::bit_cast<float>(
+                    to_whole_tree_word(branch, float_to_bits(texel[i].w)));
         }
     }
 
-    const Workspace& work_;
+    const BuildWorkspace& work_;
     unsigned threads_;
-    std::vector<Branch> branches_{}; ///< the first is the root
+    std::vector<TreeBranch> branches_{}; ///< the first is the root
     std::size_t node_count_ = 0, triangle_count_ = 0;
 };
 
 } // namespace
 
-std::size_t build_tree(const Workspace& work, const ReferenceRange& root, unsigned threads,
-                       std::vector<vec4>& nodes) {
-    TopLevelTree crown(work, threads);
-    crown.grow(root);
+std::size_t build_tree_in_parallel(const BuildWorkspace& work, const ReferenceRange& root,
+                                   unsigned threads, std::vector<vec4>& nodes) {
+    TopLevelTreeBuilder crown(work, threads);
+    crown.build_from_root(root);
     return crown.append_to(nodes);
 }
 

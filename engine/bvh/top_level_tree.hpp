@@ -9,7 +9,7 @@ namespace catoptric::bvh {
 /// Builds the tree over `root`, whose references lie in the first buffer, and appends it to the
 /// header in `nodes`. Returns the number of triangles kept. The kept triangles are the first
 /// elements of `work.triangles`.
-std::size_t build_tree(const Workspace& work, const ReferenceRange& root, unsigned threads,
-                       std::vector<vec4>& nodes);
+std::size_t build_tree_in_parallel(const BuildWorkspace& work, const ReferenceRange& root,
+                                   unsigned threads, std::vector<vec4>& nodes);
 
 } // namespace catoptric::bvh

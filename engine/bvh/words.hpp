@@ -9,11 +9,15 @@
 /// The words in the texels of a hierarchy; bvh.hpp defines their layout.
 namespace catoptric::bvh {
 
-inline std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
-inline float word(std::uint32_t number) { return std::bit_cast<float>(number | f32::kBvhTag); }
-inline float id_word(std::size_t number) {
-    return word(static_cast<std::uint32_t>(number) & f32::kBvhIdMask);
+inline std::uint32_t float_to_bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+inline float integer_to_float_word(std::uint32_t number) {
+    return std::bit_cast<float>(number | f32::kBvhTag);
 }
-inline std::uint32_t number_of(float word) { return bits(word) & f32::kBvhIdMask; }
+inline float id_to_float_word(std::size_t number) {
+    return integer_to_float_word(static_cast<std::uint32_t>(number) & f32::kBvhIdMask);
+}
+inline std::uint32_t float_word_to_integer(float word) {
+    return float_to_bits(word) & f32::kBvhIdMask;
+}
 
 } // namespace catoptric::bvh

@@ -16,11 +16,11 @@ namespace catoptric {
 
 namespace {
 
-class FileBytes final : public ByteSource {
+class FileByteSource final : public ByteSource {
 public:
-    FileBytes(int file, std::uint64_t size, std::string name)
+    FileByteSource(int file, std::uint64_t size, std::string name)
         : file_(file), size_(size), name_(std::move(name)) {}
-    ~FileBytes() override { ::close(file_); }
+    ~FileByteSource() override { ::close(file_); }
 
     std::uint64_t size() const override { return size_; }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override {
@@ -44,12 +44,12 @@ private:
 };
 
 /// A source that owns its bytes.
-class OwnBytes final : public ByteSource {
+class OwningByteSource final : public ByteSource {
 public:
-    explicit OwnBytes(std::string bytes) : bytes_(std::move(bytes)) {}
+    explicit OwningByteSource(std::string bytes) : bytes_(std::move(bytes)) {}
     std::uint64_t size() const override { return bytes_.size(); }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override {
-        return MemoryBytes(bytes_).read(offset, into);
+        return MemoryByteSource(bytes_).read(offset, into);
     }
 
 private:
@@ -58,23 +58,23 @@ private:
 
 } // namespace
 
-std::size_t MemoryBytes::read(std::uint64_t offset, std::span<char> into) const {
+std::size_t MemoryByteSource::read(std::uint64_t offset, std::span<char> into) const {
     if (offset >= bytes_.size()) return 0;
     const std::string_view part = bytes_.substr(offset, into.size());
     std::ranges::copy(part, into.begin());
     return part.size();
 }
 
-std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
+std::unique_ptr<ByteSource> open_file_bytes(const std::filesystem::path& path) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode))
-        return std::make_unique<OwnBytes>(read_file(path));
+        return std::make_unique<OwningByteSource>(read_file(path));
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     const int error = errno;
     check(file >= 0, Failure::missing_input, path.string(),
           ": cannot be opened: ", std::generic_category().message(error));
-    return std::make_unique<FileBytes>(file, static_cast<std::uint64_t>(facts.st_size),
-                                       path.string());
+    return std::make_unique<FileByteSource>(file, static_cast<std::uint64_t>(facts.st_size),
+                                            path.string());
 }
 
 } // namespace catoptric

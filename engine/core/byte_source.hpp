@@ -24,9 +24,9 @@ public:
 };
 
 /// A source of bytes in memory. The memory must outlive it.
-class MemoryBytes final : public ByteSource {
+class MemoryByteSource final : public ByteSource {
 public:
-    explicit MemoryBytes(std::string_view bytes) : bytes_(bytes) {}
+    explicit MemoryByteSource(std::string_view bytes) : bytes_(bytes) {}
     std::uint64_t size() const override { return bytes_.size(); }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override;
 
@@ -36,6 +36,6 @@ private:
 
 /// Opens a file without reading it. A pipe or a device cannot be read at an offset, so its bytes
 /// are read into memory. Throws `missing_input` if the file does not exist or cannot be opened.
-std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
+std::unique_ptr<ByteSource> open_file_bytes(const std::filesystem::path& path);
 
 } // namespace catoptric

@@ -19,15 +19,15 @@ namespace {
 
 const std::string kPartial = ".partial-";
 
-struct Close {
+struct FileCloser {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
-using File = std::unique_ptr<std::FILE, Close>;
+using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 
-std::string reason(int error) { return std::generic_category().message(error); }
+std::string describe_system_error(int error) { return std::generic_category().message(error); }
 
 /// Returns the path at the end of all links, which need not exist.
-fs::path destination(fs::path path) {
+fs::path resolve_all_links(fs::path path) {
     std::error_code error;
     for (int link = 0; link < 40 && fs::is_symlink(fs::symlink_status(path, error)); ++link)
         path = path.parent_path() / fs::read_symlink(path, error);
@@ -35,30 +35,31 @@ fs::path destination(fs::path path) {
 }
 
 /// Writes, flushes and closes the file. Throws `io` with `path`, not with the temporary's name.
-void write_all(File file, std::string_view content, const fs::path& path) {
+void write_and_close(FileHandle file, std::string_view content, const fs::path& path) {
     const std::size_t written = content.empty()
                                     ? 0
                                     : std::fwrite(content.data(), 1, content.size(), file.get());
     const bool whole = written == content.size() && std::fflush(file.get()) == 0;
     const int error = errno;
     check(whole, Failure::io, path.string(), ": wanted to write ", content.size(),
-          " bytes: ", reason(error));
+          " bytes: ", describe_system_error(error));
     const bool closed = std::fclose(file.release()) == 0;
     const int close_error = errno;
-    check(closed, Failure::io, path.string(), ": cannot be closed: ", reason(close_error));
+    check(closed, Failure::io, path.string(),
+          ": cannot be closed: ", describe_system_error(close_error));
 }
 
-File open_new(const fs::path& temporary, const fs::path& path) {
-    File file(std::fopen(temporary.c_str(), "wbx"));
+FileHandle open_new_file(const fs::path& temporary, const fs::path& path) {
+    FileHandle file(std::fopen(temporary.c_str(), "wbx"));
     const int error = errno;
     check(file != nullptr, Failure::cannot_create, path.string(),
-          ": cannot be created: ", reason(error));
+          ": cannot be created: ", describe_system_error(error));
     return file;
 }
 
 /// Removes temporaries of this target whose processes have ended. A program that gets a second
 /// signal cannot remove its own.
-void remove_left_over(const fs::path& target) {
+void remove_stale_temporaries(const fs::path& target) {
     const std::string beginning = target.filename().string() + kPartial;
     std::error_code error;
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -75,21 +76,21 @@ void remove_left_over(const fs::path& target) {
 
 /// Writes `content` to a temporary and renames it to `target`. `old`: status of the file at
 /// `target`, if any.
-void replace(const fs::path& target, fs::file_status old, std::string_view content,
-             const fs::path& path) {
+void replace_file(const fs::path& target, fs::file_status old, std::string_view content,
+                  const fs::path& path) {
     fs::path temporary = target;
     temporary += kPartial + std::to_string(::getpid());
     std::error_code error;
-    remove_left_over(target);
+    remove_stale_temporaries(target);
     fs::remove(temporary, error); // left by a dead process with our process id
-    File file = open_new(temporary, path);
+    FileHandle file = open_new_file(temporary, path);
     try {
         if (fs::exists(old)) {
             fs::permissions(temporary, old.permissions(), error);
             check(!error, Failure::io, path.string(),
                   ": cannot be given the mode of the file in its place: ", error.message());
         }
-        write_all(std::move(file), content, path);
+        write_and_close(std::move(file), content, path);
         fs::rename(temporary, target, error);
         check(!error, Failure::io, path.string(), ": cannot be replaced: ", error.message());
     } catch (...) {
@@ -100,9 +101,9 @@ void replace(const fs::path& target, fs::file_status old, std::string_view conte
 
 } // namespace
 
-fs::path real_path(const fs::path& path) {
+fs::path resolve_real_path(const fs::path& path) {
     std::error_code error;
-    const fs::path target = fs::absolute(destination(path), error);
+    const fs::path target = fs::absolute(resolve_all_links(path), error);
     const fs::path real = fs::weakly_canonical(target, error);
     // An error is, for example, an unreadable folder.
     return error ? target.lexically_normal() : real;
@@ -110,18 +111,18 @@ fs::path real_path(const fs::path& path) {
 
 void write_file(const fs::path& path, std::string_view content) {
     std::error_code error;
-    const fs::path target = destination(path);
+    const fs::path target = resolve_all_links(path);
     const fs::file_status status = fs::status(target, error);
     check(!fs::is_directory(status) && target.has_filename(), Failure::cannot_create, path.string(),
           ": wanted a file name, found a folder");
     if (!fs::exists(status) || fs::is_regular_file(status))
-        return replace(target, status, content, path);
+        return replace_file(target, status, content, path);
 
-    File file(std::fopen(target.c_str(), "wb")); // a device or a pipe
+    FileHandle file(std::fopen(target.c_str(), "wb")); // a device or a pipe
     const int open_error = errno;
     check(file != nullptr, Failure::cannot_create, path.string(),
-          ": cannot be opened: ", reason(open_error));
-    write_all(std::move(file), content, path);
+          ": cannot be opened: ", describe_system_error(open_error));
+    write_and_close(std::move(file), content, path);
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> content) {
@@ -133,10 +134,10 @@ std::string read_file(const fs::path& path) {
     std::error_code ignored;
     check(!fs::is_directory(path, ignored), Failure::missing_input, path.string(),
           ": wanted a file, found a folder");
-    const File file(std::fopen(path.c_str(), "rb"));
+    const FileHandle file(std::fopen(path.c_str(), "rb"));
     const int error = errno;
     check(file != nullptr, Failure::missing_input, path.string(),
-          ": cannot be opened: ", reason(error));
+          ": cannot be opened: ", describe_system_error(error));
     std::string content;
     char block[1 << 16];
     while (const std::size_t count = std::fread(block, 1, sizeof block, file.get()))

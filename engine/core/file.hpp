@@ -10,7 +10,7 @@ namespace catoptric {
 
 /// Returns the path at which bytes written to `path` end up: absolute, without `.` and `..`, with
 /// all links followed. The file need not exist.
-std::filesystem::path real_path(const std::filesystem::path& path);
+std::filesystem::path resolve_real_path(const std::filesystem::path& path);
 
 /// Writes `content` to `path` through a temporary file in the same folder, which is flushed, closed
 /// and renamed. Readers see the old file or the whole new one. The new file keeps the mode of the

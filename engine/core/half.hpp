@@ -10,7 +10,7 @@ inline constexpr float kLargestHalf = 65504;
 inline constexpr std::uint16_t kLargestHalfBits = 0x7bff;
 
 /// Returns the value of a 16-bit float (IEEE 754 binary16).
-inline float from_half(std::uint16_t bits) {
+inline float half_to_float(std::uint16_t bits) {
     const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
     const float size = exponent == 31 ? (mantissa ? std::numeric_limits<float>::quiet_NaN()
                                                   : std::numeric_limits<float>::infinity())

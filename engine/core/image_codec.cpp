@@ -13,38 +13,39 @@ namespace catoptric {
 
 namespace {
 
-struct Beginning {
+struct FormatSignature {
     std::string_view bytes, format;
 };
 using namespace std::string_view_literals;
-constexpr Beginning kBeginnings[] = {{"\x89PNG\r\n\x1a\n", "png"},
-                                     {"\xff\xd8\xff", "jpeg"},
-                                     {"\x76\x2f\x31\x01", "openexr"},
-                                     {"#?", "hdr"},
-                                     {"BM", "bmp"},
-                                     {"GIF8", "gif"},
-                                     {"II*\0"sv, "tiff"},
-                                     {"MM\0*"sv, "tiff"},
-                                     {"DDS ", "dds"},
-                                     {"8BPS", "psd"}};
+constexpr FormatSignature kBeginnings[] = {{"\x89PNG\r\n\x1a\n", "png"},
+                                           {"\xff\xd8\xff", "jpeg"},
+                                           {"\x76\x2f\x31\x01", "openexr"},
+                                           {"#?", "hdr"},
+                                           {"BM", "bmp"},
+                                           {"GIF8", "gif"},
+                                           {"II*\0"sv, "tiff"},
+                                           {"MM\0*"sv, "tiff"},
+                                           {"DDS ", "dds"},
+                                           {"8BPS", "psd"}};
 
 /// Throws unless the answer is `done`.
-void check_decoded(const CodecResult& result, const std::string& name, const std::string& format) {
+void check_codec_result(const CodecResult& result, const std::string& name,
+                        const std::string& format) {
     const std::string why = result.why.empty() ? "" : ": " + result.why;
     switch (result.answer) {
-    case CodecAnswer::done: return;
-    case CodecAnswer::no_codec:
+    case CodecStatus::done: return;
+    case CodecStatus::no_codec:
         fail(Failure::bad_data, name, ": this OpenImageIO cannot read ", format);
-    case CodecAnswer::refused: fail(Failure::bad_data, name, ": cannot be decoded", why);
-    case CodecAnswer::out_of_memory:
+    case CodecStatus::refused: fail(Failure::bad_data, name, ": cannot be decoded", why);
+    case CodecStatus::out_of_memory:
         fail(Failure::exhausted, name, ": not enough memory to decode it");
-    case CodecAnswer::broken: fail(Failure::internal, name, ": OpenImageIO fails", why);
+    case CodecStatus::broken: fail(Failure::internal, name, ": OpenImageIO fails", why);
     }
 }
 
 } // namespace
 
-std::string image_format(std::string_view bytes) {
+std::string detect_image_format(std::string_view bytes) {
     for (const auto& [beginning, format] : kBeginnings)
         if (bytes.starts_with(beginning)) return std::string(format);
     if (bytes.starts_with("RIFF") && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP")
@@ -54,7 +55,7 @@ std::string image_format(std::string_view bytes) {
 
 namespace {
 
-void check_sides(const ImageShape& shape, const std::string& name) {
+void check_image_sides(const ImageShape& shape, const std::string& name) {
     const auto fits = [](std::uint32_t side) {
         return side > 0 && side <= ImageReader::kLargestSide;
     };
@@ -69,7 +70,7 @@ class CodecReader {
 public:
     CodecReader(const ByteSource& bytes, const std::string& format, const std::string& name)
         : format_(format), name_(name) {
-        check_decoded(codecs_.open(bytes, format, name, picture_, header_), name, format);
+        check_codec_result(codecs_.open(bytes, format, name, picture_, header_), name, format);
     }
     ~CodecReader() {
         if (picture_) codecs_.close(picture_);
@@ -86,19 +87,19 @@ public:
         return {uvec2(header_.size), std::size_t(header_.channel_count), header_.channels};
     }
     void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values) {
-        check_decoded(codecs_.read(*picture_, first, row_count, type, values), name_, format_);
+        check_codec_result(codecs_.read(*picture_, first, row_count, type, values), name_, format_);
     }
 
 private:
     std::string format_, name_;
-    const ImageCodecs& codecs_ = image_codecs();
+    const ImageCodecs& codecs_ = get_image_codecs();
     ImageCodecs::Picture* picture_ = nullptr;
-    ImageCodecs::Header header_;
+    ImageCodecs::PictureHeader header_;
 };
 
 } // namespace
 
-struct ImageReader::Open {
+struct ImageReader::ImageReadState {
     void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values) {
         try {
             if (png)
@@ -128,11 +129,11 @@ struct ImageReader::Open {
 };
 
 ImageReader::ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
-                         const ShapeCheck& judge)
-    : open_(std::make_unique<Open>()) {
+                         const ImageShapeCheck& judge)
+    : open_(std::make_unique<ImageReadState>()) {
     open_->name = std::move(name);
     const auto accept = [&](const ImageShape& shape) {
-        check_sides(shape, open_->name);
+        check_image_sides(shape, open_->name);
         if (judge) judge(shape);
         open_->shape = shape;
     };
@@ -141,7 +142,7 @@ ImageReader::ImageReader(const ByteSource& bytes, const std::string& format, std
         open_->png->check_size();
         return;
     }
-    if (const auto shape = header_of(bytes, format, open_->name)) accept(*shape);
+    if (const auto shape = read_image_header(bytes, format, open_->name)) accept(*shape);
     accept(open_->codec.emplace(bytes, format, open_->name).shape());
 }
 
@@ -158,21 +159,21 @@ void ImageReader::read_rows(std::uint32_t first, std::span<float> values) {
                      values.data());
 }
 
-std::string openexr_bytes(const ImageShape& shape, std::span<const float> values) {
+std::string encode_openexr(const ImageShape& shape, std::span<const float> values) {
     check(shape.size.x > 0 && shape.size.y > 0, Failure::internal, "a picture of ", shape.size.x,
           "x", shape.size.y, " cannot be written");
     std::string bytes;
-    const auto [answer, why] = image_codecs().encode("openexr",
-                                                     {.size = shape.size,
-                                                      .channel_count = shape.channel_count,
-                                                      .type = CodecValue::float32,
-                                                      .values = values.data()},
-                                                     bytes);
-    check(answer != CodecAnswer::no_codec, Failure::internal,
+    const auto [answer, why] = get_image_codecs().encode("openexr",
+                                                         {.size = shape.size,
+                                                          .channel_count = shape.channel_count,
+                                                          .type = CodecValue::float32,
+                                                          .values = values.data()},
+                                                         bytes);
+    check(answer != CodecStatus::no_codec, Failure::internal,
           "this OpenImageIO cannot write openexr");
-    check(answer != CodecAnswer::out_of_memory, Failure::exhausted,
+    check(answer != CodecStatus::out_of_memory, Failure::exhausted,
           "not enough memory to encode OpenEXR");
-    check(answer == CodecAnswer::done, Failure::internal, "OpenImageIO cannot encode openexr",
+    check(answer == CodecStatus::done, Failure::internal, "OpenImageIO cannot encode openexr",
           why.empty() ? "" : ": ", why);
     return bytes;
 }

@@ -19,7 +19,7 @@ namespace catoptric {
 /// Returns the format that the first bytes belong to: "png", "jpeg", "openexr", "hdr", "bmp",
 /// "gif", "tiff", "webp", "dds" or "psd"; empty if unknown. TARGA files cannot be recognised by
 /// their first bytes: see `ImageReader`.
-std::string image_format(std::string_view bytes);
+std::string detect_image_format(std::string_view bytes);
 
 /// The shape of a picture: its size in pixels and `channel_count` values per pixel, row-major from
 /// the top.
@@ -35,7 +35,7 @@ public:
     static constexpr std::uint32_t kLargestSide = 1 << 16;
 
     /// Throws if the size or channels that a header claims are not acceptable.
-    using ShapeCheck = std::function<void(const ImageShape&)>;
+    using ImageShapeCheck = std::function<void(const ImageShape&)>;
 
     /// Opens a picture. `format` is OpenImageIO's name of it, and `name` begins every message.
     /// `judge` is called before a decoder, which may allocate memory, is opened, and again with the
@@ -43,7 +43,7 @@ public:
     /// side of 0 or more than 65536 pixels. Also throws `bad_data` if the header claims more than a
     /// file of its size can hold.
     ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
-                const ShapeCheck& judge = {});
+                const ImageShapeCheck& judge = {});
     ~ImageReader();
 
     const ImageShape& shape() const;
@@ -56,13 +56,13 @@ public:
     void read_rows(std::uint32_t first, std::span<float> values);
 
 private:
-    struct Open;
-    std::unique_ptr<Open> open_;
+    struct ImageReadState;
+    std::unique_ptr<ImageReadState> open_;
 };
 
 /// Returns the bytes of an OpenEXR file of floats, or of a PNG file of 8 bits in sRGB, with 1 to 4
 /// channels. Equal values give equal bytes. Values are as ImageReader returns them.
-std::string openexr_bytes(const ImageShape& shape, std::span<const float> values);
-std::string png_bytes(const ImageShape& shape, std::span<const std::uint8_t> values);
+std::string encode_openexr(const ImageShape& shape, std::span<const float> values);
+std::string encode_png(const ImageShape& shape, std::span<const std::uint8_t> values);
 
 } // namespace catoptric

@@ -18,13 +18,13 @@ class IntegerReader {
 public:
     explicit IntegerReader(const ByteSource& bytes) : bytes_(bytes) {}
 
-    std::uint32_t little(std::uint64_t offset, std::size_t size) const {
+    std::uint32_t read_little_endian(std::uint64_t offset, std::size_t size) const {
         std::uint32_t value = 0;
         const auto read = bytes_at(offset);
         for (std::size_t i = 0; i < size; ++i) value |= std::uint32_t(read[i]) << (8 * i);
         return value;
     }
-    std::uint32_t big(std::uint64_t offset, std::size_t size) const {
+    std::uint32_t read_big_endian(std::uint64_t offset, std::size_t size) const {
         std::uint32_t value = 0;
         const auto read = bytes_at(offset);
         for (std::size_t i = 0; i < size; ++i) value = value << 8 | read[i];
@@ -43,16 +43,16 @@ private:
     const ByteSource& bytes_;
 };
 
-ImageShape shape_of(std::uint32_t width, std::uint32_t height, std::size_t channel_count) {
+ImageShape make_image_shape(std::uint32_t width, std::uint32_t height, std::size_t channel_count) {
     return {{width, height}, channel_count, {}};
 }
 
 /// Returns the shape in the frame header, which follows any number of segments. If the file ends or
 /// is no JPEG there, the size is 0.
-ImageShape jpeg_header(const ByteSource& bytes) {
+ImageShape read_jpeg_header(const ByteSource& bytes) {
     const IntegerReader numbers(bytes);
     for (std::uint64_t at = 2; at + 9 < bytes.size();) {
-        const std::uint32_t mark = numbers.big(at, 2), kind = mark & 0xff;
+        const std::uint32_t mark = numbers.read_big_endian(at, 2), kind = mark & 0xff;
         if (mark >> 8 != 0xff) break;
         if (kind == 0xff) { // a fill byte
             ++at;
@@ -61,27 +61,32 @@ ImageShape jpeg_header(const ByteSource& bytes) {
         const bool is_frame = kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 && kind != 0xc8 &&
                               kind != 0xcc;
         if (is_frame)
-            return shape_of(numbers.big(at + 7, 2), numbers.big(at + 5, 2), numbers.big(at + 9, 1));
-        at += 2 + numbers.big(at + 2, 2);
+            return make_image_shape(numbers.read_big_endian(at + 7, 2),
+                                    numbers.read_big_endian(at + 5, 2),
+                                    numbers.read_big_endian(at + 9, 1));
+        at += 2 + numbers.read_big_endian(at + 2, 2);
     }
     return {};
 }
 
-ImageShape webp_header(const ByteSource& bytes) {
+ImageShape read_webp_header(const ByteSource& bytes) {
     const IntegerReader numbers(bytes);
-    switch (numbers.big(12, 4)) {
+    switch (numbers.read_big_endian(12, 4)) {
     case 0x56503858: // "VP8X"
-        return shape_of(numbers.little(24, 3) + 1, numbers.little(27, 3) + 1, 4);
+        return make_image_shape(numbers.read_little_endian(24, 3) + 1,
+                                numbers.read_little_endian(27, 3) + 1, 4);
     case 0x5650384c: { // "VP8L": two sides of 14 bits
-        const std::uint32_t bits = numbers.little(21, 4);
-        return shape_of((bits & 0x3fff) + 1, (bits >> 14 & 0x3fff) + 1, 4);
+        const std::uint32_t bits = numbers.read_little_endian(21, 4);
+        return make_image_shape((bits & 0x3fff) + 1, (bits >> 14 & 0x3fff) + 1, 4);
     }
-    default: return shape_of(numbers.little(26, 2) & 0x3fff, numbers.little(28, 2) & 0x3fff, 3);
+    default:
+        return make_image_shape(numbers.read_little_endian(26, 2) & 0x3fff,
+                                numbers.read_little_endian(28, 2) & 0x3fff, 3);
     }
 }
 
 /// Returns the sides from a line such as "-Y 512 +X 1024"; 0 for other lines.
-uvec2 radiance_sides(std::string_view line) {
+uvec2 parse_radiance_sides(std::string_view line) {
     uvec2 sides{0};
     const auto take = [&](std::string_view axis, std::uint32_t& side) {
         const std::size_t at = line.find(axis);
@@ -93,7 +98,7 @@ uvec2 radiance_sides(std::string_view line) {
     return sides;
 }
 
-ImageShape radiance_header(const ByteSource& bytes, const std::string& name) {
+ImageShape read_radiance_header(const ByteSource& bytes, const std::string& name) {
     constexpr std::size_t kLongest = 1 << 16;
     std::string text(std::min<std::uint64_t>(kLongest, bytes.size()), '\0');
     text.resize(bytes.read(0, text));
@@ -102,7 +107,8 @@ ImageShape radiance_header(const ByteSource& bytes, const std::string& name) {
     check(end != text.npos, Failure::bad_data, name,
           ": cannot be decoded: wanted a blank line and the picture's size within ", kLongest,
           " bytes, found none");
-    const uvec2 size = radiance_sides(std::string_view(text).substr(blank + 2, end - blank - 2));
+    const uvec2 size = parse_radiance_sides(
+        std::string_view(text).substr(blank + 2, end - blank - 2));
     // Lines of 8 to 32767 pixels are stored as runs of at most 127 for each of 4 channels. Other
     // lines are stored without runs.
     const bool has_runs = size.x >= 8 && size.x < 1 << 15;
@@ -118,7 +124,8 @@ ImageShape radiance_header(const ByteSource& bytes, const std::string& name) {
 class TiffDirectory {
 public:
     explicit TiffDirectory(const ByteSource& bytes)
-        : numbers_(bytes), is_big_endian_(numbers_.big(0, 2) == 0x4d4d), first_(number(4, 4)) {}
+        : numbers_(bytes), is_big_endian_(numbers_.read_big_endian(0, 2) == 0x4d4d),
+          first_(number(4, 4)) {}
 
     /// Returns the first value of a tag, of 16 or 32 bits; `otherwise` if the tag is missing.
     std::uint32_t value(std::uint32_t tag, std::uint32_t otherwise) const {
@@ -136,7 +143,8 @@ public:
 
 private:
     std::uint32_t number(std::uint64_t at, std::size_t size) const {
-        return is_big_endian_ ? numbers_.big(at, size) : numbers_.little(at, size);
+        return is_big_endian_ ? numbers_.read_big_endian(at, size)
+                              : numbers_.read_little_endian(at, size);
     }
 
     IntegerReader numbers_;
@@ -146,7 +154,7 @@ private:
 
 /// Returns the least bytes of a TIFF file with this many decoded bytes; 0 if no limit of its
 /// compression is known.
-std::uint64_t least_of_tiff(std::uint64_t decoded, std::uint64_t compression) {
+std::uint64_t min_tiff_file_bytes(std::uint64_t decoded, std::uint64_t compression) {
     constexpr std::uint64_t kNone = 1, kLzw = 5, kDeflate = 8, kOldDeflate = 32946,
                             kPackBits = 32773;
     constexpr std::uint64_t kMostLzw = 4096; // bytes per code, above deflate's limit of 1032
@@ -157,7 +165,7 @@ std::uint64_t least_of_tiff(std::uint64_t decoded, std::uint64_t compression) {
     return is_known ? decoded / kMostLzw : 0;
 }
 
-ImageShape tiff_header(const ByteSource& bytes, const std::string& name) {
+ImageShape read_tiff_header(const ByteSource& bytes, const std::string& name) {
     constexpr std::uint32_t kWidth = 256, kHeight = 257, kBits = 258, kCompression = 259,
                             kChannels = 277;
     const TiffDirectory directory(bytes);
@@ -168,33 +176,44 @@ ImageShape tiff_header(const ByteSource& bytes, const std::string& name) {
     // Clamping the number of texels avoids overflow of the product below. Later checks refuse
     // pictures with sides that are so long.
     constexpr std::uint64_t kAbsurd = std::uint64_t{1} << 40;
-    const std::uint64_t least = least_of_tiff(std::min(texels, kAbsurd) * channels * bits / 8,
-                                              directory.value(kCompression, 1));
+    const std::uint64_t least = min_tiff_file_bytes(std::min(texels, kAbsurd) * channels * bits / 8,
+                                                    directory.value(kCompression, 1));
     check(least <= bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
           " bytes for ", width, "x", height, " pixels, found ", bytes.size());
-    return shape_of(width, height, channels);
+    return make_image_shape(width, height, channels);
 }
 
 } // namespace
 
-std::optional<ImageShape> header_of(const ByteSource& bytes, const std::string& format,
-                                    const std::string& name) {
+std::optional<ImageShape> read_image_header(const ByteSource& bytes, const std::string& format,
+                                            const std::string& name) {
     const IntegerReader numbers(bytes);
-    if (format == "openexr") return openexr_header(bytes, name);
-    if (format == "hdr") return radiance_header(bytes, name);
-    if (format == "tiff") return tiff_header(bytes, name);
-    if (format == "jpeg") return jpeg_header(bytes);
-    if (format == "webp") return webp_header(bytes);
-    if (format == "gif") return shape_of(numbers.little(6, 2), numbers.little(8, 2), 4);
-    if (format == "dds") return shape_of(numbers.little(16, 4), numbers.little(12, 4), 4);
-    if (format == "targa") return shape_of(numbers.little(12, 2), numbers.little(14, 2), 4);
+    if (format == "openexr") return read_openexr_header(bytes, name);
+    if (format == "hdr") return read_radiance_header(bytes, name);
+    if (format == "tiff") return read_tiff_header(bytes, name);
+    if (format == "jpeg") return read_jpeg_header(bytes);
+    if (format == "webp") return read_webp_header(bytes);
+    if (format == "gif")
+        return make_image_shape(numbers.read_little_endian(6, 2), numbers.read_little_endian(8, 2),
+                                4);
+    if (format == "dds")
+        return make_image_shape(numbers.read_little_endian(16, 4),
+                                numbers.read_little_endian(12, 4), 4);
+    if (format == "targa")
+        return make_image_shape(numbers.read_little_endian(12, 2),
+                                numbers.read_little_endian(14, 2), 4);
     if (format == "psd")
-        return shape_of(numbers.big(18, 4), numbers.big(14, 4), numbers.big(12, 2));
+        return make_image_shape(numbers.read_big_endian(18, 4), numbers.read_big_endian(14, 4),
+                                numbers.read_big_endian(12, 2));
     if (format == "bmp") {
-        const bool is_old = numbers.little(14, 4) == 12; // the old header has sides of 16 bits
-        if (is_old) return shape_of(numbers.little(18, 2), numbers.little(20, 2), 4);
-        const std::uint32_t height = numbers.little(22, 4);
-        return shape_of(numbers.little(18, 4), height >> 31 ? ~height + 1 : height, 4);
+        const bool is_old = numbers.read_little_endian(14, 4) ==
+                            12; // the old header has sides of 16 bits
+        if (is_old)
+            return make_image_shape(numbers.read_little_endian(18, 2),
+                                    numbers.read_little_endian(20, 2), 4);
+        const std::uint32_t height = numbers.read_little_endian(22, 4);
+        return make_image_shape(numbers.read_little_endian(18, 4),
+                                height >> 31 ? ~height + 1 : height, 4);
     }
     return std::nullopt;
 }

@@ -18,31 +18,31 @@ constexpr std::size_t kLongestName = 255;
 constexpr std::uint32_t kIsTiled = 0x200, kHasDeepParts = 0x800, kHasManyParts = 0x1000;
 
 /// Reads a file from front to end.
-class Cursor {
+class ExrCursor {
 public:
-    Cursor(const ByteSource& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+    ExrCursor(const ByteSource& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
     [[noreturn]] void refuse(const auto&... what) const {
         fail(Failure::bad_data, name_, ": cannot be decoded: byte ", at_, ": ", what...);
     }
-    std::uint64_t left() const { return bytes_.size() - at_; }
+    std::uint64_t bytes_left() const { return bytes_.size() - at_; }
 
-    std::uint32_t number() {
+    std::uint32_t read_uint32() {
         std::array<char, 4> read{};
-        take(read);
+        read_bytes(read);
         std::uint32_t value = 0;
         for (std::size_t i = 0; i < 4; ++i)
             value |= std::uint32_t(static_cast<unsigned char>(read[i])) << (8 * i);
         return value;
     }
-    std::int32_t whole() { return static_cast<std::int32_t>(number()); }
-    std::uint8_t byte() {
+    std::int32_t read_int32() { return static_cast<std::int32_t>(read_uint32()); }
+    std::uint8_t read_byte() {
         std::array<char, 1> read{};
-        take(read);
+        read_bytes(read);
         return static_cast<std::uint8_t>(read[0]);
     }
     /// Returns the text up to a zero byte, and skips this byte.
-    std::string word() {
+    std::string read_string() {
         std::array<char, kLongestName + 1> read{};
         const std::string_view text(read.data(), bytes_.read(at_, read));
         const std::size_t end = text.find('\0');
@@ -51,24 +51,25 @@ public:
         return std::string(text.substr(0, end));
     }
     /// Returns whether a zero byte comes next, and skips it if so.
-    bool takes_zero() {
-        const bool is_zero = byte() == 0;
+    bool skip_zero_byte() {
+        const bool is_zero = read_byte() == 0;
         if (!is_zero) --at_;
         return is_zero;
     }
     /// Throws if fewer than `size` bytes are left.
-    void need(std::uint64_t size, const char* what) const {
-        if (size > left()) refuse("wanted ", size, " bytes of ", what, ", found ", left());
+    void require_bytes(std::uint64_t size, const char* what) const {
+        if (size > bytes_left())
+            refuse("wanted ", size, " bytes of ", what, ", found ", bytes_left());
     }
     void skip(std::uint64_t size) {
-        need(size, "an attribute");
+        require_bytes(size, "an attribute");
         at_ += size;
     }
-    std::uint64_t at() const { return at_; }
-    void go_to(std::uint64_t at) { at_ = at; }
+    std::uint64_t position() const { return at_; }
+    void seek(std::uint64_t at) { at_ = at; }
 
 private:
-    void take(std::span<char> into) {
+    void read_bytes(std::span<char> into) {
         if (bytes_.read(at_, into) < into.size()) refuse("the file ends in its header");
         at_ += into.size();
     }
@@ -95,13 +96,13 @@ struct ExrPart {
     }
 };
 
-void read_channels(Cursor& file, ExrPart& part, std::uint64_t end) {
-    while (file.at() < end) {
-        std::string name = file.word();
+void read_channels(ExrCursor& file, ExrPart& part, std::uint64_t end) {
+    while (file.position() < end) {
+        std::string name = file.read_string();
         if (name.empty()) break;
-        const std::uint32_t type = file.number();
-        file.number(); // skips the flag for linear data
-        const std::uint32_t across = file.number(), down = file.number();
+        const std::uint32_t type = file.read_uint32();
+        file.read_uint32(); // skips the flag for linear data
+        const std::uint32_t across = file.read_uint32(), down = file.read_uint32();
         part.is_subsampled |= across != 1 || down != 1;
         part.pixel_bytes += type == 1 ? 2 : 4;
         part.channels.push_back(std::move(name));
@@ -109,51 +110,53 @@ void read_channels(Cursor& file, ExrPart& part, std::uint64_t end) {
 }
 
 /// Checks the strings of a vector, because OpenEXR trusts the length of each.
-void check_strings(Cursor& file, std::uint64_t end) {
-    while (file.at() + 4 <= end) {
-        const std::uint32_t size = file.number();
-        if (size > end - std::min(end, file.at())) file.refuse("a string of ", size, " bytes");
+void check_string_vector(ExrCursor& file, std::uint64_t end) {
+    while (file.position() + 4 <= end) {
+        const std::uint32_t size = file.read_uint32();
+        if (size > end - std::min(end, file.position()))
+            file.refuse("a string of ", size, " bytes");
         file.skip(size);
     }
 }
 
-void read_attribute(Cursor& file, ExrPart& part, const std::string& name, const std::string& type) {
-    const std::uint32_t size = file.number();
-    file.need(size, "an attribute");
-    const std::uint64_t end = file.at() + size;
+void read_attribute(ExrCursor& file, ExrPart& part, const std::string& name,
+                    const std::string& type) {
+    const std::uint32_t size = file.read_uint32();
+    file.require_bytes(size, "an attribute");
+    const std::uint64_t end = file.position() + size;
     if (name == "channels") {
         read_channels(file, part, end);
     } else if (name == "compression" && size == 1) {
-        part.compression = file.byte();
+        part.compression = file.read_byte();
     } else if (name == "dataWindow" && size == 16) {
-        for (std::int32_t& edge : part.window) edge = file.whole();
+        for (std::int32_t& edge : part.window) edge = file.read_int32();
     } else if (name == "tiles" && size == 9) {
         part.is_tiled = true;
-        for (std::uint32_t& side : part.tile) side = file.number();
+        for (std::uint32_t& side : part.tile) side = file.read_uint32();
     } else if (name == "chunkCount" && size == 4) {
-        part.chunk_count = file.number();
+        part.chunk_count = file.read_uint32();
     } else if (type == "stringvector") {
-        check_strings(file, end);
+        check_string_vector(file, end);
     } else if (type == "preview" && size >= 8) {
-        const std::uint64_t width = file.number(), height = file.number();
+        const std::uint64_t width = file.read_uint32(), height = file.read_uint32();
         if (width * height > (size - 8) / 4)
             file.refuse("a preview of ", width, "x", height, " pixels in ", size, " bytes");
     }
-    file.go_to(end);
+    file.seek(end);
 }
 
-ExrPart read_part(Cursor& file, bool is_tiled) {
+ExrPart read_part_header(ExrCursor& file, bool is_tiled) {
     ExrPart part;
     part.is_tiled = is_tiled;
-    for (std::string name = file.word(); !name.empty(); name = file.word()) {
-        const std::string type = file.word();
+    for (std::string name = file.read_string(); !name.empty(); name = file.read_string()) {
+        const std::string type = file.read_string();
         read_attribute(file, part, name, type);
     }
     return part;
 }
 
 /// Returns the number of lines in one chunk.
-std::uint32_t chunk_lines(std::uint32_t compression) {
+std::uint32_t lines_per_chunk(std::uint32_t compression) {
     constexpr std::uint32_t kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
     return compression < std::size(kLines) ? kLines[compression] : 256;
 }
@@ -161,7 +164,7 @@ std::uint32_t chunk_lines(std::uint32_t compression) {
 /// Returns the most bytes of values that one byte of the file can stand for. RLE stores runs of 128
 /// in 2 bytes. Deflate stores at most 1032 bytes in 1. PXR24 drops a quarter of a float before
 /// deflate. B44A stores 32 bytes in 3. The limits of other compressions are not known.
-double most_expansion(std::uint32_t compression) {
+double max_expansion_factor(std::uint32_t compression) {
     constexpr double kMost[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
     const double most = compression < std::size(kMost) ? kMost[compression] : 0;
     return most > 0 ? most : std::numeric_limits<double>::infinity();
@@ -170,9 +173,9 @@ double most_expansion(std::uint32_t compression) {
 /// Returns the least bytes that the chunks of this part take. Each chunk has 8 bytes in the chunk
 /// table and 8 before its values. The result is a double, because products of claimed sizes may
 /// overflow any integer.
-double least_bytes(const Cursor& file, const ExrPart& part) {
+double min_chunk_bytes(const ExrCursor& file, const ExrPart& part) {
     const auto width = double(part.side(0)), height = double(part.side(1));
-    double chunks = std::ceil(height / chunk_lines(part.compression));
+    double chunks = std::ceil(height / lines_per_chunk(part.compression));
     if (part.is_tiled) {
         // OpenEXR allocates a whole tile, however small the picture is.
         constexpr double kLargest = 1024;
@@ -185,27 +188,27 @@ double least_bytes(const Cursor& file, const ExrPart& part) {
     }
     const double values = part.is_subsampled ? 0 : width * height * double(part.pixel_bytes);
     return 16 * std::max(chunks, double(part.chunk_count)) +
-           std::floor(values / most_expansion(part.compression));
+           std::floor(values / max_expansion_factor(part.compression));
 }
 
 } // namespace
 
-ImageShape openexr_header(const ByteSource& bytes, const std::string& name) {
-    Cursor file(bytes, name);
-    file.number(); // skips the magic number
-    const std::uint32_t flags = file.number();
+ImageShape read_openexr_header(const ByteSource& bytes, const std::string& name) {
+    ExrCursor file(bytes, name);
+    file.read_uint32(); // skips the magic number
+    const std::uint32_t flags = file.read_uint32();
     check((flags & kHasDeepParts) == 0, Failure::bad_data, name,
           ": wanted a flat picture, found a deep one");
-    std::vector<ExrPart> parts{read_part(file, (flags & kIsTiled) != 0)};
+    std::vector<ExrPart> parts{read_part_header(file, (flags & kIsTiled) != 0)};
     if ((flags & kHasManyParts) != 0)
-        while (!file.takes_zero()) parts.push_back(read_part(file, false));
+        while (!file.skip_zero_byte()) parts.push_back(read_part_header(file, false));
     double least = 0;
-    for (const ExrPart& part : parts) least += least_bytes(file, part);
+    for (const ExrPart& part : parts) least += min_chunk_bytes(file, part);
     const ExrPart& first = parts.front();
-    check(least <= double(file.left()), Failure::bad_data, name, ": wanted at least ",
+    check(least <= double(file.bytes_left()), Failure::bad_data, name, ": wanted at least ",
           static_cast<std::uint64_t>(std::min(least, 1e18)), " bytes behind its header for ",
           first.side(0), "x", first.side(1), " pixels of ", first.channels.size(),
-          " channels, found ", file.left());
+          " channels, found ", file.bytes_left());
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     return {{static_cast<std::uint32_t>(std::min(first.side(0), kMost)),
              static_cast<std::uint32_t>(std::min(first.side(1), kMost))},

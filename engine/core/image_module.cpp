@@ -21,7 +21,7 @@ constexpr const char* kModuleNeeds = "It comes with catoptric and wants OpenImag
                                      "libopenimageio2.4)";
 
 /// Returns the folder of the library or program that contains this function.
-fs::path own_folder() {
+fs::path find_own_folder() {
     static const char kHere = 0;
     Dl_info info{};
     link_map* own = nullptr;
@@ -38,8 +38,8 @@ fs::path own_folder() {
 
 /// Returns the module's file. In a build tree it is beside the programs and the library. Installed,
 /// it is in its own folder beside the library.
-fs::path module_file() {
-    const fs::path own = own_folder();
+fs::path find_image_module_file() {
+    const fs::path own = find_own_folder();
     const fs::path folders[] = {own, own / "catoptric",
                                 (own / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal()};
     for (const fs::path& folder : folders)
@@ -49,8 +49,8 @@ fs::path module_file() {
          kModuleNeeds);
 }
 
-const ImageCodecs* load() {
-    const fs::path file = module_file();
+const ImageCodecs* load_image_module() {
+    const fs::path file = find_image_module_file();
     check_address_space(kRoom, "OpenImageIO");
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(module != nullptr, Failure::internal,
@@ -65,8 +65,8 @@ const ImageCodecs* load() {
 
 } // namespace
 
-const ImageCodecs& image_codecs() {
-    static const ImageCodecs* const kCodecs = load();
+const ImageCodecs& get_image_codecs() {
+    static const ImageCodecs* const kCodecs = load_image_module();
     return *kCodecs;
 }
 

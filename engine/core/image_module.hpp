@@ -12,7 +12,7 @@
 // first picture.
 namespace catoptric {
 
-enum class CodecAnswer {
+enum class CodecStatus {
     done,
     no_codec, ///< this OpenImageIO does not support the format
     refused,
@@ -21,7 +21,7 @@ enum class CodecAnswer {
 };
 
 struct CodecResult {
-    CodecAnswer answer = CodecAnswer::done;
+    CodecStatus answer = CodecStatus::done;
     std::string why = {}; ///< reason in one line; may be empty
 };
 
@@ -31,13 +31,13 @@ enum class CodecValue { uint8, float32 };
 /// argument, except to the bytes of an open picture. `format` is OpenImageIO's name of a format.
 struct ImageCodecs {
     struct Picture; ///< an open picture; defined in the module
-    struct Header {
+    struct PictureHeader {
         ivec2 size{0};
         int channel_count = 0;
         bool is_deep = false;
         std::vector<std::string> channels;
     };
-    struct ModuleValues {
+    struct PixelValueBuffer {
         uvec2 size{0};
         std::size_t channel_count = 0;
         CodecValue type = CodecValue::uint8;
@@ -47,13 +47,13 @@ struct ImageCodecs {
     /// Opens a picture. If the answer is `done`, the caller must close `picture`; otherwise it is
     /// null.
     CodecResult (*open)(const ByteSource& bytes, const std::string& format, const std::string& name,
-                        Picture*& picture, Header& header) noexcept;
+                        Picture*& picture, PictureHeader& header) noexcept;
     /// Reads `row_count` rows from `first` on. Rows of tiled pictures may be read again from their
     /// tiles.
     CodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
                         CodecValue type, void* values) noexcept;
     void (*close)(Picture* picture) noexcept;
-    CodecResult (*encode)(const std::string& format, const ModuleValues& picture,
+    CodecResult (*encode)(const std::string& format, const PixelValueBuffer& picture,
                           std::string& bytes) noexcept;
 };
 
@@ -68,6 +68,6 @@ using ImageCodecsFunction = const ImageCodecs* (*)();
 /// installed place relative to them. Throws `internal` with the searched places and what to
 /// install, or `exhausted` without memory. After an error the next call searches again. May be
 /// called from any thread.
-const ImageCodecs& image_codecs();
+const ImageCodecs& get_image_codecs();
 
 } // namespace catoptric

@@ -32,7 +32,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kExpecte
      {"; expected end of input", "the end"},
      {"", "a value"}}};
 
-std::string place_of(const std::string& file, std::string_view text, std::size_t at) {
+std::string describe_json_position(const std::string& file, std::string_view text, std::size_t at) {
     const std::string_view before = text.substr(0, at);
     const auto lines = std::ranges::count(before, '\n');
     const std::size_t line_start = lines == 0 ? 0 : before.rfind('\n') + 1;
@@ -42,7 +42,7 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
 
 /// Returns the length of the last word of the parser's token, which may also contain the text
 /// before the word.
-std::size_t last_word(const std::string& token) {
+std::size_t last_word_length(const std::string& token) {
     constexpr std::string_view kPunctuation = "[]{}:,";
     if (token.empty() || kPunctuation.find(token.back()) != kPunctuation.npos) return 1;
     const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
@@ -54,28 +54,28 @@ std::size_t last_word(const std::string& token) {
 
 /// Returns the text at `at` for a message: the word of `length` characters, cut to 40, or one
 /// character.
-std::string found_at(std::string_view text, std::size_t at, std::size_t length) {
+std::string quote_text_at(std::string_view text, std::size_t at, std::size_t length) {
     constexpr std::size_t kLongest = 40;
     if (at >= text.size()) return "the end";
     const std::string_view word = text.substr(at, std::clamp<std::size_t>(length, 1, kLongest));
-    return "'" + printable(word) + "'" + (length > kLongest ? "..." : "");
+    return "'" + escape_control_characters(word) + "'" + (length > kLongest ? "..." : "");
 }
 
-class Reader : public nlohmann::json_sax<Json> {
+class JsonChecker : public nlohmann::json_sax<Json> {
 public:
-    Reader(const std::string& file, std::string_view text, const JsonSpends& spends)
+    JsonChecker(const std::string& file, std::string_view text, const JsonMemoryCallback& spends)
         : file_(file), text_(text), spends_(spends) {}
 
-    bool null() override { return value(); }
-    bool boolean(bool) override { return value(); }
-    bool number_integer(number_integer_t) override { return value(); }
-    bool number_unsigned(number_unsigned_t) override { return value(); }
-    bool number_float(number_float_t, const string_t&) override { return value(); }
-    bool string(string_t& text) override { return value(32 + text.size()); }
-    bool binary(binary_t&) override { return value(); }
-    bool key(string_t& text) override { return value(64 + text.size()); }
-    bool start_object(std::size_t) override { return deeper(); }
-    bool start_array(std::size_t) override { return deeper(); }
+    bool null() override { return count_value_memory(); }
+    bool boolean(bool) override { return count_value_memory(); }
+    bool number_integer(number_integer_t) override { return count_value_memory(); }
+    bool number_unsigned(number_unsigned_t) override { return count_value_memory(); }
+    bool number_float(number_float_t, const string_t&) override { return count_value_memory(); }
+    bool string(string_t& text) override { return count_value_memory(32 + text.size()); }
+    bool binary(binary_t&) override { return count_value_memory(); }
+    bool key(string_t& text) override { return count_value_memory(64 + text.size()); }
+    bool start_object(std::size_t) override { return enter_nesting_level(); }
+    bool start_array(std::size_t) override { return enter_nesting_level(); }
     bool end_object() override { return --depth_ >= 0; }
     bool end_array() override { return --depth_ >= 0; }
 
@@ -86,38 +86,38 @@ public:
         const std::string_view words = error.what();
         const bool is_whole = words.find("unexpected") != words.npos || error.id == kOutOfRange;
         const bool is_end = words.find("unexpected end of input") != words.npos;
-        const std::size_t length = is_whole ? last_word(token) : 1;
+        const std::size_t length = is_whole ? last_word_length(token) : 1;
         const std::size_t at = is_end ? text_.size()
                                       : std::min(read - std::min(read, length), text_.size());
         const auto* wanted = std::ranges::find_if(
             kExpectedTokens, [&](const auto& one) { return words.find(one.first) != words.npos; });
-        fail(Failure::bad_data, place_of(file_, text_, at), ": wanted ",
+        fail(Failure::bad_data, describe_json_position(file_, text_, at), ": wanted ",
              error.id == kOutOfRange ? "a number that a double can hold" : wanted->second,
-             ", found ", found_at(text_, at, length));
+             ", found ", quote_text_at(text_, at, length));
     }
 
 private:
     /// Reports the memory of a value: 32 bytes in its list or map, and `more` bytes of its own.
-    bool value(std::uint64_t more = 0) {
+    bool count_value_memory(std::uint64_t more = 0) {
         if (spends_) spends_(32 + more);
         return true;
     }
-    bool deeper() {
+    bool enter_nesting_level() {
         check(++depth_ < kDeepest, Failure::bad_data, file_, ": JSON: wanted nesting below ",
               kDeepest, ", found more");
-        return value(64);
+        return count_value_memory(64);
     }
 
     const std::string& file_;
     std::string_view text_;
-    const JsonSpends& spends_;
+    const JsonMemoryCallback& spends_;
     int depth_ = 0;
 };
 
 } // namespace
 
-void check_json(const std::string& file, std::string_view text, const JsonSpends& spends) {
-    Reader reader(file, text, spends);
+void check_json(const std::string& file, std::string_view text, const JsonMemoryCallback& spends) {
+    JsonChecker reader(file, text, spends);
     Json::sax_parse(text, &reader);
 }
 

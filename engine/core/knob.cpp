@@ -17,13 +17,13 @@ namespace {
 constexpr std::size_t kLongestWord = 64;
 constexpr std::size_t kMostNames = 10'000;
 
-std::string format(double value) {
+std::string format_knob_value(double value) {
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr;
     return {text, end};
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+std::size_t compute_edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -43,42 +43,42 @@ bool is_same(const Knob& a, const Knob& b) {
 
 } // namespace
 
-Settings::Settings(std::span<const Knob> knobs) : knobs_(knobs) {
+KnobSettings::KnobSettings(std::span<const Knob> knobs) : knobs_(knobs) {
     for (const Knob& knob : knobs) values_.push_back(knob.value);
 }
 
-std::size_t Settings::index(const Knob& knob) const {
+std::size_t KnobSettings::index(const Knob& knob) const {
     const auto found = std::ranges::find_if(
         knobs_, [&](const Knob& known) { return is_same(known, knob); });
     check(found != knobs_.end(), Failure::internal, "there is no knob '", knob.name, "'");
     return static_cast<std::size_t>(found - knobs_.begin());
 }
 
-bool Settings::has(const Knob& knob) const {
+bool KnobSettings::has(const Knob& knob) const {
     return std::ranges::any_of(knobs_, [&](const Knob& known) { return is_same(known, knob); });
 }
 
-double Settings::number(const Knob& knob) const {
+double KnobSettings::number(const Knob& knob) const {
     const std::size_t i = index(knob);
     check(values_[i].has_value(), Failure::internal, "knob '", knob.name, "' is '",
           knobs_[i].special, "', no number");
     return *values_[i];
 }
 
-std::string_view Settings::choice(const Knob& knob) const {
+std::string_view KnobSettings::choice(const Knob& knob) const {
     const std::size_t i = index(knob);
     check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob.name, "' is not a choice");
     return knobs_[i].choices[static_cast<std::size_t>(number(knob))];
 }
 
-bool Settings::is_special(const Knob& knob) const { return !values_[index(knob)].has_value(); }
+bool KnobSettings::is_special(const Knob& knob) const { return !values_[index(knob)].has_value(); }
 
-void Settings::set(std::string_view owner, std::string_view name, std::string_view text) {
+void KnobSettings::set(std::string_view owner, std::string_view name, std::string_view text) {
     std::vector<std::string> names;
     for (const Knob& knob : knobs_) names.emplace_back(knob.name);
     const auto named = std::ranges::find(knobs_, name, &Knob::name);
     check(named != knobs_.end(), Failure::usage, "technique '", owner, "' has no knob '", name, "'",
-          did_you_mean(name, names));
+          suggest_name(name, names));
     const Knob& knob = *named;
     std::optional<double>& target = values_[static_cast<std::size_t>(named - knobs_.begin())];
     if (!knob.choices.empty()) {
@@ -87,7 +87,7 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
         std::string wanted;
         for (const std::string& choice : choices) wanted += (wanted.empty() ? "" : "|") + choice;
         check(found != knob.choices.end(), Failure::usage, "knob '", name, "' of '", owner,
-              "' takes ", wanted, ", not '", text, "'", did_you_mean(text, choices));
+              "' takes ", wanted, ", not '", text, "'", suggest_name(text, choices));
         target = static_cast<double>(found - knob.choices.begin());
         return;
     }
@@ -95,7 +95,7 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
         target = std::nullopt;
         return;
     }
-    const std::string range = format(knob.low) + " to " + format(knob.high) +
+    const std::string range = format_knob_value(knob.low) + " to " + format_knob_value(knob.high) +
                               (knob.special.empty() ? "" : " or " + std::string(knob.special));
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -103,33 +103,33 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
               (knob.is_real || value == std::floor(value)),
           Failure::usage, "knob '", name, "' of '", owner, "' takes a ",
           knob.is_real ? "" : "whole ", "number from ", range, ", not '", text, "'",
-          did_you_mean(text, std::vector{std::string(knob.special)}));
+          suggest_name(text, std::vector{std::string(knob.special)}));
     check(value >= knob.low && value <= knob.high, Failure::usage, "knob '", name, "' of '", owner,
           "' takes ", range, ", not ", text);
     target = value;
 }
 
-std::string Settings::text(const Knob& knob) const {
+std::string KnobSettings::text(const Knob& knob) const {
     if (is_special(knob)) return std::string(knob.special);
-    return knob.choices.empty() ? format(number(knob)) : std::string(choice(knob));
+    return knob.choices.empty() ? format_knob_value(number(knob)) : std::string(choice(knob));
 }
 
-std::string nearest_name(std::string_view word, std::span<const std::string> names) {
+std::string find_nearest_name(std::string_view word, std::span<const std::string> names) {
     if (word.size() > kLongestWord) return {};
     std::size_t best = std::max<std::size_t>(2, word.size() / 2) + 1;
     std::string nearest;
     for (const std::string& name : names.first(std::min(names.size(), kMostNames))) {
         // The difference in length is a lower bound of the distance.
         if (name.size() >= word.size() + best) continue;
-        const std::size_t distance = edit_distance(word, name);
+        const std::size_t distance = compute_edit_distance(word, name);
         if (distance < best) best = distance, nearest = name;
     }
     return nearest;
 }
 
-std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
-    const std::string nearest = nearest_name(word, names);
-    return nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)";
+std::string suggest_name(std::string_view word, std::span<const std::string> names) {
+    const std::string nearest = find_nearest_name(word, names);
+    return nearest.empty() ? "" : " (did you mean " + quote_printable(nearest) + "?)";
 }
 
 } // namespace catoptric

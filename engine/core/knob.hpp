@@ -25,9 +25,9 @@ struct Knob {
 };
 
 /// A value for each of a technique's knobs.
-class Settings {
+class KnobSettings {
 public:
-    explicit Settings(std::span<const Knob> knobs);
+    explicit KnobSettings(std::span<const Knob> knobs);
 
     /// Returns the knob's number, or the index of its choice. Throws `internal` if there is no such
     /// knob, or if its special word is set.
@@ -51,7 +51,9 @@ public:
     /// Returns the value as the user would type it.
     std::string text(const Knob& knob) const;
 
-    friend bool operator==(const Settings& a, const Settings& b) { return a.values_ == b.values_; }
+    friend bool operator==(const KnobSettings& a, const KnobSettings& b) {
+        return a.values_ == b.values_;
+    }
 
 private:
     std::size_t index(const Knob& knob) const;
@@ -63,9 +65,9 @@ private:
 /// is near: the distance must be at most half the word's length, or 2 if that is greater. A word of
 /// more than 64 bytes is near no name. Only the first 10,000 names are compared, which takes some
 /// 50 ms at most.
-std::string nearest_name(std::string_view word, std::span<const std::string> names);
+std::string find_nearest_name(std::string_view word, std::span<const std::string> names);
 
 /// Returns the end of a message about an unknown name: " (did you mean 'x'?)", or an empty string.
-std::string did_you_mean(std::string_view word, std::span<const std::string> names);
+std::string suggest_name(std::string_view word, std::span<const std::string> names);
 
 } // namespace catoptric

@@ -12,14 +12,16 @@
 namespace catoptric {
 
 /// Returns the number of threads that the machine runs at once, at least 1.
-inline unsigned all_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
+inline unsigned hardware_thread_count() {
+    return std::max(1U, std::thread::hardware_concurrency());
+}
 
 /// Calls body(i) for every i below `count`, on at most `threads` threads including the caller's.
 /// Fewer threads are used if the system cannot start more. Lower numbers begin first. If calls
 /// throw, the calls that have not begun are skipped. Once all threads have ended, the exception of
 /// the lowest number is rethrown. Starting a thread costs some ten microseconds.
 template <typename Body>
-void in_parallel(std::size_t count, unsigned threads, const Body& body) {
+void run_in_parallel(std::size_t count, unsigned threads, const Body& body) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
     std::exception_ptr error;

@@ -14,32 +14,32 @@ namespace catoptric {
 
 namespace {
 
-struct Destination {
+struct PngDestination {
     std::string bytes, why;
 };
 
-void append(png_structp png, png_bytep data, std::size_t size) {
-    auto& destination = *static_cast<Destination*>(png_get_io_ptr(png));
+void append_png_bytes(png_structp png, png_bytep data, std::size_t size) {
+    auto& destination = *static_cast<PngDestination*>(png_get_io_ptr(png));
     try {
         destination.bytes.append(reinterpret_cast<const char*>(data), size);
     } catch (const std::exception&) { // exceptions must not pass through a C library
         png_error(png, "out of memory");
     }
 }
-void flush(png_structp) {}
+void flush_png_nothing(png_structp) {}
 
-[[noreturn]] void give_up_writing(png_structp png, png_const_charp why) {
-    auto& destination = *static_cast<Destination*>(png_get_error_ptr(png));
+[[noreturn]] void fail_png_write(png_structp png, png_const_charp why) {
+    auto& destination = *static_cast<PngDestination*>(png_get_error_ptr(png));
     try {
         destination.why = why;
     } catch (const std::exception&) { // reported without the reason
     }
     png_longjmp(png, 1);
 }
-void ignore_warning_of_writing(png_structp, png_const_charp) {}
+void ignore_png_write_warning(png_structp, png_const_charp) {}
 
 /// Writes the metadata: sRGB and a constant time, so that equal pictures have equal bytes.
-void describe(png_structp png, png_infop info) {
+void write_png_metadata(png_structp png, png_infop info) {
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
     png_set_oFFs(png, info, 0, 0, PNG_OFFSET_PIXEL);
     png_time time{.year = 2000, .month = 1, .day = 1, .hour = 0, .minute = 0, .second = 0};
@@ -54,7 +54,8 @@ void describe(png_structp png, png_infop info) {
 
 /// Writes the picture and returns whether this succeeded. libpng leaves by longjmp, so no variable
 /// here may have a destructor.
-bool write(png_structp png, png_infop info, const ImageShape& shape, const std::uint8_t* values) {
+bool write_png_image(png_structp png, png_infop info, const ImageShape& shape,
+                     const std::uint8_t* values) {
     if (setjmp(png_jmpbuf(png))) return false;
     constexpr int kTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                               PNG_COLOR_TYPE_RGB_ALPHA};
@@ -62,7 +63,7 @@ bool write(png_structp png, png_infop info, const ImageShape& shape, const std::
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(png, 6);
     png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);
-    describe(png, info);
+    write_png_metadata(png, info);
     png_write_info(png, info);
     for (std::uint32_t y = 0; y < shape.size.y; ++y)
         png_write_row(png, values + std::size_t(y) * shape.size.x * shape.channel_count);
@@ -72,21 +73,21 @@ bool write(png_structp png, png_infop info, const ImageShape& shape, const std::
 
 } // namespace
 
-std::string png_bytes(const ImageShape& shape, std::span<const std::uint8_t> values) {
+std::string encode_png(const ImageShape& shape, std::span<const std::uint8_t> values) {
     const std::size_t count = std::size_t(shape.size.x) * shape.size.y * shape.channel_count;
     check(count > 0 && shape.channel_count <= 4 && values.size() == count, Failure::internal,
           "a picture of ", shape.size.x, "x", shape.size.y,
           " cannot be written as PNG: wanted 1 to 4 channels, found ", shape.channel_count, " and ",
           values.size(), " values");
-    Destination destination;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &destination, give_up_writing,
-                                              ignore_warning_of_writing);
+    PngDestination destination;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &destination, fail_png_write,
+                                              ignore_png_write_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const auto destroy = [&](png_structp) { png_destroy_write_struct(&png, &info); };
     const std::unique_ptr<png_struct, decltype(destroy)> owner(png, destroy);
     check(info != nullptr, Failure::exhausted, "not enough memory to encode PNG");
-    png_set_write_fn(png, &destination, append, flush);
-    check(write(png, info, shape, values.data()), Failure::internal,
+    png_set_write_fn(png, &destination, append_png_bytes, flush_png_nothing);
+    check(write_png_image(png, info, shape, values.data()), Failure::internal,
           "libpng cannot encode a picture of ", shape.size.x, "x", shape.size.y, ": ",
           destination.why);
     return std::move(destination.bytes);

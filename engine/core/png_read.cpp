@@ -16,24 +16,24 @@ namespace catoptric {
 
 namespace {
 
-struct Origin {
+struct PngSource {
     const ByteSource& bytes;
     std::uint64_t at = 0;
     std::string why;
 };
 
-[[noreturn]] void give_up_reading(png_structp png, png_const_charp why) {
-    auto& origin = *static_cast<Origin*>(png_get_error_ptr(png));
+[[noreturn]] void fail_png_read(png_structp png, png_const_charp why) {
+    auto& origin = *static_cast<PngSource*>(png_get_error_ptr(png));
     try {
-        origin.why = printable(why);
+        origin.why = escape_control_characters(why);
     } catch (const std::exception&) { // reported without the reason
     }
     png_longjmp(png, 1);
 }
-void ignore_warning_of_reading(png_structp, png_const_charp) {}
+void ignore_png_read_warning(png_structp, png_const_charp) {}
 
-void take(png_structp png, png_bytep into, std::size_t size) {
-    auto& origin = *static_cast<Origin*>(png_get_io_ptr(png));
+void read_png_bytes(png_structp png, png_bytep into, std::size_t size) {
+    auto& origin = *static_cast<PngSource*>(png_get_io_ptr(png));
     bool is_whole = false;
     try {
         is_whole = origin.bytes.read(origin.at, {reinterpret_cast<char*>(into), size}) == size;
@@ -46,26 +46,26 @@ void take(png_structp png, png_bytep into, std::size_t size) {
 // libpng may leave these functions by longjmp, so no variable in them may have a destructor.
 
 /// Reads the file up to the first values. Returns whether this succeeded.
-bool read_header(png_structp png, png_infop info) {
+bool read_png_header(png_structp png, png_infop info) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_read_info(png, info);
     return true;
 }
 
-bool start(png_structp png, png_infop info) {
+bool start_png_rows(png_structp png, png_infop info) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_expand(png); // expands to 8 bits and alpha
     png_read_update_info(png, info);
     return true;
 }
 
-bool read_row(png_structp png, png_bytep row) {
+bool read_png_row(png_structp png, png_bytep row) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_read_row(png, row, nullptr);
     return true;
 }
 
-bool read_all(png_structp png, png_bytepp rows) {
+bool read_png_rows(png_structp png, png_bytepp rows) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_read_image(png, rows);
     return true;
@@ -73,7 +73,7 @@ bool read_all(png_structp png, png_bytepp rows) {
 
 /// Converts a row of values of 8 bits, or of 16 bits with the high byte first.
 template <typename Value>
-void convert(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
+void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
     constexpr bool kToFloat = std::is_same_v<Value, float>;
     if (!is_wide) {
         if constexpr (kToFloat)
@@ -94,21 +94,22 @@ void convert(const std::uint8_t* row, std::size_t count, bool is_wide, Value* va
 
 } // namespace
 
-struct PngReader::Open {
-    Open(const ByteSource& bytes, const std::string& its_name) : origin{bytes}, name(its_name) {
-        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, give_up_reading,
-                                     ignore_warning_of_reading);
+struct PngReader::PngReadState {
+    PngReadState(const ByteSource& bytes, const std::string& its_name)
+        : origin{bytes}, name(its_name) {
+        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, fail_png_read,
+                                     ignore_png_read_warning);
         info = png ? png_create_info_struct(png) : nullptr;
         if (!info) {
             png_destroy_read_struct(&png, &info, nullptr);
             fail(Failure::exhausted, name, ": not enough memory to decode it");
         }
-        png_set_read_fn(png, &origin, take);
+        png_set_read_fn(png, &origin, read_png_bytes);
         png_set_user_limits(png, ImageReader::kLargestSide, ImageReader::kLargestSide);
     }
-    ~Open() { png_destroy_read_struct(&png, &info, nullptr); }
-    Open(const Open&) = delete;
-    Open& operator=(const Open&) = delete;
+    ~PngReadState() { png_destroy_read_struct(&png, &info, nullptr); }
+    PngReadState(const PngReadState&) = delete;
+    PngReadState& operator=(const PngReadState&) = delete;
 
     void require(bool works) const {
         if (works) return;
@@ -126,7 +127,7 @@ struct PngReader::Open {
               " pixels, found ", origin.bytes.size());
     }
 
-    Origin origin;
+    PngSource origin;
     std::string name;
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -139,9 +140,9 @@ struct PngReader::Open {
 };
 
 PngReader::PngReader(const ByteSource& bytes, const std::string& name)
-    : open_(std::make_unique<Open>(bytes, name)) {
-    Open& open = *open_;
-    open.require(read_header(open.png, open.info));
+    : open_(std::make_unique<PngReadState>(bytes, name)) {
+    PngReadState& open = *open_;
+    open.require(read_png_header(open.png, open.info));
     open.size = {png_get_image_width(open.png, open.info),
                  png_get_image_height(open.png, open.info)};
     const int colours = png_get_color_type(open.png, open.info);
@@ -166,13 +167,13 @@ ImageShape PngReader::shape() const {
 
 void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type,
                           void* values) {
-    Open& open = *open_;
+    PngReadState& open = *open_;
     check(first == open.next && row_count <= open.size.y - first, Failure::internal, open.name,
           ": wanted row ", open.next, " to be read next, found ", first);
     const std::size_t count = std::size_t(open.size.x) * open.channel_count;
     const std::size_t row_bytes = count * (open.is_wide ? 2 : 1);
     if (!open.is_started) {
-        open.require(start(open.png, open.info));
+        open.require(start_png_rows(open.png, open.info));
         check(png_get_rowbytes(open.png, open.info) == row_bytes, Failure::internal, open.name,
               ": wanted ", row_bytes, " bytes a row, found ",
               png_get_rowbytes(open.png, open.info));
@@ -183,7 +184,7 @@ void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecVal
             std::vector<png_bytep> rows(open.size.y);
             for (std::size_t y = 0; y < rows.size(); ++y)
                 rows[y] = open.whole.data() + y * row_bytes;
-            open.require(read_all(open.png, rows.data()));
+            open.require(read_png_rows(open.png, rows.data()));
         }
     }
     for (std::uint32_t y = 0; y < row_count; ++y) {
@@ -191,11 +192,12 @@ void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecVal
         if (open.is_interlaced)
             row = open.whole.data() + std::size_t(first + y) * row_bytes;
         else
-            open.require(read_row(open.png, open.row.data()));
+            open.require(read_png_row(open.png, open.row.data()));
         if (type == CodecValue::float32)
-            convert(row, count, open.is_wide, static_cast<float*>(values) + y * count);
+            convert_png_row(row, count, open.is_wide, static_cast<float*>(values) + y * count);
         else
-            convert(row, count, open.is_wide, static_cast<std::uint8_t*>(values) + y * count);
+            convert_png_row(row, count, open.is_wide,
+                            static_cast<std::uint8_t*>(values) + y * count);
     }
     open.next += row_count;
 }

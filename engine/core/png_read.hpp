@@ -28,8 +28,8 @@ public:
     void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values);
 
 private:
-    struct Open;
-    std::unique_ptr<Open> open_;
+    struct PngReadState;
+    std::unique_ptr<PngReadState> open_;
 };
 
 } // namespace catoptric

@@ -10,19 +10,19 @@ namespace {
 
 constexpr std::size_t kMostQuoted = 80; // bytes
 
-std::string hexadecimal(std::uint32_t value, std::size_t digits) {
+std::string format_hexadecimal(std::uint32_t value, std::size_t digits) {
     std::string text;
     for (std::size_t i = digits; i-- > 0;) text += "0123456789abcdef"[value >> (4 * i) & 15];
     return text;
 }
 
 /// One character of UTF-8. `size` is its number of bytes, 0 for a byte that begins no character.
-struct Character {
+struct Utf8Character {
     std::size_t size = 0;
     std::uint32_t code = 0;
 };
 
-Character character_at(std::string_view text) {
+Utf8Character decode_utf8_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char lead = byte(0);
     const std::size_t size = lead < 0x80   ? 1
@@ -43,23 +43,23 @@ Character character_at(std::string_view text) {
     return {size, code};
 }
 
-bool is_obeyed(std::uint32_t code) {
+bool is_terminal_control_code(std::uint32_t code) {
     return (code >= 0x80 && code < 0xa0) || (code >= 0x2028 && code <= 0x202e) ||
            (code >= 0x2066 && code <= 0x2069);
 }
 
 } // namespace
 
-std::string printable(std::string_view text, std::string_view kept) {
+std::string escape_control_characters(std::string_view text, std::string_view kept) {
     std::string result;
     result.reserve(text.size());
     while (!text.empty()) {
-        const auto [size, code] = character_at(text);
+        const auto [size, code] = decode_utf8_character(text);
         const bool is_kept = kept.find(text[0]) != kept.npos;
         if (!is_kept && (size == 0 || code < 0x20 || code == 0x7f))
-            result += "\\x" + hexadecimal(static_cast<unsigned char>(text[0]), 2);
-        else if (is_obeyed(code))
-            result += "\\u{" + hexadecimal(code, code < 0x100 ? 2 : 4) + "}";
+            result += "\\x" + format_hexadecimal(static_cast<unsigned char>(text[0]), 2);
+        else if (is_terminal_control_code(code))
+            result += "\\u{" + format_hexadecimal(code, code < 0x100 ? 2 : 4) + "}";
         else
             result += text.substr(0, is_kept ? 1 : size);
         text.remove_prefix(size == 0 ? 1 : size);
@@ -67,15 +67,15 @@ std::string printable(std::string_view text, std::string_view kept) {
     return result;
 }
 
-std::string in_quotes(std::string_view text) {
-    if (text.size() <= kMostQuoted) return "'" + printable(text) + "'";
+std::string quote_printable(std::string_view text) {
+    if (text.size() <= kMostQuoted) return "'" + escape_control_characters(text) + "'";
     std::size_t end = kMostQuoted;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-    return "'" + printable(text.substr(0, end)) + "...' (" + std::to_string(text.size()) +
-           " bytes)";
+    return "'" + escape_control_characters(text.substr(0, end)) + "...' (" +
+           std::to_string(text.size()) + " bytes)";
 }
 
-std::vector<std::string> split(std::string_view text, std::string_view separators) {
+std::vector<std::string> split_text(std::string_view text, std::string_view separators) {
     std::vector<std::string> parts;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());

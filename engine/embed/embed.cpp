@@ -9,12 +9,12 @@ namespace catoptric::embed {
 
 namespace {
 
-graph::Use use_of(VkImageLayout layout) {
+graph::ResourceUse graph_use_of_layout(VkImageLayout layout) {
     switch (layout) {
-    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL: return graph::Use::sampled;
-    case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL: return graph::Use::copy_from;
-    case VK_IMAGE_LAYOUT_GENERAL: return graph::Use::storage_read;
-    case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR: return graph::Use::present;
+    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL: return graph::ResourceUse::sampled;
+    case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL: return graph::ResourceUse::copy_from;
+    case VK_IMAGE_LAYOUT_GENERAL: return graph::ResourceUse::storage_read;
+    case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR: return graph::ResourceUse::present;
     default:
         fail(Failure::usage,
              "a target is left in the layout SHADER_READ_ONLY_OPTIMAL, "
@@ -24,23 +24,24 @@ graph::Use use_of(VkImageLayout layout) {
 }
 
 /// Adds the frame's last pass, which copies the displayed picture byte for byte.
-void add_copy(app::FrameGraph& frame, const Target& target, uvec2 size) {
+void add_copy_to_target(app::FrameGraph& frame, const Target& target, uvec2 size) {
     const graph::ImageDesc desc{
         .name = "target", .format = Format::rgba8_unorm, .width = size.x, .height = size.y};
-    frame.target = std::make_shared<graph::Physical>(graph::adopt(desc, target.image));
+    frame.target = std::make_shared<graph::PhysicalImage>(
+        graph::wrap_external_image(desc, target.image));
     const graph::ImageHandle display = frame.parts.front().display;
     const graph::ImageHandle image = frame.graph.import(desc, frame.target.get(), std::nullopt,
-                                                        use_of(target.leaves));
+                                                        graph_use_of_layout(target.leaves));
     frame.graph.pass("target")
-        .reads(display, graph::Use::copy_from)
-        .writes(image, graph::Use::copy_to)
-        .record([=](graph::Commands& commands) { commands.copy(display, image); });
+        .reads(display, graph::ResourceUse::copy_from)
+        .writes(image, graph::ResourceUse::copy_to)
+        .record([=](graph::PassCommands& commands) { commands.copy(display, image); });
 }
 
 } // namespace
 
-Features::Features(VkPhysicalDevice device) {
-    const gpu::DeviceProperties info = gpu::describe(device);
+RequiredDeviceFeatures::RequiredDeviceFeatures(VkPhysicalDevice device) {
+    const gpu::DeviceProperties info = gpu::describe_device(device);
     check(info.missing.empty(), Failure::no_device, "device '", info.name, "' lacks ",
           info.missing);
     gpu::DeviceFeatures wanted;
@@ -50,18 +51,20 @@ Features::Features(VkPhysicalDevice device) {
 }
 
 app::Engine make_engine(const Device& device, const app::EngineOptions& options) {
-    const gpu::GivenDevice given{device.instance, device.physical, device.device, device.queue,
-                                 device.queue_family};
+    const gpu::ExternalDevice given{device.instance, device.physical, device.device, device.queue,
+                                    device.queue_family};
     return app::Access::make_engine(options, {.given = &given});
 }
 
-app::Frame frame_into(app::Session& session, const app::FrameSpec& spec, const Target& target) {
+app::Frame render_frame_into(app::Session& session, const app::FrameSpec& spec,
+                             const Target& target) {
     check(spec.techniques.size() == 1, Failure::usage, "a target shows one technique, not ",
           spec.techniques.size());
     check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");
-    static_cast<void>(use_of(target.leaves)); // throws before any work
-    return app::Embedding::submit(
-        session, spec, [&](app::FrameGraph& frame) { add_copy(frame, target, spec.size); });
+    static_cast<void>(graph_use_of_layout(target.leaves)); // throws before any work
+    return app::EmbeddingAccess::submit(session, spec, [&](app::FrameGraph& frame) {
+        add_copy_to_target(frame, target, spec.size);
+    });
 }
 
 } // namespace catoptric::embed

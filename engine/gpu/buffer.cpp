@@ -13,25 +13,25 @@ struct TexelFormat {
     std::uint64_t bytes = 0;
 };
 
-TexelFormat texels_of(BufferUsage use) {
-    if (has(use, BufferUsage::texels)) return {VK_FORMAT_R32G32B32A32_SFLOAT, 16};
-    if (has(use, BufferUsage::quads)) return {VK_FORMAT_R32G32B32A32_UINT, 16};
-    if (has(use, BufferUsage::words)) return {VK_FORMAT_R32_UINT, 4};
+TexelFormat texel_format_of(BufferUsage use) {
+    if (has_usage(use, BufferUsage::texels)) return {VK_FORMAT_R32G32B32A32_SFLOAT, 16};
+    if (has_usage(use, BufferUsage::quads)) return {VK_FORMAT_R32G32B32A32_UINT, 16};
+    if (has_usage(use, BufferUsage::words)) return {VK_FORMAT_R32_UINT, 4};
     return {};
 }
 
-VkBufferUsageFlags usage(BufferUsage use) {
+VkBufferUsageFlags vulkan_buffer_usage(BufferUsage use) {
     VkBufferUsageFlags flags = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    if (has(use, BufferUsage::vertex)) flags |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-    if (has(use, BufferUsage::index)) flags |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
-    if (has(use, BufferUsage::uniform)) flags |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
-    if (texels_of(use).bytes > 0) flags |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    if (has_usage(use, BufferUsage::vertex)) flags |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+    if (has_usage(use, BufferUsage::index)) flags |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    if (has_usage(use, BufferUsage::uniform)) flags |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+    if (texel_format_of(use).bytes > 0) flags |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     return flags;
 }
 
-UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsageFlags flags,
-                         const std::string& name) {
+UniqueBuffer make_vulkan_buffer(const Device& device, std::uint64_t bytes, VkBufferUsageFlags flags,
+                                const std::string& name) {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = bytes;
     create.usage = flags;
@@ -43,43 +43,45 @@ UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsag
 }
 
 /// The side that uses a buffer most.
-enum class Home { device, host_writes, host_reads };
+enum class MemoryPreference { device, host_writes, host_reads };
 
 /// A memory type and whether the memory is to be mapped.
-struct MemoryType {
+struct ChosenMemoryType {
     int index = -1;
     bool mapped = false;
 };
 
-MemoryType type_for(const Device& device, const VkMemoryRequirements& needs, Home home) {
+ChosenMemoryType choose_memory_type(const Device& device, const VkMemoryRequirements& needs,
+                                    MemoryPreference home) {
     constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                             VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const auto find = [&](VkMemoryPropertyFlags properties) {
         return device.memory_type(needs.memoryTypeBits, properties);
     };
-    if (home == Home::device) {
+    if (home == MemoryPreference::device) {
         // If the host sees only a part of the device's memory, large buffers stay outside this
         // part.
         constexpr std::uint64_t kShareOfWindow = 16;
         const int seen = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHost);
         const std::uint64_t window = seen < 0 ? 0
                                               : device.heap_bytes(static_cast<std::uint32_t>(seen));
-        if (!device.staged() &&
+        if (!device.needs_staging() &&
             (window == device.memory_budget() || needs.size <= window / kShareOfWindow))
             return {seen, true};
         return {find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), false};
     }
-    const int cached = home == Home::host_reads ? find(kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
-                                                : -1;
+    const int cached = home == MemoryPreference::host_reads
+                           ? find(kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
+                           : -1;
     return {cached >= 0 ? cached : find(kHost), true};
 }
 
 /// Allocates memory for `buffer` and binds it. `mapped` is null if the host cannot see the memory.
-UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::string& name,
-                  void*& mapped) {
+UniqueMemory allocate_buffer_memory(const Device& device, VkBuffer buffer, MemoryPreference home,
+                                    const std::string& name, void*& mapped) {
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    const MemoryType type = type_for(device, needs, home);
+    const ChosenMemoryType type = choose_memory_type(device, needs, home);
     check(type.index >= 0, Failure::internal, "no memory type for buffer '", name, "'");
     UniqueMemory memory = device.allocate(needs.size, static_cast<std::uint32_t>(type.index), name);
     check_vk(vkBindBufferMemory(device.handle(), buffer, memory, 0), "bind buffer '" + name + "'");
@@ -89,8 +91,9 @@ UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::s
     return memory;
 }
 
-void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t from_offset,
-          VkBuffer to, std::uint64_t to_offset, std::uint64_t bytes) {
+void copy_buffer_now(Device& device, const std::string& doing, VkBuffer from,
+                     std::uint64_t from_offset, VkBuffer to, std::uint64_t to_offset,
+                     std::uint64_t bytes) {
     device.submit_now(doing, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{from_offset, to_offset, bytes};
         vkCmdCopyBuffer(commands, from, to, 1, &region);
@@ -102,19 +105,21 @@ void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t
 Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUsage use)
     : device_(&device), name_(std::move(name)),
       bytes_(std::max<std::uint64_t>(bytes, kFewestBytes)) {
-    const auto [format, texel_bytes] = texels_of(use);
+    const auto [format, texel_bytes] = texel_format_of(use);
     if (texel_bytes > 0) {
-        const std::uint64_t texels = bytes_ / texel_bytes, most = device.most_texels(texel_bytes);
+        const std::uint64_t texels = bytes_ / texel_bytes,
+                            most = device.max_texel_count(texel_bytes);
         check(texels <= most, Failure::exhausted, "buffer '", name_, "' wants ", texels,
               " texels, the device allows ", most);
     }
-    buffer_ = make_buffer(device, bytes_, usage(use), name_);
-    memory_ = back(device, buffer_,
-                   has(use, BufferUsage::read_back) ? Home::host_reads
-                   : has(use, BufferUsage::staging) ? Home::host_writes
-                                                    : Home::device,
-                   name_, mapped_);
-    if (texel_bytes == 0 || device.texels_in_storage()) return;
+    buffer_ = make_vulkan_buffer(device, bytes_, vulkan_buffer_usage(use), name_);
+    memory_ = allocate_buffer_memory(
+        device, buffer_,
+        has_usage(use, BufferUsage::read_back) ? MemoryPreference::host_reads
+        : has_usage(use, BufferUsage::staging) ? MemoryPreference::host_writes
+                                               : MemoryPreference::device,
+        name_, mapped_);
+    if (texel_bytes == 0 || device.reads_texels_from_storage()) return;
     VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     view.buffer = buffer_;
     view.format = format;
@@ -143,10 +148,11 @@ std::vector<std::byte> Buffer::read() const {
         return data;
     }
     void* mapped = nullptr;
-    const UniqueBuffer staging = make_buffer(*device_, bytes_, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                             "read-back");
-    const UniqueMemory memory = back(*device_, staging, Home::host_reads, "read-back", mapped);
-    copy(*device_, "read back buffer '" + name_ + "'", buffer_, 0, staging, 0, bytes_);
+    const UniqueBuffer staging = make_vulkan_buffer(*device_, bytes_,
+                                                    VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
+    const UniqueMemory memory = allocate_buffer_memory(
+        *device_, staging, MemoryPreference::host_reads, "read-back", mapped);
+    copy_buffer_now(*device_, "read back buffer '" + name_ + "'", buffer_, 0, staging, 0, bytes_);
     std::memcpy(data.data(), mapped, bytes_);
     return data;
 }

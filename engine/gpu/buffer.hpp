@@ -24,7 +24,7 @@ enum class BufferUsage : std::uint32_t {
 constexpr BufferUsage operator|(BufferUsage a, BufferUsage b) {
     return static_cast<BufferUsage>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
-constexpr bool has(BufferUsage set, BufferUsage bit) {
+constexpr bool has_usage(BufferUsage set, BufferUsage bit) {
     return static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit);
 }
 
@@ -65,8 +65,8 @@ private:
 
 /// Writes `data` to `buffer`. If it does not fit, a new buffer of the same name replaces `buffer`.
 template <typename T>
-void upload(Device& device, Buffer& buffer, const std::string& name, const std::vector<T>& data,
-            BufferUsage use) {
+void upload_to_buffer(Device& device, Buffer& buffer, const std::string& name,
+                      const std::vector<T>& data, BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
     if (buffer.bytes() < bytes || !buffer.handle()) buffer = Buffer(device, name, bytes, use);
     buffer.write(std::span<const T>(data));

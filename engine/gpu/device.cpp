@@ -13,16 +13,16 @@ std::atomic<bool> some_device_abandoned{false};
 
 } // namespace
 
-bool any_abandoned() { return some_device_abandoned; }
+bool has_abandoned_device() { return some_device_abandoned; }
 
 Device::Device(const DeviceOptions& options)
     : messages_(std::make_unique<std::vector<std::string>>()) {
     try {
         if (options.given)
-            adopt(*options.given);
+            adopt_external_device(*options.given);
         else
             create_instance(options), choose(options);
-        look_at(options);
+        read_physical_device(options);
         if (!options.given) create_device();
         make_pool();
     } catch (...) {
@@ -114,8 +114,8 @@ void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string
     set_object_name_(device_, &info);
 }
 
-Uploads& Device::uploads() {
-    if (!uploads_) uploads_ = std::make_unique<Uploads>(*this);
+StagedUploads& Device::uploads() {
+    if (!uploads_) uploads_ = std::make_unique<StagedUploads>(*this);
     return *uploads_;
 }
 
@@ -133,9 +133,9 @@ void Device::begin_one_shot(const std::string& doing) {
 
 /// Submits the copies and waits. Their writes become visible to the host and to all later commands.
 void Device::end_one_shot(const std::string& doing) {
-    barrier_after_copies(one_shot_,
-                         VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
-                         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
+    record_barrier_after_copies(one_shot_,
+                                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+                                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
     check_vk(vkEndCommandBuffer(one_shot_), doing + " (end a command buffer)");
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = one_shot_;

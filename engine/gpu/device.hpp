@@ -27,10 +27,10 @@ struct DeviceProperties {
 /// `no_device` if there is no driver; the message says what to install.
 std::vector<DeviceProperties> list_devices();
 
-class Uploads;
+class StagedUploads;
 
 /// A device made by the caller with DeviceFeatures::switch_on. All handles must outlive the Device.
-struct GivenDevice {
+struct ExternalDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
@@ -46,12 +46,12 @@ struct DeviceOptions {
     std::vector<std::string> instance_extensions = {}; ///< required by the window system
     /// Makes the surface to show pictures on; empty: none.
     std::function<VkSurfaceKHR(VkInstance)> make_surface = {};
-    std::optional<GivenDevice> given = {}; ///< a device to use instead of making one
+    std::optional<ExternalDevice> given = {}; ///< a device to use instead of making one
 };
 
 /// Returns whether a device of this process was abandoned. Its driver's threads may still run, and
 /// normal process exit can crash under them. Such a program must end with std::_Exit.
-bool any_abandoned();
+bool has_abandoned_device();
 
 /// A Vulkan instance, device and its one queue (graphics, compute, copies). Not copyable. All
 /// objects made from it must be destroyed before it. Used by one thread at a time.
@@ -78,27 +78,27 @@ public:
     bool is_cpu() const { return info_.type == "cpu"; }
     /// Returns the shader variants of the device: the defaults unless `choose` was called. Call
     /// `choose` before the first frame.
-    const Choices& choices() const { return choices_; }
-    void choose(const Choices& choices) { choices_ = choices; }
+    const VariantChoices& choices() const { return choices_; }
+    void choose(const VariantChoices& choices) { choices_ = choices; }
     /// Returns whether vertex shaders may write gl_Layer. If not, layered passes run layer by
     /// layer.
-    bool layered() const { return layered_; }
+    bool supports_layered_rendering() const { return layered_; }
     /// Returns whether lists of texels are read from storage buffers, because texel buffers hold
     /// too few. A device may allow as few as 65,536 texels: enough for 21,845 triangles.
-    bool texels_in_storage() const { return limits_.maxTexelBufferElements < (1u << 26); }
+    bool reads_texels_from_storage() const { return limits_.maxTexelBufferElements < (1u << 26); }
     /// Returns the most texels, of `texel_bytes` bytes each, that a list may have.
-    std::uint64_t most_texels(std::uint64_t texel_bytes) const {
-        return texels_in_storage() ? limits_.maxStorageBufferRange / texel_bytes
-                                   : limits_.maxTexelBufferElements;
+    std::uint64_t max_texel_count(std::uint64_t texel_bytes) const {
+        return reads_texels_from_storage() ? limits_.maxStorageBufferRange / texel_bytes
+                                           : limits_.maxTexelBufferElements;
     }
     /// Returns whether images of 32-bit floats can be sampled with linear filtering.
     bool filters_floats() const { return filters_floats_; }
     /// Returns whether shaders may compute with doubles.
-    bool doubles() const { return doubles_; }
+    bool supports_doubles() const { return doubles_; }
     /// Returns whether fragment shaders may read the number of their triangle. Vulkan ties this to
     /// geometry shaders.
     bool numbers_triangles() const { return numbers_triangles_; }
-    bool staged() const { return staged_; }
+    bool needs_staging() const { return staged_; }
     std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
     /// Returns the index of the first memory type that is among `type_bits` and has all of
@@ -140,7 +140,7 @@ public:
     }
 
     /// Returns the uploads to buffers that the host cannot map. Made at first use.
-    Uploads& uploads();
+    StagedUploads& uploads();
     /// Submits all recorded uploads. Called before a submit whose work reads the uploaded data.
     void submit_uploads();
 
@@ -153,8 +153,8 @@ private:
     void close();
     void create_instance(const DeviceOptions& options);
     void choose(const DeviceOptions& options);
-    void adopt(const GivenDevice& given);
-    void look_at(const DeviceOptions& options);
+    void adopt_external_device(const ExternalDevice& given);
+    void read_physical_device(const DeviceOptions& options);
     void create_device();
     void make_pool();
     void abandon(const Error& why);
@@ -173,7 +173,7 @@ private:
     std::uint64_t max_allocation_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceProperties info_;
-    Choices choices_{};
+    VariantChoices choices_{};
     bool layered_ = true;
     bool doubles_ = false, numbers_triangles_ = false;
     bool filters_floats_ = false;
@@ -186,7 +186,7 @@ private:
     std::unique_ptr<std::vector<std::string>> messages_;
     UniqueCommandPool one_shot_pool_;
     VkCommandBuffer one_shot_ = VK_NULL_HANDLE;
-    std::unique_ptr<Uploads> uploads_;
+    std::unique_ptr<StagedUploads> uploads_;
 };
 
 } // namespace catoptric::gpu

@@ -11,21 +11,21 @@ namespace catoptric::gpu {
 
 namespace {
 
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                          VkDebugUtilsMessageTypeFlagsEXT,
-                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                          void* messages) {
+VKAPI_ATTR VkBool32 VKAPI_CALL
+on_validation_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                      const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
     static_cast<std::vector<std::string>*>(messages)->push_back(data->pMessage);
     return VK_FALSE;
 }
 
-VkDebugUtilsMessengerEXT make_messenger(VkInstance instance, std::vector<std::string>& messages) {
+VkDebugUtilsMessengerEXT make_debug_messenger(VkInstance instance,
+                                              std::vector<std::string>& messages) {
     VkDebugUtilsMessengerCreateInfoEXT create{
         VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                              VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-    create.pfnUserCallback = on_message;
+    create.pfnUserCallback = on_validation_message;
     create.pUserData = &messages;
     const auto make = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
@@ -34,7 +34,8 @@ VkDebugUtilsMessengerEXT make_messenger(VkInstance instance, std::vector<std::st
     return messenger;
 }
 
-std::size_t find_wanted(const std::vector<DeviceProperties>& devices, const std::string& wanted) {
+std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
+                               const std::string& wanted) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     const bool is_number = error == std::errc{} && end == wanted.data() + wanted.size();
@@ -45,13 +46,13 @@ std::size_t find_wanted(const std::vector<DeviceProperties>& devices, const std:
         names.push_back(info.name);
     }
     fail(Failure::usage, "no device '", wanted, "': there are ", devices.size(),
-         ", counted from 0; `catoptric list devices` names them", did_you_mean(wanted, names));
+         ", counted from 0; `catoptric list devices` names them", suggest_name(wanted, names));
 }
 
-std::vector<DeviceProperties> describe_all(const std::vector<VkPhysicalDevice>& devices) {
+std::vector<DeviceProperties> describe_all_devices(const std::vector<VkPhysicalDevice>& devices) {
     std::vector<DeviceProperties> list;
     list.reserve(devices.size());
-    for (VkPhysicalDevice device : devices) list.push_back(describe(device));
+    for (VkPhysicalDevice device : devices) list.push_back(describe_device(device));
     return list;
 }
 
@@ -62,7 +63,7 @@ std::vector<DeviceProperties> list_devices() {
     const VkInstance instance = make_instance(false, {}, has_debug_utils);
     std::vector<DeviceProperties> list;
     try {
-        list = describe_all(physical_devices(instance));
+        list = describe_all_devices(list_physical_devices(instance));
     } catch (...) {
         vkDestroyInstance(instance, nullptr);
         throw;
@@ -73,19 +74,20 @@ std::vector<DeviceProperties> list_devices() {
 
 void Device::create_instance(const DeviceOptions& options) {
     instance_ = make_instance(options.validate, options.instance_extensions, has_debug_utils_);
-    if (options.validate && has_debug_utils_) messenger_ = make_messenger(instance_, *messages_);
+    if (options.validate && has_debug_utils_)
+        messenger_ = make_debug_messenger(instance_, *messages_);
     if (options.make_surface) surface_ = options.make_surface(instance_);
 }
 
 void Device::choose(const DeviceOptions& options) {
-    const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
-    std::vector<DeviceProperties> infos = describe_all(devices);
+    const std::vector<VkPhysicalDevice> devices = list_physical_devices(instance_);
+    std::vector<DeviceProperties> infos = describe_all_devices(devices);
     for (std::size_t i = 0; surface_ && i < infos.size(); ++i)
-        if (infos[i].missing.empty() && !can_show(devices[i], surface_))
+        if (infos[i].missing.empty() && !can_present_to_surface(devices[i], surface_))
             infos[i].missing = "a way to show pictures in this window";
     std::size_t index = 0;
     if (!options.wanted.empty())
-        index = find_wanted(infos, options.wanted);
+        index = find_wanted_device(infos, options.wanted);
     else
         index = static_cast<std::size_t>(
             std::ranges::find(infos, std::string(), &DeviceProperties::missing) - infos.begin());
@@ -98,19 +100,19 @@ void Device::choose(const DeviceOptions& options) {
     queue_family_ = static_cast<std::uint32_t>(find_queue_family(physical_));
 }
 
-void Device::adopt(const GivenDevice& given) {
+void Device::adopt_external_device(const ExternalDevice& given) {
     is_given_ = true;
     instance_ = given.instance, physical_ = given.physical, device_ = given.device;
     queue_ = given.queue, queue_family_ = given.queue_family;
     check(instance_ && physical_ && device_ && queue_, Failure::usage,
           "a given device wants an instance, a physical device, a device and a queue");
-    info_ = describe(physical_);
+    info_ = describe_device(physical_);
     check(info_.missing.empty(), Failure::no_device, "the given device '", info_.name, "' lacks ",
           info_.missing);
 }
 
 /// Reads limits and features of the physical device.
-void Device::look_at(const DeviceOptions& options) {
+void Device::read_physical_device(const DeviceOptions& options) {
     staged_ = options.staged;
     VkPhysicalDeviceMaintenance3Properties pieces{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
@@ -153,8 +155,8 @@ void Device::create_device() {
     create.ppEnabledExtensionNames = &extension;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    check_begun(vkCreateDevice(physical_, &create, nullptr, &device_),
-                "open device '" + info_.name + "'", "no usable Vulkan device");
+    check_vk_start(vkCreateDevice(physical_, &create, nullptr, &device_),
+                   "open device '" + info_.name + "'", "no usable Vulkan device");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     if (has_debug_utils_)
         set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(

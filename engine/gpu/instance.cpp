@@ -28,7 +28,7 @@ constexpr std::size_t kRoomForDriver = std::size_t{256} << 20;
 /// are repeated if it grew in between. Items that vanished in between are left out. Calls `failed`
 /// with a result that is an error.
 template <typename Item, typename Call, typename Failed>
-std::vector<Item> list_of(Call&& call, Failed&& failed) {
+std::vector<Item> list_vulkan_items(Call&& call, Failed&& failed) {
     constexpr int kTries = 8; // after the last try the fetched items are returned
     std::vector<Item> items;
     VkResult result = VK_INCOMPLETE;
@@ -43,15 +43,15 @@ std::vector<Item> list_of(Call&& call, Failed&& failed) {
     return items;
 }
 
-bool has_layer(const char* name) {
-    const auto layers = list_of<VkLayerProperties>(
+bool has_instance_layer(const char* name) {
+    const auto layers = list_vulkan_items<VkLayerProperties>(
         vkEnumerateInstanceLayerProperties,
         [](VkResult result) { check_vk(result, "enumerate layers"); });
     return std::ranges::any_of(layers, [&](const auto& l) { return !strcmp(l.layerName, name); });
 }
 
 bool has_instance_extension(const char* layer, const char* name) {
-    const auto list = list_of<VkExtensionProperties>(
+    const auto list = list_vulkan_items<VkExtensionProperties>(
         [&](std::uint32_t* count, VkExtensionProperties* items) {
             return vkEnumerateInstanceExtensionProperties(layer, count, items);
         },
@@ -64,7 +64,7 @@ bool has_instance_extension(const char* layer, const char* name) {
     return std::ranges::any_of(list, [&](const auto& e) { return !strcmp(e.extensionName, name); });
 }
 
-int preference(VkPhysicalDeviceType type) {
+int rank_device_type(VkPhysicalDeviceType type) {
     switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
     case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
@@ -77,8 +77,8 @@ int preference(VkPhysicalDeviceType type) {
 /// Returns the problem, if any, of Mesa 22's software driver with the vector width set in the
 /// environment. For widths other than 128 and 256 bits it compiles code that crashes (tested from 0
 /// to 1024 bits).
-std::string missing_width(const VkPhysicalDeviceDriverProperties& driver) {
-    const std::optional<long> asked = vector_bits_asked();
+std::string describe_vector_width_problem(const VkPhysicalDeviceDriverProperties& driver) {
+    const std::optional<long> asked = requested_vector_bits();
     const bool is_sound = !asked || *asked == 128 || *asked == 256;
     if (is_sound || driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE ||
         std::string_view(driver.driverInfo).find("Mesa 22.") == std::string_view::npos)
@@ -88,18 +88,18 @@ std::string missing_width(const VkPhysicalDeviceDriverProperties& driver) {
            std::getenv("LP_NATIVE_VECTOR_WIDTH") + ")";
 }
 
-std::string id_of(const VkPhysicalDeviceProperties& properties) {
+std::string make_device_id(const VkPhysicalDeviceProperties& properties) {
     char text[32];
     std::snprintf(text, sizeof text, "%04x-%04x", properties.vendorID, properties.deviceID);
     return text;
 }
 
-std::string version(std::uint32_t v) {
+std::string format_vulkan_version(std::uint32_t v) {
     return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) +
            "." + std::to_string(VK_API_VERSION_PATCH(v));
 }
 
-int cpu_threads() {
+int count_cpu_threads() {
     int threads = static_cast<int>(std::thread::hardware_concurrency());
     if (const char* limit = std::getenv("LP_NUM_THREADS"))
         threads = std::min(threads, std::max(1, std::atoi(limit)));
@@ -107,14 +107,15 @@ int cpu_threads() {
 }
 
 /// Returns whether images of this format with optimal tiling have these features.
-bool allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags features) {
+bool format_allows_features(VkPhysicalDevice device, VkFormat format,
+                            VkFormatFeatureFlags features) {
     VkFormatProperties properties;
     vkGetPhysicalDeviceFormatProperties(device, format, &properties);
     return (properties.optimalTilingFeatures & features) == features;
 }
 
 /// Returns whether compute shaders have these subgroup operations.
-bool has_subgroups(VkPhysicalDevice device, VkSubgroupFeatureFlags wanted) {
+bool has_subgroup_operations(VkPhysicalDevice device, VkSubgroupFeatureFlags wanted) {
     VkPhysicalDeviceSubgroupProperties subgroups{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
@@ -124,7 +125,7 @@ bool has_subgroups(VkPhysicalDevice device, VkSubgroupFeatureFlags wanted) {
            (subgroups.supportedOperations & wanted) == wanted;
 }
 
-std::uint32_t largest_work_group(VkPhysicalDevice device) {
+std::uint32_t max_work_group_size(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
     return std::min(properties.limits.maxComputeWorkGroupInvocations,
@@ -133,7 +134,7 @@ std::uint32_t largest_work_group(VkPhysicalDevice device) {
 
 } // namespace
 
-std::optional<long> vector_bits_asked() {
+std::optional<long> requested_vector_bits() {
     const char* const text = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     if (text == nullptr) return std::nullopt;
     char* end = nullptr;
@@ -141,7 +142,7 @@ std::optional<long> vector_bits_asked() {
     return end == text ? std::nullopt : std::optional(bits);
 }
 
-void check_begun(VkResult result, const std::string& doing, const char* or_else) {
+void check_vk_start(VkResult result, const std::string& doing, const char* or_else) {
     const bool begun = result != VK_ERROR_INITIALIZATION_FAILED &&
                        result != VK_ERROR_INCOMPATIBLE_DRIVER;
     check(begun, Failure::no_device, or_else, " (cannot ", doing, ": ", name_of(result), ")");
@@ -158,8 +159,9 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     check_address_space(kRoomForDriver, "a Vulkan driver");
     std::vector<const char*> layers, extensions;
     if (validate) {
-        check(has_layer(kValidationLayer), Failure::no_device, "--validate needs the layer ",
-              kValidationLayer, ": apt-get install vulkan-validationlayers");
+        check(has_instance_layer(kValidationLayer), Failure::no_device,
+              "--validate needs the layer ", kValidationLayer,
+              ": apt-get install vulkan-validationlayers");
         layers.push_back(kValidationLayer);
         // The validation layer of Vulkan 1.3 reads this setting only from the environment.
         setenv("VK_LAYER_ENABLES",
@@ -184,26 +186,26 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
-    check_begun(vkCreateInstance(&create, nullptr, &instance), "create an instance", kNoDriver);
+    check_vk_start(vkCreateInstance(&create, nullptr, &instance), "create an instance", kNoDriver);
     return instance;
 }
 
-std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
-    auto devices = list_of<VkPhysicalDevice>(
+std::vector<VkPhysicalDevice> list_physical_devices(VkInstance instance) {
+    auto devices = list_vulkan_items<VkPhysicalDevice>(
         [&](std::uint32_t* count, VkPhysicalDevice* items) {
             return vkEnumeratePhysicalDevices(instance, count, items);
         },
-        [](VkResult result) { check_begun(result, "enumerate devices", kNoDriver); });
+        [](VkResult result) { check_vk_start(result, "enumerate devices", kNoDriver); });
     check(!devices.empty(), Failure::no_device, kNoDriver);
     std::ranges::stable_sort(devices, {}, [](VkPhysicalDevice device) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);
-        return preference(properties.deviceType);
+        return rank_device_type(properties.deviceType);
     });
     return devices;
 }
 
-DeviceProperties describe(VkPhysicalDevice device) {
+DeviceProperties describe_device(VkPhysicalDevice device) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
     vkGetPhysicalDeviceProperties2(device, &properties);
@@ -211,14 +213,15 @@ DeviceProperties describe(VkPhysicalDevice device) {
     DeviceProperties info;
     info.name = properties.properties.deviceName;
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    info.id = id_of(properties.properties);
-    info.api = version(properties.properties.apiVersion);
-    info.type = kTypes[static_cast<std::size_t>(preference(properties.properties.deviceType))];
-    if (info.type == "cpu") info.threads = cpu_threads();
+    info.id = make_device_id(properties.properties);
+    info.api = format_vulkan_version(properties.properties.apiVersion);
+    info.type =
+        kTypes[static_cast<std::size_t>(rank_device_type(properties.properties.deviceType))];
+    if (info.type == "cpu") info.threads = count_cpu_threads();
     info.missing = properties.properties.apiVersion < VK_API_VERSION_1_3
                        ? "Vulkan 1.3 (has " + info.api + ")"
                        : DeviceFeatures::missing(device);
-    if (info.missing.empty()) info.missing = missing_width(driver);
+    if (info.missing.empty()) info.missing = describe_vector_width_problem(driver);
     if (info.missing.empty() && find_queue_family(device) < 0)
         info.missing = "a queue for graphics and compute with timestamps";
     return info;
@@ -236,8 +239,8 @@ int find_queue_family(VkPhysicalDevice device) {
     return -1;
 }
 
-bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface) {
-    const auto extensions = list_of<VkExtensionProperties>(
+bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface) {
+    const auto extensions = list_vulkan_items<VkExtensionProperties>(
         [&](std::uint32_t* count, VkExtensionProperties* items) {
             return vkEnumerateDeviceExtensionProperties(device, nullptr, count, items);
         },
@@ -280,8 +283,8 @@ DeviceFeatures::DeviceFeatures() {
 
 bool DeviceFeatures::filters_floats(VkPhysicalDevice device) {
     constexpr VkFormatFeatureFlags kFilter = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    return allows(device, VK_FORMAT_R32_SFLOAT, kFilter) &&
-           allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kFilter);
+    return format_allows_features(device, VK_FORMAT_R32_SFLOAT, kFilter) &&
+           format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kFilter);
 }
 
 std::string DeviceFeatures::missing(VkPhysicalDevice device) {
@@ -299,10 +302,10 @@ std::string DeviceFeatures::missing(VkPhysicalDevice device) {
         {"maintenance4", has.v13.maintenance4},
         {"shaderTerminateInvocation", has.v13.shaderTerminateInvocation},
         {"subgroup arithmetic in compute shaders",
-         has_subgroups(device, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)},
+         has_subgroup_operations(device, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)},
         {"subgroup ballots in compute shaders",
-         has_subgroups(device, VK_SUBGROUP_FEATURE_BALLOT_BIT)},
-        {"work groups of 256", largest_work_group(device) >= 256},
+         has_subgroup_operations(device, VK_SUBGROUP_FEATURE_BALLOT_BIT)},
+        {"work groups of 256", max_work_group_size(device) >= 256},
     };
     std::string names;
     for (const auto& [name, there] : required)

@@ -6,7 +6,7 @@ namespace catoptric::gpu {
 
 /// Does `check_vk`, but throws `no_device` if the driver is missing or cannot start. `or_else` says
 /// what that means and what to do.
-void check_begun(VkResult result, const std::string& doing, const char* or_else);
+void check_vk_start(VkResult result, const std::string& doing, const char* or_else);
 
 /// Creates an instance with the wanted extensions, with VK_EXT_debug_utils where it exists, and
 /// with the validation layer if `validate` is set. Throws `no_device` if no driver is installed, or
@@ -17,16 +17,16 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
 
 /// Returns the physical devices in order of preference, at least one. Throws the errors of
 /// `make_instance`.
-std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
+std::vector<VkPhysicalDevice> list_physical_devices(VkInstance instance);
 
-DeviceProperties describe(VkPhysicalDevice device);
+DeviceProperties describe_device(VkPhysicalDevice device);
 
 /// Returns whether the device's queue can show pictures on the surface.
-bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface);
+bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface);
 
 /// Returns the vector width in bits that the environment sets for Mesa's software driver
 /// (LP_NATIVE_VECTOR_WIDTH). None if the variable is unset or no number.
-std::optional<long> vector_bits_asked();
+std::optional<long> requested_vector_bits();
 
 /// Returns the index of the queue family that can draw, dispatch and copy, or -1.
 int find_queue_family(VkPhysicalDevice device);

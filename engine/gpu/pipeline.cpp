@@ -11,7 +11,7 @@
 
 namespace catoptric::gpu {
 
-VkDescriptorType descriptor_type(BindingKind kind) {
+VkDescriptorType descriptor_type_of_binding(BindingKind kind) {
     switch (kind) {
     case BindingKind::uniform_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case BindingKind::storage_buffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -26,10 +26,10 @@ VkDescriptorType descriptor_type(BindingKind kind) {
 
 namespace {
 
-std::string name_of(const Constants& constants) {
+std::string name_of(const ShaderConstants& constants) {
     std::string name;
     for (const auto& [constant, value] : constants)
-        name += ";" + constant + "=" + std::to_string(bits_of(value));
+        name += ";" + constant + "=" + std::to_string(constant_bits(value));
     return name;
 }
 
@@ -45,22 +45,24 @@ std::string name_of(const RasterState& state, const Attachments& attachments) {
 }
 
 /// Orders constants by name, then by the bits of the value, so that NaN compares equal to itself.
-bool before(const Constants& a, const Constants& b) {
+bool is_constant_before(const ShaderConstants& a, const ShaderConstants& b) {
     return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
-        return x.first != y.first ? x.first < y.first : bits_of(x.second) < bits_of(y.second);
+        return x.first != y.first ? x.first < y.first
+                                  : constant_bits(x.second) < constant_bits(y.second);
     });
 }
 
 template <typename State>
-bool constants_before(const State& a, const State& b) {
-    if (before(a.constants, b.constants)) return true;
-    return !before(b.constants, a.constants) && before(a.features, b.features);
+bool are_constants_before(const State& a, const State& b) {
+    if (is_constant_before(a.constants, b.constants)) return true;
+    return !is_constant_before(b.constants, a.constants) &&
+           is_constant_before(a.features, b.features);
 }
 
-void check_images(const Device& device, const std::string& name,
-                  const std::vector<Binding>& bindings) {
+void check_image_bindings(const Device& device, const std::string& name,
+                          const std::vector<ShaderBinding>& bindings) {
     std::uint32_t images = 0;
-    for (const Binding& binding : bindings)
+    for (const ShaderBinding& binding : bindings)
         if (binding.kind == BindingKind::sampled_image || binding.kind == BindingKind::texture)
             images += binding.count;
     const std::uint32_t most = device.limits().maxPerStageDescriptorSampledImages;
@@ -69,17 +71,18 @@ void check_images(const Device& device, const std::string& name,
 }
 
 /// Checks that every constant is known to a stage, merges the bindings and creates the layouts.
-void lay_out(const Device& device, const std::string& name, std::span<Stage> stages,
-             const Constants& constants, Pipeline& pipeline) {
+void make_pipeline_layout(const Device& device, const std::string& name,
+                          std::span<ShaderStage> stages, const ShaderConstants& constants,
+                          Pipeline& pipeline) {
     for (const auto& [constant, value] : constants)
-        check(std::ranges::any_of(stages, [&](const Stage& s) { return s.find(constant); }),
+        check(std::ranges::any_of(stages, [&](const ShaderStage& s) { return s.find(constant); }),
               Failure::internal, "pipeline '", name, "' has no constant '", constant, "'");
-    for (const Stage& stage : stages) {
+    for (const ShaderStage& stage : stages) {
         pipeline.stages |= stage.bit;
         pipeline.push_bytes = std::max(pipeline.push_bytes, stage.reflection.push_bytes);
-        for (const Binding& binding : stage.reflection.bindings) {
+        for (const ShaderBinding& binding : stage.reflection.bindings) {
             const auto same = std::ranges::find(pipeline.bindings, binding.binding,
-                                                &Binding::binding);
+                                                &ShaderBinding::binding);
             if (same == pipeline.bindings.end())
                 pipeline.bindings.push_back(binding);
             else
@@ -89,10 +92,10 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
                       " is '", same->name, "' and '", binding.name, "'");
         }
     }
-    check_images(device, name, pipeline.bindings);
+    check_image_bindings(device, name, pipeline.bindings);
     std::vector<VkDescriptorSetLayoutBinding> slots;
-    for (const Binding& binding : pipeline.bindings)
-        slots.push_back({binding.binding, descriptor_type(binding.kind), binding.count,
+    for (const ShaderBinding& binding : pipeline.bindings)
+        slots.push_back({binding.binding, descriptor_type_of_binding(binding.kind), binding.count,
                          pipeline.stages, nullptr});
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     set.bindingCount = static_cast<std::uint32_t>(slots.size());
@@ -115,10 +118,10 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
 }
 
 /// Creates a raster pipeline with the fixed-function state that all raster pipelines share.
-VkPipeline make_raster(const Device& device, VkPipelineCache cache,
-                       std::span<const VkPipelineShaderStageCreateInfo> stages,
-                       const Attachments& attachments, const RasterState& state,
-                       VkPipelineLayout layout, const std::string& name) {
+VkPipeline make_raster_pipeline(const Device& device, VkPipelineCache cache,
+                                std::span<const VkPipelineShaderStageCreateInfo> stages,
+                                const Attachments& attachments, const RasterState& state,
+                                VkPipelineLayout layout, const std::string& name) {
     const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
     const std::array<VkVertexInputAttributeDescription, 2> vertex_attributes{
@@ -166,11 +169,11 @@ VkPipeline make_raster(const Device& device, VkPipelineCache cache,
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
     dynamic.pDynamicStates = dynamic_states.data();
     std::vector<VkFormat> formats;
-    for (Format format : attachments.colour) formats.push_back(vk_format(format));
+    for (Format format : attachments.colour) formats.push_back(to_vk_format(format));
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.size());
     rendering.pColorAttachmentFormats = formats.data();
-    if (attachments.depth) rendering.depthAttachmentFormat = vk_format(Format::d32f);
+    if (attachments.depth) rendering.depthAttachmentFormat = to_vk_format(Format::d32f);
 
     VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                         &rendering};
@@ -198,41 +201,42 @@ const std::string& Pipelines::variant_of(const std::string& shader) const {
     return found == variants_.end() ? shader : found->second;
 }
 
-bool Pipelines::Before::operator()(const RasterView& a, const RasterView& b) const {
-    const auto first = [](const RasterView& view) {
+bool Pipelines::ConstantsOrder::operator()(const RasterKeyView& a, const RasterKeyView& b) const {
+    const auto first = [](const RasterKeyView& view) {
         const auto& [state, attachments] = view;
         return std::tie(state.hidden, state.blended, attachments.depth, attachments.colour,
                         state.fragment, state.vertex);
     };
     const auto order = first(a) <=> first(b);
-    return order != 0 ? order < 0 : constants_before(a.first, b.first);
+    return order != 0 ? order < 0 : are_constants_before(a.first, b.first);
 }
 
-bool Pipelines::Before::operator()(const ComputeState& a, const ComputeState& b) const {
-    return a.shader != b.shader ? a.shader < b.shader : constants_before(a, b);
+bool Pipelines::ConstantsOrder::operator()(const ComputeState& a, const ComputeState& b) const {
+    return a.shader != b.shader ? a.shader < b.shader : are_constants_before(a, b);
 }
 
 const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& attachments) {
-    const auto found = rasters_.find(RasterView(state, attachments));
+    const auto found = rasters_.find(RasterKeyView(state, attachments));
     if (found != rasters_.end()) return found->second;
 
     const Stopwatch watch(ms_);
     const std::string name = name_of(state, attachments);
     Pipeline pipeline;
-    std::vector<Stage> stages;
+    std::vector<ShaderStage> stages;
     stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
                         state.constants, state.features);
     if (!state.fragment.empty())
         stages.emplace_back(device_, variant_of(state.fragment), VK_SHADER_STAGE_FRAGMENT_BIT,
                             state.constants, state.features);
-    lay_out(device_, name, stages, state.constants, pipeline);
+    make_pipeline_layout(device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
-    for (const Stage& stage : stages) infos.push_back(stage.info());
-    pipeline.pipeline = {device_.handle(), make_raster(device_, cache_.handle(), infos, attachments,
-                                                       state, pipeline.layout, name)};
+    for (const ShaderStage& stage : stages) infos.push_back(stage.info());
+    pipeline.pipeline = {device_.handle(),
+                         make_raster_pipeline(device_, cache_.handle(), infos, attachments, state,
+                                              pipeline.layout, name)};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE,
                      reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), name);
-    return rasters_.emplace(Raster(state, attachments), std::move(pipeline)).first->second;
+    return rasters_.emplace(RasterKey(state, attachments), std::move(pipeline)).first->second;
 }
 
 const Pipeline& Pipelines::compute(const ComputeState& state) {
@@ -242,9 +246,9 @@ const Pipeline& Pipelines::compute(const ComputeState& state) {
     const std::string name = state.shader + name_of(state.constants) + name_of(state.features);
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-    Stage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT, state.constants,
-                state.features);
-    lay_out(device_, name, {&stage, 1}, state.constants, pipeline);
+    ShaderStage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT,
+                      state.constants, state.features);
+    make_pipeline_layout(device_, name, {&stage, 1}, state.constants, pipeline);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = stage.info();
     create.layout = pipeline.layout;

@@ -12,7 +12,7 @@
 namespace catoptric::gpu {
 
 /// Values of specialisation constants, by their names in the shader.
-using Constants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
+using ShaderConstants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
 
 /// The order of a triangle's corners in the picture.
 enum class Winding { none, clockwise, counterclockwise };
@@ -22,16 +22,16 @@ enum class Winding { none, clockwise, counterclockwise };
 struct RasterState {
     std::string vertex;
     std::string fragment; ///< empty: depth only
-    Constants constants;
+    ShaderConstants constants;
     Winding hidden = Winding::none; ///< triangles of this winding are culled
-    Constants features = {};        ///< constants of the scene; ignored by shaders that lack them
+    ShaderConstants features = {};  ///< constants of the scene; ignored by shaders that lack them
     bool blended = false;           ///< blended over the attachment by alpha
 };
 
 struct ComputeState {
     std::string shader;
-    Constants constants;
-    Constants features = {}; ///< constants of the scene; ignored by shaders that lack them
+    ShaderConstants constants;
+    ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
 };
 
 struct Attachments {
@@ -40,14 +40,14 @@ struct Attachments {
 };
 
 /// Returns Vulkan's descriptor type of a binding.
-VkDescriptorType descriptor_type(BindingKind kind);
+VkDescriptorType descriptor_type_of_binding(BindingKind kind);
 
 /// A pipeline with its layout and the bindings that its shaders use.
 struct Pipeline {
     UniqueDescriptorSetLayout set_layout;
     UniquePipelineLayout layout;
     UniquePipeline pipeline;
-    std::vector<Binding> bindings;
+    std::vector<ShaderBinding> bindings;
     std::uint32_t push_bytes = 0;
     VkShaderStageFlags stages = 0;
     VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
@@ -70,12 +70,12 @@ public:
     double ms() const { return ms_; } ///< milliseconds of the host, for all pipelines made
 
 private:
-    using Raster = std::pair<RasterState, Attachments>;
-    using RasterView = std::pair<const RasterState&, const Attachments&>;
+    using RasterKey = std::pair<RasterState, Attachments>;
+    using RasterKeyView = std::pair<const RasterState&, const Attachments&>;
     /// An order of the requests, so that a lookup builds no name.
-    struct Before {
+    struct ConstantsOrder {
         using is_transparent = void;
-        bool operator()(const RasterView& a, const RasterView& b) const;
+        bool operator()(const RasterKeyView& a, const RasterKeyView& b) const;
         bool operator()(const ComputeState& a, const ComputeState& b) const;
     };
 
@@ -83,8 +83,8 @@ private:
     Device& device_;
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
-    std::map<Raster, Pipeline, Before> rasters_;
-    std::map<ComputeState, Pipeline, Before> computes_;
+    std::map<RasterKey, Pipeline, ConstantsOrder> rasters_;
+    std::map<ComputeState, Pipeline, ConstantsOrder> computes_;
     double ms_ = 0;
 };
 

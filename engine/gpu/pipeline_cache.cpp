@@ -18,32 +18,32 @@ constexpr std::string_view kMagic = "catoptric pipelines 1\n";
 
 /// Returns the 64-bit FNV-1a checksum. Drivers do not check cache data, so a truncated file must
 /// not reach them.
-std::uint64_t checksum(std::string_view data) {
+std::uint64_t fnv1a_checksum(std::string_view data) {
     std::uint64_t sum = 0xcbf29ce484222325;
     for (const char byte : data) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
     return sum;
 }
 
-std::string wrapped(const std::string& data) {
-    const std::uint64_t sum = checksum(data);
+std::string add_cache_file_header(const std::string& data) {
+    const std::uint64_t sum = fnv1a_checksum(data);
     std::string file(kMagic);
     file.append(reinterpret_cast<const char*>(&sum), sizeof sum);
     return file + data;
 }
 
 /// Returns the data of a cache file; empty if the file is not complete.
-std::string unwrapped(const std::string& file) {
+std::string strip_cache_file_header(const std::string& file) {
     std::uint64_t sum = 0;
     const std::size_t head = kMagic.size() + sizeof sum;
     if (file.size() < head || !file.starts_with(kMagic)) return {};
     std::memcpy(&sum, file.data() + kMagic.size(), sizeof sum);
     const std::string data = file.substr(head);
-    return checksum(data) == sum ? data : std::string();
+    return fnv1a_checksum(data) == sum ? data : std::string();
 }
 
 /// Returns a file name for device, driver and driver build. Vulkan does not define pipeline data of
 /// one to be valid for another.
-std::string file_name(const Device& device) {
+std::string make_cache_file_name(const Device& device) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device.physical(), &properties);
     char text[64];
@@ -63,7 +63,7 @@ PipelineCache::PipelineCache(Device& device, const fs::path& folder) : device_(d
     if (!folder.empty()) {
         std::error_code error;
         fs::create_directories(folder, error);
-        file_ = folder / file_name(device);
+        file_ = folder / make_cache_file_name(device);
         known_ = loaded();
     }
     VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
@@ -90,12 +90,12 @@ std::string PipelineCache::loaded() {
     const bool is_there = fs::exists(file_, error);
     try {
         if (!is_there) {
-            write_file(file_, wrapped({}));
+            write_file(file_, add_cache_file_header({}));
             return {};
         }
         const std::string file = read_file(file_);
-        std::string data = unwrapped(file);
-        if (data.empty() && file != wrapped({}))
+        std::string data = strip_cache_file_header(file);
+        if (data.empty() && file != add_cache_file_header({}))
             warning_ = file_.string() +
                        ": wanted a whole pipeline cache, found something else; a new one is made";
         return data;
@@ -114,7 +114,7 @@ void PipelineCache::save() const {
     std::string data(size, '\0');
     if (vkGetPipelineCacheData(device_.handle(), cache_, &size, data.data()) != VK_SUCCESS) return;
     data.resize(size);
-    if (data != known_) write_file(file_, wrapped(data));
+    if (data != known_) write_file(file_, add_cache_file_header(data));
 }
 
 } // namespace catoptric::gpu

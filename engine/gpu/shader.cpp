@@ -14,7 +14,7 @@ namespace catoptric::gpu {
 namespace {
 
 // The parts of SPIR-V that are read (specification 1.6, sections 3.20, 3.42, 3.49).
-enum Op : std::uint32_t {
+enum SpirvOp : std::uint32_t {
     kName = 5,
     kCapability = 17,
     kTypeInt = 21,
@@ -39,27 +39,32 @@ enum Op : std::uint32_t {
     kDecorate = 71,
     kMemberDecorate = 72,
 };
-enum Decoration : std::uint32_t { kSpecId = 1, kBinding = 33, kDescriptorSet = 34, kOffset = 35 };
-enum Storage : std::uint32_t {
+enum SpirvDecoration : std::uint32_t {
+    kSpecId = 1,
+    kBinding = 33,
+    kDescriptorSet = 34,
+    kOffset = 35
+};
+enum SpirvStorageClass : std::uint32_t {
     kUniformConstant = 0,
     kUniform = 2,
     kPushConstant = 9,
     kStorageBuffer = 12
 };
 constexpr std::uint32_t kGeometry = 2, kFloat64 = 10; // numbers of capabilities
-enum Dim : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
+enum SpirvImageDimension : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
 struct SpirvType {
     std::uint32_t op = 0;
     std::vector<std::uint32_t> words; // operands after the result id
 };
-struct Variable {
+struct SpirvVariable {
     std::uint32_t id = 0, type = 0, storage = 0;
 };
 
-class Module {
+class SpirvModule {
 public:
-    Module(std::string_view name, std::span<const std::uint32_t> words) : name_(name) {
+    SpirvModule(std::string_view name, std::span<const std::uint32_t> words) : name_(name) {
         check(words.size() > 5 && words[0] == 0x07230203, Failure::internal, "shader '", name,
               "' is not SPIR-V");
         for (std::size_t i = 5; i < words.size();) {
@@ -71,9 +76,9 @@ public:
         }
     }
 
-    Reflection reflection() const {
-        Reflection result;
-        for (const Variable& variable : variables_) {
+    ShaderReflection reflection() const {
+        ShaderReflection result;
+        for (const SpirvVariable& variable : variables_) {
             if (variable.storage == kPushConstant)
                 result.push_bytes = std::max(result.push_bytes, size_of(pointee(variable)));
             else if (used_.contains(variable.id) && decoration(variable.id, kBinding))
@@ -82,7 +87,7 @@ public:
         for (const auto& [key, value] : decorations_)
             if (key.second == kSpecId) result.constants.push_back({name_of(key.first), value});
         result.doubles = doubles_, result.triangle_numbers = triangle_numbers_;
-        std::ranges::sort(result.bindings, {}, &Binding::binding);
+        std::ranges::sort(result.bindings, {}, &ShaderBinding::binding);
         return result;
     }
 
@@ -131,7 +136,7 @@ private:
         const auto found = names_.find(id);
         return found == names_.end() ? "" : found->second;
     }
-    std::uint32_t pointee(const Variable& variable) const {
+    std::uint32_t pointee(const SpirvVariable& variable) const {
         return types_.at(variable.type).words[1];
     }
 
@@ -153,8 +158,8 @@ private:
         }
     }
 
-    Binding binding(const Variable& variable) const {
-        Binding result;
+    ShaderBinding binding(const SpirvVariable& variable) const {
+        ShaderBinding result;
         result.name = name_of(variable.id);
         result.binding = *decoration(variable.id, kBinding);
         check(decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal,
@@ -196,7 +201,7 @@ private:
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> decorations_, member_offsets_;
     std::map<std::uint32_t, SpirvType> types_;
     std::map<std::uint32_t, std::uint32_t> constants_;
-    std::vector<Variable> variables_;
+    std::vector<SpirvVariable> variables_;
     std::set<std::uint32_t> used_;
     bool doubles_ = false, triangle_numbers_ = false;
 };
@@ -205,34 +210,35 @@ private:
 
 namespace {
 
-std::map<std::string_view, EmbeddedShader>& added() {
+std::map<std::string_view, EmbeddedShader>& added_shaders() {
     static std::map<std::string_view, EmbeddedShader> shaders; // filled while the program starts
     return shaders;
 }
 
-const EmbeddedShader* find(std::string_view name) {
+const EmbeddedShader* find_embedded_shader(std::string_view name) {
     const auto shaders = embedded_shaders();
     const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
     if (found != shaders.end()) return &*found;
-    const auto other = added().find(name);
-    return other == added().end() ? nullptr : &other->second;
+    const auto other = added_shaders().find(name);
+    return other == added_shaders().end() ? nullptr : &other->second;
 }
 
 } // namespace
 
 void add_shader(const EmbeddedShader& shader) {
-    check(!find(shader.name), Failure::usage, "there is a shader '", shader.name, "' already");
-    added().emplace(shader.name, shader);
+    check(!find_embedded_shader(shader.name), Failure::usage, "there is a shader '", shader.name,
+          "' already");
+    added_shaders().emplace(shader.name, shader);
 }
 
 const EmbeddedShader& find_shader(std::string_view name) {
-    const EmbeddedShader* found = find(name);
+    const EmbeddedShader* found = find_embedded_shader(name);
     check(found, Failure::internal, "there is no shader '", name, "'");
     return *found;
 }
 
-Reflection reflect(std::string_view name, std::span<const std::uint32_t> words) {
-    return Module(name, words).reflection();
+ShaderReflection reflect_spirv(std::string_view name, std::span<const std::uint32_t> words) {
+    return SpirvModule(name, words).reflection();
 }
 
 } // namespace catoptric::gpu

@@ -33,7 +33,7 @@ enum class BindingKind {
 enum class ImageViewType { flat, flat_array, cube, cube_array };
 
 /// One resource in set 0 that the shader's code uses.
-struct Binding {
+struct ShaderBinding {
     std::string name; ///< name of the variable or of the block
     std::uint32_t binding = 0;
     BindingKind kind = BindingKind::storage_buffer;
@@ -41,15 +41,15 @@ struct Binding {
     std::uint32_t count = 1; ///< length of an array of textures
 };
 
-struct Constant {
+struct SpecialisationConstant {
     std::string name;
     std::uint32_t id = 0; ///< constant_id
 };
 
 /// The properties of a shader that the engine needs to make a pipeline and to bind by name.
-struct Reflection {
-    std::vector<Binding> bindings;
-    std::vector<Constant> constants;
+struct ShaderReflection {
+    std::vector<ShaderBinding> bindings;
+    std::vector<SpecialisationConstant> constants;
     std::uint32_t push_bytes = 0;
     bool doubles = false;          ///< needs a device that computes with doubles
     bool triangle_numbers = false; ///< needs a device that numbers triangles (gl_PrimitiveID)
@@ -58,6 +58,6 @@ struct Reflection {
 /// Reads names, decorations and uses out of SPIR-V. Throws `internal` for a set other than 0 and
 /// for an array of anything but textures. Shaders may index such arrays by constants only, because
 /// not every device can do more.
-Reflection reflect(std::string_view name, std::span<const std::uint32_t> words);
+ShaderReflection reflect_spirv(std::string_view name, std::span<const std::uint32_t> words);
 
 } // namespace catoptric::gpu

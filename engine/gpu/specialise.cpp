@@ -9,8 +9,9 @@
 
 namespace catoptric::gpu {
 
-std::vector<std::uint32_t> specialise(std::string_view name, std::span<const std::uint32_t> words,
-                                      const std::map<std::uint32_t, std::uint32_t>& constants) {
+std::vector<std::uint32_t>
+specialise_shader(std::string_view name, std::span<const std::uint32_t> words,
+                  const std::map<std::uint32_t, std::uint32_t>& constants) {
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;
     for (const auto& [id, bits] : constants) values[id] = {bits};
     spvtools::Optimizer optimiser(SPV_ENV_VULKAN_1_3);

@@ -12,7 +12,8 @@ namespace catoptric::gpu {
 /// defaults, and without unreachable code. Drivers inline every call before they look at a
 /// constant. For the ray tracer of a plain scene this leaves a quarter of the instructions. Takes
 /// tens of milliseconds on the host. Throws `internal` if `words` is not SPIR-V.
-std::vector<std::uint32_t> specialise(std::string_view name, std::span<const std::uint32_t> words,
-                                      const std::map<std::uint32_t, std::uint32_t>& constants);
+std::vector<std::uint32_t>
+specialise_shader(std::string_view name, std::span<const std::uint32_t> words,
+                  const std::map<std::uint32_t, std::uint32_t>& constants);
 
 } // namespace catoptric::gpu

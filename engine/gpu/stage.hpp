@@ -9,14 +9,14 @@
 namespace catoptric::gpu {
 
 /// Returns the 32 bits that are passed to the shader for a constant.
-inline std::uint32_t bits_of(const std::variant<std::uint32_t, float>& value) {
+inline std::uint32_t constant_bits(const std::variant<std::uint32_t, float>& value) {
     return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
 }
 
 /// One stage of a pipeline. Its module must outlive the call that creates the pipeline.
-struct Stage {
-    Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
-          const Constants& constants, const Constants& features);
+struct ShaderStage {
+    ShaderStage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
+                const ShaderConstants& constants, const ShaderConstants& features);
     VkPipelineShaderStageCreateInfo info() const {
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = bit;
@@ -25,13 +25,14 @@ struct Stage {
         return stage;
     }
     /// Returns the constant of this name, or null if the shader has none.
-    const Constant* find(const std::string& constant) const {
-        const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
+    const SpecialisationConstant* find(const std::string& constant) const {
+        const auto found = std::ranges::find(reflection.constants, constant,
+                                             &SpecialisationConstant::name);
         return found == reflection.constants.end() ? nullptr : &*found;
     }
 
     VkShaderStageFlagBits bit;
-    Reflection reflection;
+    ShaderReflection reflection;
     UniqueShaderModule module;
 };
 

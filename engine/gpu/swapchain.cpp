@@ -18,7 +18,7 @@ UniqueSemaphore make_semaphore(const Device& device) {
     return {device.handle(), semaphore};
 }
 
-VkSurfaceFormatKHR choose_colours(const Device& device) {
+VkSurfaceFormatKHR choose_surface_format(const Device& device) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
@@ -31,7 +31,7 @@ VkSurfaceFormatKHR choose_colours(const Device& device) {
          count, " formats of device '", device.info().name, "')");
 }
 
-VkExtent2D extent_for(const VkSurfaceCapabilitiesKHR& can, uvec2 wanted) {
+VkExtent2D choose_swapchain_extent(const VkSurfaceCapabilitiesKHR& can, uvec2 wanted) {
     constexpr std::uint32_t kAny = 0xFFFFFFFF;
     if (can.currentExtent.width != kAny) return can.currentExtent;
     return {std::clamp(wanted.x, can.minImageExtent.width, can.maxImageExtent.width),
@@ -40,7 +40,7 @@ VkExtent2D extent_for(const VkSurfaceCapabilitiesKHR& can, uvec2 wanted) {
 
 } // namespace
 
-Swapchain::Swapchain(Device& device) : device_(device), colours_(choose_colours(device)) {
+Swapchain::Swapchain(Device& device) : device_(device), colours_(choose_surface_format(device)) {
     if (colours_.format == VK_FORMAT_R8G8B8A8_UNORM) format_ = Format::rgba8_unorm;
 }
 
@@ -63,7 +63,7 @@ bool Swapchain::make(uvec2 size) {
             vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), device_.surface(), &can),
             "ask what the window can show"))
         return false;
-    const VkExtent2D extent = extent_for(can, size);
+    const VkExtent2D extent = choose_swapchain_extent(can, size);
     images_.clear();
     if (extent.width == 0 || extent.height == 0) return false;
     VkSwapchainCreateInfoKHR create{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};

@@ -13,7 +13,7 @@ constexpr const char* kDoing = "write buffers";
 
 } // namespace
 
-Uploads::Uploads(Device& device) : device_(device) {
+StagedUploads::StagedUploads(Device& device) : device_(device) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = device.queue_family();
@@ -28,7 +28,7 @@ Uploads::Uploads(Device& device) : device_(device) {
     check_vk(vkCreateSemaphore(device.handle(), &semaphore, nullptr, &semaphore_handle),
              "create a semaphore");
     timeline_ = {device.handle(), semaphore_handle};
-    for (Block& block : blocks_) {
+    for (StagingBlock& block : blocks_) {
         block.staging = std::make_unique<Buffer>(device, "staging", kBlockBytes,
                                                  BufferUsage::staging);
         VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
@@ -42,7 +42,7 @@ Uploads::Uploads(Device& device) : device_(device) {
 
 /// Waits for the submitted uploads. Buffers that were written are already destroyed, and waited for
 /// their uploads.
-Uploads::~Uploads() {
+StagedUploads::~StagedUploads() {
     if (device_.abandoned() || ended_ == submitted_) return;
     try {
         wait(submitted_);
@@ -50,7 +50,7 @@ Uploads::~Uploads() {
     }
 }
 
-void Uploads::wait(WriteNumber ticket) {
+void StagedUploads::wait(WriteNumber ticket) {
     if (ticket <= ended_) return;
     const VkSemaphore semaphore = timeline_;
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
@@ -62,10 +62,10 @@ void Uploads::wait(WriteNumber ticket) {
 }
 
 /// Returns a block that is recording and has room.
-Uploads::Block& Uploads::open_block() {
+StagedUploads::StagingBlock& StagedUploads::open_block() {
     if (is_recording_ && blocks_[current_].used < kBlockBytes) return blocks_[current_];
     submit();
-    Block& block = blocks_[current_];
+    StagingBlock& block = blocks_[current_];
     wait(block.ends);
     block.used = 0, block.targets.clear();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -77,28 +77,28 @@ Uploads::Block& Uploads::open_block() {
 
 /// Adds a barrier if a write overlaps an earlier one, so that writes happen in the order of their
 /// calls.
-void Uploads::keep_order(Block& block, const WriteRange& target) {
+void StagedUploads::order_overlapping_writes(StagingBlock& block, const WriteRange& target) {
     const bool overlaps = std::ranges::any_of(block.targets, [&](const WriteRange& other) {
         return other.buffer == target.buffer && other.first < target.end &&
                target.first < other.end;
     });
     if (overlaps) {
-        barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                             VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        record_barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                    VK_ACCESS_2_TRANSFER_WRITE_BIT);
         block.targets.clear();
     }
     block.targets.push_back(target);
 }
 
-Uploads::WriteNumber Uploads::write(VkBuffer to, std::uint64_t offset,
-                                    std::span<const std::byte> data) {
+StagedUploads::WriteNumber StagedUploads::write(VkBuffer to, std::uint64_t offset,
+                                                std::span<const std::byte> data) {
     device_.check_usable();
     while (!data.empty()) {
-        Block& block = open_block();
+        StagingBlock& block = open_block();
         const auto part = data.first(
             std::min<std::uint64_t>(data.size(), kBlockBytes - block.used));
         block.staging->write(block.used, part);
-        keep_order(block, {to, offset, offset + part.size()});
+        order_overlapping_writes(block, {to, offset, offset + part.size()});
         const VkBufferCopy region{block.used, offset, part.size()};
         vkCmdCopyBuffer(block.commands, block.staging->handle(), to, 1, &region);
         block.used += part.size(), offset += part.size();
@@ -107,11 +107,11 @@ Uploads::WriteNumber Uploads::write(VkBuffer to, std::uint64_t offset,
     return submitted_ + 1;
 }
 
-void Uploads::submit() {
+void StagedUploads::submit() {
     if (!is_recording_) return;
-    Block& block = blocks_[current_];
-    barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    StagingBlock& block = blocks_[current_];
+    record_barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
     is_recording_ = false;
     check_vk(vkEndCommandBuffer(block.commands), kDoing);
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
@@ -130,7 +130,7 @@ void Uploads::submit() {
     current_ = (current_ + 1) % blocks_.size();
 }
 
-void Uploads::finish(WriteNumber ticket) {
+void StagedUploads::wait_for_write(WriteNumber ticket) {
     if (ticket > submitted_) submit();
     // A write that could not be submitted is never executed.
     wait(std::min(ticket, submitted_));
@@ -139,7 +139,7 @@ void Uploads::finish(WriteNumber ticket) {
 PendingUpload::~PendingUpload() {
     if (ticket_ == 0 || device_->abandoned()) return;
     try {
-        device_->uploads().finish(ticket_);
+        device_->uploads().wait_for_write(ticket_);
     } catch (const Error&) { // the device is abandoned now, or the write was not submitted
     }
 }

@@ -18,13 +18,13 @@ class Device;
 /// Writes to buffers that the host cannot map, through a ring of staging blocks. A write copies its
 /// bytes into a block and records a copy on the device. It waits only if the whole ring is in
 /// flight. Copies are submitted before the next frame. Work submitted after them sees their writes.
-class Uploads {
+class StagedUploads {
 public:
     /// The number of a write; 0: none. Larger numbers end later.
     using WriteNumber = std::uint64_t;
 
-    explicit Uploads(Device& device);
-    ~Uploads();
+    explicit StagedUploads(Device& device);
+    ~StagedUploads();
 
     /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
     /// Throws as Device::check_alive and check_waited do.
@@ -32,7 +32,7 @@ public:
     /// Submits the recorded copies that are not submitted yet.
     void submit();
     /// Waits until the write has ended.
-    void finish(WriteNumber ticket);
+    void wait_for_write(WriteNumber ticket);
 
 private:
     /// Bytes of `to` that a block's commands write.
@@ -40,21 +40,21 @@ private:
         VkBuffer buffer;
         std::uint64_t first, end;
     };
-    struct Block {
+    struct StagingBlock {
         std::unique_ptr<Buffer> staging;
         VkCommandBuffer commands = VK_NULL_HANDLE;
         std::uint64_t used = 0;          ///< bytes used in `staging`
         WriteNumber ends = 0;            ///< timeline value at which the block is free again
         std::vector<WriteRange> targets; ///< writes since the last barrier
     };
-    Block& open_block();
+    StagingBlock& open_block();
     void wait(WriteNumber ticket);
-    void keep_order(Block& block, const WriteRange& target);
+    void order_overlapping_writes(StagingBlock& block, const WriteRange& target);
 
     Device& device_;
     UniqueCommandPool pool_;
     UniqueSemaphore timeline_;
-    std::array<Block, 3> blocks_;
+    std::array<StagingBlock, 3> blocks_;
     std::size_t current_ = 0;
     bool is_recording_ = false;
     WriteNumber submitted_ = 0, ended_ = 0;
@@ -72,7 +72,9 @@ public:
     }
     ~PendingUpload();
     /// Replaces the ticket with that of a later write to the same buffer.
-    void renew(Device& device, Uploads::WriteNumber ticket) { device_ = &device, ticket_ = ticket; }
+    void renew(Device& device, StagedUploads::WriteNumber ticket) {
+        device_ = &device, ticket_ = ticket;
+    }
 
 private:
     void swap(PendingUpload& other) noexcept {
@@ -80,7 +82,7 @@ private:
     }
 
     Device* device_ = nullptr;
-    Uploads::WriteNumber ticket_ = 0;
+    StagedUploads::WriteNumber ticket_ = 0;
 };
 
 } // namespace catoptric::gpu

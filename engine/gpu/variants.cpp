@@ -4,7 +4,7 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::array<Variant, kVariants> kTable{
+constexpr std::array<ShaderVariant, kVariants> kTable{
     {{"groups",
       {"scattered", "in order"},
       "groups_in_order",
@@ -20,6 +20,6 @@ constexpr std::array<Variant, kVariants> kTable{
 
 } // namespace
 
-std::span<const Variant, kVariants> variants() { return kTable; }
+std::span<const ShaderVariant, kVariants> list_shader_variants() { return kTable; }
 
 } // namespace catoptric::gpu

@@ -11,15 +11,15 @@ namespace catoptric::gpu {
 
 inline constexpr std::size_t kVariants = 3;
 
-struct Variant {
+struct ShaderVariant {
     std::string_view name;
     std::array<std::string_view, 2> choices; ///< names of the default and of the alternative
     std::string_view constant;               ///< shader constant that gets the index of the choice
     std::string_view help;
 };
-std::span<const Variant, kVariants> variants();
+std::span<const ShaderVariant, kVariants> list_shader_variants();
 
 /// The index of the choice for each variant, in the table's order.
-using Choices = std::array<std::uint8_t, kVariants>;
+using VariantChoices = std::array<std::uint8_t, kVariants>;
 
 } // namespace catoptric::gpu

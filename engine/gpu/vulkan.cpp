@@ -51,7 +51,7 @@ void check_vk(VkResult result, const std::string& doing) {
          ")");
 }
 
-VkFormat vk_format(Format format) {
+VkFormat to_vk_format(Format format) {
     switch (format) {
     case Format::r8_unorm: return VK_FORMAT_R8_UNORM;
     case Format::rgba8_unorm: return VK_FORMAT_R8G8B8A8_UNORM;
@@ -66,8 +66,8 @@ VkFormat vk_format(Format format) {
     return VK_FORMAT_UNDEFINED;
 }
 
-void barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
-                          VkAccessFlags2 access) {
+void record_barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
+                                 VkAccessFlags2 access) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;

@@ -17,15 +17,17 @@ namespace catoptric::gpu {
 void check_vk(VkResult result, const std::string& doing);
 const char* name_of(VkResult result);
 
-VkFormat vk_format(Format format);
+VkFormat to_vk_format(Format format);
 
 /// Records a barrier that makes the writes of earlier copies visible to `stages` and `access` after
 /// it.
-void barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
-                          VkAccessFlags2 access);
+void record_barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
+                                 VkAccessFlags2 access);
 
 /// Returns the surface for the number that window libraries pass for it.
-inline VkSurfaceKHR surface_of(std::uint64_t number) { return std::bit_cast<VkSurfaceKHR>(number); }
+inline VkSurfaceKHR surface_from_number(std::uint64_t number) {
+    return std::bit_cast<VkSurfaceKHR>(number);
+}
 
 /// A device handle for objects made from the device, with its abandoned flag.
 struct DeviceHandle {

@@ -10,7 +10,7 @@
 namespace catoptric::graph {
 
 /// How one pass uses one image or buffer. A buffer counts as a resource with one layer and one mip.
-struct Access {
+struct ResourceAccess {
     bool is_buffer = false;
     std::uint32_t id = 0;
     bool previous = false;
@@ -18,7 +18,7 @@ struct Access {
     std::uint32_t layer_count = 1;
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
-    Use use = Use::sampled;
+    ResourceUse use = ResourceUse::sampled;
     bool write = false;
     bool needs = false; ///< needs earlier contents: a read, an attachment without clear, `storage`
     bool clears = false;
@@ -30,41 +30,43 @@ struct Access {
 };
 
 /// Returns the accesses of the pass: images in order of declaration, then buffers.
-std::vector<Access> accesses(const Pass& pass);
+std::vector<ResourceAccess> list_pass_accesses(const Pass& pass);
 
 /// The accesses of every pass of a graph, gathered once.
-class Accesses {
+class GraphAccesses {
 public:
-    explicit Accesses(const Graph& graph);
-    std::span<const Access> of(std::size_t pass) const {
+    explicit GraphAccesses(const Graph& graph);
+    std::span<const ResourceAccess> of(std::size_t pass) const {
         return {all_.data() + first_[pass], all_.data() + first_[pass + 1]};
     }
 
 private:
-    std::vector<Access> all_;
+    std::vector<ResourceAccess> all_;
     std::vector<std::size_t> first_; // index of each pass's first access in `all_`, then the total
 };
 
 /// Returns the touch that the access of this pass leaves on the resource.
-Touch touch_of(const Access& access, const Pass& pass);
+ResourceTouch make_touch(const ResourceAccess& access, const Pass& pass);
 
-constexpr bool is_attachment(Use use) { return use == Use::colour || use == Use::depth; }
+constexpr bool is_attachment(ResourceUse use) {
+    return use == ResourceUse::colour || use == ResourceUse::depth;
+}
 
 /// Returns the access as text for messages: "'cubes' [0,6)", "previous('cubes') [0,6)" or "buffer
 /// 'args'".
-std::string describe(const Graph& graph, const Access& access);
+std::string describe_access(const Graph& graph, const ResourceAccess& access);
 /// Returns a range of an image's layers as text: "layers [6,12)", with the mip if the image has
-/// several. `first` and `end` are numbers as in `for_each_range`. The range is cut at the end of
-/// its first mip.
-std::string layers_text(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
+/// several. `first` and `end` are numbers as in `for_each_layer_range`. The range is cut at the end
+/// of its first mip.
+std::string format_layer_range(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
 /// Returns the name of the image or buffer in single quotes: "'cubes'".
-std::string quoted_name(const Graph& graph, const Access& access);
+std::string quote_resource_name(const Graph& graph, const ResourceAccess& access);
 
 /// Calls visit(first, end) for the layers of each mip of `part`, a part of an image with `layers`
 /// layers. Layer l of mip m has the number m * layers + l. A part with all layers is visited as one
 /// range.
 template <typename Part, typename Visit>
-void for_each_range(const Part& part, std::uint32_t layers, const Visit& visit) {
+void for_each_layer_range(const Part& part, std::uint32_t layers, const Visit& visit) {
     if (part.layer_count == layers)
         return visit(part.first_mip * layers, (part.first_mip + part.mip_count) * layers);
     for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
@@ -73,38 +75,39 @@ void for_each_range(const Part& part, std::uint32_t layers, const Visit& visit) 
 
 /// A value for each layer of each mip of every image, and for every buffer.
 template <typename T>
-class Ledger {
+class ResourceLedger {
 public:
-    explicit Ledger(const Graph& graph, const T& value = {}) : images_(graph.images().size()) {
+    explicit ResourceLedger(const Graph& graph, const T& value = {})
+        : images_(graph.images().size()) {
         entries_.reserve(images_ + graph.buffers().size());
         for (const ImageDesc& desc : graph.images())
-            entries_.push_back({Runs<T>(desc.layers * desc.mips, value), desc.layers});
-        entries_.resize(images_ + graph.buffers().size(), {Runs<T>(1, value), 1});
+            entries_.push_back({ValueRuns<T>(desc.layers * desc.mips, value), desc.layers});
+        entries_.resize(images_ + graph.buffers().size(), {ValueRuns<T>(1, value), 1});
     }
-    Runs<T>& of(const Access& a) { return entry(a).runs; }
-    const Runs<T>& of(const Access& a) const { return entry(a).runs; }
-    std::uint32_t layers_of(const Access& a) const { return entry(a).layers; }
+    ValueRuns<T>& of(const ResourceAccess& a) { return entry(a).runs; }
+    const ValueRuns<T>& of(const ResourceAccess& a) const { return entry(a).runs; }
+    std::uint32_t layers_of(const ResourceAccess& a) const { return entry(a).layers; }
 
     /// Calls visit(first, end, value) for each run of equal values that the access meets.
     template <typename Visit>
-    void each(const Access& a, const Visit& visit) const {
+    void each(const ResourceAccess& a, const Visit& visit) const {
         const LayerRuns& e = entry(a);
-        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+        for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
             e.runs.each(first, end, visit);
         });
     }
     template <typename Visit>
-    void change(const Access& a, const Visit& visit) {
+    void change(const ResourceAccess& a, const Visit& visit) {
         LayerRuns& e = entries_[index(a)];
-        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+        for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
             e.runs.change(first, end, visit);
         });
     }
-    void set(const Access& a, const T& value) {
+    void set(const ResourceAccess& a, const T& value) {
         change(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
     /// Returns whether some layer of the access has the value.
-    bool any(const Access& a, const T& value) const {
+    bool any(const ResourceAccess& a, const T& value) const {
         bool found = false;
         each(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
         return found;
@@ -112,22 +115,22 @@ public:
 
 private:
     struct LayerRuns {
-        Runs<T> runs;
+        ValueRuns<T> runs;
         std::uint32_t layers;
     };
-    std::size_t index(const Access& a) const { return a.is_buffer ? images_ + a.id : a.id; }
-    LayerRuns& entry(const Access& a) { return entries_[index(a)]; }
-    const LayerRuns& entry(const Access& a) const { return entries_[index(a)]; }
+    std::size_t index(const ResourceAccess& a) const { return a.is_buffer ? images_ + a.id : a.id; }
+    LayerRuns& entry(const ResourceAccess& a) { return entries_[index(a)]; }
+    const LayerRuns& entry(const ResourceAccess& a) const { return entries_[index(a)]; }
 
     std::size_t images_;
     std::vector<LayerRuns> entries_; // images, then buffers
 };
 
 /// Returns an access to a part of an image. Its use is left at the default.
-Access access_to(const ImageHandle& image);
+ResourceAccess access_to_image_part(const ImageHandle& image);
 /// Returns an access to all layers and mips of an image.
-Access access_to_all(const Graph& graph, std::uint32_t image);
+ResourceAccess access_to_whole_image(const Graph& graph, std::uint32_t image);
 /// Returns a ledger that is true for every layer and buffer that is an output of the graph.
-Ledger<char> output_parts(const Graph& graph);
+ResourceLedger<char> mark_output_parts(const Graph& graph);
 
 } // namespace catoptric::graph

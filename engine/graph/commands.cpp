@@ -7,12 +7,12 @@
 
 namespace catoptric::graph {
 
-void Commands::use(gpu::RasterState state) {
+void PassCommands::use(gpu::RasterState state) {
     gpu::Attachments attachments;
     for (const ImageUse& use : pass_.images) {
-        if (use.use == Use::colour)
+        if (use.use == ResourceUse::colour)
             attachments.colour.push_back(graph_.images()[use.image.id].format);
-        if (use.use == Use::depth) attachments.depth = true;
+        if (use.use == ResourceUse::depth) attachments.depth = true;
     }
     if (layer_count_ > 1) state.vertex += "#layered";
     pipeline_name_ = state.vertex + "+" + state.fragment;
@@ -21,14 +21,14 @@ void Commands::use(gpu::RasterState state) {
     dirty_ = true;
 }
 
-void Commands::use(const gpu::ComputeState& state) {
+void PassCommands::use(const gpu::ComputeState& state) {
     pipeline_name_ = state.shader;
     pipeline_ = &recorder_.pipelines().compute(state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
 
-void Commands::require_declared(ImageHandle image, std::string_view name) const {
+void PassCommands::require_declared(ImageHandle image, std::string_view name) const {
     const auto same = [&](const ImageUse& use) {
         return use.image.id == image.id && use.image.previous == image.previous &&
                use.image.first_mip <= image.first_mip &&
@@ -42,40 +42,41 @@ void Commands::require_declared(ImageHandle image, std::string_view name) const 
           "' but does not declare it");
 }
 
-void Commands::bind(std::string_view name, std::span<const ImageHandle> images, Filter filter) {
+void PassCommands::bind(std::string_view name, std::span<const ImageHandle> images,
+                        TextureFilter filter) {
     check(!images.empty() && images.size() <= kMostImages, Failure::internal, "pass '", pass_.name,
           "': '", name, "' wants 1 to ", kMostImages, " images, found ", images.size());
-    BoundImages bound{{}, images.size(), filter};
+    BoundImageList bound{{}, images.size(), filter};
     std::ranges::copy(images, bound.images.begin());
     for (const ImageHandle& image : images) require_declared(image, name);
     bound_.insert_or_assign(std::string(name), bound);
     dirty_ = true;
 }
 
-void Commands::bind(std::string_view name, Filter sampler) {
+void PassCommands::bind(std::string_view name, TextureFilter sampler) {
     bound_.insert_or_assign(std::string(name), sampler);
     dirty_ = true;
 }
 
-void Commands::require_declared(BufferHandle buffer, std::string_view name) const {
+void PassCommands::require_declared(BufferHandle buffer, std::string_view name) const {
     check(std::ranges::any_of(pass_.buffers,
                               [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
           Failure::internal, "pass '", pass_.name, "' uses buffer '",
           graph_.buffers()[buffer.id].name, "' as '", name, "' but does not declare it");
 }
 
-void Commands::bind(std::string_view name, BufferHandle buffer) {
+void PassCommands::bind(std::string_view name, BufferHandle buffer) {
     require_declared(buffer, name);
     bound_.insert_or_assign(std::string(name), recorder_.buffer(buffer));
     dirty_ = true;
 }
 
-void Commands::bind(std::string_view name, const gpu::Buffer& buffer) {
+void PassCommands::bind(std::string_view name, const gpu::Buffer& buffer) {
     bound_.insert_or_assign(std::string(name), &buffer);
     dirty_ = true;
 }
 
-void Commands::geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices) {
+void PassCommands::geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices) {
     const VkDeviceSize offset = 0;
     if (const VkBuffer buffer = vertices.handle(); std::exchange(vertices_, buffer) != buffer)
         vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
@@ -83,8 +84,9 @@ void Commands::geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices)
         vkCmdBindIndexBuffer(commands_, buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
-void Commands::draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer,
-                    std::uint32_t layer_count, std::uint32_t first_instance) {
+void PassCommands::draw(std::uint32_t first_index, std::uint32_t index_count,
+                        std::uint32_t first_layer, std::uint32_t layer_count,
+                        std::uint32_t first_instance) {
     const std::uint32_t first = std::max(first_layer, first_layer_);
     const std::uint32_t end = std::min(first_layer + layer_count, first_layer_ + layer_count_);
     if (first >= end || index_count == 0) return;
@@ -92,25 +94,25 @@ void Commands::draw(std::uint32_t first_index, std::uint32_t index_count, std::u
     vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first_instance + first);
 }
 
-void Commands::cover() {
+void PassCommands::draw_covering_triangle() {
     flush();
     vkCmdDraw(commands_, 3, 1, 0, 0);
 }
 
-void Commands::scissor(const Area& area) {
+void PassCommands::scissor(const PixelArea& area) {
     const VkRect2D scissor{{static_cast<std::int32_t>(area.x), static_cast<std::int32_t>(area.y)},
                            {area.width, area.height}};
     vkCmdSetScissor(commands_, 0, 1, &scissor);
 }
 
-void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+void PassCommands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     flush();
     vkCmdDispatch(commands_, x, y, z);
 }
 
-void Commands::dispatch_indirect(BufferHandle arguments, std::uint64_t offset) {
+void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offset) {
     const auto same = [&](const BufferUse& use) {
-        return use.buffer.id == arguments.id && use.use == Use::indirect;
+        return use.buffer.id == arguments.id && use.use == ResourceUse::indirect;
     };
     check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name,
           "' dispatches what buffer '", graph_.buffers()[arguments.id].name,
@@ -119,7 +121,7 @@ void Commands::dispatch_indirect(BufferHandle arguments, std::uint64_t offset) {
     vkCmdDispatchIndirect(commands_, recorder_.buffer(arguments), offset);
 }
 
-void Commands::barrier() {
+void PassCommands::barrier() {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_SHADER_WRITE_BIT;
@@ -130,7 +132,7 @@ void Commands::barrier() {
     vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
-void Commands::copy(ImageHandle from, ImageHandle to) {
+void PassCommands::copy(ImageHandle from, ImageHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
     const ImageDesc& desc = graph_.images()[from.id];
@@ -139,61 +141,64 @@ void Commands::copy(ImageHandle from, ImageHandle to) {
     VkImageCopy region{};
     region.srcSubresource = {aspect, from.first_mip, from.first_layer, from.layer_count};
     region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
-    region.extent = {at_mip(desc.width, from.first_mip), at_mip(desc.height, from.first_mip), 1};
+    region.extent = {size_at_mip(desc.width, from.first_mip),
+                     size_at_mip(desc.height, from.first_mip), 1};
     vkCmdCopyImage(commands_, recorder_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                    recorder_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
-void Commands::copy(ImageHandle from, BufferHandle to) {
+void PassCommands::copy(ImageHandle from, BufferHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
-    const VkBufferImageCopy region = copy_region(graph_.images()[from.id], from);
+    const VkBufferImageCopy region = make_copy_region(graph_.images()[from.id], from);
     vkCmdCopyImageToBuffer(commands_, recorder_.physical(from).image,
                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.buffer(to), 1, &region);
 }
 
-void Commands::fill(BufferHandle buffer, std::uint32_t word) {
+void PassCommands::fill(BufferHandle buffer, std::uint32_t word) {
     require_declared(buffer, "target of a fill");
     vkCmdFillBuffer(commands_, recorder_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
-void Commands::update(BufferHandle buffer, std::span<const std::byte> bytes) {
+void PassCommands::update(BufferHandle buffer, std::span<const std::byte> bytes) {
     require_declared(buffer, "target of an update");
     vkCmdUpdateBuffer(commands_, recorder_.buffer(buffer), 0, bytes.size(), bytes.data());
 }
 
 namespace {
 
-bool is_image(gpu::BindingKind kind) {
+bool is_image_binding(gpu::BindingKind kind) {
     using gpu::BindingKind;
     return kind == BindingKind::sampled_image || kind == BindingKind::texture ||
            kind == BindingKind::storage_image;
 }
 
-const char* kind_of(bool image, bool sampler) {
+const char* name_image_kind(bool image, bool sampler) {
     return image ? "an image" : sampler ? "a sampler" : "a buffer";
 }
 
 } // namespace
 
-void Commands::require_kind(const gpu::Binding& binding, const Bound& bound) const {
-    const bool wants_image = is_image(binding.kind),
+void PassCommands::require_kind(const gpu::ShaderBinding& binding,
+                                const BoundResource& bound) const {
+    const bool wants_image = is_image_binding(binding.kind),
                wants_sampler = binding.kind == gpu::BindingKind::sampler,
-               image = std::holds_alternative<BoundImages>(bound),
-               sampler = std::holds_alternative<Filter>(bound);
+               image = std::holds_alternative<BoundImageList>(bound),
+               sampler = std::holds_alternative<TextureFilter>(bound);
     check(wants_image == image && wants_sampler == sampler, Failure::internal, "pass '", pass_.name,
           "': '", binding.name, "' of ", pipeline_name_, " is ",
-          kind_of(wants_image, wants_sampler), ", bound is ", kind_of(image, sampler));
+          name_image_kind(wants_image, wants_sampler), ", bound is ",
+          name_image_kind(image, sampler));
 }
 
-void Commands::write_images(const gpu::Binding& binding, const Bound& bound,
-                            std::vector<VkDescriptorImageInfo>& infos) {
+void PassCommands::write_images(const gpu::ShaderBinding& binding, const BoundResource& bound,
+                                std::vector<VkDescriptorImageInfo>& infos) {
     using gpu::BindingKind;
-    if (const auto* filter = std::get_if<Filter>(&bound)) {
+    if (const auto* filter = std::get_if<TextureFilter>(&bound)) {
         infos.push_back({recorder_.sampler(*filter), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED});
         return;
     }
-    const auto& [images, count, filter] = std::get<BoundImages>(bound);
+    const auto& [images, count, filter] = std::get<BoundImageList>(bound);
     const bool stored = binding.kind == BindingKind::storage_image;
     for (std::size_t i = 0; i < binding.count; ++i) {
         const ImageHandle image = images[i < count ? i : 0];
@@ -206,8 +211,8 @@ void Commands::write_images(const gpu::Binding& binding, const Bound& bound,
     }
 }
 
-void Commands::write_buffer(const gpu::Binding& binding, const Bound& bound,
-                            VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
+void PassCommands::write_buffer(const gpu::ShaderBinding& binding, const BoundResource& bound,
+                                VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
     const auto* owned = std::get_if<const gpu::Buffer*>(&bound);
     buffer = {owned ? (*owned)->handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
     if (binding.kind != gpu::BindingKind::texel_buffer) return;
@@ -218,7 +223,7 @@ void Commands::write_buffer(const gpu::Binding& binding, const Bound& bound,
 
 /// Returns the name under which a pass binds the resource of this binding. A list of texels has two
 /// bindings, a texel buffer and a storage buffer, with one name (shaders/lib/texels.glsl).
-std::string_view Commands::list_of(const gpu::Binding& binding) {
+std::string_view PassCommands::list_of(const gpu::ShaderBinding& binding) {
     constexpr std::string_view kInStorage = "_in_storage";
     std::string_view name = binding.name;
     if (name.ends_with(kInStorage)) name.remove_suffix(kInStorage.size());
@@ -228,26 +233,27 @@ std::string_view Commands::list_of(const gpu::Binding& binding) {
 /// Returns the filter of the sampler for an image. On devices that do not filter 32-bit floats,
 /// images of distances use the nearest texel. There the shader interpolates them itself
 /// (`distances_by_gather`).
-Filter Commands::filter_of(ImageHandle image, Filter filter) const {
+TextureFilter PassCommands::filter_of(ImageHandle image, TextureFilter filter) const {
     const ImageDesc& desc = graph_.images()[image.id];
     const bool is_float = desc.format == Format::r32f || desc.format == Format::rgba32f;
-    if (!is_float || filter == Filter::nearest || recorder_.device().filters_floats())
+    if (!is_float || filter == TextureFilter::nearest || recorder_.device().filters_floats())
         return filter;
-    check(desc.format == Format::r32f && filter == Filter::linear, Failure::no_device, "pass '",
-          pass_.name, "' filters '", desc.name, "', an image of 32-bit floats, which device '",
-          recorder_.device().info().name, "' cannot");
-    return Filter::nearest;
+    check(desc.format == Format::r32f && filter == TextureFilter::linear, Failure::no_device,
+          "pass '", pass_.name, "' filters '", desc.name,
+          "', an image of 32-bit floats, which device '", recorder_.device().info().name,
+          "' cannot");
+    return TextureFilter::nearest;
 }
 
 /// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.
-void Commands::flush() {
+void PassCommands::flush() {
     check(pipeline_, Failure::internal, "pass '", pass_.name,
           "' draws or dispatches without a pipeline");
     if (dirty_ && !pipeline_->bindings.empty()) {
         const VkDescriptorSet set = recorder_.descriptor_set(pipeline_->set_layout);
         const std::size_t count = pipeline_->bindings.size();
         std::size_t image_count = 0;
-        for (const gpu::Binding& binding : pipeline_->bindings) image_count += binding.count;
+        for (const gpu::ShaderBinding& binding : pipeline_->bindings) image_count += binding.count;
         std::vector<VkDescriptorImageInfo> images; // the writes point into these
         images.reserve(image_count);
         std::vector<VkDescriptorBufferInfo> buffers(count);
@@ -255,7 +261,7 @@ void Commands::flush() {
         std::vector<VkWriteDescriptorSet> writes;
         writes.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const gpu::Binding& binding = pipeline_->bindings[i];
+            const gpu::ShaderBinding& binding = pipeline_->bindings[i];
             const auto bound = bound_.find(list_of(binding));
             check(bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
@@ -264,11 +270,11 @@ void Commands::flush() {
             write.dstSet = set;
             write.dstBinding = binding.binding;
             write.descriptorCount = binding.count;
-            write.descriptorType = gpu::descriptor_type(binding.kind);
+            write.descriptorType = gpu::descriptor_type_of_binding(binding.kind);
             write.pImageInfo = images.data() + images.size();
             write.pBufferInfo = &buffers[i];
             write.pTexelBufferView = &texels[i];
-            if (is_image(binding.kind) || binding.kind == gpu::BindingKind::sampler)
+            if (is_image_binding(binding.kind) || binding.kind == gpu::BindingKind::sampler)
                 write_images(binding, bound->second, images);
             else
                 write_buffer(binding, bound->second, buffers[i], texels[i]);

@@ -14,14 +14,14 @@
 
 namespace catoptric::graph {
 
-class Recorder;
+class FrameRecorder;
 
 /// The most images that one name of a shader can be bound to, as an array of textures.
 inline constexpr std::size_t kMostImages = 8;
 
 /// How a sampled image is looked up. Coordinates clamp to the edge, and cubes are filtered across
 /// faces.
-enum class Filter {
+enum class TextureFilter {
     nearest,
     linear,
     compare,  ///< reference >= depth, 2x2 PCF
@@ -32,10 +32,10 @@ enum class Filter {
 /// Resources are bound by their names in the shaders and stay bound until the pass ends. A name
 /// that the current pipeline does not use is ignored. A name that the pipeline uses and that is not
 /// bound throws `internal`.
-class Commands {
+class PassCommands {
 public:
-    Commands(Recorder& recorder, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
-             std::uint32_t first_layer, std::uint32_t layer_count)
+    PassCommands(FrameRecorder& recorder, const Graph& graph, const Pass& pass,
+                 VkCommandBuffer commands, std::uint32_t first_layer, std::uint32_t layer_count)
         : recorder_(recorder), graph_(graph), pass_(pass), commands_(commands),
           first_layer_(first_layer), layer_count_(layer_count) {}
 
@@ -45,15 +45,16 @@ public:
     void use(gpu::RasterState state);
     void use(const gpu::ComputeState& state);
     /// Binds an image, which the pass must declare.
-    void bind(std::string_view name, ImageHandle image, Filter filter = Filter::nearest) {
+    void bind(std::string_view name, ImageHandle image,
+              TextureFilter filter = TextureFilter::nearest) {
         bind(name, std::span(&image, 1), filter);
     }
     /// Binds 1 to kMostImages images to an array. If the shader's array is longer, the first image
     /// fills its other entries.
     void bind(std::string_view name, std::span<const ImageHandle> images,
-              Filter filter = Filter::nearest);
+              TextureFilter filter = TextureFilter::nearest);
     /// Binds a sampler without an image.
-    void bind(std::string_view name, Filter sampler);
+    void bind(std::string_view name, TextureFilter sampler);
     void bind(std::string_view name, BufferHandle buffer);
     void bind(std::string_view name, const gpu::Buffer& buffer);
     /// Sets the push constants of the draws and dispatches that follow.
@@ -65,7 +66,7 @@ public:
     }
     /// Draws three vertices without attributes. screen.vert makes them a triangle that covers the
     /// whole picture.
-    void cover();
+    void draw_covering_triangle();
     /// Sets the vertices (as in shaders/shared.h) and the 32-bit indices of the draws that follow.
     void geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
     /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
@@ -73,7 +74,7 @@ public:
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1, std::uint32_t first_instance = 0);
     /// Limits the draws that follow to the area, in pixels, which must lie within the attachments.
-    void scissor(const Area& area);
+    void scissor(const PixelArea& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
     /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
     /// pass declares as indirect.
@@ -93,31 +94,31 @@ public:
     void update(BufferHandle buffer, std::span<const std::byte> bytes);
 
 private:
-    struct BoundImages {
+    struct BoundImageList {
         std::array<ImageHandle, kMostImages> images{};
         std::size_t count = 1;
-        Filter filter = Filter::nearest;
+        TextureFilter filter = TextureFilter::nearest;
     };
-    using Bound = std::variant<BoundImages, Filter, VkBuffer, const gpu::Buffer*>;
+    using BoundResource = std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::Buffer*>;
     void flush();
     void require_declared(ImageHandle image, std::string_view name) const;
     void require_declared(BufferHandle buffer, std::string_view name) const;
-    void require_kind(const gpu::Binding& binding, const Bound& bound) const;
-    void write_images(const gpu::Binding& binding, const Bound& bound,
+    void require_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;
+    void write_images(const gpu::ShaderBinding& binding, const BoundResource& bound,
                       std::vector<VkDescriptorImageInfo>& infos);
-    static std::string_view list_of(const gpu::Binding& binding);
-    Filter filter_of(ImageHandle image, Filter filter) const;
-    void write_buffer(const gpu::Binding& binding, const Bound& bound,
+    static std::string_view list_of(const gpu::ShaderBinding& binding);
+    TextureFilter filter_of(ImageHandle image, TextureFilter filter) const;
+    void write_buffer(const gpu::ShaderBinding& binding, const BoundResource& bound,
                       VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 
-    Recorder& recorder_;
+    FrameRecorder& recorder_;
     const Graph& graph_;
     const Pass& pass_;
     VkCommandBuffer commands_;
     std::uint32_t first_layer_, layer_count_;
     const gpu::Pipeline* pipeline_ = nullptr;
     std::string pipeline_name_;
-    std::map<std::string, Bound, std::less<>> bound_;
+    std::map<std::string, BoundResource, std::less<>> bound_;
     bool dirty_ = true;
     VkBuffer vertices_ = VK_NULL_HANDLE, indices_ = VK_NULL_HANDLE; ///< bound by this pass
     std::vector<std::byte> push_;

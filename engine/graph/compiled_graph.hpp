@@ -13,24 +13,25 @@ constexpr std::uint32_t kMostInFlight = 3;
 
 /// An image that outlives the frame: a persistent image, or one with a `previous`.
 struct PersistentImage {
-    Lifetime lifetime = Lifetime::previous;
+    ImageLifetime lifetime = ImageLifetime::previous;
     /// Device images: this frame's and the last frame's if the image has a `previous`, else one.
-    std::vector<Physical> copies;
+    std::vector<PhysicalImage> copies;
     gpu::UniqueMemory memory;
     std::uint64_t bytes = 0; ///< bytes of `memory`
     std::size_t last = 0;    ///< index of the copy that holds the last frame
     bool valid = false;      ///< whether a last frame exists
     LayerHashes stamps;      ///< content hashes of a persistent image
 
-    Physical& copy(bool previous) {
-        return lifetime == Lifetime::persistent ? copies[0] : copies[previous ? last : 1 - last];
+    PhysicalImage& copy(bool previous) {
+        return lifetime == ImageLifetime::persistent ? copies[0]
+                                                     : copies[previous ? last : 1 - last];
     }
 };
 
 /// Images and buffers of a shape, indexed by their number in the graph. Entries whose memory lies
 /// elsewhere are empty.
-struct Resources {
-    std::vector<Physical> images;
+struct ShapeResources {
+    std::vector<PhysicalImage> images;
     std::vector<gpu::UniqueBuffer> buffers;
     bool made = false;
 };
@@ -43,27 +44,27 @@ struct CompiledGraph {
     /// Whether a frame with this plan has run; other plans do not count for memory.
     bool ran = false;
 
-    Resources shared;                         ///< resources that live within a frame
-    std::array<Resources, kMostInFlight> own; ///< outputs of a frame, a copy for each slot
+    ShapeResources shared;                         ///< resources that live within a frame
+    std::array<ShapeResources, kMostInFlight> own; ///< outputs of a frame, a copy for each slot
     /// Images that outlive frames, by image number, for the frame submitted last; null for others.
     std::vector<PersistentImage*> kept;
 
     /// Returns whether the image has its own memory across frames. A persistent image always does:
     /// it may be read after a frame whose passes do not touch it.
     bool is_persistent(std::uint32_t image) const {
-        const Lifetime lifetime = outline.lifetime(image);
-        return lifetime == Lifetime::persistent ||
-               (lifetime == Lifetime::previous && plan.images[image].used);
+        const ImageLifetime lifetime = outline.lifetime(image);
+        return lifetime == ImageLifetime::persistent ||
+               (lifetime == ImageLifetime::previous && plan.images[image].used);
     }
     /// Returns whether the image is used and the runner owns its memory.
     bool is_owned(std::uint32_t image) const {
-        return plan.images[image].used && outline.lifetime(image) != Lifetime::imported;
+        return plan.images[image].used && outline.lifetime(image) != ImageLifetime::imported;
     }
     bool is_owned(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
     /// Returns the device image that stands for `image` in a frame of the slot.
-    Physical& physical(ImageHandle image, std::size_t slot) {
+    PhysicalImage& physical(ImageHandle image, std::size_t slot) {
         if (PersistentImage* const k = kept[image.id]) return k->copy(image.previous);
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];
     }

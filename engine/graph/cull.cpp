@@ -7,11 +7,12 @@ namespace catoptric::graph {
 namespace {
 
 /// Returns the layers and buffers whose contents are needed at the end of the frame.
-Ledger<char> live_at_end(const Graph& graph) {
-    Ledger<char> live = output_parts(graph);
+ResourceLedger<char> mark_live_at_frame_end(const Graph& graph) {
+    ResourceLedger<char> live = mark_output_parts(graph);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
-        if (graph.lifetime(i) == Lifetime::persistent || graph.lifetime(i) == Lifetime::imported)
-            live.set(access_to_all(graph, i), true);
+        if (graph.lifetime(i) == ImageLifetime::persistent ||
+            graph.lifetime(i) == ImageLifetime::imported)
+            live.set(access_to_whole_image(graph, i), true);
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
         if (graph.is_imported({b})) live.set({.is_buffer = true, .id = b}, true);
     return live;
@@ -19,11 +20,12 @@ Ledger<char> live_at_end(const Graph& graph) {
 
 /// Returns a bit for each attachment of the pass that is not read before it is written again.
 /// Images come first among the accesses, in order of declaration.
-std::uint32_t unread(std::span<const Access> accesses, const Ledger<char>& live) {
+std::uint32_t find_unread_attachments(std::span<const ResourceAccess> accesses,
+                                      const ResourceLedger<char>& live) {
     constexpr std::size_t kBits = 32;
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < std::min(accesses.size(), kBits); ++i) {
-        const Access& a = accesses[i];
+        const ResourceAccess& a = accesses[i];
         if (!a.is_buffer && a.write && is_attachment(a.use) && !live.any(a, true)) bits |= 1u << i;
     }
     return bits;
@@ -31,16 +33,17 @@ std::uint32_t unread(std::span<const Access> accesses, const Ledger<char>& live)
 
 /// Sweeps from the last pass to the first. `live` starts as the contents needed at the end of the
 /// frame.
-std::vector<Fate> sweep(const Accesses& all, std::size_t passes, Ledger<char> live) {
-    std::vector<Fate> fates(passes);
+std::vector<PassFate> cull_backwards(const GraphAccesses& all, std::size_t passes,
+                                     ResourceLedger<char> live) {
+    std::vector<PassFate> fates(passes);
     for (std::size_t p = fates.size(); p-- > 0;) {
         fates[p].survives = std::ranges::any_of(
-            all.of(p), [&](const Access& a) { return a.write && live.any(a, true); });
+            all.of(p), [&](const ResourceAccess& a) { return a.write && live.any(a, true); });
         if (!fates[p].survives) continue;
-        fates[p].unread = unread(all.of(p), live);
-        for (const Access& a : all.of(p))
+        fates[p].unread = find_unread_attachments(all.of(p), live);
+        for (const ResourceAccess& a : all.of(p))
             if (a.write) live.set(a, false);
-        for (const Access& a : all.of(p))
+        for (const ResourceAccess& a : all.of(p))
             if (a.needs && !a.previous) live.set(a, true);
     }
     return fates;
@@ -48,16 +51,16 @@ std::vector<Fate> sweep(const Accesses& all, std::size_t passes, Ledger<char> li
 
 } // namespace
 
-std::vector<Fate> fates(const Graph& graph, const Accesses& all) {
-    Ledger<char> at_end = live_at_end(graph);
+std::vector<PassFate> decide_pass_fates(const Graph& graph, const GraphAccesses& all) {
+    ResourceLedger<char> at_end = mark_live_at_frame_end(graph);
     while (true) {
-        std::vector<Fate> fates = sweep(all, graph.passes().size(), at_end);
+        std::vector<PassFate> fates = cull_backwards(all, graph.passes().size(), at_end);
         // Contents of the last frame that survivors read must be complete at the end of this frame,
         // too.
         bool grew = false;
         for (std::size_t p = 0; p < fates.size(); ++p) {
             if (!fates[p].survives) continue;
-            for (const Access& a : all.of(p)) {
+            for (const ResourceAccess& a : all.of(p)) {
                 if (!a.previous || !at_end.any(a, false)) continue;
                 at_end.set(a, true);
                 grew = true;
@@ -67,10 +70,10 @@ std::vector<Fate> fates(const Graph& graph, const Accesses& all) {
     }
 }
 
-std::string cull_reason(const Graph& graph, std::span<const Access> accesses) {
+std::string describe_cull_reason(const Graph& graph, std::span<const ResourceAccess> accesses) {
     std::string names;
-    for (const Access& a : accesses) {
-        const std::string name = quoted_name(graph, a);
+    for (const ResourceAccess& a : accesses) {
+        const std::string name = quote_resource_name(graph, a);
         if (!a.write || names.find(name) != std::string::npos) continue;
         names += (names.empty() ? "" : ", ") + name;
     }

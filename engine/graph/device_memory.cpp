@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 namespace {
 
-VkMemoryRequirements requirements(const gpu::Device& device, const ImageDesc& desc) {
+VkMemoryRequirements query_image_memory(const gpu::Device& device, const ImageDesc& desc) {
     const VkImageCreateInfo create = image_create_info(desc);
     VkDeviceImageMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
@@ -24,7 +24,7 @@ VkBufferCreateInfo buffer_create_info(const BufferDesc& desc) {
     return create;
 }
 
-VkMemoryRequirements requirements(const gpu::Device& device, const BufferDesc& desc) {
+VkMemoryRequirements query_image_memory(const gpu::Device& device, const BufferDesc& desc) {
     const VkBufferCreateInfo create = buffer_create_info(desc);
     VkDeviceBufferMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
@@ -33,8 +33,9 @@ VkMemoryRequirements requirements(const gpu::Device& device, const BufferDesc& d
     return needs.memoryRequirements;
 }
 
-MemoryRequirements placed(const gpu::Device& device, const VkMemoryRequirements& needs,
-                          const std::string& name) {
+MemoryRequirements make_memory_requirements(const gpu::Device& device,
+                                            const VkMemoryRequirements& needs,
+                                            const std::string& name) {
     const int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
     // Buffers and images share heaps. Aligning to the granularity keeps them on separate pages.
@@ -45,16 +46,17 @@ MemoryRequirements placed(const gpu::Device& device, const VkMemoryRequirements&
 
 } // namespace
 
-Sizer sizer_of(const gpu::Device& device) {
-    return {[&device](const ImageDesc& desc) {
-                return placed(device, requirements(device, desc), desc.name);
-            },
-            [&device](const BufferDesc& desc) {
-                return placed(device, requirements(device, desc), desc.name);
-            }};
+MemorySizer make_device_sizer(const gpu::Device& device) {
+    return {
+        [&device](const ImageDesc& desc) {
+            return make_memory_requirements(device, query_image_memory(device, desc), desc.name);
+        },
+        [&device](const BufferDesc& desc) {
+            return make_memory_requirements(device, query_image_memory(device, desc), desc.name);
+        }};
 }
 
-gpu::UniqueBuffer make_buffer(const gpu::Device& device, const BufferDesc& desc) {
+gpu::UniqueBuffer make_unbound_buffer(const gpu::Device& device, const BufferDesc& desc) {
     const VkBufferCreateInfo create = buffer_create_info(desc);
     VkBuffer buffer = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer),
@@ -63,10 +65,10 @@ gpu::UniqueBuffer make_buffer(const gpu::Device& device, const BufferDesc& desc)
     return {device.handle(), buffer};
 }
 
-OwnedImage make_image(const gpu::Device& device, const ImageDesc& desc) {
-    const MemoryRequirements needs = sizer_of(device).image(desc);
+OwnedImage make_importable_image(const gpu::Device& device, const ImageDesc& desc) {
+    const MemoryRequirements needs = make_device_sizer(device).image(desc);
     OwnedImage made{device.allocate(needs.bytes, needs.heap, desc.name),
-                    make_physical(device, desc)};
+                    make_physical_image(device, desc)};
     gpu::check_vk(vkBindImageMemory(device.handle(), made.image.image, made.memory, 0),
                   "place image '" + desc.name + "'");
     return made;

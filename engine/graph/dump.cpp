@@ -13,41 +13,41 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view name_of(Tag tag) { return tag == Tag::scene ? "scene" : "none"; }
+std::string_view name_of(PassTag tag) { return tag == PassTag::scene ? "scene" : "none"; }
 
 /// Returns a count with its noun: "1 pass", "2 passes".
-std::string counted(std::size_t count, const std::string& thing, const std::string& plural) {
+std::string format_count(std::size_t count, const std::string& thing, const std::string& plural) {
     return std::to_string(count) + " " + (count == 1 ? thing : thing + plural);
 }
 
-const Pass& pass_of(const Graph& graph, const PlannedPass& planned) {
+const Pass& find_pass(const Graph& graph, const PlannedPass& planned) {
     return graph.passes()[planned.pass];
 }
 
 /// Tells which resources share memory.
-class Sharers {
+class MemorySharers {
 public:
-    Sharers(const Graph& graph, const GraphPlan& plan) {
+    MemorySharers(const Graph& graph, const GraphPlan& plan) {
         for (std::size_t i = 0; i < plan.images.size(); ++i)
             add(plan.images[i], graph.images()[i].name);
         for (std::size_t b = 0; b < plan.buffers.size(); ++b)
             add(plan.buffers[b], graph.buffers()[b].name);
-        for (Heap& heap : heaps_) {
+        for (HeapSharers& heap : heaps_) {
             std::ranges::sort(heap.begins);
             std::ranges::sort(heap.ends);
         }
     }
     /// Returns the number of other resources whose memory overlaps that of `mine`.
-    std::size_t count(const Placement& mine) const {
+    std::size_t count(const MemoryPlacement& mine) const {
         if (!mine.used || mine.bytes == 0) return 0;
-        const Heap& heap = heaps_[mine.heap];
+        const HeapSharers& heap = heaps_[mine.heap];
         const auto begun = std::ranges::lower_bound(heap.begins, mine.offset + mine.bytes);
         const auto ended = std::ranges::upper_bound(heap.ends, mine.offset);
         return static_cast<std::size_t>(begun - heap.begins.begin()) -
                static_cast<std::size_t>(ended - heap.ends.begin()) - 1; // `mine` itself
     }
     /// Returns the names of the first `limit` of these resources.
-    std::vector<std::string_view> names(const Placement& mine, std::size_t limit) const {
+    std::vector<std::string_view> names(const MemoryPlacement& mine, std::size_t limit) const {
         const std::size_t wanted = std::min(limit, count(mine));
         std::vector<std::string_view> names;
         for (std::size_t i = 0; i < all_.size() && names.size() < wanted; ++i) {
@@ -61,23 +61,23 @@ public:
     }
 
 private:
-    struct Heap {
+    struct HeapSharers {
         std::vector<std::uint64_t> begins, ends; // sorted
     };
-    void add(const Placement& placement, std::string_view name) {
+    void add(const MemoryPlacement& placement, std::string_view name) {
         all_.emplace_back(&placement, name);
         if (!placement.used || placement.bytes == 0) return;
         if (heaps_.size() <= placement.heap) heaps_.resize(placement.heap + 1);
         heaps_[placement.heap].begins.push_back(placement.offset);
         heaps_[placement.heap].ends.push_back(placement.offset + placement.bytes);
     }
-    std::vector<std::pair<const Placement*, std::string_view>> all_;
-    std::vector<Heap> heaps_;
+    std::vector<std::pair<const MemoryPlacement*, std::string_view>> all_;
+    std::vector<HeapSharers> heaps_;
 };
 
-void write_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
-    for (const Access& a : accesses(pass)) {
-        out << "      " << (a.write ? "writes " : "reads  ") << describe(graph, a) << " as "
+void write_pass_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
+    for (const ResourceAccess& a : list_pass_accesses(pass)) {
+        out << "      " << (a.write ? "writes " : "reads  ") << describe_access(graph, a) << " as "
             << graph::name_of(a.use);
         if (a.clears) out << ", cleared";
         if (a.write && a.needs && is_attachment(a.use)) out << ", loaded";
@@ -85,7 +85,8 @@ void write_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
     }
 }
 
-void write_placement(std::ostream& out, const Sharers& sharers, const Placement& placement) {
+void write_placement(std::ostream& out, const MemorySharers& sharers,
+                     const MemoryPlacement& placement) {
     constexpr std::size_t kNamed = 32; // in a large frame, hundreds of resources share a place
     if (!placement.used) {
         out << ", not used\n";
@@ -102,7 +103,7 @@ void write_placement(std::ostream& out, const Sharers& sharers, const Placement&
     out << "\n";
 }
 
-Json access_json(const Graph& graph, const Access& a) {
+Json make_access_json(const Graph& graph, const ResourceAccess& a) {
     if (a.is_buffer)
         return {{"buffer", graph.buffers()[a.id].name}, {"use", graph::name_of(a.use)}};
     Json json{{"image", graph.images()[a.id].name},
@@ -116,11 +117,11 @@ Json access_json(const Graph& graph, const Access& a) {
     return json;
 }
 
-Json pass_json(const Graph& graph, const PlannedPass& planned) {
-    const Pass& pass = pass_of(graph, planned);
+Json make_pass_json(const Graph& graph, const PlannedPass& planned) {
+    const Pass& pass = find_pass(graph, planned);
     Json reads = Json::array(), writes = Json::array();
-    for (const Access& a : accesses(pass))
-        (a.write ? writes : reads).push_back(access_json(graph, a));
+    for (const ResourceAccess& a : list_pass_accesses(pass))
+        (a.write ? writes : reads).push_back(make_access_json(graph, a));
     return {{"name", pass.name},
             {"tag", name_of(pass.tag)},
             {"reads", reads},
@@ -128,7 +129,7 @@ Json pass_json(const Graph& graph, const PlannedPass& planned) {
             {"barriers", planned.barriers.size()}};
 }
 
-void add_placement(Json& json, const Placement& placement) {
+void add_placement_json(Json& json, const MemoryPlacement& placement) {
     json["used"] = placement.used;
     json["first"] = placement.first;
     json["last"] = placement.last;
@@ -138,21 +139,22 @@ void add_placement(Json& json, const Placement& placement) {
     json["alone"] = placement.alone;
 }
 
-Json image_json(const ImageDesc& desc, Lifetime lifetime, const Placement& placement) {
+Json make_image_json(const ImageDesc& desc, ImageLifetime lifetime,
+                     const MemoryPlacement& placement) {
     Json json{{"name", desc.name},
               {"format", catoptric::name_of(desc.format)},
               {"size", {desc.width, desc.height}},
               {"layers", desc.layers},
               {"cube", desc.cube}};
     if (desc.mips > 1) json["mips"] = desc.mips;
-    if (lifetime == Lifetime::persistent) json["kept"] = true;
-    if (lifetime == Lifetime::imported) json["imported"] = true;
-    add_placement(json, placement);
+    if (lifetime == ImageLifetime::persistent) json["kept"] = true;
+    if (lifetime == ImageLifetime::imported) json["imported"] = true;
+    add_placement_json(json, placement);
     return json;
 }
 
 /// Escapes text for quotation marks of the dot language.
-std::string escaped(std::string_view text) {
+std::string escape_for_dot(std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
@@ -164,9 +166,10 @@ std::string escaped(std::string_view text) {
 void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, bool culled) {
     const Pass& pass = graph.passes()[index];
     const std::string style = culled ? "dashed" : "solid";
-    out << "  p" << index << " [shape=box, style=" << style << ", label=\"" << escaped(pass.name)
-        << (pass.tag == Tag::scene ? "\\n(scene)" : "") << "\"];\n";
-    for (const Access& a : accesses(pass)) {
+    out << "  p" << index << " [shape=box, style=" << style << ", label=\""
+        << escape_for_dot(pass.name) << (pass.tag == PassTag::scene ? "\\n(scene)" : "")
+        << "\"];\n";
+    for (const ResourceAccess& a : list_pass_accesses(pass)) {
         const std::string resource = (a.is_buffer ? "b" : "i") + std::to_string(a.id);
         const std::string node = "p" + std::to_string(index);
         out << "  " << (a.write ? node : resource) << " -> " << (a.write ? resource : node)
@@ -182,29 +185,29 @@ void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, 
 
 std::string to_text(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
-    out << counted(plan.passes.size(), "pass", "es") << ", scene_passes " << plan.scene_passes
+    out << format_count(plan.passes.size(), "pass", "es") << ", scene_passes " << plan.scene_passes
         << ", " << plan.bytes << " bytes (" << plan.bytes_unshared
         << " without sharing)\n\npasses\n";
     for (std::size_t p = 0; p < plan.passes.size(); ++p) {
-        const Pass& pass = pass_of(graph, plan.passes[p]);
+        const Pass& pass = find_pass(graph, plan.passes[p]);
         out << "  " << p + 1 << " '" << pass.name << "'"
-            << (pass.tag == Tag::scene ? " (scene)" : "") << ", "
-            << counted(plan.passes[p].barriers.size(), "barrier", "s") << "\n";
-        write_uses(out, graph, pass);
+            << (pass.tag == PassTag::scene ? " (scene)" : "") << ", "
+            << format_count(plan.passes[p].barriers.size(), "barrier", "s") << "\n";
+        write_pass_uses(out, graph, pass);
     }
     if (!plan.culled.empty()) out << "\nculled\n";
-    for (const Culled& culled : plan.culled)
+    for (const CulledPass& culled : plan.culled)
         out << "  '" << graph.passes()[culled.pass].name << "': " << culled.reason << "\n";
-    const Sharers sharers(graph, plan);
+    const MemorySharers sharers(graph, plan);
     if (!plan.images.empty()) out << "\nimages\n";
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const ImageDesc& desc = graph.images()[i];
         out << "  '" << desc.name << "' " << catoptric::name_of(desc.format) << " " << desc.width
-            << "x" << desc.height << ", " << counted(desc.layers, "layer", "s")
+            << "x" << desc.height << ", " << format_count(desc.layers, "layer", "s")
             << (desc.cube ? " (cube)" : "");
-        if (desc.mips > 1) out << ", " << counted(desc.mips, "mip", "s");
-        if (graph.lifetime(i) == Lifetime::persistent) out << ", kept";
-        if (graph.lifetime(i) == Lifetime::imported) out << ", imported";
+        if (desc.mips > 1) out << ", " << format_count(desc.mips, "mip", "s");
+        if (graph.lifetime(i) == ImageLifetime::persistent) out << ", kept";
+        if (graph.lifetime(i) == ImageLifetime::imported) out << ", imported";
         write_placement(out, sharers, plan.images[i]);
     }
     if (!plan.buffers.empty()) out << "\nbuffers\n";
@@ -219,13 +222,13 @@ std::string to_dot(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
     out << "digraph frame {\n  rankdir=LR;\n";
     for (std::size_t i = 0; i < graph.images().size(); ++i)
-        out << "  i" << i << " [shape=ellipse, label=\"" << escaped(graph.images()[i].name)
+        out << "  i" << i << " [shape=ellipse, label=\"" << escape_for_dot(graph.images()[i].name)
             << "\"];\n";
     for (std::size_t b = 0; b < graph.buffers().size(); ++b)
-        out << "  b" << b << " [shape=cylinder, label=\"" << escaped(graph.buffers()[b].name)
+        out << "  b" << b << " [shape=cylinder, label=\"" << escape_for_dot(graph.buffers()[b].name)
             << "\"];\n";
     for (const PlannedPass& planned : plan.passes) write_dot_pass(out, graph, planned.pass, false);
-    for (const Culled& culled : plan.culled) write_dot_pass(out, graph, culled.pass, true);
+    for (const CulledPass& culled : plan.culled) write_dot_pass(out, graph, culled.pass, true);
     out << "}\n";
     return out.str();
 }
@@ -236,16 +239,16 @@ std::string to_json(const Graph& graph, const GraphPlan& plan) {
               {"images", Json::array()},
               {"buffers", Json::array()}};
     for (const PlannedPass& planned : plan.passes)
-        json["passes"].push_back(pass_json(graph, planned));
-    for (const Culled& culled : plan.culled)
+        json["passes"].push_back(make_pass_json(graph, planned));
+    for (const CulledPass& culled : plan.culled)
         json["culled"].push_back(
             {{"name", graph.passes()[culled.pass].name}, {"reason", culled.reason}});
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        json["images"].push_back(image_json(
+        json["images"].push_back(make_image_json(
             graph.images()[i], graph.lifetime(static_cast<std::uint32_t>(i)), plan.images[i]));
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
         Json buffer{{"name", graph.buffers()[b].name}};
-        add_placement(buffer, plan.buffers[b]);
+        add_placement_json(buffer, plan.buffers[b]);
         json["buffers"].push_back(buffer);
     }
     json["scene_passes"] = plan.scene_passes;

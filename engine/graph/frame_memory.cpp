@@ -13,7 +13,7 @@ namespace {
 template <typename Visit>
 void for_each_placement(const CompiledGraph& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
-        const Placement& placement = shape.plan.images[i];
+        const MemoryPlacement& placement = shape.plan.images[i];
         if (shape.is_owned(i) && placement.alone == alone && !shape.is_persistent(i))
             visit(placement);
     }
@@ -25,10 +25,10 @@ void for_each_placement(const CompiledGraph& shape, bool alone, const Visit& vis
 /// Returns the offset in each heap of the plan at which the outputs begin. The plan puts outputs
 /// after the shared part. The runner puts them into a separate arena, at the same distance from one
 /// another.
-std::vector<std::uint64_t> begin_of_own(const CompiledGraph& shape) {
+std::vector<std::uint64_t> output_offsets_in_heaps(const CompiledGraph& shape) {
     const std::vector<std::uint64_t>& heaps = shape.plan.heap_bytes;
     std::vector<std::uint64_t> begin = heaps, alignment(heaps.size(), 1);
-    for_each_placement(shape, true, [&](const Placement& p) {
+    for_each_placement(shape, true, [&](const MemoryPlacement& p) {
         begin[p.heap] = std::min(begin[p.heap], p.offset);
         alignment[p.heap] = std::max(alignment[p.heap], p.alignment);
     });
@@ -37,22 +37,22 @@ std::vector<std::uint64_t> begin_of_own(const CompiledGraph& shape) {
 }
 
 /// Returns the bytes that a shape needs of each heap.
-std::vector<std::uint64_t> claim(const CompiledGraph& shape, bool alone) {
+std::vector<std::uint64_t> claimed_heap_bytes(const CompiledGraph& shape, bool alone) {
     std::vector<std::uint64_t> bytes(shape.plan.heap_bytes.size(), 0);
-    const std::vector<std::uint64_t> begin = begin_of_own(shape);
-    for_each_placement(shape, alone, [&](const Placement& p) {
+    const std::vector<std::uint64_t> begin = output_offsets_in_heaps(shape);
+    for_each_placement(shape, alone, [&](const MemoryPlacement& p) {
         const std::uint64_t end = p.offset + p.bytes - (alone ? begin[p.heap] : 0);
         bytes[p.heap] = std::max(bytes[p.heap], end);
     });
     return bytes;
 }
 
-std::vector<std::uint64_t> largest_claim(std::span<const std::shared_ptr<CompiledGraph>> shapes,
-                                         bool alone) {
+std::vector<std::uint64_t>
+max_claimed_heap_bytes(std::span<const std::shared_ptr<CompiledGraph>> shapes, bool alone) {
     std::vector<std::uint64_t> largest;
     for (const auto& shape : shapes) {
         if (!shape->ran) continue;
-        const std::vector<std::uint64_t> bytes = claim(*shape, alone);
+        const std::vector<std::uint64_t> bytes = claimed_heap_bytes(*shape, alone);
         largest.resize(std::max(largest.size(), bytes.size()), 0);
         for (std::size_t h = 0; h < bytes.size(); ++h) largest[h] = std::max(largest[h], bytes[h]);
     }
@@ -61,7 +61,7 @@ std::vector<std::uint64_t> largest_claim(std::span<const std::shared_ptr<Compile
 
 } // namespace
 
-void FrameMemory::allocate(Arena& arena, std::vector<std::uint64_t> bytes) {
+void FrameMemory::allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes) {
     arena = {}; // frees the old memory before more is allocated
     for (std::size_t type = 0; type < bytes.size(); ++type)
         arena.heaps.push_back(bytes[type]
@@ -71,28 +71,29 @@ void FrameMemory::allocate(Arena& arena, std::vector<std::uint64_t> bytes) {
     arena.bytes = std::move(bytes);
 }
 
-void FrameMemory::make(CompiledGraph& shape, Resources& resources, const Arena& arena, bool alone) {
+void FrameMemory::make(CompiledGraph& shape, ShapeResources& resources,
+                       const HeapAllocations& arena, bool alone) {
     resources = {};
-    const std::vector<std::uint64_t> begin = begin_of_own(shape);
-    const auto offset_of = [&](const Placement& p) {
+    const std::vector<std::uint64_t> begin = output_offsets_in_heaps(shape);
+    const auto offset_of = [&](const MemoryPlacement& p) {
         return p.offset - (alone ? begin[p.heap] : 0);
     };
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
-        const Placement& p = shape.plan.images[i];
+        const MemoryPlacement& p = shape.plan.images[i];
         const ImageDesc& desc = shape.outline.images()[i];
         resources.images.emplace_back();
         if (!shape.is_owned(i) || p.alone != alone || shape.is_persistent(i)) continue;
-        resources.images.back() = make_physical(device_, desc);
+        resources.images.back() = make_physical_image(device_, desc);
         gpu::check_vk(vkBindImageMemory(device_.handle(), resources.images.back().image,
                                         arena.heaps[p.heap], offset_of(p)),
                       "place image '" + desc.name + "'");
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b) {
-        const Placement& p = shape.plan.buffers[b];
+        const MemoryPlacement& p = shape.plan.buffers[b];
         const BufferDesc& desc = shape.outline.buffers()[b];
         resources.buffers.emplace_back();
         if (!shape.is_owned(BufferHandle{b}) || p.alone != alone) continue;
-        resources.buffers.back() = make_buffer(device_, desc);
+        resources.buffers.back() = make_unbound_buffer(device_, desc);
         gpu::check_vk(vkBindBufferMemory(device_.handle(), resources.buffers.back(),
                                          arena.heaps[p.heap], offset_of(p)),
                       "place buffer '" + desc.name + "'");
@@ -102,11 +103,11 @@ void FrameMemory::make(CompiledGraph& shape, Resources& resources, const Arena& 
 
 std::uint64_t FrameMemory::bytes() const {
     std::uint64_t sum = 0;
-    const auto add = [&](const Arena& arena) {
+    const auto add = [&](const HeapAllocations& arena) {
         for (const std::uint64_t bytes : arena.bytes) sum += bytes;
     };
     add(shared_);
-    for (const Arena& arena : own_) add(arena);
+    for (const HeapAllocations& arena : own_) add(arena);
     return sum;
 }
 
@@ -115,13 +116,15 @@ void FrameMemory::provide(CompiledGraph& shape, std::size_t slot,
                           const std::function<void()>& wait) {
     shape.ran = true;
     if (shape.shared.made && shape.own[slot].made) return;
-    if (std::vector<std::uint64_t> bytes = largest_claim(shapes, false); bytes != shared_.bytes) {
+    if (std::vector<std::uint64_t> bytes = max_claimed_heap_bytes(shapes, false);
+        bytes != shared_.bytes) {
         wait();
         for (const auto& other : shapes) other->shared = {};
         allocate(shared_, std::move(bytes));
     }
     // No frame in flight uses this slot's memory: its last frame has ended.
-    if (std::vector<std::uint64_t> bytes = largest_claim(shapes, true); bytes != own_[slot].bytes) {
+    if (std::vector<std::uint64_t> bytes = max_claimed_heap_bytes(shapes, true);
+        bytes != own_[slot].bytes) {
         for (const auto& other : shapes) other->own[slot] = {};
         allocate(own_[slot], std::move(bytes));
     }

@@ -26,16 +26,17 @@ public:
 
 private:
     /// The bytes of each heap and the memory allocated for them.
-    struct Arena {
+    struct HeapAllocations {
         std::vector<std::uint64_t> bytes;
         std::vector<gpu::UniqueMemory> heaps;
     };
-    void allocate(Arena& arena, std::vector<std::uint64_t> bytes);
-    void make(CompiledGraph& shape, Resources& resources, const Arena& arena, bool alone);
+    void allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes);
+    void make(CompiledGraph& shape, ShapeResources& resources, const HeapAllocations& arena,
+              bool alone);
 
     const gpu::Device& device_;
-    Arena shared_;
-    std::array<Arena, kMostInFlight> own_;
+    HeapAllocations shared_;
+    std::array<HeapAllocations, kMostInFlight> own_;
 };
 
 } // namespace catoptric::graph

@@ -8,25 +8,25 @@
 
 namespace catoptric::graph {
 
-std::string_view name_of(Use use) {
+std::string_view name_of(ResourceUse use) {
     switch (use) {
-    case Use::sampled: return "sampled";
-    case Use::storage_read: return "storage_read";
-    case Use::storage_write: return "storage_write";
-    case Use::storage: return "storage";
-    case Use::colour: return "colour";
-    case Use::depth: return "depth";
-    case Use::copy_from: return "copy_from";
-    case Use::copy_to: return "copy_to";
-    case Use::indirect: return "indirect";
-    case Use::present: return "present";
+    case ResourceUse::sampled: return "sampled";
+    case ResourceUse::storage_read: return "storage_read";
+    case ResourceUse::storage_write: return "storage_write";
+    case ResourceUse::storage: return "storage";
+    case ResourceUse::colour: return "colour";
+    case ResourceUse::depth: return "depth";
+    case ResourceUse::copy_from: return "copy_from";
+    case ResourceUse::copy_to: return "copy_to";
+    case ResourceUse::indirect: return "indirect";
+    case ResourceUse::present: return "present";
     }
     return "";
 }
 
 namespace {
 
-ImageHandle whole(std::uint32_t id, const ImageDesc& desc) {
+ImageHandle whole_image(std::uint32_t id, const ImageDesc& desc) {
     return {.id = id, .layer_count = desc.layers, .mip_count = desc.mips};
 }
 
@@ -34,31 +34,32 @@ ImageHandle whole(std::uint32_t id, const ImageDesc& desc) {
 
 bool Pass::is_raster() const {
     return std::ranges::any_of(images, [](const ImageUse& use) {
-        return use.use == Use::colour || use.use == Use::depth;
+        return use.use == ResourceUse::colour || use.use == ResourceUse::depth;
     });
 }
 
-PassBuilder& PassBuilder::reads(ImageHandle image, Use use) {
+PassBuilder& PassBuilder::reads(ImageHandle image, ResourceUse use) {
     pass_.images.push_back({.image = image, .use = use, .write = false, .clear = {}});
     return *this;
 }
 
-PassBuilder& PassBuilder::reads(BufferHandle buffer, Use use) {
+PassBuilder& PassBuilder::reads(BufferHandle buffer, ResourceUse use) {
     pass_.buffers.push_back({.buffer = buffer, .use = use, .write = false});
     return *this;
 }
 
-PassBuilder& PassBuilder::writes(ImageHandle image, Use use, std::optional<Clear> clear) {
+PassBuilder& PassBuilder::writes(ImageHandle image, ResourceUse use,
+                                 std::optional<ClearValue> clear) {
     pass_.images.push_back({.image = image, .use = use, .write = true, .clear = clear});
     return *this;
 }
 
-PassBuilder& PassBuilder::writes(BufferHandle buffer, Use use) {
+PassBuilder& PassBuilder::writes(BufferHandle buffer, ResourceUse use) {
     pass_.buffers.push_back({.buffer = buffer, .use = use, .write = true});
     return *this;
 }
 
-PassBuilder& PassBuilder::updates(ImageHandle image, Use use, const Clear& clear) {
+PassBuilder& PassBuilder::updates(ImageHandle image, ResourceUse use, const ClearValue& clear) {
     pass_.images.push_back(
         {.image = image, .use = use, .write = true, .clear = clear, .stays = true});
     return *this;
@@ -69,18 +70,18 @@ PassBuilder& PassBuilder::layers(std::uint32_t count) {
     return *this;
 }
 
-PassBuilder& PassBuilder::area(const Area& area) {
+PassBuilder& PassBuilder::area(const PixelArea& area) {
     pass_.area = area;
     return *this;
 }
 
-void PassBuilder::record(std::function<void(Commands&)> body) { pass_.body = std::move(body); }
+void PassBuilder::record(std::function<void(PassCommands&)> body) { pass_.body = std::move(body); }
 
 ImageHandle Graph::image(ImageDesc desc) {
     const auto id = static_cast<std::uint32_t>(images_.size());
     images_.push_back(std::move(desc));
     lives_.emplace_back();
-    return whole(id, images_.back());
+    return whole_image(id, images_.back());
 }
 
 BufferHandle Graph::buffer(BufferDesc desc) {
@@ -96,7 +97,7 @@ ImageHandle Graph::persistent(ImageDesc desc) {
     if (found != history_.persistent.end() && found->second.desc == desc)
         held = found->second.stamps;
     const ImageHandle handle = image(std::move(desc));
-    lives_.back().lifetime = Lifetime::persistent;
+    lives_.back().lifetime = ImageLifetime::persistent;
     lives_.back().held = std::move(held);
     return handle;
 }
@@ -109,11 +110,11 @@ const ImageDesc& Graph::described(ImageHandle image, const char* asked) const {
 
 bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
     const ImageDesc& desc = described(part, "holds()");
-    check(lifetime(part.id) == Lifetime::persistent, Failure::internal, "holds() of image '",
+    check(lifetime(part.id) == ImageLifetime::persistent, Failure::internal, "holds() of image '",
           desc.name, "', which is not kept");
     bool all = true;
-    for_each_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
-        held(part.id).each(
+    for_each_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
+        content_hashes_at_start(part.id).each(
             first, end, [&](std::uint32_t, std::uint32_t, const std::optional<std::uint64_t>& s) {
                 all = all && s == content_hash;
             });
@@ -123,15 +124,15 @@ bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
 
 void Graph::set_content_hash(ImageHandle part, std::uint64_t content_hash) {
     const ImageDesc& desc = described(part, "made_from()");
-    check(lifetime(part.id) == Lifetime::persistent, Failure::internal, "made_from() of image '",
-          desc.name, "', which is not kept");
+    check(lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
+          "made_from() of image '", desc.name, "', which is not kept");
     stamped_.push_back({part, content_hash});
 }
 
-ImageHandle Graph::import(ImageDesc desc, Physical* outside, std::optional<Use> arrives,
-                          Use leaves) {
+ImageHandle Graph::import(ImageDesc desc, PhysicalImage* outside,
+                          std::optional<ResourceUse> arrives, ResourceUse leaves) {
     const ImageHandle handle = image(std::move(desc));
-    lives_.back() = {.lifetime = Lifetime::imported,
+    lives_.back() = {.lifetime = ImageLifetime::imported,
                      .arrives = arrives,
                      .leaves = leaves,
                      .outside = outside,
@@ -146,7 +147,7 @@ BufferHandle Graph::import(BufferDesc desc, const gpu::Buffer* outside) {
     return handle;
 }
 
-PassBuilder Graph::pass(std::string name, Tag tag) {
+PassBuilder Graph::pass(std::string name, PassTag tag) {
     Pass& pass = passes_.emplace_back();
     pass.name = std::move(name);
     pass.tag = tag;
@@ -155,11 +156,11 @@ PassBuilder Graph::pass(std::string name, Tag tag) {
 
 ImageHandle Graph::previous(ImageHandle image) {
     const ImageDesc& desc = described(image, "previous()");
-    Lifetime& lifetime = lives_[image.id].lifetime;
-    check(lifetime == Lifetime::frame || lifetime == Lifetime::previous, Failure::internal,
-          "previous() of image '", desc.name, "', which is ",
-          lifetime == Lifetime::persistent ? "kept" : "imported", " and has one copy");
-    lifetime = Lifetime::previous;
+    ImageLifetime& lifetime = lives_[image.id].lifetime;
+    check(lifetime == ImageLifetime::frame || lifetime == ImageLifetime::previous,
+          Failure::internal, "previous() of image '", desc.name, "', which is ",
+          lifetime == ImageLifetime::persistent ? "kept" : "imported", " and has one copy");
+    lifetime = ImageLifetime::previous;
     image.previous = true;
     return image;
 }
@@ -171,18 +172,19 @@ bool Graph::has_history(ImageHandle image) const {
 void Graph::mark_output(ImageHandle image) { wanted_images_.push_back(image); }
 void Graph::mark_output(BufferHandle buffer) { wanted_buffers_.push_back(buffer); }
 
-History Graph::left() const {
-    History left = history_;
+GraphHistory Graph::history_for_next_frame() const {
+    GraphHistory left = history_;
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
-        if (lives_[i].lifetime == Lifetime::previous) left.previous.insert(images_[i].name);
-        if (lives_[i].lifetime == Lifetime::persistent)
-            left.persistent.insert_or_assign(images_[i].name,
-                                             History::PersistentImage{images_[i], lives_[i].held});
+        if (lives_[i].lifetime == ImageLifetime::previous) left.previous.insert(images_[i].name);
+        if (lives_[i].lifetime == ImageLifetime::persistent)
+            left.persistent.insert_or_assign(
+                images_[i].name, GraphHistory::PersistentImage{images_[i], lives_[i].held});
     }
     for (const auto& [part, content_hash] : stamped_)
-        for_each_range(part, images_[part.id].layers, [&](std::uint32_t first, std::uint32_t end) {
-            left.persistent.at(images_[part.id].name).stamps.set(first, end, content_hash);
-        });
+        for_each_layer_range(
+            part, images_[part.id].layers, [&](std::uint32_t first, std::uint32_t end) {
+                left.persistent.at(images_[part.id].name).stamps.set(first, end, content_hash);
+            });
     return left;
 }
 
@@ -190,7 +192,7 @@ Graph Graph::without_bodies() const {
     Graph outline = *this;
     outline.history_ = {};
     for (Pass& pass : outline.passes_) pass.body = nullptr;
-    for (ImageLife& life : outline.lives_) life.outside = nullptr;
+    for (ImageOwnership& life : outline.lives_) life.outside = nullptr;
     for (const gpu::Buffer*& outside : outline.outside_buffers_) outside = nullptr;
     return outline;
 }

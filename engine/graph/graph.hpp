@@ -23,11 +23,11 @@ class Buffer;
 
 namespace catoptric::graph {
 
-class Commands;  // records the commands of a pass: graph/commands.hpp
-struct Physical; // an image on the device: graph/physical.hpp
+class PassCommands;   // records the commands of a pass: graph/commands.hpp
+struct PhysicalImage; // an image on the device: graph/physical.hpp
 
 /// How a pass touches an image or a buffer.
-enum class Use {
+enum class ResourceUse {
     sampled,       ///< texture fetch, or a read-only buffer in a shader
     storage_read,  ///< imageLoad, or a storage buffer that is only read
     storage_write, ///< imageStore: earlier contents are discarded
@@ -39,10 +39,10 @@ enum class Use {
     indirect, ///< buffer of draw or dispatch arguments
     present,  ///< how an imported image is left for the window; no pass uses it
 };
-std::string_view name_of(Use use);
+std::string_view name_of(ResourceUse use);
 
 /// Purpose of a pass. `scene` passes are the scene passes that the report counts as R.
-enum class Tag { none, scene };
+enum class PassTag { none, scene };
 
 struct ImageDesc {
     std::string name; ///< unique in the graph
@@ -56,7 +56,7 @@ struct ImageDesc {
 };
 
 /// Returns the texels along a side of a mip of an image whose side has `size` texels.
-constexpr std::uint32_t at_mip(std::uint32_t size, std::uint32_t mip) {
+constexpr std::uint32_t size_at_mip(std::uint32_t size, std::uint32_t mip) {
     return std::max(size >> mip, 1u);
 }
 
@@ -67,7 +67,7 @@ struct BufferDesc {
 };
 
 /// How long the contents of an image live.
-enum class Lifetime {
+enum class ImageLifetime {
     frame, ///< the contents live until the last pass of the frame that uses them
     /// Until the end of the next frame, which can read both this frame's and its own contents.
     previous,
@@ -102,41 +102,41 @@ struct BufferHandle {
 };
 
 /// Attachment contents before the pass. Colour: r, g, b, a. Depth: the first value.
-using Clear = std::array<float, 4>;
+using ClearValue = std::array<float, 4>;
 
 struct ImageUse {
     ImageHandle image;
-    Use use = Use::sampled;
+    ResourceUse use = ResourceUse::sampled;
     bool write = false;
     /// An attachment without a clear needs and keeps its earlier contents.
-    std::optional<Clear> clear;
+    std::optional<ClearValue> clear;
     bool stays = false; ///< whether a clear keeps the contents outside the pass's area
 };
 
 struct BufferUse {
     BufferHandle buffer;
-    Use use = Use::sampled;
+    ResourceUse use = ResourceUse::sampled;
     bool write = false;
     friend bool operator==(const BufferUse&, const BufferUse&) = default;
 };
 
 /// A rectangle of a picture, in pixels from its upper left corner.
-struct Area {
+struct PixelArea {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
-    bool operator==(const Area&) const = default;
+    bool operator==(const PixelArea&) const = default;
 };
 
 struct Pass {
     std::string name; ///< unique in the graph
-    Tag tag = Tag::none;
+    PassTag tag = PassTag::none;
     std::vector<ImageUse> images; ///< in order of declaration
     std::vector<BufferUse> buffers;
     std::uint32_t layer_count = 1; ///< layers rendered at once
     /// The area of the attachments that is cleared and drawn; without a value, the whole
     /// attachments. Contents outside the area are undefined unless ImageUse::stays is set. The area
     /// is no part of the shape and may change from frame to frame.
-    std::optional<Area> area;
-    std::function<void(Commands&)> body;
+    std::optional<PixelArea> area;
+    std::function<void(PassCommands&)> body;
 
     bool is_raster() const; ///< returns whether the pass has an attachment
 };
@@ -145,16 +145,17 @@ struct Pass {
 class PassBuilder {
 public:
     explicit PassBuilder(Pass& pass) : pass_(pass) {}
-    PassBuilder& reads(ImageHandle image, Use use);
-    PassBuilder& reads(BufferHandle buffer, Use use);
-    PassBuilder& writes(ImageHandle image, Use use, std::optional<Clear> clear = std::nullopt);
-    PassBuilder& writes(BufferHandle buffer, Use use);
+    PassBuilder& reads(ImageHandle image, ResourceUse use);
+    PassBuilder& reads(BufferHandle buffer, ResourceUse use);
+    PassBuilder& writes(ImageHandle image, ResourceUse use,
+                        std::optional<ClearValue> clear = std::nullopt);
+    PassBuilder& writes(BufferHandle buffer, ResourceUse use);
     /// Declares an attachment that is cleared within the pass's area and keeps its contents
     /// elsewhere.
-    PassBuilder& updates(ImageHandle image, Use use, const Clear& clear);
+    PassBuilder& updates(ImageHandle image, ResourceUse use, const ClearValue& clear);
     PassBuilder& layers(std::uint32_t count);
-    PassBuilder& area(const Area& area);
-    void record(std::function<void(Commands&)> body);
+    PassBuilder& area(const PixelArea& area);
+    void record(std::function<void(PassCommands&)> body);
 
 private:
     Pass& pass_;
@@ -162,10 +163,10 @@ private:
 
 /// The content hash of each layer of each mip; no value if the layer was never written. Layer l of
 /// mip m has the number m * layers + l.
-using LayerHashes = Runs<std::optional<std::uint64_t>>;
+using LayerHashes = ValueRuns<std::optional<std::uint64_t>>;
 
 /// The contents that a runner has from earlier frames.
-struct History {
+struct GraphHistory {
     struct PersistentImage {
         ImageDesc desc;
         LayerHashes stamps;
@@ -184,7 +185,7 @@ class Graph {
 public:
     Graph() = default;
     /// `history`: the runner's record of the last frame (Runner::history()); empty = first frame.
-    explicit Graph(History history) : history_(std::move(history)) {}
+    explicit Graph(GraphHistory history) : history_(std::move(history)) {}
 
     /// Adds an image. Returns a handle of all its layers and mips.
     ImageHandle image(ImageDesc desc);
@@ -203,11 +204,12 @@ public:
     /// an output. It arrives in the layout of the use `arrives`; none means that its contents do
     /// not matter. It is left in the layout of `leaves`. `outside` may change from frame to frame,
     /// must match `desc` and must live until the frame has ended.
-    ImageHandle import(ImageDesc desc, Physical* outside, std::optional<Use> arrives, Use leaves);
+    ImageHandle import(ImageDesc desc, PhysicalImage* outside, std::optional<ResourceUse> arrives,
+                       ResourceUse leaves);
     /// Adds a buffer that is owned outside the graph. Writes to it are visible to the host once the
     /// frame has ended.
     BufferHandle import(BufferDesc desc, const gpu::Buffer* outside);
-    PassBuilder pass(std::string name, Tag tag = Tag::none);
+    PassBuilder pass(std::string name, PassTag tag = PassTag::none);
 
     /// Returns a handle of the image's contents at the end of the last frame (black on the first).
     /// Costs a second copy of the image, whose memory is not shared.
@@ -224,33 +226,37 @@ public:
     const std::vector<ImageHandle>& output_images() const { return wanted_images_; }
     const std::vector<BufferHandle>& output_buffers() const { return wanted_buffers_; }
     const std::vector<ContentRecord>& stamps() const { return stamped_; }
-    Lifetime lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
+    ImageLifetime lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
     bool is_imported(BufferHandle buffer) const { return imported_buffers_[buffer.id]; }
     /// Returns the use in whose layout an imported image arrives.
-    std::optional<Use> arrives(std::uint32_t image) const { return lives_[image].arrives; }
-    Use leaves(std::uint32_t image) const { return lives_[image].leaves; }
-    Physical* outside(std::uint32_t image) const { return lives_[image].outside; }
-    const gpu::Buffer* outside(BufferHandle buffer) const { return outside_buffers_[buffer.id]; }
+    std::optional<ResourceUse> arrives(std::uint32_t image) const { return lives_[image].arrives; }
+    ResourceUse leaves(std::uint32_t image) const { return lives_[image].leaves; }
+    PhysicalImage* imported_image(std::uint32_t image) const { return lives_[image].outside; }
+    const gpu::Buffer* imported_image(BufferHandle buffer) const {
+        return outside_buffers_[buffer.id];
+    }
     /// Returns the content hashes of a persistent image at the start of the frame.
-    const LayerHashes& held(std::uint32_t image) const { return lives_[image].held; }
+    const LayerHashes& content_hashes_at_start(std::uint32_t image) const {
+        return lives_[image].held;
+    }
     /// Returns the history for the next frame once this frame has run.
-    History left() const;
+    GraphHistory history_for_next_frame() const;
     /// Returns a copy with declarations only, to compare other graphs with.
     Graph without_bodies() const;
 
 private:
-    struct ImageLife {
-        Lifetime lifetime = Lifetime::frame;
-        std::optional<Use> arrives;
-        Use leaves = Use::sampled;
-        Physical* outside = nullptr;
+    struct ImageOwnership {
+        ImageLifetime lifetime = ImageLifetime::frame;
+        std::optional<ResourceUse> arrives;
+        ResourceUse leaves = ResourceUse::sampled;
+        PhysicalImage* outside = nullptr;
         LayerHashes held;
     };
     const ImageDesc& described(ImageHandle image, const char* asked) const;
 
-    History history_;
+    GraphHistory history_;
     std::vector<ImageDesc> images_;
-    std::vector<ImageLife> lives_; // one per entry of `images_`
+    std::vector<ImageOwnership> lives_; // one per entry of `images_`
     std::vector<BufferDesc> buffers_;
     std::vector<char> imported_buffers_; // one per entry of `buffers_`
     std::vector<const gpu::Buffer*> outside_buffers_;

@@ -6,16 +6,16 @@ namespace catoptric::graph {
 
 namespace {
 
-bool is_shared(const Placement& placement) {
+bool is_in_shared_memory(const MemoryPlacement& placement) {
     return placement.used && !placement.alone && placement.bytes > 0;
 }
 
 } // namespace
 
-MemoryUsers::MemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_bytes.size()) {
-    const auto add = [&](const std::vector<Placement>& placements) {
-        for (const Placement& placement : placements) {
-            if (!is_shared(placement)) continue;
+SharedMemoryUsers::SharedMemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_bytes.size()) {
+    const auto add = [&](const std::vector<MemoryPlacement>& placements) {
+        for (const MemoryPlacement& placement : placements) {
+            if (!is_in_shared_memory(placement)) continue;
             std::vector<std::uint64_t>& ends = heaps_[placement.heap].ends;
             ends.push_back(placement.offset);
             ends.push_back(placement.offset + placement.bytes);
@@ -23,24 +23,24 @@ MemoryUsers::MemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_bytes.size())
     };
     add(plan.images);
     add(plan.buffers);
-    for (Heap& heap : heaps_) heap.size();
+    for (HeapTouches& heap : heaps_) heap.size();
 }
 
-void MemoryUsers::Heap::size() {
+void SharedMemoryUsers::HeapTouches::size() {
     std::ranges::sort(ends);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     whole.assign(2 * std::bit_ceil(ends.size()), 0);
     below = whole;
 }
 
-std::size_t MemoryUsers::Heap::leaf(std::uint64_t offset) const {
+std::size_t SharedMemoryUsers::HeapTouches::leaf(std::uint64_t offset) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(ends, offset) - ends.begin()) +
            whole.size() / 2;
 }
 
-void MemoryUsers::leave(const Placement& placement, TouchSet touches) {
-    if (!is_shared(placement)) return;
-    Heap& heap = heaps_[placement.heap];
+void SharedMemoryUsers::record_last_touches(const MemoryPlacement& placement, TouchSet touches) {
+    if (!is_in_shared_memory(placement)) return;
+    HeapTouches& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
     for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
@@ -51,9 +51,9 @@ void MemoryUsers::leave(const Placement& placement, TouchSet touches) {
     for (std::size_t node = (end - 1) / 2; node > 0; node /= 2) heap.below[node] |= touches;
 }
 
-TouchSet MemoryUsers::left_in(const Placement& placement) const {
-    if (!is_shared(placement)) return 0;
-    const Heap& heap = heaps_[placement.heap];
+TouchSet SharedMemoryUsers::touches_left_in(const MemoryPlacement& placement) const {
+    if (!is_in_shared_memory(placement)) return 0;
+    const HeapTouches& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
     TouchSet touches = 0;

@@ -6,26 +6,26 @@ namespace catoptric::graph {
 
 /// The last touches of each part of the shared memory while a frame is walked from first to last
 /// pass. Each call costs O(log n) in the number of placements.
-class MemoryUsers {
+class SharedMemoryUsers {
 public:
-    explicit MemoryUsers(const GraphPlan& plan);
+    explicit SharedMemoryUsers(const GraphPlan& plan);
     /// Records that the resource at this placement is not touched again. `touches` were its last
     /// touches.
-    void leave(const Placement& placement, TouchSet touches);
+    void record_last_touches(const MemoryPlacement& placement, TouchSet touches);
     /// Returns all touches that earlier resources left in this memory.
-    TouchSet left_in(const Placement& placement) const;
+    TouchSet touches_left_in(const MemoryPlacement& placement) const;
 
 private:
     /// A segment tree over the pieces between the ends of all placements. Node n has the children
     /// 2n and 2n + 1.
-    struct Heap {
+    struct HeapTouches {
         std::vector<std::uint64_t> ends; // sorted, each once
         std::vector<TouchSet> whole;     // touches left in all of the node
         std::vector<TouchSet> below;     // touches left in some part of the node
         std::size_t leaf(std::uint64_t offset) const;
         void size();
     };
-    std::vector<Heap> heaps_;
+    std::vector<HeapTouches> heaps_;
 };
 
 } // namespace catoptric::graph

@@ -8,9 +8,9 @@ namespace catoptric::graph {
 
 namespace {
 
-void clear(VkCommandBuffer commands, const Physical& image) {
+void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) {
     const ImageDesc& desc = image.desc;
-    const VkImageSubresourceRange range{aspect_of(desc.format), 0, desc.mips, 0, desc.layers};
+    const VkImageSubresourceRange range{image_aspect(desc.format), 0, desc.mips, 0, desc.layers};
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.image = image.image;
     barrier.subresourceRange = range;
@@ -31,7 +31,8 @@ void clear(VkCommandBuffer commands, const Physical& image) {
     barrier.srcStageMask = barrier.dstStageMask, barrier.srcAccessMask = barrier.dstAccessMask;
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
-    barrier.oldLayout = barrier.newLayout, barrier.newLayout = layout_of(Use::sampled);
+    barrier.oldLayout = barrier.newLayout,
+    barrier.newLayout = image_layout_of_use(ResourceUse::sampled);
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
@@ -39,25 +40,25 @@ void clear(VkCommandBuffer commands, const Physical& image) {
 
 /// Creates the copies of the image, cleared to black and in the layout for sampling.
 void PersistentImages::make(const ImageDesc& desc, PersistentImage& kept) {
-    const std::size_t copies = kept.lifetime == Lifetime::previous ? 2 : 1;
-    const MemoryRequirements needs = sizer_of(device_).image(desc);
+    const std::size_t copies = kept.lifetime == ImageLifetime::previous ? 2 : 1;
+    const MemoryRequirements needs = make_device_sizer(device_).image(desc);
     const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
                                  needs.alignment;
     kept.bytes = (copies - 1) * second + needs.bytes;
     kept.memory = device_.allocate(kept.bytes, needs.heap, desc.name);
     for (std::size_t i = 0; i < copies; ++i) {
-        kept.copies.push_back(make_physical(device_, desc));
+        kept.copies.push_back(make_physical_image(device_, desc));
         gpu::check_vk(
             vkBindImageMemory(device_.handle(), kept.copies[i].image, kept.memory, i * second),
             "place image '" + desc.name + "'");
     }
     device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
-        for (const Physical& copy : kept.copies) clear(commands, copy);
+        for (const PhysicalImage& copy : kept.copies) clear_image_to_black(commands, copy);
     });
     kept.stamps = LayerHashes(desc.layers * desc.mips);
 }
 
-PersistentImage& PersistentImages::provide(const ImageDesc& desc, Lifetime lifetime,
+PersistentImage& PersistentImages::provide(const ImageDesc& desc, ImageLifetime lifetime,
                                            const std::function<void()>& wait) {
     auto found = all_.find(desc.name);
     if (found != all_.end() &&
@@ -86,16 +87,16 @@ void PersistentImages::write(const Graph& graph, const CompiledGraph& shape) {
     for (const auto& [part, content_hash] : graph.stamps()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image
-        for_each_range(part, graph.images()[part.id].layers,
-                       [&](std::uint32_t first, std::uint32_t end) {
-                           kept->stamps.set(first, end, content_hash);
-                       });
+        for_each_layer_range(part, graph.images()[part.id].layers,
+                             [&](std::uint32_t first, std::uint32_t end) {
+                                 kept->stamps.set(first, end, content_hash);
+                             });
     }
 }
 
 void PersistentImages::advance(const CompiledGraph& shape) {
     for (PersistentImage* const kept : shape.kept) {
-        if (!kept || kept->lifetime != Lifetime::previous) continue;
+        if (!kept || kept->lifetime != ImageLifetime::previous) continue;
         kept->last = 1 - kept->last;
         kept->valid = true;
     }
@@ -107,12 +108,12 @@ std::uint64_t PersistentImages::bytes() const {
     return sum;
 }
 
-History PersistentImages::history() const {
-    History history;
+GraphHistory PersistentImages::history() const {
+    GraphHistory history;
     for (const auto& [name, kept] : all_) {
-        if (kept.lifetime == Lifetime::persistent)
-            history.persistent.emplace(name,
-                                       History::PersistentImage{kept.copies[0].desc, kept.stamps});
+        if (kept.lifetime == ImageLifetime::persistent)
+            history.persistent.emplace(
+                name, GraphHistory::PersistentImage{kept.copies[0].desc, kept.stamps});
         else if (kept.valid)
             history.previous.insert(name);
     }

@@ -30,13 +30,13 @@ public:
     void forget() { all_.clear(); }
     RetainedImages take() { return std::exchange(all_, {}); }
     void put(RetainedImages all) { all_ = std::move(all); }
-    History history() const;
+    GraphHistory history() const;
     /// Returns the bytes of device memory that are allocated.
     std::uint64_t bytes() const;
 
 private:
     void make(const ImageDesc& desc, PersistentImage& kept);
-    PersistentImage& provide(const ImageDesc& desc, Lifetime lifetime,
+    PersistentImage& provide(const ImageDesc& desc, ImageLifetime lifetime,
                              const std::function<void()>& wait);
 
     gpu::Device& device_;

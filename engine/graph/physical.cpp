@@ -2,7 +2,7 @@
 
 namespace catoptric::graph {
 
-VkImageAspectFlags aspect_of(Format format) {
+VkImageAspectFlags image_aspect(Format format) {
     return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
@@ -10,7 +10,7 @@ VkImageCreateInfo image_create_info(const ImageDesc& desc) {
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     create.flags = desc.cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     create.imageType = VK_IMAGE_TYPE_2D;
-    create.format = gpu::vk_format(desc.format);
+    create.format = gpu::to_vk_format(desc.format);
     create.extent = {desc.width, desc.height, 1};
     create.mipLevels = desc.mips;
     create.arrayLayers = desc.layers;
@@ -27,37 +27,37 @@ VkImageCreateInfo image_create_info(const ImageDesc& desc) {
     return create;
 }
 
-Physical make_physical(const gpu::Device& device, const ImageDesc& desc) {
+PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& desc) {
     const VkImageCreateInfo create = image_create_info(desc);
     VkImage image = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateImage(device.handle(), &create, nullptr, &image),
                   "create image '" + desc.name + "'");
     device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), desc.name);
-    Physical physical;
+    PhysicalImage physical;
     physical.desc = desc;
     physical.owned = {device.handle(), image};
     physical.image = image;
     return physical;
 }
 
-Physical adopt(const ImageDesc& desc, VkImage image) {
-    Physical physical;
+PhysicalImage wrap_external_image(const ImageDesc& desc, VkImage image) {
+    PhysicalImage physical;
     physical.desc = desc;
     physical.image = image;
     return physical;
 }
 
-VkBufferImageCopy copy_region(const ImageDesc& desc, const ImageHandle& part) {
+VkBufferImageCopy make_copy_region(const ImageDesc& desc, const ImageHandle& part) {
     VkBufferImageCopy region{};
-    region.imageSubresource = {aspect_of(desc.format), part.first_mip, part.first_layer,
+    region.imageSubresource = {image_aspect(desc.format), part.first_mip, part.first_layer,
                                part.layer_count};
-    region.imageExtent = {at_mip(desc.width, part.first_mip), at_mip(desc.height, part.first_mip),
-                          1};
+    region.imageExtent = {size_at_mip(desc.width, part.first_mip),
+                          size_at_mip(desc.height, part.first_mip), 1};
     return region;
 }
 
-VkImageView Physical::view(const gpu::Device& device, gpu::ImageViewType shape,
-                           const ImageHandle& part) {
+VkImageView PhysicalImage::view(const gpu::Device& device, gpu::ImageViewType shape,
+                                const ImageHandle& part) {
     using gpu::ImageViewType;
     const std::uint32_t layer_count = part.layer_count;
     const ImageViewKey key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
@@ -80,8 +80,8 @@ VkImageView Physical::view(const gpu::Device& device, gpu::ImageViewType shape,
         break;
     }
     create.image = image;
-    create.format = gpu::vk_format(desc.format);
-    create.subresourceRange = {aspect_of(desc.format), part.first_mip, part.mip_count,
+    create.format = gpu::to_vk_format(desc.format);
+    create.subresourceRange = {image_aspect(desc.format), part.first_mip, part.mip_count,
                                part.first_layer, layer_count};
     VkImageView handle = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateImageView(device.handle(), &create, nullptr, &handle),

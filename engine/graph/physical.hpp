@@ -10,7 +10,7 @@
 namespace catoptric::graph {
 
 /// A device image of the graph, with the views that were asked for.
-struct Physical {
+struct PhysicalImage {
     ImageDesc desc;
     gpu::UniqueImage owned; ///< empty if the image is owned outside the runner
     VkImage image = VK_NULL_HANDLE;
@@ -26,12 +26,12 @@ private:
 
 /// Returns the create info of an image of the graph, with every usage that its format allows.
 VkImageCreateInfo image_create_info(const ImageDesc& desc);
-Physical make_physical(const gpu::Device& device, const ImageDesc& desc);
+PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& desc);
 /// Wraps an image that is owned elsewhere, to be imported into graphs. The image must outlive the
 /// result, which holds its views.
-Physical adopt(const ImageDesc& desc, VkImage image);
-VkImageAspectFlags aspect_of(Format format);
+PhysicalImage wrap_external_image(const ImageDesc& desc, VkImage image);
+VkImageAspectFlags image_aspect(Format format);
 /// Returns the region that copies the part's layers and first mip from or to the start of a buffer.
-VkBufferImageCopy copy_region(const ImageDesc& desc, const ImageHandle& part);
+VkBufferImageCopy make_copy_region(const ImageDesc& desc, const ImageHandle& part);
 
 } // namespace catoptric::graph

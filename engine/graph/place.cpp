@@ -8,7 +8,7 @@ namespace catoptric::graph {
 namespace {
 
 struct HeapItem {
-    Placement* placement = nullptr;
+    MemoryPlacement* placement = nullptr;
     int rank = 0; ///< order in the heap: 0 shares, 1 is an output, 2 outlives the frame
 };
 
@@ -16,33 +16,33 @@ std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-std::uint64_t end_of(const Placement& p) { return p.offset + p.bytes; }
+std::uint64_t placement_end(const MemoryPlacement& p) { return p.offset + p.bytes; }
 
 /// The resources placed at one offset. They share memory, so no two are alive at once.
-struct Shelf {
-    struct Life {
+struct HeapShelf {
+    struct PassInterval {
         std::uint32_t first, last;
         std::uint64_t end; ///< offset in the heap
     };
     std::uint64_t offset = 0;
-    std::vector<Life> lives; ///< from the earliest
+    std::vector<PassInterval> lives; ///< from the earliest
 
     /// Returns the end, in the heap, of the members that are alive with `placement`; 0 if there are
     /// none.
-    std::uint64_t reach(const Placement& placement) const {
-        auto life = std::ranges::lower_bound(lives, placement.first, {}, &Life::last);
+    std::uint64_t reach(const MemoryPlacement& placement) const {
+        auto life = std::ranges::lower_bound(lives, placement.first, {}, &PassInterval::last);
         std::uint64_t end = 0;
         for (; life != lives.end() && life->first <= placement.last; ++life)
             end = std::max(end, life->end);
         return end;
     }
 };
-using Shelves = std::vector<Shelf>; // shelves of one heap, from the lowest
+using HeapShelves = std::vector<HeapShelf>; // shelves of one heap, from the lowest
 
 /// Returns the lowest aligned offset at which `item` overlaps nothing that is alive with it.
-std::uint64_t first_fit(const HeapItem& item, const Shelves& shelves) {
+std::uint64_t find_first_fit(const HeapItem& item, const HeapShelves& shelves) {
     std::uint64_t offset = 0;
-    for (const Shelf& shelf : shelves) {
+    for (const HeapShelf& shelf : shelves) {
         if (offset + item.placement->bytes <= shelf.offset) break;
         const std::uint64_t end = shelf.reach(*item.placement);
         if (end > 0) offset = std::max(offset, align_up(end, item.placement->alignment));
@@ -50,42 +50,45 @@ std::uint64_t first_fit(const HeapItem& item, const Shelves& shelves) {
     return offset;
 }
 
-void put(Shelves& shelves, const Placement& placement) {
-    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {}, &Shelf::offset);
+void add_to_shelf(HeapShelves& shelves, const MemoryPlacement& placement) {
+    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {}, &HeapShelf::offset);
     if (shelf == shelves.end() || shelf->offset != placement.offset)
         shelf = shelves.insert(shelf, {placement.offset, {}});
-    const Shelf::Life life{placement.first, placement.last, end_of(placement)};
-    const auto after = std::ranges::upper_bound(shelf->lives, life.first, {}, &Shelf::Life::first);
+    const HeapShelf::PassInterval life{placement.first, placement.last, placement_end(placement)};
+    const auto after = std::ranges::upper_bound(shelf->lives, life.first, {},
+                                                &HeapShelf::PassInterval::first);
     shelf->lives.insert(after, life);
 }
 
-HeapItem size_up(Placement& placement, const MemoryRequirements& wanted, Lifetime lifetime) {
+HeapItem make_heap_item(MemoryPlacement& placement, const MemoryRequirements& wanted,
+                        ImageLifetime lifetime) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
     placement.alignment = alignment;
-    placement.bytes = lifetime == Lifetime::previous ? 2 * align_up(wanted.bytes, alignment)
-                                                     : wanted.bytes;
-    return {&placement, lifetime != Lifetime::frame ? 2 : placement.alone ? 1 : 0};
+    placement.bytes = lifetime == ImageLifetime::previous ? 2 * align_up(wanted.bytes, alignment)
+                                                          : wanted.bytes;
+    return {&placement, lifetime != ImageLifetime::frame ? 2 : placement.alone ? 1 : 0};
 }
 
 /// Returns the used resources by rank, then the largest first, so that small ones fill the gaps.
-std::vector<HeapItem> sized_items(const Graph& graph, const Sizer& sizer, GraphPlan& plan) {
+std::vector<HeapItem> list_items_by_size(const Graph& graph, const MemorySizer& sizer,
+                                         GraphPlan& plan) {
     std::vector<HeapItem> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].used && graph.lifetime(i) != Lifetime::imported)
+        if (plan.images[i].used && graph.lifetime(i) != ImageLifetime::imported)
             items.push_back(
-                size_up(plan.images[i], sizer.image(graph.images()[i]), graph.lifetime(i)));
+                make_heap_item(plan.images[i], sizer.image(graph.images()[i]), graph.lifetime(i)));
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         if (plan.buffers[b].used && !graph.is_imported({b}))
-            items.push_back(
-                size_up(plan.buffers[b], sizer.buffer(graph.buffers()[b]), Lifetime::frame));
+            items.push_back(make_heap_item(plan.buffers[b], sizer.buffer(graph.buffers()[b]),
+                                           ImageLifetime::frame));
     std::ranges::stable_sort(items, [](const HeapItem& a, const HeapItem& b) {
         return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
     });
     return items;
 }
 
-void mark(Placement& placement, std::uint32_t position) {
+void extend_lifetime(MemoryPlacement& placement, std::uint32_t position) {
     if (!placement.used) placement.first = position;
     placement.used = true;
     placement.last = position;
@@ -93,25 +96,25 @@ void mark(Placement& placement, std::uint32_t position) {
 
 } // namespace
 
-void find_lifetimes(const Graph& graph, const Accesses& all, GraphPlan& plan) {
+void find_lifetimes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
     plan.images.assign(graph.images().size(), {});
     plan.buffers.assign(graph.buffers().size(), {});
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position)
-        for (const Access& a : all.of(plan.passes[position].pass))
-            mark(a.is_buffer ? plan.buffers[a.id] : plan.images[a.id], position);
+        for (const ResourceAccess& a : all.of(plan.passes[position].pass))
+            extend_lifetime(a.is_buffer ? plan.buffers[a.id] : plan.images[a.id], position);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != Lifetime::frame;
+        plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != ImageLifetime::frame;
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         plan.buffers[b].alone = plan.buffers[b].used && graph.is_imported({b});
     for (const ImageHandle& image : graph.output_images()) plan.images[image.id].alone = true;
     for (const BufferHandle& buffer : graph.output_buffers()) plan.buffers[buffer.id].alone = true;
 }
 
-void place(const Graph& graph, const Sizer& sizer, GraphPlan& plan) {
+void place_in_memory(const Graph& graph, const MemorySizer& sizer, GraphPlan& plan) {
     std::vector<std::uint64_t> unshared; // per heap
-    std::vector<Shelves> shelves;        // per heap
-    for (const HeapItem& item : sized_items(graph, sizer, plan)) {
-        Placement& placement = *item.placement;
+    std::vector<HeapShelves> shelves;    // per heap
+    for (const HeapItem& item : list_items_by_size(graph, sizer, plan)) {
+        MemoryPlacement& placement = *item.placement;
         if (placement.heap >= unshared.size()) {
             unshared.resize(placement.heap + 1, 0);
             shelves.resize(placement.heap + 1);
@@ -119,11 +122,11 @@ void place(const Graph& graph, const Sizer& sizer, GraphPlan& plan) {
         }
         std::uint64_t& heap = plan.heap_bytes[placement.heap];
         placement.offset = placement.alone ? align_up(heap, item.placement->alignment)
-                                           : first_fit(item, shelves[placement.heap]);
-        heap = std::max(heap, end_of(placement));
+                                           : find_first_fit(item, shelves[placement.heap]);
+        heap = std::max(heap, placement_end(placement));
         std::uint64_t& alone = unshared[placement.heap];
         alone = align_up(alone, item.placement->alignment) + placement.bytes;
-        if (!placement.alone) put(shelves[placement.heap], placement);
+        if (!placement.alone) add_to_shelf(shelves[placement.heap], placement);
     }
     for (const std::uint64_t bytes : plan.heap_bytes) plan.bytes += bytes;
     for (const std::uint64_t bytes : unshared) plan.bytes_unshared += bytes;

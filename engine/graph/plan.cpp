@@ -12,44 +12,44 @@ namespace catoptric::graph {
 
 namespace {
 
-void cull(const Graph& graph, const Accesses& all, GraphPlan& plan) {
-    const std::vector<Fate> fates = graph::fates(graph, all);
+void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
+    const std::vector<PassFate> fates = graph::decide_pass_fates(graph, all);
     plan.passes.reserve(fates.size());
     for (std::uint32_t p = 0; p < fates.size(); ++p) {
         if (!fates[p].survives) {
-            plan.culled.push_back({p, cull_reason(graph, all.of(p))});
+            plan.culled.push_back({p, describe_cull_reason(graph, all.of(p))});
             continue;
         }
         plan.passes.push_back({p, {}, fates[p].unread});
-        plan.scene_passes += graph.passes()[p].tag == Tag::scene ? 1 : 0;
+        plan.scene_passes += graph.passes()[p].tag == PassTag::scene ? 1 : 0;
     }
 }
 
-bool has_own_memory(Lifetime lifetime) {
-    return lifetime == Lifetime::previous || lifetime == Lifetime::persistent;
+bool outlives_frame(ImageLifetime lifetime) {
+    return lifetime == ImageLifetime::previous || lifetime == ImageLifetime::persistent;
 }
 
 /// Returns the bytes of the largest allocation. Each image that outlives the frame has its own
 /// allocation; all other resources of a heap share one.
-std::uint64_t largest_piece(const Graph& graph, const GraphPlan& plan) {
+std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan) {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used)
             bytes = std::max(bytes,
                              plan.images[i].bytes +
-                                 (has_own_memory(graph.lifetime(i)) ? 0 : plan.images[i].offset));
-    for (const Placement& buffer : plan.buffers)
+                                 (outlives_frame(graph.lifetime(i)) ? 0 : plan.images[i].offset));
+    for (const MemoryPlacement& buffer : plan.buffers)
         if (buffer.used) bytes = std::max(bytes, buffer.offset + buffer.bytes);
     return bytes;
 }
 
-void check_memory(const Graph& graph, const GraphPlan& plan, const GraphLimits& limits) {
-    const std::uint64_t piece = largest_piece(graph, plan);
+void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphLimits& limits) {
+    const std::uint64_t piece = largest_allocation_bytes(graph, plan);
     const bool too_much = plan.bytes > limits.max_memory;
     if (!too_much && piece <= limits.max_allocation) return;
     std::uint64_t bytes = 0;
     std::string name;
-    const auto look = [&](const Placement& placement, const std::string& candidate) {
+    const auto look = [&](const MemoryPlacement& placement, const std::string& candidate) {
         if (placement.bytes <= bytes) return;
         bytes = placement.bytes;
         name = candidate;
@@ -67,7 +67,7 @@ void check_memory(const Graph& graph, const GraphPlan& plan, const GraphLimits& 
 
 } // namespace
 
-Sizer plain_sizer() {
+MemorySizer make_default_sizer() {
     constexpr std::uint64_t kAlignment = 256;
     const auto padded = [](std::uint64_t bytes) {
         return MemoryRequirements{.bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment,
@@ -78,21 +78,22 @@ Sizer plain_sizer() {
                 [=](const ImageDesc& desc) {
                     std::uint64_t texels = 0;
                     for (std::uint32_t m = 0; m < desc.mips; ++m)
-                        texels += std::uint64_t{at_mip(desc.width, m)} * at_mip(desc.height, m);
+                        texels += std::uint64_t{size_at_mip(desc.width, m)} *
+                                  size_at_mip(desc.height, m);
                     return padded(texels * desc.layers * bytes_per_texel(desc.format));
                 },
             .buffer = [=](const BufferDesc& desc) { return padded(desc.bytes); }};
 }
 
-GraphPlan plan(const Graph& graph, const GraphLimits& limits, const Sizer& sizer) {
-    const Accesses all(graph);
-    validate(graph, all, limits);
+GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits, const MemorySizer& sizer) {
+    const GraphAccesses all(graph);
+    validate_graph(graph, all, limits);
     GraphPlan plan;
-    cull(graph, all, plan);
+    cull_passes(graph, all, plan);
     find_lifetimes(graph, all, plan);
-    place(graph, sizer, plan);
-    check_memory(graph, plan, limits);
-    order(graph, all, plan);
+    place_in_memory(graph, sizer, plan);
+    check_memory_limits(graph, plan, limits);
+    plan_barriers(graph, all, plan);
     return plan;
 }
 

@@ -23,29 +23,29 @@ struct MemoryRequirements {
     std::uint64_t alignment = 1;
     std::uint32_t heap = 0;
 };
-struct Sizer {
+struct MemorySizer {
     std::function<MemoryRequirements(const ImageDesc&)> image;
     std::function<MemoryRequirements(const BufferDesc&)> buffer;
 };
 /// Returns sizes without a device, for tests and for `graph`: texels times bytes, 256-byte aligned,
 /// one heap.
-Sizer plain_sizer();
+MemorySizer make_default_sizer();
 
 /// The last or the next access to a resource. With `nothing` the contents of the resource do not
 /// matter.
-struct Touch {
+struct ResourceTouch {
     bool nothing = true;
-    Use use = Use::sampled;
+    ResourceUse use = ResourceUse::sampled;
     bool write = false;
     /// Whether a raster pass makes the access, and not a compute or copy pass. Selects shader
     /// stages of barriers.
     bool raster = false;
-    friend bool operator==(const Touch&, const Touch&) = default;
+    friend bool operator==(const ResourceTouch&, const ResourceTouch&) = default;
 };
 
 /// One dependency: the touches `before` and `shared` are complete and visible to `after`. The image
 /// changes from the layout of `before` to that of `after`.
-struct Barrier {
+struct PlannedBarrier {
     bool is_buffer = false;
     std::uint32_t id = 0;
     bool previous = false; ///< the image's contents in the last frame
@@ -53,16 +53,16 @@ struct Barrier {
     std::uint32_t layer_count = 0;
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
-    Touch before; ///< `nothing`: the old contents are discarded
-    Touch after;
+    ResourceTouch before; ///< `nothing`: the old contents are discarded
+    ResourceTouch after;
     /// Further touches to wait for: other readers before a write or a change of layout. With
     /// `before.nothing` also the last touches of earlier users of the same memory in the frame.
-    std::vector<Touch> shared;
+    std::vector<ResourceTouch> shared;
 };
 
 struct PlannedPass {
-    std::uint32_t pass = 0;        ///< index into Graph::passes()
-    std::vector<Barrier> barriers; ///< executed before the pass
+    std::uint32_t pass = 0;               ///< index into Graph::passes()
+    std::vector<PlannedBarrier> barriers; ///< executed before the pass
     /// Bit i is set if the result in attachment Pass::images[i] is never read and need not be
     /// stored.
     std::uint32_t unread = 0;
@@ -70,7 +70,7 @@ struct PlannedPass {
 
 /// Where an image or buffer lies in memory, and its first and last pass as positions in
 /// `GraphPlan::passes`.
-struct Placement {
+struct MemoryPlacement {
     bool used = false;
     bool alone = false; ///< outlives the frame or is an output: shares no memory
     std::uint32_t first = 0, last = 0;
@@ -82,7 +82,7 @@ struct Placement {
     std::uint64_t alignment = 1;
 };
 
-struct Culled {
+struct CulledPass {
     std::uint32_t pass = 0;
     std::string reason;
 };
@@ -98,10 +98,10 @@ struct GraphPlan {
     ///
     /// A layer gets a barrier even if its layout is right already. `after` means every stage, also
     /// of the next frame, where `previous` is sampled without a barrier.
-    std::vector<Barrier> last;
-    std::vector<Culled> culled;
-    std::vector<Placement> images;         ///< one per Graph::images()
-    std::vector<Placement> buffers;        ///< one per Graph::buffers()
+    std::vector<PlannedBarrier> last;
+    std::vector<CulledPass> culled;
+    std::vector<MemoryPlacement> images;   ///< one per Graph::images()
+    std::vector<MemoryPlacement> buffers;  ///< one per Graph::buffers()
     std::vector<std::uint64_t> heap_bytes; ///< size of each heap
     std::uint64_t bytes = 0;               ///< sum over all heaps
     std::uint64_t bytes_unshared = 0;      ///< the sum if no memory were shared
@@ -112,6 +112,6 @@ struct GraphPlan {
 /// declaration. Throws `internal` for an invalid graph, naming pass, image and both uses. Throws
 /// `exhausted` over a limit, naming the limit, the required and the allowed number. Costs O(n log
 /// n) in the uses of all passes, however many layers they have.
-GraphPlan plan(const Graph& graph, const GraphLimits& limits, const Sizer& sizer);
+GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits, const MemorySizer& sizer);
 
 } // namespace catoptric::graph

@@ -6,22 +6,22 @@ namespace catoptric::graph {
 
 namespace {
 
-std::uint64_t bytes_of(const ImageDesc& desc, const ImageHandle& part) {
+std::uint64_t image_part_bytes(const ImageDesc& desc, const ImageHandle& part) {
     std::uint64_t texels = 0;
     for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
-        texels += std::uint64_t{at_mip(desc.width, m)} * at_mip(desc.height, m);
+        texels += std::uint64_t{size_at_mip(desc.width, m)} * size_at_mip(desc.height, m);
     return texels * part.layer_count * bytes_per_texel(desc.format);
 }
 
 /// Records the copy of a part of an image to a buffer. The part is in layout `is` before and after.
-void copy_out(VkCommandBuffer commands, const Physical& source, const ImageHandle& part,
-              VkImageLayout is, VkBuffer target) {
+void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source,
+                           const ImageHandle& part, VkImageLayout is, VkBuffer target) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
-    barrier.oldLayout = is, barrier.newLayout = layout_of(Use::copy_from);
+    barrier.oldLayout = is, barrier.newLayout = image_layout_of_use(ResourceUse::copy_from);
     barrier.image = source.image;
-    barrier.subresourceRange = {aspect_of(source.desc.format), part.first_mip, part.mip_count,
+    barrier.subresourceRange = {image_aspect(source.desc.format), part.first_mip, part.mip_count,
                                 part.first_layer, part.layer_count};
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = 1;
@@ -30,11 +30,11 @@ void copy_out(VkCommandBuffer commands, const Physical& source, const ImageHandl
     if (moves) vkCmdPipelineBarrier2(commands, &dependency);
     std::uint64_t offset = 0;
     for (std::uint32_t m = 0; m < part.mip_count; ++m) {
-        VkBufferImageCopy region = copy_region(source.desc, part.mip(m));
+        VkBufferImageCopy region = make_copy_region(source.desc, part.mip(m));
         region.bufferOffset = offset;
-        offset += bytes_of(source.desc, part.mip(m));
-        vkCmdCopyImageToBuffer(commands, source.image, layout_of(Use::copy_from), target, 1,
-                               &region);
+        offset += image_part_bytes(source.desc, part.mip(m));
+        vkCmdCopyImageToBuffer(commands, source.image, image_layout_of_use(ResourceUse::copy_from),
+                               target, 1, &region);
     }
     std::swap(barrier.oldLayout, barrier.newLayout);
     if (moves) vkCmdPipelineBarrier2(commands, &dependency);
@@ -42,9 +42,9 @@ void copy_out(VkCommandBuffer commands, const Physical& source, const ImageHandl
 
 } // namespace
 
-std::vector<std::byte> Runner::read(Ticket ticket, ImageHandle image) {
+std::vector<std::byte> GraphRunner::read(FrameTicket ticket, ImageHandle image) {
     wait(ticket);
-    const Slot& slot = slot_of(ticket);
+    const FrameSlot& slot = slot_of(ticket);
     CompiledGraph& shape = *slot.shape;
     const ImageDesc& desc = shape.outline.images()[image.id];
     const bool kept = shape.is_persistent(image.id);
@@ -55,19 +55,21 @@ std::vector<std::byte> Runner::read(Ticket ticket, ImageHandle image) {
           "' is read after it was forgotten");
     // A frame with `stays` does not advance the history: its own copy is not yet the last frame.
     image.previous = kept && !slot.stays;
-    const Physical& source = shape.physical(image, index_of(ticket.frame));
-    const std::uint64_t bytes = bytes_of(desc, image);
+    const PhysicalImage& source = shape.physical(image, index_of(ticket.frame));
+    const std::uint64_t bytes = image_part_bytes(desc, image);
     gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUsage::read_back);
     device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
-        copy_out(commands, source, image, layout_of(kept ? Use::sampled : Use::copy_from),
-                 target.handle());
+        record_copy_to_buffer(
+            commands, source, image,
+            image_layout_of_use(kept ? ResourceUse::sampled : ResourceUse::copy_from),
+            target.handle());
     });
     std::vector<std::byte> data = target.read();
     data.resize(bytes);
     return data;
 }
 
-std::vector<std::byte> Runner::read(Ticket ticket, BufferHandle buffer) {
+std::vector<std::byte> GraphRunner::read(FrameTicket ticket, BufferHandle buffer) {
     wait(ticket);
     const CompiledGraph& shape = *slot_of(ticket).shape;
     const auto& [name, bytes] = shape.outline.buffers()[buffer.id];
@@ -82,12 +84,13 @@ std::vector<std::byte> Runner::read(Ticket ticket, BufferHandle buffer) {
     return data;
 }
 
-std::vector<std::byte> Runner::read_history() {
+std::vector<std::byte> GraphRunner::read_history() {
     std::vector<std::byte> history;
     if (frame_ == 0) return history;
     const CompiledGraph& shape = *slot_of({frame_}).shape;
     for (std::uint32_t id = 0; id < shape.outline.images().size(); ++id) {
-        if (!shape.is_persistent(id) || shape.outline.lifetime(id) != Lifetime::previous) continue;
+        if (!shape.is_persistent(id) || shape.outline.lifetime(id) != ImageLifetime::previous)
+            continue;
         const ImageDesc& desc = shape.outline.images()[id];
         const std::vector<std::byte> image = read(
             ImageHandle{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});

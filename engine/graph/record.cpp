@@ -8,17 +8,17 @@ namespace catoptric::graph {
 
 namespace {
 
-gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
+gpu::UniqueSampler make_sampler(const gpu::Device& device, TextureFilter filter) {
     VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    create.magFilter = create.minFilter = filter == Filter::nearest ? VK_FILTER_NEAREST
-                                                                    : VK_FILTER_LINEAR;
+    create.magFilter = create.minFilter = filter == TextureFilter::nearest ? VK_FILTER_NEAREST
+                                                                           : VK_FILTER_LINEAR;
     create.addressModeU = create.addressModeV = create.addressModeW =
         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    if (filter == Filter::mipmapped) {
+    if (filter == TextureFilter::mipmapped) {
         create.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
         create.maxLod = VK_LOD_CLAMP_NONE;
     }
-    create.compareEnable = filter == Filter::compare;
+    create.compareEnable = filter == TextureFilter::compare;
     // Reversed depth: passes unless behind the stored depth.
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
@@ -26,15 +26,16 @@ gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
     return {device.handle(), sampler};
 }
 
-VkExtent2D extent_of(const Graph& graph, const Pass& pass) {
+VkExtent2D pass_extent(const Graph& graph, const Pass& pass) {
     const ImageHandle& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
-                                   return use.use == Use::colour || use.use == Use::depth;
+                                   return use.use == ResourceUse::colour ||
+                                          use.use == ResourceUse::depth;
                                })->image;
     const ImageDesc& desc = graph.images()[image.id];
-    return {at_mip(desc.width, image.first_mip), at_mip(desc.height, image.first_mip)};
+    return {size_at_mip(desc.width, image.first_mip), size_at_mip(desc.height, image.first_mip)};
 }
 
-VkRect2D area_of(const Pass& pass, VkExtent2D extent) {
+VkRect2D pass_render_area(const Pass& pass, VkExtent2D extent) {
     if (!pass.area) return {{0, 0}, extent};
     const auto& [x, y, width, height] = *pass.area;
     return {{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}, {width, height}};
@@ -42,13 +43,13 @@ VkRect2D area_of(const Pass& pass, VkExtent2D extent) {
 
 /// Stages and accesses on both sides of a barrier.
 struct BarrierScopes {
-    Scope before, after;
+    SyncScope before, after;
 };
 
-BarrierScopes sides_of(const Barrier& barrier, bool last) {
-    BarrierScopes sides{scope_of(barrier.before), scope_of(barrier.after)};
-    for (const Touch& touch : barrier.shared) {
-        const Scope scope = scope_of(touch);
+BarrierScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
+    BarrierScopes sides{sync_scope_of_touch(barrier.before), sync_scope_of_touch(barrier.after)};
+    for (const ResourceTouch& touch : barrier.shared) {
+        const SyncScope scope = sync_scope_of_touch(touch);
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
     }
     if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
@@ -63,16 +64,17 @@ BarrierScopes sides_of(const Barrier& barrier, bool last) {
 }
 
 template <typename VulkanBarrier>
-void set(VulkanBarrier& barrier, const BarrierScopes& sides) {
+void set_barrier_scopes(VulkanBarrier& barrier, const BarrierScopes& sides) {
     barrier.srcStageMask = sides.before.stages, barrier.srcAccessMask = sides.before.access;
     barrier.dstStageMask = sides.after.stages, barrier.dstAccessMask = sides.after.access;
 }
 
 } // namespace
 
-Recorder::Recorder(gpu::Device& device, gpu::Pipelines& pipelines)
+FrameRecorder::FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines)
     : device_(device), pipelines_(pipelines) {
-    for (Filter filter : {Filter::nearest, Filter::linear, Filter::compare, Filter::mipmapped})
+    for (TextureFilter filter : {TextureFilter::nearest, TextureFilter::linear,
+                                 TextureFilter::compare, TextureFilter::mipmapped})
         samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
     if (!device.has_labels()) return;
     begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
@@ -81,8 +83,8 @@ Recorder::Recorder(gpu::Device& device, gpu::Pipelines& pipelines)
         vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
-void Recorder::record(const Graph& graph, CompiledGraph& shape, Slot& slot, std::size_t slot_index,
-                      PassTiming timing) {
+void FrameRecorder::record(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
+                           std::size_t slot_index, PassTiming timing) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index;
     commands_ = slot.commands;
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -102,7 +104,7 @@ void Recorder::record(const Graph& graph, CompiledGraph& shape, Slot& slot, std:
 
 /// Records a barrier that completes all earlier work and makes it visible to all later work. It
 /// separates frames and read-backs.
-void Recorder::full_barrier() {
+void FrameRecorder::full_barrier() {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
@@ -115,7 +117,7 @@ void Recorder::full_barrier() {
 
 /// Writes a timestamp. It is exact only if an execution barrier follows: without one, a software
 /// driver takes it after the next pass's work.
-void Recorder::stamp(PassTiming timing) {
+void FrameRecorder::stamp(PassTiming timing) {
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries,
                          slot_->next_query++);
     if (timing == PassTiming::isolated)
@@ -124,31 +126,31 @@ void Recorder::stamp(PassTiming timing) {
                              nullptr);
 }
 
-void Recorder::add(const Barrier& barrier, bool last) {
-    const BarrierScopes sides = sides_of(barrier, last);
+void FrameRecorder::add(const PlannedBarrier& barrier, bool last) {
+    const BarrierScopes sides = make_barrier_scopes(barrier, last);
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-        set(b, sides);
+        set_barrier_scopes(b, sides);
         b.buffer = buffer({barrier.id});
         b.size = VK_WHOLE_SIZE;
         buffer_barriers_.push_back(b);
         return;
     }
     VkImageMemoryBarrier2 b{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    set(b, sides);
+    set_barrier_scopes(b, sides);
     b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
-                                         : layout_of(barrier.before.use);
-    b.newLayout = layout_of(barrier.after.use);
+                                         : image_layout_of_use(barrier.before.use);
+    b.newLayout = image_layout_of_use(barrier.after.use);
     b.image = physical({.id = barrier.id, .previous = barrier.previous}).image;
-    b.subresourceRange = {aspect_of(graph_->images()[barrier.id].format), barrier.first_mip,
+    b.subresourceRange = {image_aspect(graph_->images()[barrier.id].format), barrier.first_mip,
                           barrier.mip_count, barrier.first_layer, barrier.layer_count};
     image_barriers_.push_back(b);
 }
 
-void Recorder::barriers(const std::vector<Barrier>& list, bool last) {
+void FrameRecorder::barriers(const std::vector<PlannedBarrier>& list, bool last) {
     if (list.empty()) return;
     image_barriers_.clear(), buffer_barriers_.clear();
-    for (const Barrier& barrier : list) add(barrier, last);
+    for (const PlannedBarrier& barrier : list) add(barrier, last);
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers_.size());
     dependency.pImageMemoryBarriers = image_barriers_.data();
@@ -157,7 +159,7 @@ void Recorder::barriers(const std::vector<Barrier>& list, bool last) {
     vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
-void Recorder::record_pass(const PlannedPass& planned) {
+void FrameRecorder::record_pass(const PlannedPass& planned) {
     const Pass& pass = graph_->passes()[planned.pass];
     if (begin_label_) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
@@ -165,9 +167,9 @@ void Recorder::record_pass(const PlannedPass& planned) {
         begin_label_(commands_, &label);
     }
     if (!pass.is_raster()) {
-        Commands commands(*this, *graph_, pass, commands_, 0, 1);
+        PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
-    } else if (pass.layer_count == 1 || device_.layered()) {
+    } else if (pass.layer_count == 1 || device_.supports_layered_rendering()) {
         render(planned, 0, pass.layer_count);
     } else {
         for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer) render(planned, layer, 1);
@@ -175,57 +177,58 @@ void Recorder::record_pass(const PlannedPass& planned) {
     if (end_label_) end_label_(commands_);
 }
 
-Physical& Recorder::physical(ImageHandle image) {
-    if (graph_->lifetime(image.id) != Lifetime::imported)
+PhysicalImage& FrameRecorder::physical(ImageHandle image) {
+    if (graph_->lifetime(image.id) != ImageLifetime::imported)
         return shape_->physical(image, slot_index_);
-    Physical* const outside = graph_->outside(image.id);
+    PhysicalImage* const outside = graph_->imported_image(image.id);
     check(outside && outside->desc.width == graph_->images()[image.id].width, Failure::internal,
           "image '", graph_->images()[image.id].name, "' is imported from nowhere");
     return *outside;
 }
 
-VkBuffer Recorder::buffer(BufferHandle buffer) const {
+VkBuffer FrameRecorder::buffer(BufferHandle buffer) const {
     if (!graph_->is_imported(buffer)) return shape_->buffer(buffer, slot_index_);
-    const gpu::Buffer* const outside = graph_->outside(buffer);
+    const gpu::Buffer* const outside = graph_->imported_image(buffer);
     check(outside, Failure::internal, "buffer '", graph_->buffers()[buffer.id].name,
           "' is imported from nowhere");
     return outside->handle();
 }
 
-void Recorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
-                              std::uint32_t layer_count) {
+void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
+                                   std::uint32_t layer_count) {
     const gpu::ImageViewType shape = layer_count > 1 ? gpu::ImageViewType::flat_array
                                                      : gpu::ImageViewType::flat;
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = physical(use.image).view(device_, shape,
                                               use.image.layers(first_layer, layer_count));
-    info.imageLayout = layout_of(use.use);
+    info.imageLayout = image_layout_of_use(use.use);
     info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = !use.write ? VK_ATTACHMENT_STORE_OP_NONE
                    : unread   ? VK_ATTACHMENT_STORE_OP_DONT_CARE
                               : VK_ATTACHMENT_STORE_OP_STORE;
-    if (use.clear && use.use == Use::colour)
+    if (use.clear && use.use == ResourceUse::colour)
         std::ranges::copy(*use.clear, info.clearValue.color.float32);
-    if (use.clear && use.use == Use::depth) info.clearValue.depthStencil = {(*use.clear)[0], 0};
-    if (use.use == Use::colour)
+    if (use.clear && use.use == ResourceUse::depth)
+        info.clearValue.depthStencil = {(*use.clear)[0], 0};
+    if (use.use == ResourceUse::colour)
         colours_.push_back(info);
     else
         depth_ = info;
 }
 
 /// Records one rendering scope over some layers of the pass's attachments.
-void Recorder::render(const PlannedPass& planned, std::uint32_t first_layer,
-                      std::uint32_t layer_count) {
+void FrameRecorder::render(const PlannedPass& planned, std::uint32_t first_layer,
+                           std::uint32_t layer_count) {
     const Pass& pass = graph_->passes()[planned.pass];
     colours_.clear();
     depth_ = {};
     for (std::size_t i = 0; i < pass.images.size(); ++i)
-        if (pass.images[i].use == Use::colour || pass.images[i].use == Use::depth)
+        if (pass.images[i].use == ResourceUse::colour || pass.images[i].use == ResourceUse::depth)
             add_attachment(pass.images[i], i < 32 && (planned.unread >> i & 1), first_layer,
                            layer_count);
-    const VkExtent2D extent = extent_of(*graph_, pass);
+    const VkExtent2D extent = pass_extent(*graph_, pass);
     VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    rendering.renderArea = area_of(pass, extent);
+    rendering.renderArea = pass_render_area(pass, extent);
     rendering.layerCount = layer_count;
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours_.size());
     rendering.pColorAttachments = colours_.data();
@@ -235,7 +238,7 @@ void Recorder::render(const PlannedPass& planned, std::uint32_t first_layer,
         0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
     vkCmdSetViewport(commands_, 0, 1, &viewport);
     vkCmdSetScissor(commands_, 0, 1, &rendering.renderArea);
-    Commands commands(*this, *graph_, pass, commands_, first_layer, layer_count);
+    PassCommands commands(*this, *graph_, pass, commands_, first_layer, layer_count);
     pass.body(commands);
     vkCmdEndRendering(commands_);
 }

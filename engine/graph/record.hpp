@@ -7,20 +7,22 @@
 namespace catoptric::graph {
 
 /// Records a planned frame into the command buffer of a slot.
-class Recorder {
+class FrameRecorder {
 public:
-    Recorder(gpu::Device& device, gpu::Pipelines& pipelines);
+    FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines);
 
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
-    void record(const Graph& graph, CompiledGraph& shape, Slot& slot, std::size_t slot_index,
+    void record(const Graph& graph, CompiledGraph& shape, FrameSlot& slot, std::size_t slot_index,
                 PassTiming timing);
 
     // Returns the device. Only Commands may call this function, while a pass records its commands.
     gpu::Device& device() { return device_; }
     gpu::Pipelines& pipelines() { return pipelines_; }
-    Physical& physical(ImageHandle image);
+    PhysicalImage& physical(ImageHandle image);
     VkBuffer buffer(BufferHandle buffer) const;
-    VkSampler sampler(Filter filter) const { return samplers_[static_cast<std::size_t>(filter)]; }
+    VkSampler sampler(TextureFilter filter) const {
+        return samplers_[static_cast<std::size_t>(filter)];
+    }
     VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout) {
         return slot_->descriptor_set(layout);
     }
@@ -30,8 +32,8 @@ private:
     void render(const PlannedPass& planned, std::uint32_t first_layer, std::uint32_t layer_count);
     void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                         std::uint32_t layer_count);
-    void barriers(const std::vector<Barrier>& list, bool last);
-    void add(const Barrier& barrier, bool last);
+    void barriers(const std::vector<PlannedBarrier>& list, bool last);
+    void add(const PlannedBarrier& barrier, bool last);
     void full_barrier();
     void stamp(PassTiming timing);
 
@@ -44,7 +46,7 @@ private:
     // The frame that is being recorded.
     const Graph* graph_ = nullptr;
     CompiledGraph* shape_ = nullptr;
-    Slot* slot_ = nullptr;
+    FrameSlot* slot_ = nullptr;
     std::size_t slot_index_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     // Members rather than locals, so that their memory is reused.

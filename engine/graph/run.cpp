@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t kShapes = 8;
 
-double milliseconds_since(SteadyClock::time_point begin) {
+double elapsed_milliseconds(SteadyClock::time_point begin) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
 }
 
-gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
+gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device) {
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
@@ -31,7 +31,7 @@ gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
 
 /// Returns the number of the frame and the names of all its passes. A lost device does not tell
 /// which pass was running.
-std::string name_of_frame(std::uint64_t frame, const CompiledGraph& shape) {
+std::string describe_frame(std::uint64_t frame, const CompiledGraph& shape) {
     std::string name = "frame " + std::to_string(frame) + " (passes";
     for (const PlannedPass& planned : shape.plan.passes)
         name += " '" + shape.outline.passes()[planned.pass].name + "'";
@@ -39,15 +39,15 @@ std::string name_of_frame(std::uint64_t frame, const CompiledGraph& shape) {
 }
 
 /// Fills passes and span from the timestamps of a frame that has ended.
-void read_stamps(gpu::Device& device, const Slot& slot, GraphFrameTimes& times) {
+void read_timestamps(gpu::Device& device, const FrameSlot& slot, GraphFrameTimes& times) {
     const CompiledGraph& shape = *slot.shape;
     std::vector<std::uint64_t> stamps(slot.next_query);
     const VkResult result = vkGetQueryPoolResults(
         device.handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(), 8,
         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     if (result != VK_SUCCESS)
-        device.check_alive(result, "read the time stamps of " + name_of_frame(slot.frame, shape));
-    const std::vector<double> at = milliseconds_since_first(
+        device.check_alive(result, "read the time stamps of " + describe_frame(slot.frame, shape));
+    const std::vector<double> at = timestamps_to_milliseconds(
         stamps, device.timestamp_bits(), static_cast<double>(device.limits().timestampPeriod));
     for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
         const bool isolated = slot.timing == PassTiming::isolated;
@@ -60,8 +60,8 @@ void read_stamps(gpu::Device& device, const Slot& slot, GraphFrameTimes& times) 
 
 } // namespace
 
-Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight)
-    : device_(device), recorder_(device, pipelines), timeline_(make_timeline(device)),
+GraphRunner::GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight)
+    : device_(device), recorder_(device, pipelines), timeline_(make_timeline_semaphore(device)),
       memory_(device), kept_(device) {
     check(in_flight >= 1 && in_flight <= kMostInFlight, Failure::usage,
           "frames in flight must be 1 to ", kMostInFlight, ", not ", in_flight);
@@ -69,7 +69,7 @@ Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_
     for (std::uint32_t i = 0; i < in_flight; ++i) slots_.emplace_back(device);
 }
 
-Runner::~Runner() {
+GraphRunner::~GraphRunner() {
     if (device_.abandoned()) return;
     try {
         finish_all();
@@ -79,42 +79,42 @@ Runner::~Runner() {
 }
 
 /// Waits for all frames, and removes the references of ended frames to images that outlive frames.
-void Runner::release_persistent() {
+void GraphRunner::release_persistent() {
     finish_all();
-    for (Slot& slot : slots_)
+    for (FrameSlot& slot : slots_)
         if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
 }
 
-void Runner::forget() {
+void GraphRunner::forget() {
     release_persistent();
     kept_.forget();
 }
 
-RetainedImages Runner::suspend() {
+RetainedImages GraphRunner::suspend() {
     release_persistent();
     return kept_.take();
 }
 
-void Runner::resume(RetainedImages leavings) {
+void GraphRunner::resume(RetainedImages leavings) {
     release_persistent();
     kept_.put(std::move(leavings));
 }
 
-GraphLimits Runner::limits() const {
+GraphLimits GraphRunner::limits() const {
     const VkPhysicalDeviceLimits& limits = device_.limits();
     return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
             limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
 }
 
-CompiledGraph& Runner::compile(const Graph& graph) {
+CompiledGraph& GraphRunner::compile(const Graph& graph) {
     const SteadyClock::time_point begin = SteadyClock::now();
-    const std::uint64_t hash = shape_hash(graph);
+    const std::uint64_t hash = hash_graph_shape(graph);
     auto found = std::ranges::find_if(shapes_, [&](const std::shared_ptr<CompiledGraph>& shape) {
-        return shape->hash == hash && has_shape(graph, shape->outline);
+        return shape->hash == hash && have_equal_shapes(graph, shape->outline);
     });
     if (found == shapes_.end()) {
         auto made = std::make_shared<CompiledGraph>();
-        made->plan = plan(graph, limits(), sizer_of(device_));
+        made->plan = plan_graph(graph, limits(), make_device_sizer(device_));
         made->outline = graph.without_bodies();
         made->hash = hash;
         ++plans_made_;
@@ -123,17 +123,17 @@ CompiledGraph& Runner::compile(const Graph& graph) {
         found = shapes_.insert(shapes_.end(), std::move(made));
     }
     std::rotate(shapes_.begin(), found, found + 1);
-    compile_ms_ += milliseconds_since(begin);
+    compile_ms_ += elapsed_milliseconds(begin);
     return *shapes_.front();
 }
 
-Ticket Runner::submit(const Graph& graph, PassTiming timing, bool stays,
-                      const ExternalSync& outside) {
+FrameTicket GraphRunner::submit(const Graph& graph, PassTiming timing, bool stays,
+                                const ExternalSemaphores& outside) {
     device_.check_usable();
     const double waited_before = wait_ms_;
     CompiledGraph& shape = compile(graph);
     const std::size_t index = index_of(frame_ + 1);
-    Slot& slot = slots_[index];
+    FrameSlot& slot = slots_[index];
     finish(slot);
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
@@ -142,13 +142,13 @@ Ticket Runner::submit(const Graph& graph, PassTiming timing, bool stays,
     kept_.provide(shape, wait);
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     GraphFrameTimes times;
-    times.compile_ms = compile_ms_ + milliseconds_since(begin) - (wait_ms_ - waited_for_place);
+    times.compile_ms = compile_ms_ + elapsed_milliseconds(begin) - (wait_ms_ - waited_for_place);
     times.wait_ms = wait_ms_ - waited_before;
     compile_ms_ = 0;
 
     const SteadyClock::time_point record_begin = SteadyClock::now();
     recorder_.record(graph, shape, slot, index, timing);
-    times.record_ms = milliseconds_since(record_begin);
+    times.record_ms = elapsed_milliseconds(record_begin);
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
     submit(slot, shape, outside);
@@ -158,7 +158,8 @@ Ticket Runner::submit(const Graph& graph, PassTiming timing, bool stays,
     return {frame_};
 }
 
-void Runner::submit(Slot& slot, const CompiledGraph& shape, const ExternalSync& outside) {
+void GraphRunner::submit(FrameSlot& slot, const CompiledGraph& shape,
+                         const ExternalSemaphores& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
     const auto at = [](VkSemaphore semaphore, std::uint64_t value) {
@@ -181,13 +182,13 @@ void Runner::submit(Slot& slot, const CompiledGraph& shape, const ExternalSync& 
     slot.submitted = SteadyClock::now();
     const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
-        device_.check_alive(result, "run " + name_of_frame(frame_ + 1, shape));
+        device_.check_alive(result, "run " + describe_frame(frame_ + 1, shape));
     slot.frame = ++frame_;
     slot.ended = false;
 }
 
 /// Waits for the frame of the slot, unless it was waited for before.
-void Runner::finish(Slot& slot) {
+void GraphRunner::finish(FrameSlot& slot) {
     if (slot.ended) return;
     const SteadyClock::time_point begin = SteadyClock::now();
     const VkSemaphore semaphore = timeline_;
@@ -197,31 +198,31 @@ void Runner::finish(Slot& slot) {
     wait.pValues = &slot.frame;
     const VkResult result = vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0});
     if (result != VK_SUCCESS)
-        device_.check_waited(result, "run " + name_of_frame(slot.frame, *slot.shape));
-    const double waited = milliseconds_since(begin);
-    slot.times.wall_ms = milliseconds_since(slot.submitted);
+        device_.check_waited(result, "run " + describe_frame(slot.frame, *slot.shape));
+    const double waited = elapsed_milliseconds(begin);
+    slot.times.wall_ms = elapsed_milliseconds(slot.submitted);
     slot.times.wait_ms += waited;
     wait_ms_ += waited;
     slot.ended = true;
-    read_stamps(device_, slot, slot.times);
+    read_timestamps(device_, slot, slot.times);
 }
 
-void Runner::finish_all() {
-    for (Slot& slot : slots_) finish(slot);
+void GraphRunner::finish_all() {
+    for (FrameSlot& slot : slots_) finish(slot);
 }
 
-Slot& Runner::slot_of(Ticket ticket) {
+FrameSlot& GraphRunner::slot_of(FrameTicket ticket) {
     check(ticket.frame >= 1 && ticket.frame <= frame_, Failure::internal, "frame ", ticket.frame,
           " is asked for, but ", frame_, " were submitted");
-    Slot& slot = slots_[index_of(ticket.frame)];
+    FrameSlot& slot = slots_[index_of(ticket.frame)];
     check(slot.frame == ticket.frame, Failure::internal, "frame ", ticket.frame,
           " is gone: its place was taken by frame ", slot.frame, ", with ", slots_.size(),
           " in flight");
     return slot;
 }
 
-bool Runner::has_ended(Ticket ticket) {
-    const Slot& slot = slots_[index_of(ticket.frame)];
+bool GraphRunner::has_ended(FrameTicket ticket) {
+    const FrameSlot& slot = slots_[index_of(ticket.frame)];
     if (slot.frame != ticket.frame || slot.ended)
         return true; // a later frame has the slot, or the frame was waited for
     const VkSemaphore semaphore = timeline_;
@@ -231,12 +232,12 @@ bool Runner::has_ended(Ticket ticket) {
     wait.pValues = &ticket.frame;
     const VkResult result = vkWaitSemaphores(device_.handle(), &wait, 0);
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
-        device_.check_waited(result, "run " + name_of_frame(slot.frame, *slot.shape));
+        device_.check_waited(result, "run " + describe_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
 }
 
-const GraphFrameTimes& Runner::wait(Ticket ticket) {
-    Slot& slot = slot_of(ticket);
+const GraphFrameTimes& GraphRunner::wait(FrameTicket ticket) {
+    FrameSlot& slot = slot_of(ticket);
     finish(slot);
     return slot.times;
 }

@@ -9,13 +9,13 @@
 namespace catoptric::graph {
 
 /// A submitted frame, by its number from 1. Valid with the runner that returned it.
-struct Ticket {
+struct FrameTicket {
     std::uint64_t frame = 0;
 };
 
 /// Semaphores of the caller. The frame begins after `wait` and signals `signal` at its end; null:
 /// none.
-struct ExternalSync {
+struct ExternalSemaphores {
     VkSemaphore wait = VK_NULL_HANDLE;
     VkSemaphore signal = VK_NULL_HANDLE;
 };
@@ -24,18 +24,18 @@ struct ExternalSync {
 /// one timeline semaphore tells when it has ended. Frames run in order, each after all work of the
 /// one before. Images, memory and history stay between frames. Each run of a technique has its own
 /// Runner.
-class Runner {
+class GraphRunner {
 public:
     /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to
     /// kMostInFlight. Each has its own command buffer and its own copy of the outputs.
-    Runner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight = 1);
-    Runner(const Runner&) = delete;
-    Runner& operator=(const Runner&) = delete;
+    GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight = 1);
+    GraphRunner(const GraphRunner&) = delete;
+    GraphRunner& operator=(const GraphRunner&) = delete;
     /// Waits for the frames in flight.
-    ~Runner();
+    ~GraphRunner();
 
     /// Returns the history to construct the next Graph with.
-    History history() const { return kept_.history(); }
+    GraphHistory history() const { return kept_.history(); }
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
     void forget();
@@ -47,7 +47,7 @@ public:
     void resume(RetainedImages leavings);
     GraphLimits limits() const;
     /// Returns the plan of the graph's shape. The plans of the last 8 shapes are cached; others are
-    /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan.
+    /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan_graph.
     const GraphPlan& compiled(const Graph& graph) { return compile(graph).plan; }
     std::uint64_t plans_made() const { return plans_made_; }
     /// Returns the bytes of device memory for images and buffers of its graphs: as much as the
@@ -58,14 +58,14 @@ public:
     /// `stays`: the frame does not advance the history, so that the next frame sees the same last
     /// frame. Throws `exhausted`. Throws `device_lost` if a wait fails or the device refuses the
     /// frame.
-    Ticket submit(const Graph& graph, PassTiming timing, bool stays = false,
-                  const ExternalSync& outside = {});
+    FrameTicket submit(const Graph& graph, PassTiming timing, bool stays = false,
+                       const ExternalSemaphores& outside = {});
     /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
     /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
     /// has taken its slot.
-    const GraphFrameTimes& wait(Ticket ticket);
+    const GraphFrameTimes& wait(FrameTicket ticket);
     /// Returns whether the frame has ended, without waiting. Throws `device_lost`.
-    bool has_ended(Ticket ticket);
+    bool has_ended(FrameTicket ticket);
     GraphFrameTimes run(const Graph& graph, PassTiming timing, bool stays = false) {
         return wait(submit(graph, timing, stays));
     }
@@ -73,31 +73,31 @@ public:
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.
     /// An image that outlives frames can be read until the next frame is submitted.
-    std::vector<std::byte> read(Ticket ticket, ImageHandle image);
-    std::vector<std::byte> read(Ticket ticket, BufferHandle buffer);
+    std::vector<std::byte> read(FrameTicket ticket, ImageHandle image);
+    std::vector<std::byte> read(FrameTicket ticket, BufferHandle buffer);
     /// Reads from the frame that was submitted last.
-    std::vector<std::byte> read(ImageHandle image) { return read(Ticket{frame_}, image); }
-    std::vector<std::byte> read(BufferHandle buffer) { return read(Ticket{frame_}, buffer); }
+    std::vector<std::byte> read(ImageHandle image) { return read(FrameTicket{frame_}, image); }
+    std::vector<std::byte> read(BufferHandle buffer) { return read(FrameTicket{frame_}, buffer); }
     /// Returns the texels of all images with a `previous`, one after another: all that the next
     /// frame can see of the last one. Empty if no such image exists.
     std::vector<std::byte> read_history();
 
 private:
     CompiledGraph& compile(const Graph& graph);
-    Slot& slot_of(Ticket ticket);
+    FrameSlot& slot_of(FrameTicket ticket);
     std::size_t index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
-    void submit(Slot& slot, const CompiledGraph& shape, const ExternalSync& outside);
-    void finish(Slot& slot);
+    void submit(FrameSlot& slot, const CompiledGraph& shape, const ExternalSemaphores& outside);
+    void finish(FrameSlot& slot);
     void finish_all();
     void release_persistent();
 
     gpu::Device& device_;
-    Recorder recorder_;
+    FrameRecorder recorder_;
     gpu::UniqueSemaphore timeline_;
     FrameMemory memory_;
     PersistentImages kept_;
     std::vector<std::shared_ptr<CompiledGraph>> shapes_; ///< most recently used first
-    std::vector<Slot> slots_;
+    std::vector<FrameSlot> slots_;
     std::uint64_t frame_ = 0; ///< number of the frame submitted last
     std::uint64_t plans_made_ = 0;
     double compile_ms_ = 0; ///< since the last submit

@@ -11,9 +11,10 @@ namespace catoptric::graph {
 /// entry. Queries and changes cost as many steps as they meet runs, however long the runs are. No
 /// memory is allocated until the first change.
 template <typename T>
-class Runs {
+class ValueRuns {
 public:
-    explicit Runs(std::uint32_t size = 0, const T& value = {}) : size_(size), initial_(value) {}
+    explicit ValueRuns(std::uint32_t size = 0, const T& value = {})
+        : size_(size), initial_(value) {}
 
     /// Calls visit(begin, end, value) for each run in cells [first, end), from the lowest.
     template <typename Visit>
@@ -52,7 +53,7 @@ public:
     std::uint32_t size() const { return size_; }
 
 private:
-    struct Run {
+    struct ValueRun {
         std::uint32_t begin;
         T value;
     };
@@ -62,7 +63,7 @@ private:
     }
     /// Returns the index of the run that holds the cell.
     std::size_t find(std::uint32_t cell) const {
-        const auto after = std::ranges::upper_bound(runs_, cell, {}, &Run::begin);
+        const auto after = std::ranges::upper_bound(runs_, cell, {}, &ValueRun::begin);
         return static_cast<std::size_t>(after - runs_.begin()) - 1;
     }
     /// Splits a run so that one begins at the cell, and returns its index.
@@ -70,7 +71,7 @@ private:
         if (cell >= size_) return runs_.size();
         const std::size_t run = find(cell);
         if (runs_[run].begin == cell) return run;
-        const Run second{cell, runs_[run].value};
+        const ValueRun second{cell, runs_[run].value};
         runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(run) + 1, second);
         return run + 1;
     }
@@ -78,13 +79,14 @@ private:
         const auto first = runs_.begin() + static_cast<std::ptrdiff_t>(from);
         const auto last = runs_.begin() + static_cast<std::ptrdiff_t>(to);
         runs_.erase(
-            std::unique(first, last, [](const Run& a, const Run& b) { return a.value == b.value; }),
+            std::unique(first, last,
+                        [](const ValueRun& a, const ValueRun& b) { return a.value == b.value; }),
             last);
     }
 
     std::uint32_t size_;
     T initial_;
-    std::vector<Run> runs_; // the first begins at 0; empty: all cells have the initial value
+    std::vector<ValueRun> runs_; // the first begins at 0; empty: all cells have the initial value
 };
 
 } // namespace catoptric::graph

@@ -7,7 +7,7 @@ namespace catoptric::graph {
 namespace {
 
 /// A hash of the added values and their order.
-class Hash {
+class OrderedHash {
 public:
     void add(std::uint64_t value) {
         constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;
@@ -23,114 +23,119 @@ private:
 };
 
 template <typename E>
-std::uint32_t number(E value) {
+std::uint32_t to_hash_number(E value) {
     return static_cast<std::uint32_t>(value);
 }
 
-void add(Hash& hash, const ImageDesc& desc) {
+void add_to_hash(OrderedHash& hash, const ImageDesc& desc) {
     hash.add(desc.name);
     hash.add(desc.width, desc.height);
-    hash.add(desc.layers, number(desc.format) << 1 | desc.cube);
+    hash.add(desc.layers, to_hash_number(desc.format) << 1 | desc.cube);
     hash.add(desc.mips);
 }
 
-void add(Hash& hash, const ImageHandle& image) {
+void add_to_hash(OrderedHash& hash, const ImageHandle& image) {
     hash.add(image.id << 1 | image.previous, image.first_layer);
     hash.add(image.layer_count);
     hash.add(image.first_mip, image.mip_count);
 }
 
-void add(Hash& hash, const Pass& pass) {
+void add_to_hash(OrderedHash& hash, const Pass& pass) {
     hash.add(pass.name);
-    hash.add(number(pass.tag) << 1 | static_cast<bool>(pass.body), pass.layer_count);
+    hash.add(to_hash_number(pass.tag) << 1 | static_cast<bool>(pass.body), pass.layer_count);
     hash.add(static_cast<std::uint32_t>(pass.images.size()),
              static_cast<std::uint32_t>(pass.buffers.size()));
     for (const ImageUse& use : pass.images) {
-        add(hash, use.image);
-        hash.add(number(use.use), std::uint32_t{use.stays} << 2 | std::uint32_t{use.write} << 1 |
-                                      use.clear.has_value());
+        add_to_hash(hash, use.image);
+        hash.add(to_hash_number(use.use), std::uint32_t{use.stays} << 2 |
+                                              std::uint32_t{use.write} << 1 |
+                                              use.clear.has_value());
     }
     for (const BufferUse& use : pass.buffers)
-        hash.add(use.buffer.id, number(use.use) << 1 | use.write);
+        hash.add(use.buffer.id, to_hash_number(use.use) << 1 | use.write);
 }
 
 /// Returns the ranges of a persistent image that have contents.
-std::vector<std::uint32_t> held_ranges(const Graph& graph, std::uint32_t image) {
+std::vector<std::uint32_t> ranges_with_contents(const Graph& graph, std::uint32_t image) {
     std::vector<std::uint32_t> ranges;
-    graph.held(image).each([&](std::uint32_t first, std::uint32_t end, const auto& content_hash) {
-        if (!content_hash) return;
-        const bool continues = !ranges.empty() && ranges.back() == first;
-        if (continues) ranges.pop_back();
-        if (!continues) ranges.push_back(first);
-        ranges.push_back(end);
-    });
+    graph.content_hashes_at_start(image).each(
+        [&](std::uint32_t first, std::uint32_t end, const auto& content_hash) {
+            if (!content_hash) return;
+            const bool continues = !ranges.empty() && ranges.back() == first;
+            if (continues) ranges.pop_back();
+            if (!continues) ranges.push_back(first);
+            ranges.push_back(end);
+        });
     return ranges;
 }
 
-void add_lifetime(Hash& hash, const Graph& graph, std::uint32_t image) {
-    hash.add(number(graph.lifetime(image)));
-    if (graph.lifetime(image) == Lifetime::imported) {
-        const std::optional<Use> arrives = graph.arrives(image);
-        hash.add(arrives ? 1 + number(*arrives) : 0, number(graph.leaves(image)));
+void add_lifetime_to_hash(OrderedHash& hash, const Graph& graph, std::uint32_t image) {
+    hash.add(to_hash_number(graph.lifetime(image)));
+    if (graph.lifetime(image) == ImageLifetime::imported) {
+        const std::optional<ResourceUse> arrives = graph.arrives(image);
+        hash.add(arrives ? 1 + to_hash_number(*arrives) : 0, to_hash_number(graph.leaves(image)));
     }
-    if (graph.lifetime(image) == Lifetime::persistent)
-        for (const std::uint32_t end : held_ranges(graph, image)) hash.add(end);
+    if (graph.lifetime(image) == ImageLifetime::persistent)
+        for (const std::uint32_t end : ranges_with_contents(graph, image)) hash.add(end);
 }
 
-bool same_lifetime(const Graph& a, const Graph& b, std::uint32_t image) {
-    const Lifetime lifetime = a.lifetime(image);
+bool have_equal_lifetimes(const Graph& a, const Graph& b, std::uint32_t image) {
+    const ImageLifetime lifetime = a.lifetime(image);
     if (lifetime != b.lifetime(image)) return false;
-    if (lifetime == Lifetime::imported)
+    if (lifetime == ImageLifetime::imported)
         return a.arrives(image) == b.arrives(image) && a.leaves(image) == b.leaves(image);
-    return lifetime != Lifetime::persistent || held_ranges(a, image) == held_ranges(b, image);
+    return lifetime != ImageLifetime::persistent ||
+           ranges_with_contents(a, image) == ranges_with_contents(b, image);
 }
 
-bool same(const ImageUse& a, const ImageUse& b) {
+bool are_equal_declarations(const ImageUse& a, const ImageUse& b) {
     return a.image == b.image && a.use == b.use && a.write == b.write &&
            a.clear.has_value() == b.clear.has_value() && a.stays == b.stays;
 }
 
-bool same(const Pass& a, const Pass& b) {
+bool are_equal_declarations(const Pass& a, const Pass& b) {
     return a.name == b.name && a.tag == b.tag && a.layer_count == b.layer_count &&
            a.buffers == b.buffers &&
-           std::ranges::equal(a.images, b.images,
-                              [](const ImageUse& x, const ImageUse& y) { return same(x, y); });
+           std::ranges::equal(a.images, b.images, [](const ImageUse& x, const ImageUse& y) {
+               return are_equal_declarations(x, y);
+           });
 }
 
 } // namespace
 
-std::uint64_t shape_hash(const Graph& graph) {
-    Hash hash;
+std::uint64_t hash_graph_shape(const Graph& graph) {
+    OrderedHash hash;
     hash.add(graph.images().size());
     for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
-        add(hash, graph.images()[i]);
-        add_lifetime(hash, graph, i);
+        add_to_hash(hash, graph.images()[i]);
+        add_lifetime_to_hash(hash, graph, i);
     }
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b) {
         hash.add(graph.buffers()[b].name);
         hash.add(graph.buffers()[b].bytes << 1 | graph.is_imported({b}));
     }
-    for (const ContentRecord& stamped : graph.stamps()) add(hash, stamped.part);
-    for (const Pass& pass : graph.passes()) add(hash, pass);
-    for (const ImageHandle& image : graph.output_images()) add(hash, image);
+    for (const ContentRecord& stamped : graph.stamps()) add_to_hash(hash, stamped.part);
+    for (const Pass& pass : graph.passes()) add_to_hash(hash, pass);
+    for (const ImageHandle& image : graph.output_images()) add_to_hash(hash, image);
     for (const BufferHandle& buffer : graph.output_buffers()) hash.add(buffer.id);
     return hash.value();
 }
 
-bool has_shape(const Graph& graph, const Graph& known) {
+bool have_equal_shapes(const Graph& graph, const Graph& known) {
     if (graph.images() != known.images() || graph.buffers() != known.buffers() ||
         graph.output_images() != known.output_images() ||
         graph.output_buffers() != known.output_buffers())
         return false;
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
-        if (!same_lifetime(graph, known, i)) return false;
+        if (!have_equal_lifetimes(graph, known, i)) return false;
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
         if (graph.is_imported({b}) != known.is_imported({b})) return false;
     if (!std::ranges::equal(graph.stamps(), known.stamps(), {}, &ContentRecord::part,
                             &ContentRecord::part))
         return false;
-    return std::ranges::equal(graph.passes(), known.passes(),
-                              [](const Pass& a, const Pass& b) { return same(a, b); });
+    return std::ranges::equal(graph.passes(), known.passes(), [](const Pass& a, const Pass& b) {
+        return are_equal_declarations(a, b);
+    });
 }
 
 } // namespace catoptric::graph

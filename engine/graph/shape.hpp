@@ -7,9 +7,9 @@ namespace catoptric::graph {
 /// Returns a hash that is equal for all graphs of one shape. A shape is all that a plan depends on:
 /// every declaration, and which parts of persistent images have contents. The shape excludes
 /// recorded commands, clear values, content hashes and which outside resources are imported.
-std::uint64_t shape_hash(const Graph& graph);
+std::uint64_t hash_graph_shape(const Graph& graph);
 
 /// Returns whether a plan of one graph is valid for the other. `known` need not have pass bodies.
-bool has_shape(const Graph& graph, const Graph& known);
+bool have_equal_shapes(const Graph& graph, const Graph& known);
 
 } // namespace catoptric::graph

@@ -27,7 +27,7 @@ gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::Device& device) {
 
 } // namespace
 
-Slot::Slot(const gpu::Device& device) : device_(device) {
+FrameSlot::FrameSlot(const gpu::Device& device) : device_(device) {
     VkCommandPoolCreateInfo create{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     create.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     create.queueFamilyIndex = device.queue_family();
@@ -43,7 +43,7 @@ Slot::Slot(const gpu::Device& device) : device_(device) {
                   "allocate a command buffer");
 }
 
-void Slot::reset(std::uint32_t stamps) {
+void FrameSlot::reset(std::uint32_t stamps) {
     if (query_count_ < stamps) {
         VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -60,7 +60,7 @@ void Slot::reset(std::uint32_t stamps) {
     next_query = 0;
 }
 
-VkDescriptorSet Slot::descriptor_set(VkDescriptorSetLayout layout) {
+VkDescriptorSet FrameSlot::descriptor_set(VkDescriptorSetLayout layout) {
     for (;; ++next_pool_) {
         const bool fresh = next_pool_ == descriptor_pools_.size();
         if (fresh) descriptor_pools_.push_back(make_descriptor_pool(device_));

@@ -11,9 +11,9 @@ namespace catoptric::graph {
 
 /// The resources of one frame in flight: command buffer, timestamps, descriptors. They are reused
 /// once the frame has ended.
-class Slot {
+class FrameSlot {
 public:
-    explicit Slot(const gpu::Device& device);
+    explicit FrameSlot(const gpu::Device& device);
     /// Empties the descriptor pools and makes room for `stamps` timestamps.
     void reset(std::uint32_t stamps);
     VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout);

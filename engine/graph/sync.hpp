@@ -6,13 +6,13 @@
 namespace catoptric::graph {
 
 /// The pipeline stages and memory accesses of a touch.
-struct Scope {
+struct SyncScope {
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
-Scope scope_of(const Touch& touch);
+SyncScope sync_scope_of_touch(const ResourceTouch& touch);
 
 /// Returns the layout that an image has during this use.
-VkImageLayout layout_of(Use use);
+VkImageLayout image_layout_of_use(ResourceUse use);
 
 } // namespace catoptric::graph

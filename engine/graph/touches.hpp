@@ -13,26 +13,28 @@ using TouchCode = std::uint8_t;
 constexpr TouchCode kNothing = 0;
 constexpr int kTouchCodes = 64; ///< every code is smaller
 
-constexpr TouchCode code_of(const Touch& touch) {
+constexpr TouchCode encode_touch(const ResourceTouch& touch) {
     if (touch.nothing) return kNothing;
     return static_cast<TouchCode>(4 * static_cast<int>(touch.use) + 2 * touch.write + touch.raster +
                                   1);
 }
-constexpr Touch touch_of(TouchCode code) {
+constexpr ResourceTouch make_touch(TouchCode code) {
     if (code == kNothing) return {};
     const int bits = code - 1;
     return {.nothing = false,
-            .use = static_cast<Use>(bits / 4),
+            .use = static_cast<ResourceUse>(bits / 4),
             .write = (bits & 2) != 0,
             .raster = (bits & 1) != 0};
 }
-constexpr Use use_of(TouchCode code) { return static_cast<Use>((code - 1) / 4); }
+constexpr ResourceUse decode_touch_use(TouchCode code) {
+    return static_cast<ResourceUse>((code - 1) / 4);
+}
 
 /// A list of at most 8 distinct accesses to a resource, in the order in which they were added.
-class Touches {
+class TouchList {
 public:
-    Touches() = default;
-    explicit Touches(TouchCode touch) { add(touch); }
+    TouchList() = default;
+    explicit TouchList(TouchCode touch) { add(touch); }
     bool empty() const { return count_ == 0; }
     std::size_t size() const { return count_; }
     TouchCode front() const { return codes_[0]; }
@@ -48,7 +50,7 @@ public:
         codes_[count_++] = touch;
     }
     void clear() { *this = {}; }
-    friend bool operator==(const Touches&, const Touches&) = default;
+    friend bool operator==(const TouchList&, const TouchList&) = default;
 
 private:
     std::array<TouchCode, 8> codes_{};
@@ -57,6 +59,6 @@ private:
 
 /// A set of touches without order: a bit for each code.
 using TouchSet = std::uint64_t;
-constexpr TouchSet set_of(TouchCode code) { return TouchSet{1} << code; }
+constexpr TouchSet touch_set_of(TouchCode code) { return TouchSet{1} << code; }
 
 } // namespace catoptric::graph

@@ -12,17 +12,18 @@ namespace catoptric::graph {
 namespace {
 
 /// Returns the first layers of `access` for which `there` is false; empty if it is true for all.
-std::string missing_layers(const Graph& graph, const Ledger<char>& there, const Access& access) {
+std::string describe_missing_layers(const Graph& graph, const ResourceLedger<char>& there,
+                                    const ResourceAccess& access) {
     if (!there.any(access, false)) return "";
     std::optional<std::pair<std::uint32_t, std::uint32_t>> missing;
     there.each(access, [&](std::uint32_t first, std::uint32_t end, bool is_there) {
         if (!is_there && !missing) missing = {first, end};
     });
     if (access.is_buffer) return "it";
-    return layers_text(graph.images()[access.id], missing->first, missing->second);
+    return format_layer_range(graph.images()[access.id], missing->first, missing->second);
 }
 
-void check_names(const Graph& graph) {
+void check_resource_names(const Graph& graph) {
     std::unordered_set<std::string_view> seen;
     seen.reserve(graph.images().size() + graph.buffers().size());
     const auto resource = [&](const std::string& name, std::string_view kind) {
@@ -41,7 +42,7 @@ void check_names(const Graph& graph) {
     }
 }
 
-void check_image(const ImageDesc& desc, const GraphLimits& limits) {
+void check_image_limits(const ImageDesc& desc, const GraphLimits& limits) {
     check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kInvalidGraph, "image '", desc.name,
           "' is empty: ", desc.width, "x", desc.height, ", ", desc.layers, " layers");
     check(!desc.cube || desc.layers % 6 == 0, kInvalidGraph, "image '", desc.name,
@@ -60,27 +61,28 @@ void check_image(const ImageDesc& desc, const GraphLimits& limits) {
           desc.mips, " mips, but of ", desc.width, "x", desc.height, " there are 1 to ", most_mips);
 }
 
-[[noreturn]] void refuse_read(const Graph& graph, const Pass& pass, const Access& a,
-                              const std::string& missing) {
-    const char* verb = !a.write                ? "reads "
-                       : a.use == Use::storage ? "reads and writes "
-                       : a.clears              ? "updates "
-                                               : "loads (has no clear for) ";
-    fail(kInvalidGraph, "pass '", pass.name, "' ", verb, describe(graph, a), " as ", name_of(a.use),
-         " before any pass writes ", missing);
+[[noreturn]] void fail_read_before_write(const Graph& graph, const Pass& pass,
+                                         const ResourceAccess& a, const std::string& missing) {
+    const char* verb = !a.write                        ? "reads "
+                       : a.use == ResourceUse::storage ? "reads and writes "
+                       : a.clears                      ? "updates "
+                                                       : "loads (has no clear for) ";
+    fail(kInvalidGraph, "pass '", pass.name, "' ", verb, describe_access(graph, a), " as ",
+         name_of(a.use), " before any pass writes ", missing);
 }
 
 /// Returns the contents that exist before the first pass: those of persistent and of imported
 /// resources.
-Ledger<char> there_at_start(const Graph& graph) {
-    Ledger<char> there(graph, false);
+ResourceLedger<char> mark_contents_at_start(const Graph& graph) {
+    ResourceLedger<char> there(graph, false);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
-        const Access all = access_to_all(graph, i);
-        if (graph.lifetime(i) == Lifetime::imported && graph.arrives(i)) there.set(all, true);
-        if (graph.lifetime(i) != Lifetime::persistent) continue;
-        graph.held(i).each([&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
-            if (stamp) there.of(all).set(first, end, true);
-        });
+        const ResourceAccess all = access_to_whole_image(graph, i);
+        if (graph.lifetime(i) == ImageLifetime::imported && graph.arrives(i)) there.set(all, true);
+        if (graph.lifetime(i) != ImageLifetime::persistent) continue;
+        graph.content_hashes_at_start(i).each(
+            [&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
+                if (stamp) there.of(all).set(first, end, true);
+            });
     }
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
         if (graph.is_imported({b})) there.set({.is_buffer = true, .id = b}, true);
@@ -89,24 +91,25 @@ Ledger<char> there_at_start(const Graph& graph) {
 
 /// Checks that every layer is written before it is read, by an earlier pass of this frame or before
 /// the frame. Returns the contents that exist after the last pass.
-Ledger<char> check_order(const Graph& graph, const Accesses& all) {
-    Ledger<char> written = there_at_start(graph);
+ResourceLedger<char> check_writes_before_reads(const Graph& graph, const GraphAccesses& all) {
+    ResourceLedger<char> written = mark_contents_at_start(graph);
     for (std::size_t p = 0; p < graph.passes().size(); ++p) {
-        for (const Access& a : all.of(p))
+        for (const ResourceAccess& a : all.of(p))
             if (a.needs && !a.previous && written.any(a, false))
-                refuse_read(graph, graph.passes()[p], a, missing_layers(graph, written, a));
-        for (const Access& a : all.of(p))
+                fail_read_before_write(graph, graph.passes()[p], a,
+                                       describe_missing_layers(graph, written, a));
+        for (const ResourceAccess& a : all.of(p))
             if (a.write) written.set(a, true);
     }
     return written;
 }
 
-void check_stamped(const Graph& graph, const ContentRecord& stamped) {
-    const Access part = access_to(stamped.part);
+void check_hashes_for_writes(const Graph& graph, const ContentRecord& stamped) {
+    const ResourceAccess part = access_to_image_part(stamped.part);
     const ImageDesc& desc = graph.images()[part.id];
     if (part.layer_count == 0 || part.end_layer() > desc.layers || part.mip_count == 0 ||
         part.end_mip() > desc.mips)
-        fail(kInvalidGraph, describe(graph, part),
+        fail(kInvalidGraph, describe_access(graph, part),
              " is said to be made from something, but the image has "
              "layers [0,",
              desc.layers, ") and ", desc.mips, " mip(s)");
@@ -114,50 +117,54 @@ void check_stamped(const Graph& graph, const ContentRecord& stamped) {
 
 /// Checks that passes write exactly those parts of persistent images for which a content hash is
 /// set.
-void check_stamps(const Graph& graph, const Accesses& all) {
-    Ledger<char> stamped(graph, false), written(graph, false);
+void check_content_hash_parts(const Graph& graph, const GraphAccesses& all) {
+    ResourceLedger<char> stamped(graph, false), written(graph, false);
     for (const ContentRecord& s : graph.stamps()) {
-        check_stamped(graph, s);
-        stamped.set(access_to(s.part), true);
+        check_hashes_for_writes(graph, s);
+        stamped.set(access_to_image_part(s.part), true);
     }
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
-        for (const Access& a : all.of(p)) {
-            if (!a.write || a.is_buffer || graph.lifetime(a.id) != Lifetime::persistent) continue;
+        for (const ResourceAccess& a : all.of(p)) {
+            if (!a.write || a.is_buffer || graph.lifetime(a.id) != ImageLifetime::persistent)
+                continue;
             if (stamped.any(a, false))
                 fail(kInvalidGraph, "pass '", graph.passes()[p].name, "' writes ",
-                     describe(graph, a), ", which is kept, but nobody says what ",
-                     missing_layers(graph, stamped, a), " are made from");
+                     describe_access(graph, a), ", which is kept, but nobody says what ",
+                     describe_missing_layers(graph, stamped, a), " are made from");
             written.set(a, true);
         }
     for (const ContentRecord& s : graph.stamps())
-        if (const Access a = access_to(s.part); written.any(a, false))
-            fail(kInvalidGraph, describe(graph, a),
+        if (const ResourceAccess a = access_to_image_part(s.part); written.any(a, false))
+            fail(kInvalidGraph, describe_access(graph, a),
                  " is said to be made from something, but no pass writes ",
-                 missing_layers(graph, written, a));
+                 describe_missing_layers(graph, written, a));
 }
 
-[[noreturn]] void refuse_previous(const Graph& graph, const Pass& pass, const Access& a,
-                                  const Ledger<char>& written) {
-    const std::string name = quoted_name(graph, a);
-    check(written.any(access_to_all(graph, a.id), true), kInvalidGraph, "pass '", pass.name,
+[[noreturn]] void fail_read_of_previous(const Graph& graph, const Pass& pass,
+                                        const ResourceAccess& a,
+                                        const ResourceLedger<char>& written) {
+    const std::string name = quote_resource_name(graph, a);
+    check(written.any(access_to_whole_image(graph, a.id), true), kInvalidGraph, "pass '", pass.name,
           "' reads previous(", name, ") as ", name_of(a.use), " but no pass writes ", name);
-    fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe(graph, a), " as ", name_of(a.use),
-         " but no pass writes ", missing_layers(graph, written, a), " of ", name);
+    fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
+         name_of(a.use), " but no pass writes ", describe_missing_layers(graph, written, a), " of ",
+         name);
 }
 
-void check_previous(const Graph& graph, const Accesses& all, const Ledger<char>& written) {
+void check_reads_of_previous(const Graph& graph, const GraphAccesses& all,
+                             const ResourceLedger<char>& written) {
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
-        for (const Access& a : all.of(p))
+        for (const ResourceAccess& a : all.of(p))
             if (a.previous && written.any(a, false))
-                refuse_previous(graph, graph.passes()[p], a, written);
+                fail_read_of_previous(graph, graph.passes()[p], a, written);
 }
 
-void check_outputs(const Graph& graph, const Ledger<char>& written) {
+void check_outputs_are_written(const Graph& graph, const ResourceLedger<char>& written) {
     for (const ImageHandle& image : graph.output_images()) {
         check(image.id < graph.images().size(), kInvalidGraph, "image number ", image.id,
               " is wanted, but the graph has ", graph.images().size());
-        const Access a = access_to(image);
-        const std::string what = describe(graph, a);
+        const ResourceAccess a = access_to_image_part(image);
+        const std::string what = describe_access(graph, a);
         check(!image.previous, kInvalidGraph, what,
               " is wanted: only this frame's contents can be");
         const ImageDesc& desc = graph.images()[image.id];
@@ -165,36 +172,37 @@ void check_outputs(const Graph& graph, const Ledger<char>& written) {
               " is wanted, but the image has layers [0,", desc.layers, ")");
         check(a.mip_count > 0 && a.end_mip() <= desc.mips, kInvalidGraph, what,
               " is wanted, but the image has mips [0,", desc.mips, ")");
-        check(graph.lifetime(a.id) != Lifetime::imported, kInvalidGraph, what,
+        check(graph.lifetime(a.id) != ImageLifetime::imported, kInvalidGraph, what,
               " is wanted, but imported: read it where it comes from");
-        const std::string missing = missing_layers(graph, written, a);
+        const std::string missing = describe_missing_layers(graph, written, a);
         check(missing.empty(), kInvalidGraph, what, " is wanted, but no pass writes ", missing);
     }
     for (const BufferHandle& buffer : graph.output_buffers()) {
         check(buffer.id < graph.buffers().size(), kInvalidGraph, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
-        const Access a{.is_buffer = true, .id = buffer.id};
-        check(!graph.is_imported(buffer), kInvalidGraph, describe(graph, a),
+        const ResourceAccess a{.is_buffer = true, .id = buffer.id};
+        check(!graph.is_imported(buffer), kInvalidGraph, describe_access(graph, a),
               " is wanted, but imported: read it where it comes from");
-        check(written.any(a, true), kInvalidGraph, describe(graph, a),
+        check(written.any(a, true), kInvalidGraph, describe_access(graph, a),
               " is wanted, but no pass writes it");
     }
 }
 
 } // namespace
 
-void validate(const Graph& graph, const Accesses& all, const GraphLimits& limits) {
-    check_names(graph);
-    for (const ImageDesc& desc : graph.images()) check_image(desc, limits);
+void validate_graph(const Graph& graph, const GraphAccesses& all, const GraphLimits& limits) {
+    check_resource_names(graph);
+    for (const ImageDesc& desc : graph.images()) check_image_limits(desc, limits);
     for (const BufferDesc& desc : graph.buffers())
         check(desc.bytes > 0, kInvalidGraph, "buffer '", desc.name, "' is empty: 0 bytes");
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
         validate_pass(graph, graph.passes()[p], all.of(p), limits);
-    const Ledger<char> written = check_order(graph, all);
-    check_previous(graph, all, written);
-    check_outputs(graph, written);
+    const ResourceLedger<char> written = check_writes_before_reads(graph, all);
+    check_reads_of_previous(graph, all, written);
+    check_outputs_are_written(graph, written);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
-        if (graph.lifetime(i) == Lifetime::persistent) return check_stamps(graph, all);
+        if (graph.lifetime(i) == ImageLifetime::persistent)
+            return check_content_hash_parts(graph, all);
 }
 
 } // namespace catoptric::graph

@@ -19,9 +19,9 @@ namespace catoptric {
 namespace {
 
 /// Lets OpenImageIO read from a source of bytes.
-class Proxy final : public OIIO::Filesystem::IOProxy {
+class ByteSourceProxy final : public OIIO::Filesystem::IOProxy {
 public:
-    explicit Proxy(const ByteSource& bytes) : IOProxy("", Read), bytes_(bytes) {}
+    explicit ByteSourceProxy(const ByteSource& bytes) : IOProxy("", Read), bytes_(bytes) {}
 
     const char* proxytype() const override { return "catoptric"; }
     std::size_t size() const override { return bytes_.size(); }
@@ -48,50 +48,51 @@ private:
 struct ImageCodecs::Picture {
     explicit Picture(const ByteSource& bytes) : proxy(bytes) {}
 
-    Proxy proxy;
+    ByteSourceProxy proxy;
     std::unique_ptr<OIIO::ImageInput> input; // destroyed before the proxy that it reads from
     int channel_count = 0;
 };
 
 namespace {
 
-OIIO::TypeDesc type_of(CodecValue type) {
+OIIO::TypeDesc to_oiio_type(CodecValue type) {
     return type == CodecValue::float32 ? OIIO::TypeFloat : OIIO::TypeUInt8;
 }
 
 /// Returns OpenImageIO's error message, in one line.
 template <typename Codec>
-CodecResult refused(const Codec& codec) {
+CodecResult last_oiio_error(const Codec& codec) {
     std::string text = codec.geterror();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return {CodecAnswer::refused, std::move(text)};
+    return {CodecStatus::refused, std::move(text)};
 }
 
 /// Returns the result of `work`, with exceptions turned into results.
 template <typename Work>
-CodecResult without_exceptions(const Work& work) noexcept {
+CodecResult catch_codec_exceptions(const Work& work) noexcept {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return {CodecAnswer::out_of_memory};
+        return {CodecStatus::out_of_memory};
     } catch (const std::exception& error) {
-        return {CodecAnswer::broken, error.what()};
+        return {CodecStatus::broken, error.what()};
     } catch (...) {
-        return {CodecAnswer::broken, "with an exception of its own"};
+        return {CodecStatus::broken, "with an exception of its own"};
     }
 }
 
-CodecResult open(const ByteSource& bytes, const std::string& format, const std::string& name,
-                 ImageCodecs::Picture*& picture, ImageCodecs::Header& header) noexcept {
+CodecResult open_picture(const ByteSource& bytes, const std::string& format,
+                         const std::string& name, ImageCodecs::Picture*& picture,
+                         ImageCodecs::PictureHeader& header) noexcept {
     picture = nullptr;
-    return without_exceptions([&]() -> CodecResult {
+    return catch_codec_exceptions([&]() -> CodecResult {
         auto opened = std::make_unique<ImageCodecs::Picture>(bytes);
         opened->input = OIIO::ImageInput::create(format);
-        if (!opened->input) return {CodecAnswer::no_codec};
+        if (!opened->input) return {CodecStatus::no_codec};
         OIIO::ImageSpec hints, spec;
         hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
         opened->input->set_ioproxy(&opened->proxy);
-        if (!opened->input->open(name, spec, hints)) return refused(*opened->input);
+        if (!opened->input->open(name, spec, hints)) return last_oiio_error(*opened->input);
         header = {{spec.width, spec.height}, spec.nchannels, spec.deep, spec.channelnames};
         opened->channel_count = spec.nchannels;
         picture = opened.release();
@@ -100,8 +101,8 @@ CodecResult open(const ByteSource& bytes, const std::string& format, const std::
 }
 
 /// Reads all tiles that contain the rows, and copies the rows from them.
-bool read_tiles(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t row_count,
-                int channel_count, const OIIO::TypeDesc& type, void* values) {
+bool read_tile_rows(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t row_count,
+                    int channel_count, const OIIO::TypeDesc& type, void* values) {
     const OIIO::ImageSpec& spec = input.spec();
     const int begin = static_cast<int>(first), end = begin + static_cast<int>(row_count);
     const int from = begin / spec.tile_height * spec.tile_height;
@@ -116,31 +117,31 @@ bool read_tiles(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t row_
     return true;
 }
 
-CodecResult read(ImageCodecs::Picture& picture, std::uint32_t first, std::uint32_t row_count,
-                 CodecValue type, void* values) noexcept {
-    return without_exceptions([&]() -> CodecResult {
+CodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t first,
+                              std::uint32_t row_count, CodecValue type, void* values) noexcept {
+    return catch_codec_exceptions([&]() -> CodecResult {
         OIIO::ImageInput& input = *picture.input;
         const OIIO::ImageSpec& spec = input.spec();
         const int from = spec.y + static_cast<int>(first);
         const bool is_read = spec.tile_width > 0
-                                 ? read_tiles(input, first, row_count, picture.channel_count,
-                                              type_of(type), values)
+                                 ? read_tile_rows(input, first, row_count, picture.channel_count,
+                                                  to_oiio_type(type), values)
                                  : input.read_scanlines(
                                        0, 0, from, from + static_cast<int>(row_count), 0, 0,
-                                       picture.channel_count, type_of(type), values);
-        if (!is_read) return refused(input);
+                                       picture.channel_count, to_oiio_type(type), values);
+        if (!is_read) return last_oiio_error(input);
         return {};
     });
 }
 
-void close(ImageCodecs::Picture* picture) noexcept { delete picture; }
+void close_picture(ImageCodecs::Picture* picture) noexcept { delete picture; }
 
 /// Encodes to memory, because OpenImageIO's writers report success on a full disk. PNG is supported
 /// to test core/png.cpp against.
-CodecResult encode(const std::string& format, const ImageCodecs::ModuleValues& picture,
-                   std::string& bytes) noexcept {
-    return without_exceptions([&]() -> CodecResult {
-        const OIIO::TypeDesc type = type_of(picture.type);
+CodecResult encode_picture(const std::string& format, const ImageCodecs::PixelValueBuffer& picture,
+                           std::string& bytes) noexcept {
+    return catch_codec_exceptions([&]() -> CodecResult {
+        const OIIO::TypeDesc type = to_oiio_type(picture.type);
         OIIO::ImageSpec spec(static_cast<int>(picture.size.x), static_cast<int>(picture.size.y),
                              static_cast<int>(picture.channel_count), type);
         spec.attribute("DateTime",
@@ -149,17 +150,20 @@ CodecResult encode(const std::string& format, const ImageCodecs::ModuleValues& p
         spec.attribute("oiio:UnassociatedAlpha", 1);
         OIIO::Filesystem::IOVecOutput memory;
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-        if (!output) return {CodecAnswer::no_codec};
+        if (!output) return {CodecStatus::no_codec};
         output->set_ioproxy(&memory);
         if (!output->open("memory." + format, spec) || !output->write_image(type, picture.values) ||
             !output->close())
-            return refused(*output);
+            return last_oiio_error(*output);
         bytes.assign(memory.buffer().begin(), memory.buffer().end());
         return {};
     });
 }
 
-constexpr ImageCodecs kCodecs{.open = open, .read = read, .close = close, .encode = encode};
+constexpr ImageCodecs kCodecs{.open = open_picture,
+                              .read = read_picture_rows,
+                              .close = close_picture,
+                              .encode = encode_picture};
 
 } // namespace
 

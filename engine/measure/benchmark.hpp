@@ -42,18 +42,18 @@ struct BenchmarkRun {
 };
 
 /// The cost by which benchmarks are compared.
-enum class Cost { cycles, cpu_time, real_time };
+enum class CostKind { cycles, cpu_time, real_time };
 /// Returns "cycles", "processor time" or "time".
-std::string name_of(Cost cost);
+std::string name_of(CostKind cost);
 
 /// Returns a round's cost in cycles or milliseconds. Returns NaN if the round has no cycles.
-double cost_of(const BenchmarkRound& round, Cost cost);
+double round_cost(const BenchmarkRound& round, CostKind cost);
 /// Returns the costs of all rounds, in order.
-std::vector<double> costs_of(const Benchmark& benchmark, Cost cost);
+std::vector<double> list_round_costs(const Benchmark& benchmark, CostKind cost);
 
 /// Ratio of costs that were measured in rounds: the median of the rounds' ratios, and its
 /// confidence interval.
-struct Ratio {
+struct CostRatio {
     double median = 0;
     Interval ci95; ///< 95 % confidence; unknown for fewer than `kFewest` rounds
     bool is_above_one() const { return ci95.low > 1; }
@@ -61,35 +61,36 @@ struct Ratio {
 };
 /// Returns the ratio a[i] / b[i] over as many pairs as the shorter list has. Throws `internal`
 /// without a pair.
-Ratio ratio_of(const std::vector<double>& a, const std::vector<double>& b);
+CostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Costs of one benchmark before and after a change.
-struct Change {
+struct BenchmarkChange {
     /// Result of the comparison. `slower` and `faster`: the cost says so and the elapsed time does
     /// not say the opposite. `mixed`: the elapsed time says the opposite. `same`: the two cannot be
     /// told apart. `unknown`: there are too few rounds.
-    enum class Outcome { slower, faster, mixed, same, unknown };
+    enum class ChangeOutcome { slower, faster, mixed, same, unknown };
     std::string name;
-    Cost cost = Cost::real_time;
+    CostKind cost = CostKind::real_time;
     std::array<double, 2> medians{}; ///< medians of the cost, before and after
-    Ratio ratio;                     ///< cost after, divided by cost before
-    Ratio real_ratio;                ///< the same for the elapsed time
-    Outcome outcome() const;
+    CostRatio ratio;                 ///< cost after, divided by cost before
+    CostRatio real_ratio;            ///< the same for the elapsed time
+    ChangeOutcome outcome() const;
 };
 /// Returns "slower", "faster", "mixed", "same" or "unknown".
-std::string name_of(Change::Outcome outcome);
+std::string name_of(BenchmarkChange::ChangeOutcome outcome);
 
-struct Changes {
-    std::vector<Change> list; ///< the benchmarks of both runs, in the order of the later run
+struct BenchmarkChanges {
+    std::vector<BenchmarkChange>
+        list; ///< the benchmarks of both runs, in the order of the later run
     std::vector<std::string> only_before, only_after;
 };
 /// Compares the benchmarks that both runs contain. The cost is cycles if both runs counted them.
 /// Otherwise the cost is processor time, because it repeats even if other programs run at the same
 /// time. If a run's device is not a processor, the cost is elapsed time.
-Changes compare(const BenchmarkRun& before, const BenchmarkRun& after);
+BenchmarkChanges compare_benchmark_runs(const BenchmarkRun& before, const BenchmarkRun& after);
 
 /// Returns one run with the rounds of `first` followed by those of `more`. Benchmarks that `more`
 /// lacks are left out. The circumstances are those of `first`, but noise in either run is kept.
-BenchmarkRun joined(BenchmarkRun first, const BenchmarkRun& more);
+BenchmarkRun join_benchmark_runs(BenchmarkRun first, const BenchmarkRun& more);
 
 } // namespace catoptric::measure

@@ -12,12 +12,12 @@ namespace {
 constexpr std::string_view kMirrors = "mirrors";
 
 template <double Causes::*Figure>
-Value figure(const Row& row) {
+MetricValue cause_metric_value(const Row& row) {
     return row.causes ? (*row.causes).*Figure : NAN;
 }
 
-Value list_of(const Row& row) {
-    std::vector<Parts> list;
+MetricValue list_cause_shares(const Row& row) {
+    std::vector<ValueParts> list;
     if (!row.causes) return list;
     for (const Cause& cause : row.causes->list)
         list.push_back({"cause",
@@ -32,43 +32,44 @@ Value list_of(const Row& row) {
     return list;
 }
 
-const Registered kSquaredError{
+const RegisteredMetric kSquaredError{
     {.name = "causes/squared_error",
      .help = "mean square difference of the row's picture, which the causes add up to",
      .mask = kMirrors,
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 270,
-     .get = figure<&Causes::squared_error>}};
-const Registered kPerMirror{{.name = "causes/squared_error_per_mirror",
-                             .help = "causes of the error of each mirror",
-                             .mask = kMirrors,
-                             .better = Better::less,
-                             .order = 271,
-                             .get = [](const Row& row) -> Value {
-                                 return row.causes ? row.causes->squared_error_per_mirror
-                                                   : std::vector<double>();
-                             }}};
-const Registered kRest{{.name = "causes/rest_rmse",
-                        .help = "rmse when all causes are removed: near 0 if no cause is missing",
-                        .mask = kMirrors,
-                        .order = 272,
-                        .get = figure<&Causes::rest_rmse>}};
-const Registered kAtLightEdges{
+     .get = cause_metric_value<&Causes::squared_error>}};
+const RegisteredMetric kPerMirror{{.name = "causes/squared_error_per_mirror",
+                                   .help = "causes of the error of each mirror",
+                                   .mask = kMirrors,
+                                   .better = BetterDirection::less,
+                                   .order = 271,
+                                   .get = [](const Row& row) -> MetricValue {
+                                       return row.causes ? row.causes->squared_error_per_mirror
+                                                         : std::vector<double>();
+                                   }}};
+const RegisteredMetric kRest{
+    {.name = "causes/rest_rmse",
+     .help = "rmse when all causes are removed: near 0 if no cause is missing",
+     .mask = kMirrors,
+     .order = 272,
+     .get = cause_metric_value<&Causes::rest_rmse>}};
+const RegisteredMetric kAtLightEdges{
     {.name = "causes/at_light_edges",
      .help = "share of the squared error in pixels that looked within a texel of a light's outline",
      .mask = kMirrors,
      .order = 273,
-     .get = [](const Row& row) -> Value {
+     .get = [](const Row& row) -> MetricValue {
          return row.causes && row.light_edges ? row.light_edges->share : NAN;
      }}};
-const Registered kList{
+const RegisteredMetric kList{
     {.name = "causes/list",
      .help =
          "each cause's share of the squared error (Shapley values for five of them, 1 in sum), and "
          "the decrease of the error when only this cause is removed",
      .mask = kMirrors,
      .order = 274,
-     .get = list_of}};
+     .get = list_cause_shares}};
 
 } // namespace
 

@@ -51,14 +51,14 @@ struct PixelCause {
 };
 
 /// Returns the row-major indices of the pixels whose first hit is a mirror, in ascending order.
-std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits);
+std::vector<std::size_t> list_mirror_pixels(std::span<const std::uint32_t> hits);
 
-/// Sums the squared errors of `mirror_pixels(hits)` to means and shares. `whole` is the row's
+/// Sums the squared errors of `list_mirror_pixels(hits)` to means and shares. `whole` is the row's
 /// squared error of each of these pixels. The parts of `causes` add up to it, and the last cause is
 /// the unexplained rest. Pixels with a value that is not finite are left out, as in `difference`.
 /// `off` is a mask of the whole picture and says which pixels get a cause in `largest`. Throws
 /// `internal` if a list has another length than the number of mirror pixels.
-Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off, std::span<const double> whole,
-              const std::vector<PixelCause>& causes);
+Causes sum_up_error_causes(std::span<const std::uint32_t> hits, const Mask& off,
+                           std::span<const double> whole, const std::vector<PixelCause>& causes);
 
 } // namespace catoptric::measure

@@ -19,10 +19,10 @@ namespace catoptric::measure {
 
 using catoptric::AutoFace;
 using catoptric::CulledWork;
-using HostParts = HostTimes; ///< each a median over frames
-using Rays = RayCounts;
+using HostTimeParts = HostTimes; ///< each a median over frames
+using RayCounters = RayCounts;
 struct Causes; // internal: report.json has their data
-struct Lag;
+struct LagResults;
 struct Studied;
 
 /// Closed interval from `low` to `high`. Both are NaN if the interval is not known.
@@ -34,7 +34,7 @@ struct Interval {
 };
 
 /// Median and spread of a list of measurements, in the unit of the measurements.
-struct Summary {
+struct SampleSummary {
     double median = 0; ///< median of the rounds' medians if there are rounds
     double p05 = 0;    ///< 5th percentile
     double p95 = 0;    ///< 95th percentile
@@ -48,7 +48,7 @@ struct Summary {
 /// Error of a row over the mirrors in two parts. One part is the pixels that looked within a texel
 /// of a light's outline, whose few large errors dominate an rmse. The other part is all other
 /// mirror pixels. The squares of `rmse` and `rest_rmse` add up to the square of the row's rmse.
-struct LightEdges {
+struct LightEdgeErrors {
     /// Share of the finite mirror pixels that looked at a light's edge, 0..1.
     double pixels = Difference::kNone;
     /// Share of the squared error at light edges, 0..1; 0 if there is no error.
@@ -58,7 +58,7 @@ struct LightEdges {
 };
 
 /// Summary of the direction errors of a search.
-struct LookupError {
+struct LookupErrorSummary {
     std::size_t pixels = 0;
     double mean_degrees = 0, p95_degrees = 0, p99_degrees = 0;
     double wrong_object = 0, unknown = 0, miss = 0; ///< shares of the pixels, 0..1
@@ -144,7 +144,7 @@ struct SetupFacts {
 
 struct PassFacts {
     std::string name;
-    Summary gpu_ms;
+    SampleSummary gpu_ms;
 };
 
 /// Errors of a picture against the reference, each over another set of pixels.
@@ -185,32 +185,33 @@ struct Row : Errors {
     /// Scene passes in the executed plan. A cube counts once, as in the seed report.
     int scene_passes = 0;
     int scene_draws = 0; ///< the same, but each face of a cube counts
-    Summary gpu_ms, cpu_record_ms, wall_ms;
-    Summary cpu_ms; ///< processor time of the process per frame; cpu devices only
+    SampleSummary gpu_ms, cpu_record_ms, wall_ms;
+    SampleSummary cpu_ms; ///< processor time of the process per frame; cpu devices only
     /// Share of time in which the row's threads waited for a processor that other programs used,
     /// 0..1. NaN if unknown.
     double waited = NAN;
-    bool noisy = false; ///< whether the threads waited too long for the times to be trusted
-    Summary wait_ms;    ///< time that the host waited for the device; no other time includes it
-    Summary host_ms;    ///< host work before the device can begin, without waiting
+    bool noisy = false;    ///< whether the threads waited too long for the times to be trusted
+    SampleSummary wait_ms; ///< time that the host waited for the device; no other time includes it
+    SampleSummary host_ms; ///< host work before the device can begin, without waiting
     /// host_ms plus device time, frame by frame, because the two do not overlap.
-    Summary frame_ms;
-    HostParts host_parts;
+    SampleSummary frame_ms;
+    HostTimeParts host_parts;
     bool moves = false; ///< whether the scene moved, so that the host had work in each frame
     /// Returns the time by which the row is ranked. It is frame_ms if the scene moves, because the
     /// host then works in each frame, and gpu_ms otherwise.
-    const Summary& time_ms() const { return moves ? frame_ms : gpu_ms; }
+    const SampleSummary& time_ms() const { return moves ? frame_ms : gpu_ms; }
     std::vector<PassFacts> passes; ///< passes in order of execution
     /// Sum of all pass times of a frame divided by wall_ms, frame by frame. It is near 1 if the
     /// timestamps are right.
-    Summary closure;
-    std::uint64_t memory_bytes = 0; ///< memory of the frame's images
-    std::optional<Rays> rays;       ///< rays of one frame; empty if the row traces none
+    SampleSummary closure;
+    std::uint64_t memory_bytes = 0;  ///< memory of the frame's images
+    std::optional<RayCounters> rays; ///< rays of one frame; empty if the row traces none
     /// Texels of half-float captures that are clipped at 65504.
     std::optional<std::size_t> saturated_texels;
-    std::optional<LookupError> lookup;     ///< of the looked-up directions, over first-order pixels
-    std::optional<LightEdges> light_edges; ///< only for rows that look into captures
-    std::shared_ptr<Causes> causes;        ///< see CompareRequest::studies; may be null
+    std::optional<LookupErrorSummary>
+        lookup; ///< of the looked-up directions, over first-order pixels
+    std::optional<LightEdgeErrors> light_edges; ///< only for rows that look into captures
+    std::shared_ptr<Causes> causes;             ///< see CompareRequest::studies; may be null
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
     /// Errors in each of Comparison::views, in the same order. Empty if no views were drawn. A run
@@ -227,7 +228,7 @@ struct Row : Errors {
     std::vector<float> flip_map; ///< FLIP of each pixel against the reference, row-major
     std::string image; ///< file name of the pictures without folder and ending: "naive-bounces1"
     bool is_reference = false;  ///< whether technique and settings are those of the reference
-    bool mirrors_black = false; ///< whether mirrors show nothing: see measure::is_candidate
+    bool mirrors_black = false; ///< whether mirrors show nothing: see measure::is_ranking_candidate
 };
 
 struct Comparison {
@@ -253,18 +254,18 @@ struct Comparison {
     std::string reference_technique;
     std::string reference_label;
     std::vector<Setting> reference_settings;
-    Summary reference_gpu_ms;
+    SampleSummary reference_gpu_ms;
     Picture reference_display;
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
-    std::optional<Summary> clear_ms;
+    std::optional<SampleSummary> clear_ms;
     /// Drawn views in which the errors of each row were measured, in addition to the comparison's
     /// own camera.
     std::vector<View> views;
     std::vector<Row> rows;
     /// Indices of the rows on the front of time against FLIP over the mirrors, from
-    /// measure::front_of.
+    /// measure::find_front.
     std::vector<std::size_t> pareto;
-    std::shared_ptr<Lag> lag;         ///< see CompareRequest::studies; may be null
+    std::shared_ptr<LagResults> lag;  ///< see CompareRequest::studies; may be null
     std::vector<std::string> studies; ///< names of the studies that were asked for
     std::vector<std::string> warnings;
     /// Folder of the pictures below images/, such as "1-room/"; empty for images/ itself.

@@ -16,7 +16,8 @@
 namespace catoptric::measure {
 namespace {
 
-void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size_t flip_size) {
+void check_equal_sizes(const Picture& a, const Picture& b, const Mask& mask,
+                       std::size_t flip_size) {
     check(a.width == b.width && a.height == b.height, Failure::bad_data,
           "a difference wants two "
           "pictures of the same size, found ",
@@ -27,97 +28,104 @@ void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size
           " pixels wants a FLIP map of as many, found ", flip_size);
 }
 
-const Registered kPixels{
+const RegisteredMetric kPixels{
     {.name = "pixels",
      .unit = "pixels",
      .help = "number of pixels of the mask, including pixels that are not finite",
      .order = 100,
-     .get = [](const Difference& error) -> Value { return static_cast<double>(error.pixels); }}};
-const Registered kFlip{
+     .get = [](const Difference& error) -> MetricValue {
+         return static_cast<double>(error.pixels);
+     }}};
+const RegisteredMetric kFlip{
     {.name = "flip",
      .help = "mean LDR-FLIP at 67 pixels per degree, of the pictures as displayed",
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 101,
      .each_mask_in_table = true,
      .columns = {{"FLIP"}},
-     .get = [](const Difference& error) -> Value { return error.flip; }}};
-const Registered kShareOff{
+     .get = [](const Difference& error) -> MetricValue { return error.flip; }}};
+const RegisteredMetric kShareOff{
     {.name = "off",
      .help = "share of the pixels whose largest channel difference exceeds .02",
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 102,
-     .columns = {{"off, %", Style::percent, 2}},
-     .get = [](const Difference& error) -> Value { return error.off; }}};
-const Registered kMae{
+     .columns = {{"off, %", ValueFormat::percent, 2}},
+     .get = [](const Difference& error) -> MetricValue { return error.off; }}};
+const RegisteredMetric kMae{
     {.name = "mae",
      .help = "mean absolute difference, linear RGB times 2^exposure, clamped to [0,1]",
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 103,
      .columns = {{"MAE"}},
-     .get = [](const Difference& error) -> Value { return error.mae; }}};
-const Registered kRmse{{.name = "rmse",
-                        .help = "root of the mean square difference, linear RGB times 2^exposure, "
-                                "clamped to [0,1]",
-                        .better = Better::less,
-                        .order = 104,
-                        .each_mask_in_table = true,
-                        .columns = {{"rmse"}},
-                        .get = [](const Difference& error) -> Value { return error.rmse; }}};
-const Registered kPsnr{{.name = "psnr",
-                        .unit = "dB",
-                        .help = "-20 log10 rmse; none for equal pictures",
-                        .better = Better::more,
-                        .order = 106,
-                        .columns = {{"PSNR dB", Style::fixed, 1}},
-                        .get = [](const Difference& error) -> Value {
-                            return error.psnr.value_or(Difference::kNone);
-                        }}};
-const Registered kP99{{.name = "p99",
-                       .help = "99th percentile of the pixels' largest channel difference",
-                       .better = Better::less,
-                       .order = 107,
-                       .columns = {{"p99"}},
-                       .get = [](const Difference& error) -> Value { return error.p99; }}};
-const Registered kNonfinite{
+     .get = [](const Difference& error) -> MetricValue { return error.mae; }}};
+const RegisteredMetric kRmse{
+    {.name = "rmse",
+     .help = "root of the mean square difference, linear RGB times 2^exposure, "
+             "clamped to [0,1]",
+     .better = BetterDirection::less,
+     .order = 104,
+     .each_mask_in_table = true,
+     .columns = {{"rmse"}},
+     .get = [](const Difference& error) -> MetricValue { return error.rmse; }}};
+const RegisteredMetric kPsnr{{.name = "psnr",
+                              .unit = "dB",
+                              .help = "-20 log10 rmse; none for equal pictures",
+                              .better = BetterDirection::more,
+                              .order = 106,
+                              .columns = {{"PSNR dB", ValueFormat::fixed, 1}},
+                              .get = [](const Difference& error) -> MetricValue {
+                                  return error.psnr.value_or(Difference::kNone);
+                              }}};
+const RegisteredMetric kP99{
+    {.name = "p99",
+     .help = "99th percentile of the pixels' largest channel difference",
+     .better = BetterDirection::less,
+     .order = 107,
+     .columns = {{"p99"}},
+     .get = [](const Difference& error) -> MetricValue { return error.p99; }}};
+const RegisteredMetric kNonfinite{
     {.name = "nonfinite",
      .unit = "pixels",
      .help = "number of pixels that are NaN or infinite; any such pixel makes a row fail",
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 108,
-     .get = [](const Difference& error) -> Value { return static_cast<double>(error.nonfinite); }}};
-const Registered kMax{{.name = "max",
-                       .help = "largest channel difference of all pixels",
-                       .better = Better::less,
-                       .order = 109,
-                       .get = [](const Difference& error) -> Value { return error.max; }}};
-const Registered kMaxAt{{.name = "max_at",
-                         .help = "pixel with the largest channel difference",
-                         .order = 110,
-                         .get = [](const Difference& error) -> Value {
-                             return PixelPosition{error.max_x, error.max_y};
-                         }}};
+     .get = [](const Difference& error) -> MetricValue {
+         return static_cast<double>(error.nonfinite);
+     }}};
+const RegisteredMetric kMax{
+    {.name = "max",
+     .help = "largest channel difference of all pixels",
+     .better = BetterDirection::less,
+     .order = 109,
+     .get = [](const Difference& error) -> MetricValue { return error.max; }}};
+const RegisteredMetric kMaxAt{{.name = "max_at",
+                               .help = "pixel with the largest channel difference",
+                               .order = 110,
+                               .get = [](const Difference& error) -> MetricValue {
+                                   return PixelPosition{error.max_x, error.max_y};
+                               }}};
 
-const Registered kMean{{.name = "mean",
-                        .help = "mean of the whole picture by channel, linear",
-                        .mask = "all",
-                        .order = 280,
-                        .get = [](const Row& row) -> Value { return row.mean.rgb; }}};
-const Registered kMeanClamped{
+const RegisteredMetric kMean{{.name = "mean",
+                              .help = "mean of the whole picture by channel, linear",
+                              .mask = "all",
+                              .order = 280,
+                              .get = [](const Row& row) -> MetricValue { return row.mean.rgb; }}};
+const RegisteredMetric kMeanClamped{
     {.name = "mean_clamped",
      .help = "mean of the whole picture by channel, linear, clamped to [0,1]",
      .mask = "all",
      .order = 281,
-     .get = [](const Row& row) -> Value { return row.mean_clamped.rgb; }}};
+     .get = [](const Row& row) -> MetricValue { return row.mean_clamped.rgb; }}};
 
 /// Differences of the pixels of a short run. `largest` is NaN where a pixel is not finite.
-struct PixelRun {
+struct PixelBlock {
     static constexpr std::size_t kPixels = 256;
     std::array<double, kPixels> largest, square, absolute;
 };
 
 /// Fills `run` with the differences of `count` pixels of three values each.
-CATOPTRIC_WIDE void take_apart(const float* __restrict a, const float* __restrict b,
-                               std::size_t count, PixelRun& run) {
+CATOPTRIC_WIDE void compute_block_differences(const float* __restrict a, const float* __restrict b,
+                                              std::size_t count, PixelBlock& run) {
     double* __restrict const largest = run.largest.data();
     double* __restrict const square = run.square.data();
     double* __restrict const absolute = run.absolute.data();
@@ -143,8 +151,8 @@ CATOPTRIC_WIDE void take_apart(const float* __restrict a, const float* __restric
 
 void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
                         std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
-    for (std::size_t first = 0; first < a.size(); first += PixelRun::kPixels) {
-        const std::size_t count = std::min(PixelRun::kPixels, a.size() - first);
+    for (std::size_t first = 0; first < a.size(); first += PixelBlock::kPixels) {
+        const std::size_t count = std::min(PixelBlock::kPixels, a.size() - first);
         const auto part = [&](auto values) {
             return values.empty() ? values : values.subspan(first, count);
         };
@@ -154,8 +162,8 @@ void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
 
 void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
                             std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
-    PixelRun run;
-    take_apart(&a[0].x, &b[0].x, a.size(), run);
+    PixelBlock run;
+    compute_block_differences(&a[0].x, &b[0].x, a.size(), run);
     const std::size_t first = off_.size();
     off_.resize(first + a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -181,7 +189,7 @@ void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
     }
 }
 
-Difference DifferenceSum::take() {
+Difference DifferenceSum::finish_difference() {
     Difference result = std::exchange(result_, {});
     const Mask off = std::exchange(off_, {});
     std::vector<double> largest = std::exchange(largest_, {});
@@ -192,18 +200,18 @@ Difference DifferenceSum::take() {
     result.flip = flips_ / judged;
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.off = static_cast<double>(off_count_) / judged;
-    result.p99 = percentile(std::move(largest), 0.99);
-    result.longest_line = longest_line(off, width_);
+    result.p99 = compute_percentile(std::move(largest), 0.99);
+    result.longest_line = longest_line_length(off, width_);
     return result;
 }
 
 Difference difference(const Picture& a, const Picture& b, const Mask& mask,
                       std::span<const float> flip_map) {
-    check_sizes(a, b, mask, flip_map.size());
+    check_equal_sizes(a, b, mask, flip_map.size());
     DifferenceSum sum(a.width, a.pixels.size());
     sum.add(a.pixels, b.pixels, mask, flip_map);
-    Difference result = sum.take();
-    result.others = other_figures({a, b, mask, flip_map});
+    Difference result = sum.finish_difference();
+    result.others = compute_picture_metrics({a, b, mask, flip_map});
     return result;
 }
 
@@ -212,19 +220,19 @@ void MeanSum::add(std::span<const vec3> pixels, std::span<const std::uint8_t> ma
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
         sum += dvec3(pixels[i]);
-        clamped_sum += clamped(pixels[i]);
+        clamped_sum += clamp_pixel(pixels[i]);
         ++count_;
     }
     sum_ = sum, clamped_sum_ = clamped_sum;
 }
 
-Mean MeanSum::mean(Range range) const {
-    const dvec3 rgb = (range == Range::clamped ? clamped_sum_ : sum_) /
+Mean MeanSum::mean(ValueRange range) const {
+    const dvec3 rgb = (range == ValueRange::clamped ? clamped_sum_ : sum_) /
                       static_cast<double>(count_); // 0/0 is NaN
     return {rgb, (rgb.x + rgb.y + rgb.z) / 3};
 }
 
-Mean mean_of(const Picture& picture, Range range, const Mask& mask) {
+Mean mean_of(const Picture& picture, ValueRange range, const Mask& mask) {
     check(mask.empty() || mask.size() == picture.pixels.size(), Failure::bad_data, "a mean of ",
           picture.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
     MeanSum sum;

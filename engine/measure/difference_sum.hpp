@@ -24,7 +24,7 @@ public:
 
     /// Returns the difference over all rows, without the metrics that are computed from pictures.
     /// Resets the sum.
-    Difference take();
+    Difference finish_difference();
 
 private:
     void add_run(std::span<const vec3> a, std::span<const vec3> b,
@@ -46,7 +46,7 @@ public:
     /// Adds the next rows. `mask` has as many entries as there are pixels; if it is empty, all
     /// pixels count.
     void add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask);
-    Mean mean(Range range) const;
+    Mean mean(ValueRange range) const;
 
 private:
     dvec3 sum_{0}, clamped_sum_{0};

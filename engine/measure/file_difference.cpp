@@ -43,9 +43,9 @@ private:
 };
 
 /// Computes FLIP of parts of two pictures, one after the other in the same memory.
-class FlipOfParts {
+class BandFlip {
 public:
-    FlipOfParts(double exposure_stops, bool is_of_bytes)
+    BandFlip(double exposure_stops, bool is_of_bytes)
         : exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes) {}
 
     /// Returns FLIP of the rows [first, end). Equal pictures give 0 without computation.
@@ -53,8 +53,8 @@ public:
         if (a.pixels == b.pixels)
             return std::vector<float>(static_cast<std::size_t>(end - first) *
                                       static_cast<std::size_t>(a.width));
-        write_display(a, exposure_stops_, is_of_bytes_, display_a_);
-        write_display(b, exposure_stops_, is_of_bytes_, display_b_);
+        convert_to_display(a, exposure_stops_, is_of_bytes_, display_a_);
+        convert_to_display(b, exposure_stops_, is_of_bytes_, display_b_);
         return flip_of_rows(display_a_, display_b_, first, end);
     }
 
@@ -66,15 +66,15 @@ private:
 
 /// Returns the rows after exposure. Returns an empty list for 0 stops: the caller then uses the
 /// rows as they are.
-std::vector<vec3> exposed_rows(std::span<const vec3> rows, double exposure_stops) {
+std::vector<vec3> apply_exposure_to_rows(std::span<const vec3> rows, double exposure_stops) {
     if (exposure_stops == 0) return {};
     std::vector<vec3> result;
-    for (const vec3& pixel : rows) result.push_back(exposed(pixel, exposure_stops));
+    for (const vec3& pixel : rows) result.push_back(apply_exposure(pixel, exposure_stops));
     return result;
 }
 
 template <typename Value>
-std::span<const Value> rows_of(const std::vector<Value>& values, int width, int first, int end) {
+std::span<const Value> row_span(const std::vector<Value>& values, int width, int first, int end) {
     if (values.empty()) return {};
     return std::span(values).subspan(static_cast<std::size_t>(first) * std::size_t(width),
                                      static_cast<std::size_t>(end - first) * std::size_t(width));
@@ -82,8 +82,9 @@ std::span<const Value> rows_of(const std::vector<Value>& values, int width, int 
 
 } // namespace
 
-FileDifference difference_of_files(const std::filesystem::path& a, const std::filesystem::path& b,
-                                   const std::filesystem::path& mask_file, double exposure_stops) {
+FileDifference compare_picture_files(const std::filesystem::path& a, const std::filesystem::path& b,
+                                     const std::filesystem::path& mask_file,
+                                     double exposure_stops) {
     PictureReader of_a(a);
     const int width = of_a.width(), height = of_a.height();
     PictureReader of_b(b, [&](int columns, int rows) {
@@ -98,31 +99,31 @@ FileDifference difference_of_files(const std::filesystem::path& a, const std::fi
     RowWindow window_a(std::move(of_a)), window_b(std::move(of_b));
     DifferenceSum sum(width, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     MeanSum a_mean, b_mean;
-    FlipOfParts flip(exposure_stops, is_of_bytes);
-    const int band = std::max(1, kBandPixels / width), reach = flip_reach();
+    BandFlip flip(exposure_stops, is_of_bytes);
+    const int band = std::max(1, kBandPixels / width), reach = flip_filter_radius();
     for (int first = 0; first < height; first += band) {
         const int end = std::min(first + band, height), above = std::max(0, first - reach),
                   below = std::min(height, end + reach);
         const Picture& part_a = window_a.show(above, below);
         const Picture& part_b = window_b.show(above, below);
         const std::vector<float> map = flip.of_rows(part_a, part_b, first - above, end - above);
-        const auto counted = rows_of(mask, width, first, end);
-        const auto rows_a = rows_of(part_a.pixels, width, first - above, end - above);
-        const auto rows_b = rows_of(part_b.pixels, width, first - above, end - above);
+        const auto counted = row_span(mask, width, first, end);
+        const auto rows_a = row_span(part_a.pixels, width, first - above, end - above);
+        const auto rows_b = row_span(part_b.pixels, width, first - above, end - above);
         a_mean.add(rows_a, counted);
         b_mean.add(rows_b, counted);
-        const std::vector<vec3> exposed_a = exposed_rows(rows_a, exposure_stops),
-                                exposed_b = exposed_rows(rows_b, exposure_stops);
+        const std::vector<vec3> exposed_a = apply_exposure_to_rows(rows_a, exposure_stops),
+                                exposed_b = apply_exposure_to_rows(rows_b, exposure_stops);
         sum.add(exposed_a.empty() ? rows_a : exposed_a, exposed_b.empty() ? rows_b : exposed_b,
                 counted, map);
     }
     return {width,
             height,
-            sum.take(),
-            a_mean.mean(Range::unclamped),
-            b_mean.mean(Range::unclamped),
-            a_mean.mean(Range::clamped),
-            b_mean.mean(Range::clamped),
+            sum.finish_difference(),
+            a_mean.mean(ValueRange::unclamped),
+            b_mean.mean(ValueRange::unclamped),
+            a_mean.mean(ValueRange::clamped),
+            b_mean.mean(ValueRange::clamped),
             is_of_bytes};
 }
 

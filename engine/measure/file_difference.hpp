@@ -22,7 +22,7 @@ struct FileDifference {
 /// DifferenceSum) and about 140 MB for the bands: 740 MB for two PNGs of 8192x8192 on two threads.
 /// Time is about 0.12 us a pixel of one core for such PNGs. Throws as `read_picture` and
 /// `read_mask` do, and `bad_data` if the pictures differ in size, before either is decoded.
-FileDifference difference_of_files(const std::filesystem::path& a, const std::filesystem::path& b,
-                                   const std::filesystem::path& mask, double exposure_stops);
+FileDifference compare_picture_files(const std::filesystem::path& a, const std::filesystem::path& b,
+                                     const std::filesystem::path& mask, double exposure_stops);
 
 } // namespace catoptric::measure

@@ -9,8 +9,8 @@
 
 namespace catoptric::measure {
 
-std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison) {
-    NotDrawnFinding finding;
+std::optional<UndrawnReflectionFinding> find_undrawn_dielectrics(const Comparison& comparison) {
+    UndrawnReflectionFinding finding;
     for (const Row& row : comparison.rows) {
         const Difference& error = row.error_dielectrics;
         if (error.pixels == 0 || std::isnan(error.flip)) continue;
@@ -26,11 +26,11 @@ std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison) {
     return finding;
 }
 
-std::optional<ClearFinding> find_clears(const Comparison& comparison) {
-    const Row* one = find_naive(comparison, 0);
+std::optional<ClearCostFinding> find_clear_cost(const Comparison& comparison) {
+    const Row* one = find_naive_row(comparison, 0);
     const Row* two = find_row(comparison, "reuse");
     if (one == nullptr || two == nullptr) return {};
-    ClearFinding finding{one, two, is_faster(*two, *one)};
+    ClearCostFinding finding{one, two, is_faster(*two, *one)};
     if (!comparison.clear_ms) return finding;
     const double clear = comparison.clear_ms->median;
     finding.clear_ms = clear;
@@ -40,9 +40,9 @@ std::optional<ClearFinding> find_clears(const Comparison& comparison) {
     with_clear.resize(std::min(with_clear.size(), clears.size()));
     for (std::size_t i = 0; i < with_clear.size(); ++i) with_clear[i] += clears[i];
     if (finding.one_is_slower)
-        finding.verdict = ClearFinding::ClearVerdict::slower_without;
+        finding.verdict = ClearCostFinding::ClearVerdict::slower_without;
     else if (!(ratio_interval(with_clear, two->time_ms().rounds).low > 1))
-        finding.verdict = ClearFinding::ClearVerdict::too_little;
+        finding.verdict = ClearCostFinding::ClearVerdict::too_little;
     return finding;
 }
 
@@ -50,11 +50,11 @@ std::optional<StoredDistanceFinding> find_stored_distance(const Comparison& comp
     const auto eight_bits = [&](std::string_view range) -> const Row* {
         const KnobText wanted[] = {{"distance", "unorm8"}, {"range", range}};
         const Row* row = find_row(comparison, "parallax", wanted);
-        return judged(row) ? row : nullptr;
+        return has_known_error(row) ? row : nullptr;
     };
-    StoredDistanceFinding finding{find_row(comparison, "reuse"), find_parallax(comparison),
+    StoredDistanceFinding finding{find_row(comparison, "reuse"), find_parallax_row(comparison),
                                   eight_bits("200"), eight_bits("1000")};
-    if (!judged(finding.plain) || !judged(finding.full)) return {};
+    if (!has_known_error(finding.plain) || !has_known_error(finding.full)) return {};
     if (finding.near == nullptr && finding.far == nullptr) return {};
     finding.near_is_worse = finding.near != nullptr &&
                             finding.near->error.rmse > finding.plain->error.rmse;
@@ -63,35 +63,36 @@ std::optional<StoredDistanceFinding> find_stored_distance(const Comparison& comp
 
 std::optional<BounceFinding> find_bounces(const Comparison& comparison) {
     BounceFinding finding;
-    for (int i = 1; judged(find_naive(comparison, i)); ++i)
-        finding.steps.push_back(find_naive(comparison, i));
+    for (int i = 1; has_known_error(find_naive_row(comparison, i)); ++i)
+        finding.steps.push_back(find_naive_row(comparison, i));
     if (finding.steps.size() < 2) return {};
     const double rest = finding.steps.back()->error.rmse;
     finding.fall = finding.steps.front()->error.rmse - rest;
     finding.helps = finding.fall > kStep;
-    const Row* corrected = find_parallax(comparison);
-    if (judged(corrected) && 2 * corrected->error.rmse * corrected->error.rmse < rest * rest)
+    const Row* corrected = find_parallax_row(comparison);
+    if (has_known_error(corrected) &&
+        2 * corrected->error.rmse * corrected->error.rmse < rest * rest)
         finding.dominated_by = corrected;
     return finding;
 }
 
-std::optional<PriceFinding> find_price(const Comparison& comparison) {
+std::optional<CorrectionPriceFinding> find_correction_price(const Comparison& comparison) {
     const Row* two = find_row(comparison, "reuse");
-    const Row* three = find_parallax(comparison);
+    const Row* three = find_parallax_row(comparison);
     if (two == nullptr || three == nullptr || !(two->time_ms().median > 0)) return {};
-    PriceFinding finding{two, three, is_tie(*two, *three), time_ratio(*three, *two)};
+    CorrectionPriceFinding finding{two, three, is_tie(*two, *three), time_ratio(*three, *two)};
     finding.more = three->time_ms().median / two->time_ms().median - 1;
     if (three->memory_bytes > two->memory_bytes)
         finding.more_bytes = three->memory_bytes - two->memory_bytes;
     return finding;
 }
 
-std::optional<TracingFinding> find_tracing(const Comparison& comparison) {
-    const Row* three = find_parallax(comparison);
-    const Row* traced = find_ray_traced(comparison);
+std::optional<TracingTimeFinding> find_tracing_time(const Comparison& comparison) {
+    const Row* three = find_parallax_row(comparison);
+    const Row* traced = find_ray_traced_row(comparison);
     if (three == nullptr || traced == nullptr || !(three->time_ms().median > 0)) return {};
-    return TracingFinding{three, traced, is_tie(*three, *traced), time_ratio(*traced, *three),
-                          traced->time_ms().median / three->time_ms().median};
+    return TracingTimeFinding{three, traced, is_tie(*three, *traced), time_ratio(*traced, *three),
+                              traced->time_ms().median / three->time_ms().median};
 }
 
 } // namespace catoptric::measure

@@ -14,18 +14,18 @@ namespace catoptric::measure {
 inline constexpr double kStep = 1.0 / 255;
 
 /// Result for smooth dielectrics, whose reflection some rows do not draw.
-struct NotDrawnFinding {
+struct UndrawnReflectionFinding {
     double share = 0; ///< share of the picture's pixels that show smooth dielectrics, 0..1
     /// Rows that draw the reflection, because they trace each pixel.
     std::vector<const Row*> tracing;
     const Row* best = nullptr; ///< the other row with the lowest FLIP over these pixels
 };
 /// Returns nothing if no pixel shows a smooth dielectric or if each row draws the reflection.
-std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison);
+std::optional<UndrawnReflectionFinding> find_undrawn_dielectrics(const Comparison& comparison);
 
 /// Answer to whether clearing cubes explains why part one without inter-reflections, which renders
 /// and clears no cube, is slower than part two.
-struct ClearFinding {
+struct ClearCostFinding {
     enum class ClearVerdict {
         slower_without, ///< part one is slower even without a clear
         too_little, ///< part one is not slower than part two even with the time of the clear added
@@ -39,7 +39,7 @@ struct ClearFinding {
     /// Excess of part one with a clear over part two, as a share of part two's time.
     double gap = 0;
 };
-std::optional<ClearFinding> find_clears(const Comparison& comparison);
+std::optional<ClearCostFinding> find_clear_cost(const Comparison& comparison);
 
 /// Cost of storing distances in 8 bits. Missing rows are null, but at least one of `near` and `far`
 /// is there.
@@ -63,7 +63,7 @@ std::optional<BounceFinding> find_bounces(const Comparison& comparison);
 
 /// Additional cost of the seed report's part three (parallax correction) over its part two (last
 /// frame's captures).
-struct PriceFinding {
+struct CorrectionPriceFinding {
     const Row *two, *three;
     bool tie = false;    ///< whether their times cannot be told apart
     Interval ratio_ci95; ///< ratio of part three's time to part two's, round by round
@@ -72,15 +72,15 @@ struct PriceFinding {
     double more = 0;
     std::uint64_t more_bytes = 0; ///< additional bytes of images; 0 if part three needs no more
 };
-std::optional<PriceFinding> find_price(const Comparison& comparison);
+std::optional<CorrectionPriceFinding> find_correction_price(const Comparison& comparison);
 
 /// Time of ray tracing, compared with the seed report's part three (parallax correction).
-struct TracingFinding {
+struct TracingTimeFinding {
     const Row *three, *traced;
     bool tie = false;
     Interval ratio_ci95;
     double ratio = 1; ///< median time of ray tracing divided by that of part three
 };
-std::optional<TracingFinding> find_tracing(const Comparison& comparison);
+std::optional<TracingTimeFinding> find_tracing_time(const Comparison& comparison);
 
 } // namespace catoptric::measure

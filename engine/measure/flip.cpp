@@ -31,7 +31,7 @@ const dmat3 kXyzFromRgb = {{10135552.0 / 24577794, 2613072.0 / 12288897, 1425312
 const dvec3 kWhite = kXyzFromRgb * dvec3(1);
 
 /// Returns `matrix * v`. It is written out so that compilers vectorise loops over it.
-inline dvec3 product(const dmat3& matrix, const dvec3& v) {
+inline dvec3 multiply_matrix(const dmat3& matrix, const dvec3& v) {
     return {matrix[0].x * v.x + matrix[1].x * v.y + matrix[2].x * v.z,
             matrix[0].y * v.x + matrix[1].y * v.y + matrix[2].y * v.z,
             matrix[0].z * v.x + matrix[1].z * v.y + matrix[2].z * v.z};
@@ -44,16 +44,17 @@ const dmat3 kRgbFromRelative = glm::inverse(kRelativeFromRgb);
 
 /// Returns a colour in opponent space: x achromatic, y red-green, z blue-yellow.
 inline dvec3 ycxcz_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
-    const dvec3 n = product(relative_from_rgb, rgb);
+    const dvec3 n = multiply_matrix(relative_from_rgb, rgb);
     return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
 }
 
 inline dvec3 rgb_from_ycxcz(const dvec3& ycxcz, const dmat3& rgb_from_relative) {
     const double y = (ycxcz.x + 16) * (1.0 / 116);
-    return product(rgb_from_relative, {y + ycxcz.y * (1.0 / 500), y, y - ycxcz.z * (1.0 / 200)});
+    return multiply_matrix(rgb_from_relative,
+                           {y + ycxcz.y * (1.0 / 500), y, y - ycxcz.z * (1.0 / 200)});
 }
 
-inline double within_gamut(double value) { return std::min(std::max(value, 0.0), 1.0); }
+inline double clamp_to_gamut(double value) { return std::min(std::max(value, 0.0), 1.0); }
 
 /// Returns the cube root of `t` within 2e-14 of it, for t from 1e-30 to 1e30. Uses two steps of
 /// Halley's method after a guess that divides the exponent by three. It has no branch, so compilers
@@ -77,7 +78,7 @@ inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb)
         return cube_root(std::max(t, kLeast)) +
                std::min(t - kLeast, 0.0) * (1 / (3 * kDelta * kDelta));
     };
-    const dvec3 n = product(relative_from_rgb, rgb);
+    const dvec3 n = multiply_matrix(relative_from_rgb, rgb);
     const double l = 116 * f(n.y) - 16;
     return {l, 0.01 * l * 500 * (f(n.x) - f(n.y)), 0.01 * l * 200 * (f(n.y) - f(n.z))};
 }
@@ -86,7 +87,7 @@ inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb)
 /// underflow.
 inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-double hyab(const dvec3& a, const dvec3& b) {
+double hyab_distance(const dvec3& a, const dvec3& b) {
     return std::abs(a.x - b.x) + length(a.y - b.y, a.z - b.z);
 }
 
@@ -95,7 +96,7 @@ double hyab(const dvec3& a, const dvec3& b) {
 /// Returns a Gaussian of the contrast sensitivity functions, a * sqrt(pi / b) * exp(-pi^2 x^2 / b),
 /// with x in degrees. It is one factor of a separable two-dimensional kernel, so its amplitude is
 /// the square root. The kernel ends where weights become negligible, and at most at `radius`.
-Kernel sensitivity(double a, double b, int radius, double pixels_per_degree) {
+FilterKernel contrast_sensitivity_kernel(double a, double b, int radius, double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     const double amplitude = std::sqrt(a * std::sqrt(kPi / b));
     // Share of the middle weight that is below float's rounding.
@@ -105,12 +106,12 @@ Kernel sensitivity(double a, double b, int radius, double pixels_per_degree) {
         return amplitude * std::exp(-kPi * kPi * degrees * degrees / b);
     };
     while (radius > 0 && weight(radius) < kNothing * amplitude) --radius;
-    Kernel kernel(radius);
+    FilterKernel kernel(radius);
     for (int i = -radius; i <= radius; ++i) kernel[i] = weight(i);
     return kernel;
 }
 
-int colour_radius(double pixels_per_degree) {
+int colour_kernel_radius(double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     constexpr double kWidest = 0.04; // the largest b below
     return static_cast<int>(
@@ -118,7 +119,7 @@ int colour_radius(double pixels_per_degree) {
 }
 
 /// Picture by channel, in opponent colours or another space.
-using Channels = std::array<Plane, 3>;
+using ChannelPlanes = std::array<ChannelPlane, 3>;
 
 /// Part of a picture: pixels from `low` up to but excluding `high`.
 struct PixelRegion {
@@ -126,8 +127,8 @@ struct PixelRegion {
 };
 
 /// Converts linear RGB to opponent colours in place.
-CATOPTRIC_WIDE void make_opponent(double* __restrict x, double* __restrict y, double* __restrict z,
-                                  std::size_t count) {
+CATOPTRIC_WIDE void convert_to_opponent(double* __restrict x, double* __restrict y,
+                                        double* __restrict z, std::size_t count) {
     const dmat3 relative_from_rgb = kRelativeFromRgb; // a local copy stays in registers
     for (std::size_t i = 0; i < count; ++i) {
         const dvec3 colour = ycxcz_from_rgb({x[i], y[i], z[i]}, relative_from_rgb);
@@ -137,10 +138,11 @@ CATOPTRIC_WIDE void make_opponent(double* __restrict x, double* __restrict y, do
 
 /// Writes the opponent colours of a part of a displayed picture with a border of `reach` pixels.
 /// Beyond the picture, its outermost pixels are repeated.
-void find_opponent(const Picture& display, const PixelRegion& part, int reach, Channels& result) {
+void convert_part_to_opponent(const Picture& display, const PixelRegion& part, int reach,
+                              ChannelPlanes& result) {
     const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
     const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
-    for (Plane& plane : result) plane.resize(size.x, size.y);
+    for (ChannelPlane& plane : result) plane.resize(size.x, size.y);
     constexpr LinearTable kLinear;
     for (int y = 0; y < size.y; ++y) {
         const vec3* const pixels = &display.at(0, std::clamp(low.y + y, 0, display.height - 1));
@@ -151,8 +153,8 @@ void find_opponent(const Picture& display, const PixelRegion& part, int reach, C
             rows[1][x] = kLinear(pixel.y);
             rows[2][x] = kLinear(pixel.z);
         }
-        make_opponent(rows[0] + first, rows[1] + first, rows[2] + first,
-                      static_cast<std::size_t>(end - first));
+        convert_to_opponent(rows[0] + first, rows[1] + first, rows[2] + first,
+                            static_cast<std::size_t>(end - first));
         for (double* const row : rows) {
             std::fill(row, row + first, row[first]);
             std::fill(row + end, row + size.x, row[end - 1]);
@@ -161,14 +163,15 @@ void find_opponent(const Picture& display, const PixelRegion& part, int reach, C
 }
 
 /// Converts opponent colours to the perceptually uniform space in place, clamped to the gamut.
-CATOPTRIC_WIDE void make_even(double* __restrict x, double* __restrict y, double* __restrict z,
-                              std::size_t count) {
+CATOPTRIC_WIDE void convert_to_uniform_space(double* __restrict x, double* __restrict y,
+                                             double* __restrict z, std::size_t count) {
     // local copies stay in registers
     const dmat3 rgb_from_relative = kRgbFromRelative, relative_from_rgb = kRelativeFromRgb;
     for (std::size_t i = 0; i < count; ++i) {
         const dvec3 rgb = rgb_from_ycxcz({x[i], y[i], z[i]}, rgb_from_relative);
         const dvec3 even = hunt_lab_from_rgb(
-            {within_gamut(rgb.x), within_gamut(rgb.y), within_gamut(rgb.z)}, relative_from_rgb);
+            {clamp_to_gamut(rgb.x), clamp_to_gamut(rgb.y), clamp_to_gamut(rgb.z)},
+            relative_from_rgb);
         x[i] = even.x, y[i] = even.y, z[i] = even.z;
     }
 }
@@ -186,28 +189,29 @@ struct ColourKernels {
         scale({&blue_yellow, &blue_yellow_2});
     }
 
-    Kernel achromatic, red_green, blue_yellow, blue_yellow_2;
+    FilterKernel achromatic, red_green, blue_yellow, blue_yellow_2;
 
 private:
-    static Kernel colour_gaussian(double a, double b, double pixels_per_degree) {
-        return sensitivity(a, b, colour_radius(pixels_per_degree), pixels_per_degree);
+    static FilterKernel colour_gaussian(double a, double b, double pixels_per_degree) {
+        return contrast_sensitivity_kernel(a, b, colour_kernel_radius(pixels_per_degree),
+                                           pixels_per_degree);
     }
-    static void scale(std::initializer_list<Kernel*> kernels) {
+    static void scale(std::initializer_list<FilterKernel*> kernels) {
         double total = 0;
-        for (const Kernel* kernel : kernels) {
+        for (const FilterKernel* kernel : kernels) {
             double line = 0;
             for (const double weight : kernel->weights) line += weight;
             total += line * line;
         }
-        for (Kernel* kernel : kernels)
+        for (FilterKernel* kernel : kernels)
             for (double& weight : kernel->weights) weight /= std::sqrt(total);
     }
 };
 
 /// Maps a colour distance to [0,1] (eqs. 5 and 6). Small distances get most of the range.
-class ColourDifference {
+class ColourDistanceMap {
 public:
-    /// Returns the mapped difference. `distance` is that of two colours by `hyab`.
+    /// Returns the mapped difference. `distance` is that of two colours by `hyab_distance`.
     float operator()(float distance) const {
         const float error = std::pow(distance, kExponent);
         const float knee = kKneeIn * largest_;
@@ -222,46 +226,51 @@ private:
     static constexpr float kKneeIn = 0.4F;   // p_c
     static constexpr float kKneeOut = 0.95F; // p_t
     // Green against blue is the largest difference in the sRGB gamut.
-    float largest_ = std::pow(static_cast<float>(hyab(lab({0, 1, 0}), lab({0, 0, 1}))), kExponent);
+    float largest_ = std::pow(static_cast<float>(hyab_distance(lab({0, 1, 0}), lab({0, 0, 1}))),
+                              kExponent);
 };
 
 // --- section 4.2: feature pipeline ---------------------------------------------------------------
 
 /// Scales positive weights to sum 1 and negative ones to sum -1.
-void normalise(Kernel& kernel) {
+void normalise_kernel(FilterKernel& kernel) {
     double positive = 0;
     double negative = 0;
     for (const double w : kernel.weights) (w > 0 ? positive : negative) += std::abs(w);
     for (double& w : kernel.weights) w /= w > 0 ? positive : negative;
 }
 
-double feature_deviation(double pixels_per_degree) { return 0.5 * 0.082 * pixels_per_degree; }
-int feature_radius(double pixels_per_degree) {
-    return static_cast<int>(std::ceil(3 * feature_deviation(pixels_per_degree)));
+double feature_kernel_deviation(double pixels_per_degree) {
+    return 0.5 * 0.082 * pixels_per_degree;
+}
+int feature_kernel_radius(double pixels_per_degree) {
+    return static_cast<int>(std::ceil(3 * feature_kernel_deviation(pixels_per_degree)));
 }
 
 /// Kernels of the feature detector: a Gaussian with the width of the eye's edge detector, 0.082
 /// degrees, and its first two derivatives.
 struct FeatureKernels {
     explicit FeatureKernels(double pixels_per_degree)
-        : smooth(feature_radius(pixels_per_degree)), first(smooth.radius), second(smooth.radius) {
-        const double deviation = feature_deviation(pixels_per_degree);
+        : smooth(feature_kernel_radius(pixels_per_degree)), first(smooth.radius),
+          second(smooth.radius) {
+        const double deviation = feature_kernel_deviation(pixels_per_degree);
         for (int i = -smooth.radius; i <= smooth.radius; ++i) {
             const double squared = i * i / (deviation * deviation);
             smooth[i] = std::exp(-squared / 2);
             first[i] = -i * smooth[i];
             second[i] = (squared - 1) * smooth[i];
         }
-        normalise(smooth), normalise(first), normalise(second);
+        normalise_kernel(smooth), normalise_kernel(first), normalise_kernel(second);
         // Luminance is (achromatic + 16) / 116, and the constant 16 vanishes in derivatives.
-        for (Kernel* derivative : {&first, &second})
+        for (FilterKernel* derivative : {&first, &second})
             for (double& weight : derivative->weights) weight /= 116;
     }
 
-    Kernel smooth, first, second;
+    FilterKernel smooth, first, second;
 };
 
-CATOPTRIC_WIDE void lengths(double* __restrict x, const double* __restrict y, std::size_t count) {
+CATOPTRIC_WIDE void compute_lengths(double* __restrict x, const double* __restrict y,
+                                    std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) x[i] = length(x[i], y[i]);
 }
 
@@ -272,7 +281,7 @@ inline double feature_difference(double edge_a, double edge_b, double point_a, d
 }
 
 /// Filters of FLIP at one distance from the screen.
-struct Kernels {
+struct FlipKernels {
     ColourKernels colour;
     FeatureKernels feature;
     int reach; ///< the largest radius
@@ -280,13 +289,13 @@ struct Kernels {
 
 /// Data of one picture that FLIP compares.
 struct FlipInput {
-    Channels colour;   ///< filtered, clamped to the gamut, in the perceptually uniform space
-    Plane edge, point; ///< strength of an edge and of a point at each pixel
+    ChannelPlanes colour;     ///< filtered, clamped to the gamut, in the perceptually uniform space
+    ChannelPlane edge, point; ///< strength of an edge and of a point at each pixel
 };
 
 /// Writes the distances of colours and of features, pixel by pixel.
-CATOPTRIC_WIDE void compare(const FlipInput& a, const FlipInput& b, float* __restrict colours,
-                            float* __restrict features) {
+CATOPTRIC_WIDE void compare_flip_inputs(const FlipInput& a, const FlipInput& b,
+                                        float* __restrict colours, float* __restrict features) {
     const std::size_t count = a.edge.values.size();
     const double *a_x = a.colour[0].values.data(), *a_y = a.colour[1].values.data(),
                  *a_z = a.colour[2].values.data();
@@ -303,9 +312,9 @@ CATOPTRIC_WIDE void compare(const FlipInput& a, const FlipInput& b, float* __res
 }
 
 /// Computes parts of a map, one after the other in the same memory.
-class PartOfMap {
+class FlipMapPart {
 public:
-    explicit PartOfMap(const Kernels& kernels) : kernels_(kernels) {}
+    explicit FlipMapPart(const FlipKernels& kernels) : kernels_(kernels) {}
 
     /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
     void write(const Picture& a, const Picture& b, const PixelRegion& part, float* to,
@@ -313,7 +322,7 @@ public:
         see(a, part, a_);
         see(b, part, b_);
         colours_.resize(a_.edge.values.size()), features_.resize(a_.edge.values.size());
-        compare(a_, b_, colours_.data(), features_.data());
+        compare_flip_inputs(a_, b_, colours_.data(), features_.data());
         std::size_t i = 0;
         for (int y = part.low.y; y < part.high.y; ++y, to += stride)
             for (int x = 0; x < part.high.x - part.low.x; ++x, ++i)
@@ -322,39 +331,39 @@ public:
 
 private:
     void see(const Picture& display, const PixelRegion& part, FlipInput& seen) {
-        find_opponent(display, part, kernels_.reach, opponent_);
+        convert_part_to_opponent(display, part, kernels_.reach, opponent_);
         const auto& [achromatic, red_green, blue_yellow] = opponent_;
         const ColourKernels& colour = kernels_.colour;
-        along_x(achromatic, colour.achromatic, kernels_.reach, part_);
-        sum_along_y({{part_, colour.achromatic}}, kernels_.reach, seen.colour[0]);
-        along_x(red_green, colour.red_green, kernels_.reach, part_);
-        sum_along_y({{part_, colour.red_green}}, kernels_.reach, seen.colour[1]);
-        along_x(blue_yellow, colour.blue_yellow, kernels_.reach, part_);
-        along_x(blue_yellow, colour.blue_yellow_2, kernels_.reach, part_2_);
-        sum_along_y({{part_, colour.blue_yellow}, {part_2_, colour.blue_yellow_2}}, kernels_.reach,
-                    seen.colour[2]);
-        make_even(seen.colour[0].values.data(), seen.colour[1].values.data(),
-                  seen.colour[2].values.data(), seen.colour[0].values.size());
+        convolve_along_x(achromatic, colour.achromatic, kernels_.reach, part_);
+        sum_convolutions_along_y({{part_, colour.achromatic}}, kernels_.reach, seen.colour[0]);
+        convolve_along_x(red_green, colour.red_green, kernels_.reach, part_);
+        sum_convolutions_along_y({{part_, colour.red_green}}, kernels_.reach, seen.colour[1]);
+        convolve_along_x(blue_yellow, colour.blue_yellow, kernels_.reach, part_);
+        convolve_along_x(blue_yellow, colour.blue_yellow_2, kernels_.reach, part_2_);
+        sum_convolutions_along_y({{part_, colour.blue_yellow}, {part_2_, colour.blue_yellow_2}},
+                                 kernels_.reach, seen.colour[2]);
+        convert_to_uniform_space(seen.colour[0].values.data(), seen.colour[1].values.data(),
+                                 seen.colour[2].values.data(), seen.colour[0].values.size());
 
-        along_x(achromatic, kernels_.feature.smooth, kernels_.reach, smooth_x_);
+        convolve_along_x(achromatic, kernels_.feature.smooth, kernels_.reach, smooth_x_);
         find_gradient(kernels_.feature.first, seen.edge);
         find_gradient(kernels_.feature.second, seen.point);
     }
 
     /// Writes the magnitude of the luminance's gradient by a derivative of a Gaussian.
-    void find_gradient(const Kernel& derivative, Plane& magnitude) {
-        along_x(opponent_[0], derivative, kernels_.reach, part_);
-        sum_along_y({{part_, kernels_.feature.smooth}}, kernels_.reach, magnitude);
-        sum_along_y({{smooth_x_, derivative}}, kernels_.reach, part_2_);
-        lengths(magnitude.values.data(), part_2_.values.data(), magnitude.values.size());
+    void find_gradient(const FilterKernel& derivative, ChannelPlane& magnitude) {
+        convolve_along_x(opponent_[0], derivative, kernels_.reach, part_);
+        sum_convolutions_along_y({{part_, kernels_.feature.smooth}}, kernels_.reach, magnitude);
+        sum_convolutions_along_y({{smooth_x_, derivative}}, kernels_.reach, part_2_);
+        compute_lengths(magnitude.values.data(), part_2_.values.data(), magnitude.values.size());
     }
 
-    const Kernels& kernels_;
-    Channels opponent_;
-    Plane part_, part_2_, smooth_x_;
+    const FlipKernels& kernels_;
+    ChannelPlanes opponent_;
+    ChannelPlane part_, part_2_, smooth_x_;
     FlipInput a_, b_;
     std::vector<float> colours_, features_;
-    ColourDifference colour_difference_;
+    ColourDistanceMap colour_difference_;
 };
 
 } // namespace
@@ -379,14 +388,14 @@ std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, i
     // The planes of a tile stay in the cache. Each tile is computed with as many pixels around it
     // as the filters reach, so no pixel depends on the tiling.
     constexpr int kTile = 128;
-    const Kernels kernels{ColourKernels(pixels_per_degree), FeatureKernels(pixels_per_degree),
-                          flip_reach(pixels_per_degree)};
+    const FlipKernels kernels{ColourKernels(pixels_per_degree), FeatureKernels(pixels_per_degree),
+                              flip_filter_radius(pixels_per_degree)};
     const ivec2 size(a.width, end - first), tiles = (size + kTile - 1) / kTile;
     std::vector<float> map(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     const int tile_count = tiles.x * tiles.y;
     std::atomic<int> next{0};
     const auto work = [&](std::size_t) {
-        PartOfMap part_of_map(kernels);
+        FlipMapPart part_of_map(kernels);
         for (int tile = next++; tile < tile_count; tile = next++) {
             const ivec2 low = kTile * ivec2(tile % tiles.x, tile / tiles.x);
             const ivec2 high = min(low + kTile, size), from(0, first);
@@ -394,13 +403,14 @@ std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, i
                               map.data() + std::ptrdiff_t(low.y) * size.x + low.x, size.x);
         }
     };
-    const unsigned threads = std::min(all_threads(), static_cast<unsigned>(tile_count));
-    in_parallel(threads, threads, work);
+    const unsigned threads = std::min(hardware_thread_count(), static_cast<unsigned>(tile_count));
+    run_in_parallel(threads, threads, work);
     return map;
 }
 
-int flip_reach(double pixels_per_degree) {
-    return std::max(colour_radius(pixels_per_degree), feature_radius(pixels_per_degree));
+int flip_filter_radius(double pixels_per_degree) {
+    return std::max(colour_kernel_radius(pixels_per_degree),
+                    feature_kernel_radius(pixels_per_degree));
 }
 
 double flip_mean(std::span<const float> map, const Mask& mask) {

@@ -17,6 +17,6 @@ std::vector<float> flip_of_rows(const Picture& a_display, const Picture& b_displ
                                 int end, double pixels_per_degree = 67);
 
 /// Returns the radius of FLIP's filters in pixels.
-int flip_reach(double pixels_per_degree = 67);
+int flip_filter_radius(double pixels_per_degree = 67);
 
 } // namespace catoptric::measure

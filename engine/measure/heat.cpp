@@ -27,7 +27,7 @@ vec3 heat_colour(float value) {
     return glm::mix(kAnchors[below], kAnchors[below + 1], place - static_cast<float>(below));
 }
 
-Picture heat(std::span<const float> map, int width, int height, float high) {
+Picture make_heat_map(std::span<const float> map, int width, int height, float high) {
     Picture picture(width, height);
     check(map.size() == picture.pixels.size(), Failure::internal, "a heat picture of ", width, "x",
           height, " wants as many values, found ", map.size());

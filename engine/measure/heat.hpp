@@ -15,6 +15,6 @@ vec3 heat_colour(float value);
 /// Returns the picture of a row-major error map, ready for `write_png`. `high` is the value that
 /// gets the last colour. Throws `internal` if the map has not width * height values or `high` is
 /// not positive.
-Picture heat(std::span<const float> map, int width, int height, float high = 1);
+Picture make_heat_map(std::span<const float> map, int width, int height, float high = 1);
 
 } // namespace catoptric::measure

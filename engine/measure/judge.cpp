@@ -13,39 +13,41 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the first row on the front that beats this row, or null if none does.
-const Row* winner_over(const std::vector<const Row*>& front, const Row& loser) {
-    const auto found = std::ranges::find_if(front,
-                                            [&](const Row* row) { return beats(*row, loser); });
+const Row* find_row_that_beats(const std::vector<const Row*>& front, const Row& loser) {
+    const auto found = std::ranges::find_if(
+        front, [&](const Row* row) { return is_better_choice(*row, loser); });
     return found == front.end() ? nullptr : *found;
 }
 
-const Registered kFailed{
+const RegisteredMetric kFailed{
     {.name = "failed",
      .help =
          "whether the row's picture has pixels that are NaN or infinite; no figure of such a row "
          "is judged",
      .order = 200,
      .only_where_true = true,
-     .get = [](const Row& row) -> Value { return failed(row); }}};
+     .get = [](const Row& row) -> MetricValue { return has_nonfinite_pixels(row); }}};
 
 } // namespace
 
-bool failed(const Row& row) { return row.error.nonfinite > 0 || row.error_all.nonfinite > 0; }
+bool has_nonfinite_pixels(const Row& row) {
+    return row.error.nonfinite > 0 || row.error_all.nonfinite > 0;
+}
 
-bool judged(const Row* row) {
-    return row != nullptr && !failed(*row) && std::isfinite(row->error.rmse);
+bool has_known_error(const Row* row) {
+    return row != nullptr && !has_nonfinite_pixels(*row) && std::isfinite(row->error.rmse);
 }
 
 namespace {
 
 /// Returns whether the row has the values that a choice needs: known FLIP and a time above 0.
-bool is_choice(const Row& row) {
-    return is_candidate(row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
+bool has_time_and_flip(const Row& row) {
+    return is_ranking_candidate(row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
 }
 
 } // namespace
 
-bool is_candidate(const Row& row) { return judged(&row) && !row.mirrors_black; }
+bool is_ranking_candidate(const Row& row) { return has_known_error(&row) && !row.mirrors_black; }
 
 Interval time_ratio(const Row& a, const Row& b) {
     return ratio_interval(a.time_ms().rounds, b.time_ms().rounds);
@@ -55,25 +57,26 @@ bool is_faster(const Row& a, const Row& b) { return time_ratio(a, b).high < 1; }
 
 bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
 
-bool is_closer(const Row& a, const Row& b) { return is_less(a, b, "flip"); }
+bool has_less_flip(const Row& a, const Row& b) { return is_metric_less(a, b, "flip"); }
 
-bool beats(const Row& a, const Row& b) {
-    if (!is_choice(a) || !is_choice(b)) return false;
-    return (is_faster(a, b) && !is_closer(b, a)) || (is_closer(a, b) && !is_faster(b, a));
+bool is_better_choice(const Row& a, const Row& b) {
+    if (!has_time_and_flip(a) || !has_time_and_flip(b)) return false;
+    return (is_faster(a, b) && !has_less_flip(b, a)) || (has_less_flip(a, b) && !is_faster(b, a));
 }
 
-std::vector<std::size_t> front_of(const std::vector<Row>& rows) {
+std::vector<std::size_t> find_front(const std::vector<Row>& rows) {
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (is_choice(rows[i]) &&
-            std::ranges::none_of(rows, [&](const Row& other) { return beats(other, rows[i]); }))
+        if (has_time_and_flip(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
+                return is_better_choice(other, rows[i]);
+            }))
             front.push_back(i);
     std::ranges::stable_sort(front, {}, [&](std::size_t i) { return rows[i].time_ms().median; });
     return front;
 }
 
-PlaceRange places_in_time(const Comparison& comparison, const Row& row) {
-    PlaceRange places{1, comparison.rows.size()};
+RankRange find_time_places(const Comparison& comparison, const Row& row) {
+    RankRange places{1, comparison.rows.size()};
     for (const Row& other : comparison.rows) {
         places.first += is_faster(other, row);
         places.last -= is_faster(row, other);
@@ -81,68 +84,69 @@ PlaceRange places_in_time(const Comparison& comparison, const Row& row) {
     return places;
 }
 
-std::vector<const Row*> noisy_rows(const Comparison& comparison) {
+std::vector<const Row*> find_noisy_rows(const Comparison& comparison) {
     std::vector<const Row*> noisy;
     for (const Row& row : comparison.rows)
         if (row.noisy) noisy.push_back(&row);
     return noisy;
 }
 
-bool on_front(const Comparison& comparison, const Row& row) {
+bool is_on_front(const Comparison& comparison, const Row& row) {
     return std::ranges::any_of(comparison.pareto, [&](std::size_t index) {
         return index < comparison.rows.size() && &comparison.rows[index] == &row;
     });
 }
 
-std::vector<const Row*> fastest_rows(const Comparison& comparison) {
+std::vector<const Row*> find_fastest_rows(const Comparison& comparison) {
     std::vector<const Row*> fastest;
     for (const Row& row : comparison.rows)
-        if (is_candidate(row) && std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_candidate(other) && is_faster(other, row);
+        if (is_ranking_candidate(row) &&
+            std::ranges::none_of(comparison.rows, [&](const Row& other) {
+                return is_ranking_candidate(other) && is_faster(other, row);
             }))
             fastest.push_back(&row);
     return fastest;
 }
 
-const Row* closest_row(const Comparison& comparison) {
+const Row* find_closest_row(const Comparison& comparison) {
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows) {
-        if (row.is_reference || !is_candidate(row)) continue;
+        if (row.is_reference || !is_ranking_candidate(row)) continue;
         if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
     }
     return closest;
 }
 
-Ranking ranking_of(const Comparison& comparison) {
+Ranking rank_rows(const Comparison& comparison) {
     Ranking result;
     for (const std::size_t index : comparison.pareto)
         if (index < comparison.rows.size()) result.front.push_back(&comparison.rows[index]);
     for (const Row* winner : result.front) {
-        Ranking::Win win{winner, {}};
+        Ranking::RowWin win{winner, {}};
         for (const Row& row : comparison.rows)
-            if (!on_front(comparison, row) && winner_over(result.front, row) == winner)
+            if (!is_on_front(comparison, row) && find_row_that_beats(result.front, row) == winner)
                 win.losers.push_back(&row);
         if (!win.losers.empty()) result.wins.push_back(std::move(win));
     }
     for (const Row& row : comparison.rows) {
-        if (!judged(&row))
+        if (!has_known_error(&row))
             result.not_judged.push_back(&row);
         else if (row.mirrors_black)
             result.black.push_back(&row);
-        else if (!on_front(comparison, row) && winner_over(result.front, row) == nullptr)
+        else if (!is_on_front(comparison, row) && find_row_that_beats(result.front, row) == nullptr)
             result.beaten_by_beaten.push_back(&row);
     }
     return result;
 }
 
-TracingVerdict tracing_verdict(const Comparison& comparison) {
-    TracingVerdict verdict;
-    verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced);
+RayTracingVerdict judge_ray_tracing(const Comparison& comparison) {
+    RayTracingVerdict verdict;
+    verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced_row);
     for (const Row& row : comparison.rows) {
-        if (is_ray_traced(row) || !is_candidate(row)) continue;
+        if (is_ray_traced_row(row) || !is_ranking_candidate(row)) continue;
         ++verdict.others;
         if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ray_traced(other) && beats(other, row);
+                return is_ray_traced_row(other) && is_better_choice(other, row);
             }))
             verdict.unbeaten.push_back(&row);
     }

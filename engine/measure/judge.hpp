@@ -10,13 +10,13 @@ namespace catoptric::measure {
 
 /// Returns whether the row's picture has pixels that are NaN or infinite. Its metrics leave these
 /// pixels out, so they are not judged.
-bool failed(const Row& row);
+bool has_nonfinite_pixels(const Row& row);
 /// Returns whether the row's error over the mirrors is known and the row has not failed. Null gives
 /// false.
-bool judged(const Row* row);
+bool has_known_error(const Row* row);
 /// Returns whether the row takes part in fastest, closest and front. A candidate is judged and
 /// draws something in its mirrors. A row with black mirrors only gives a lower bound for time.
-bool is_candidate(const Row& row);
+bool is_ranking_candidate(const Row& row);
 /// Returns the interval of a's time divided by b's, round by round. The two times can be told apart
 /// if the interval excludes 1. The interval is unknown if the rows have too few rounds in common.
 Interval time_ratio(const Row& a, const Row& b);
@@ -26,58 +26,58 @@ bool is_faster(const Row& a, const Row& b);
 bool is_tie(const Row& a, const Row& b);
 /// Returns whether a has less FLIP over the mirrors than b. If errors over drawn views are known,
 /// the confidence interval of the difference decides.
-bool is_closer(const Row& a, const Row& b);
+bool has_less_flip(const Row& a, const Row& b);
 /// Returns whether a is the better choice: faster and not farther from the reference, or closer and
 /// not slower. A row that is no candidate or took no time neither beats a row nor is beaten.
-bool beats(const Row& a, const Row& b);
+bool is_better_choice(const Row& a, const Row& b);
 
 /// Returns the indices of the rows that no other row beats, in order of median time, then index.
 /// This list is Comparison::pareto. Rows that tie may all be on the front. Costs O(n^2).
-std::vector<std::size_t> front_of(const std::vector<Row>& rows);
+std::vector<std::size_t> find_front(const std::vector<Row>& rows);
 
 /// Places of a row in the order of time, from 1. `first` is one more than the number of rows that
 /// are faster. `last` is the number of rows less those that this row is faster than. Rows that tie
 /// share places.
-struct PlaceRange {
+struct RankRange {
     std::size_t first = 1, last = 1;
 };
-PlaceRange places_in_time(const Comparison& comparison, const Row& row);
+RankRange find_time_places(const Comparison& comparison, const Row& row);
 
 /// Returns the rows whose threads waited for processors that other programs used.
-std::vector<const Row*> noisy_rows(const Comparison& comparison);
+std::vector<const Row*> find_noisy_rows(const Comparison& comparison);
 
-bool on_front(const Comparison& comparison, const Row& row);
+bool is_on_front(const Comparison& comparison, const Row& row);
 
 /// Returns the candidates that no other candidate is faster than. Several are returned if their
 /// times cannot be told apart.
-std::vector<const Row*> fastest_rows(const Comparison& comparison);
+std::vector<const Row*> find_fastest_rows(const Comparison& comparison);
 /// Returns the candidate with the least FLIP over the mirrors, other than the reference itself.
 /// Returns null if there is none.
-const Row* closest_row(const Comparison& comparison);
+const Row* find_closest_row(const Comparison& comparison);
 
 /// Ranking of the rows: which row beats which.
 struct Ranking {
-    struct Win {
+    struct RowWin {
         const Row* winner; ///< a row on the front
         std::vector<const Row*> losers;
     };
     std::vector<const Row*> front; ///< rows on the front, in order of time
     /// Pairs of rows in which the first row beats the second. Each beaten row is listed once, with
     /// the first row on the front that beats it.
-    std::vector<Win> wins;
+    std::vector<RowWin> wins;
     std::vector<const Row*> beaten_by_beaten;
     std::vector<const Row*> not_judged;
     /// Judged rows that are no candidates because their mirrors are black.
     std::vector<const Row*> black;
 };
-Ranking ranking_of(const Comparison& comparison);
+Ranking rank_rows(const Comparison& comparison);
 
 /// Answer to the question whether ray tracing beats all other rows.
-struct TracingVerdict {
+struct RayTracingVerdict {
     bool any_traced = false;
     std::size_t others = 0;           ///< number of candidates that are not ray traced
     std::vector<const Row*> unbeaten; ///< the candidates that no ray-traced row beats
 };
-TracingVerdict tracing_verdict(const Comparison& comparison);
+RayTracingVerdict judge_ray_tracing(const Comparison& comparison);
 
 } // namespace catoptric::measure

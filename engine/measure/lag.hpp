@@ -21,7 +21,7 @@ struct LagAtSpeed {
 };
 
 /// Differences from the still picture in the frames after a cut. Entry k-1 is frame k.
-struct Settling {
+struct SettlingAfterCut {
     std::vector<double> rmse;
     std::vector<double> max; ///< the largest channel difference of any mirror pixel
     /// First frame from which on the rmse, or each pixel, is within kLagBound. Empty if that does
@@ -39,13 +39,13 @@ struct LagRow {
     int restless_stills = 0;
     /// Difference of the still pictures from the reference, one entry an instant.
     std::vector<Difference> still_reference_errors;
-    Settling after_black; ///< captures start black, as in the first frame of a run
+    SettlingAfterCut after_black; ///< captures start black, as in the first frame of a run
     /// The scene jumps to `seconds[0]` from `jump_from`, where its still picture had been reached.
-    Settling after_jump;
+    SettlingAfterCut after_jump;
     std::vector<LagAtSpeed> speeds;
 };
 
-struct Lag {
+struct LagResults {
     std::vector<double> seconds; ///< the instants in seconds, equally spaced
     double path = 0;      ///< seconds that the instants span, including the way back to the first
     double jump_from = 0; ///< seconds: half the path after the first instant
@@ -57,13 +57,14 @@ struct Lag {
 };
 
 /// Returns a metric of each instant, NaN where the instant sees no mirror.
-std::vector<double> figures_of(const std::vector<Difference>& errors, double Difference::*figure);
+std::vector<double> list_metric_values(const std::vector<Difference>& errors,
+                                       double Difference::*figure);
 /// Return the mean and a percentile of a metric over the instants that see a mirror, or NaN if none
 /// does. `fraction` is 0..1.
 double mean_of(const std::vector<Difference>& errors, double Difference::*figure);
-double percentile_of(const std::vector<Difference>& errors, double Difference::*figure,
-                     double fraction);
+double metric_percentile(const std::vector<Difference>& errors, double Difference::*figure,
+                         double fraction);
 /// Returns the instant of the largest FLIP in seconds, or NaN if there is none.
-double worst_instant(const Lag& lag, const LagAtSpeed& at);
+double find_worst_instant(const LagResults& lag, const LagAtSpeed& at);
 
 } // namespace catoptric::measure

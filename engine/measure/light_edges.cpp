@@ -11,54 +11,55 @@ namespace {
 constexpr std::string_view kMirrors = "mirrors";
 constexpr int kBesideRmse = 104; // order of columns that stand beside rmse
 
-template <double LightEdges::*Figure>
-Value figure(const Row& row) {
+template <double LightEdgeErrors::*Figure>
+MetricValue light_edge_metric_value(const Row& row) {
     return row.light_edges ? (*row.light_edges).*Figure : NAN;
 }
 
-const Registered kRmse{
+const RegisteredMetric kRmse{
     {.name = "light_edges/rmse",
      .help = "part of the rmse from pixels that looked within a texel of a light's outline; the "
              "squares of this part and of rest_rmse add up to that of rmse",
      .mask = kMirrors,
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 255,
      .columns = {{.title = "rmse, light edges", .order = kBesideRmse}},
-     .get = figure<&LightEdges::rmse>}};
-const Registered kRest{{.name = "light_edges/rest_rmse",
-                        .help = "part of the rmse from all other pixels",
-                        .mask = kMirrors,
-                        .better = Better::less,
-                        .order = 256,
-                        .columns = {{.title = "rmse, rest", .order = kBesideRmse}},
-                        .get = figure<&LightEdges::rest_rmse>}};
-const Registered kShare{{.name = "light_edges/share",
-                         .help = "share of the squared error in pixels that looked within a texel "
-                                 "of a light's outline",
-                         .mask = kMirrors,
-                         .order = 257,
-                         .get = figure<&LightEdges::share>}};
-const Registered kPixels{
+     .get = light_edge_metric_value<&LightEdgeErrors::rmse>}};
+const RegisteredMetric kRest{{.name = "light_edges/rest_rmse",
+                              .help = "part of the rmse from all other pixels",
+                              .mask = kMirrors,
+                              .better = BetterDirection::less,
+                              .order = 256,
+                              .columns = {{.title = "rmse, rest", .order = kBesideRmse}},
+                              .get = light_edge_metric_value<&LightEdgeErrors::rest_rmse>}};
+const RegisteredMetric kShare{
+    {.name = "light_edges/share",
+     .help = "share of the squared error in pixels that looked within a texel "
+             "of a light's outline",
+     .mask = kMirrors,
+     .order = 257,
+     .get = light_edge_metric_value<&LightEdgeErrors::share>}};
+const RegisteredMetric kPixels{
     {.name = "light_edges/pixels",
      .help = "share of the pixels that looked within a texel of a light's outline",
      .mask = kMirrors,
      .order = 258,
-     .get = figure<&LightEdges::pixels>}};
+     .get = light_edge_metric_value<&LightEdgeErrors::pixels>}};
 
-struct Sum {
+struct ErrorSum {
     /// Finite pixels, and the mean square of a channel times their number.
     double pixels = 0, squares = 0;
 };
 
-Sum sum_of(const Difference& error) {
+ErrorSum make_error_sum(const Difference& error) {
     const auto judged = static_cast<double>(error.pixels - error.nonfinite);
     return {judged, judged > 0 ? error.rmse * error.rmse * judged : 0};
 }
 
 } // namespace
 
-LightEdges light_edges(const Difference& there, const Difference& elsewhere) {
-    const Sum edges = sum_of(there), rest = sum_of(elsewhere);
+LightEdgeErrors split_error_by_light_edges(const Difference& there, const Difference& elsewhere) {
+    const ErrorSum edges = make_error_sum(there), rest = make_error_sum(elsewhere);
     const double pixels = edges.pixels + rest.pixels, squares = edges.squares + rest.squares;
     if (!(pixels > 0)) return {};
     return {edges.pixels / pixels, squares > 0 ? edges.squares / squares : 0,

@@ -18,7 +18,7 @@ constexpr int kPatch = 4; ///< edge of the square that makes a patch
 constexpr int kReach = 3;
 
 /// Returns a mask of the lower right corners of squares of kPatch x kPatch pixels that all count.
-Mask patch_corners(const Mask& mask, std::size_t width) {
+Mask mask_patch_corners(const Mask& mask, std::size_t width) {
     Mask corners(mask.size());
     const std::size_t height = mask.size() / width;
     if (width < kPatch || height < kPatch) return corners;
@@ -40,9 +40,9 @@ Mask patch_corners(const Mask& mask, std::size_t width) {
 }
 
 /// Pixels that belong to no set yet, with a border of pixels that do not count.
-class Remaining {
+class RemainingPixels {
 public:
-    Remaining(const Mask& mask, std::size_t width)
+    RemainingPixels(const Mask& mask, std::size_t width)
         : stride_(width + 2 * kReach), pixels_(stride_ * (mask.size() / width + 2 * kReach)) {
         for (std::size_t first = 0, y = 0; first < mask.size(); first += width, ++y)
             std::copy_n(mask.begin() + static_cast<std::ptrdiff_t>(first), width,
@@ -82,7 +82,7 @@ private:
 };
 
 /// Bounding box of a set of connected pixels.
-struct Set {
+struct PixelSetBounds {
     int low_x, high_x, low_y, high_y;
     bool is_patch = false;
 
@@ -90,8 +90,9 @@ struct Set {
 };
 
 /// Removes the set of pixel (x, y) from `remaining` and returns it.
-Set take_set(const Mask& corners, std::size_t width, Remaining& remaining, int x, int y) {
-    Set set{x, x, y, y};
+PixelSetBounds remove_connected_set(const Mask& corners, std::size_t width,
+                                    RemainingPixels& remaining, int x, int y) {
+    PixelSetBounds set{x, x, y, y};
     // Breadth first: only as many pixels wait as the set's edge is long. Depth first, most of a
     // large set would wait.
     std::vector<std::pair<int, int>> open{{x, y}}, next;
@@ -112,29 +113,29 @@ Set take_set(const Mask& corners, std::size_t width, Remaining& remaining, int x
     return set;
 }
 
-const Registered kLongestLine{
+const RegisteredMetric kLongestLine{
     {.name = "longest_line",
      .unit = "pixels",
      .help = "length of the longest connected set of pixels that are off; sets that contain a 4x4 "
              "square do not count",
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 105,
-     .columns = {{"Longest line", Style::fixed, 0}},
-     .get = [](const Difference& error) -> Value { return error.longest_line; }}};
+     .columns = {{"Longest line", ValueFormat::fixed, 0}},
+     .get = [](const Difference& error) -> MetricValue { return error.longest_line; }}};
 
 } // namespace
 
-int longest_line(const Mask& off, int width) {
+int longest_line_length(const Mask& off, int width) {
     if (off.empty()) return 0;
     const auto columns = static_cast<std::size_t>(width);
     const int height = static_cast<int>(off.size() / columns);
-    const Mask corners = patch_corners(off, columns);
-    Remaining remaining(off, columns);
+    const Mask corners = mask_patch_corners(off, columns);
+    RemainingPixels remaining(off, columns);
     int longest = 0;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             if (remaining.at(x, y) == 0) continue;
-            const Set set = take_set(corners, columns, remaining, x, y);
+            const PixelSetBounds set = remove_connected_set(corners, columns, remaining, x, y);
             if (!set.is_patch) longest = std::max(longest, set.length());
         }
     return longest;

@@ -15,6 +15,6 @@ inline constexpr double kOff = .02;
 /// dilated by 1 they touch, corners included. A set without a 4x4 square of its own pixels is a
 /// line. Its length is the longer side of its bounding box. Any other set is a patch, which FLIP
 /// measures. Costs a few passes over the mask.
-int longest_line(const Mask& off, int width);
+int longest_line_length(const Mask& off, int width);
 
 } // namespace catoptric::measure

@@ -9,7 +9,7 @@ namespace catoptric::measure {
 
 /// Direction error of one first-order mirror pixel: where it looked in the capture, compared with
 /// where it should have looked.
-struct LookedUp {
+struct LookupDirectionError {
     double angle_degrees = 0;  ///< angle between the two directions, 0..180
     bool wrong_object = false; ///< the capture shows another object in the looked-up direction
     int state = 0;             ///< 0 hit, 1 unknown, 2 miss
@@ -18,7 +18,7 @@ struct LookedUp {
 };
 
 /// Returns the summary of the pixels. All values are 0 for an empty list.
-LookupError lookup_error(std::span<const LookedUp> pixels);
+LookupErrorSummary summarise_lookup_errors(std::span<const LookupDirectionError> pixels);
 
 /// Returns the angle between two directions in degrees. Small angles are exact too, because the
 /// acos of a cosine near 1 is avoided.

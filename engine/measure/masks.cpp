@@ -7,7 +7,7 @@ namespace catoptric::measure {
 namespace {
 
 template <typename Choice>
-Mask where(std::span<const std::uint32_t> hits, const Choice& chosen) {
+Mask mask_pixels_where(std::span<const std::uint32_t> hits, const Choice& chosen) {
     Mask mask;
     mask.reserve(hits.size());
     for (const std::uint32_t hit : hits) mask.push_back(chosen(hit) ? 255 : 0);
@@ -16,36 +16,43 @@ Mask where(std::span<const std::uint32_t> hits, const Choice& chosen) {
 
 } // namespace
 
-Mask all_pixels(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t) { return true; });
+Mask mask_all_pixels(std::span<const std::uint32_t> hits) {
+    return mask_pixels_where(hits, [](std::uint32_t) { return true; });
 }
 
-Mask mirrors(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) { return bool(first_mirror(hit)); });
+Mask mask_mirror_pixels(std::span<const std::uint32_t> hits) {
+    return mask_pixels_where(hits,
+                             [](std::uint32_t hit) { return bool(first_mirror_of_hit(hit)); });
 }
 
-Mask first_order(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) && !second_mirror(hit); });
+Mask mask_first_order_pixels(std::span<const std::uint32_t> hits) {
+    return mask_pixels_where(hits, [](std::uint32_t hit) {
+        return first_mirror_of_hit(hit) && !second_mirror_of_hit(hit);
+    });
 }
 
-Mask mirror_in_mirror(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) && second_mirror(hit); });
+Mask mask_mirror_in_mirror(std::span<const std::uint32_t> hits) {
+    return mask_pixels_where(hits, [](std::uint32_t hit) {
+        return first_mirror_of_hit(hit) && second_mirror_of_hit(hit);
+    });
 }
 
-Mask of_mirror(std::span<const std::uint32_t> hits, MirrorId mirror) {
-    return where(hits,
-                 [mirror](std::uint32_t hit) { return mirror && first_mirror(hit) == mirror; });
+Mask mask_one_mirror(std::span<const std::uint32_t> hits, MirrorId mirror) {
+    return mask_pixels_where(
+        hits, [mirror](std::uint32_t hit) { return mirror && first_mirror_of_hit(hit) == mirror; });
 }
 
-Mask non_mirror(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) { return !first_mirror(hit); });
+Mask mask_non_mirror_pixels(std::span<const std::uint32_t> hits) {
+    return mask_pixels_where(hits, [](std::uint32_t hit) { return !first_mirror_of_hit(hit); });
 }
 
-Mask dielectrics(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) { return !first_mirror(hit) && second_mirror(hit); });
+Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits) {
+    return mask_pixels_where(hits, [](std::uint32_t hit) {
+        return !first_mirror_of_hit(hit) && second_mirror_of_hit(hit);
+    });
 }
 
-std::size_t pixel_count(const Mask& mask) {
+std::size_t count_mask_pixels(const Mask& mask) {
     return static_cast<std::size_t>(
         std::count_if(mask.begin(), mask.end(), [](std::uint8_t value) { return value != 0; }));
 }

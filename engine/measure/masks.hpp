@@ -13,27 +13,27 @@
 // reflects but is no numbered mirror.
 namespace catoptric::measure {
 
-constexpr MirrorId first_mirror(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
-constexpr MirrorId second_mirror(std::uint32_t hit) { return MirrorId(hit >> 16); }
+constexpr MirrorId first_mirror_of_hit(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
+constexpr MirrorId second_mirror_of_hit(std::uint32_t hit) { return MirrorId(hit >> 16); }
 
 /// Returns a mask of all pixels. Each mask here has one entry (0 or 255) per hit. A mask without
 /// any pixel is all 0, which differs from the empty mask: that means "all pixels".
-Mask all_pixels(std::span<const std::uint32_t> hits);
+Mask mask_all_pixels(std::span<const std::uint32_t> hits);
 /// Returns the pixels whose first hit is a mirror.
-Mask mirrors(std::span<const std::uint32_t> hits);
+Mask mask_mirror_pixels(std::span<const std::uint32_t> hits);
 /// Returns the pixels whose first hit is a mirror and whose reflected ray meets no second mirror.
-Mask first_order(std::span<const std::uint32_t> hits);
+Mask mask_first_order_pixels(std::span<const std::uint32_t> hits);
 /// Returns the pixels whose first hit is a mirror and whose reflected ray meets another mirror, or
 /// the same again.
-Mask mirror_in_mirror(std::span<const std::uint32_t> hits);
+Mask mask_mirror_in_mirror(std::span<const std::uint32_t> hits);
 /// Returns the pixels whose first hit is this mirror. The mask is all 0 for no mirror.
-Mask of_mirror(std::span<const std::uint32_t> hits, MirrorId mirror);
+Mask mask_one_mirror(std::span<const std::uint32_t> hits, MirrorId mirror);
 /// Returns the pixels whose first hit is no mirror, or that hit nothing.
-Mask non_mirror(std::span<const std::uint32_t> hits);
+Mask mask_non_mirror_pixels(std::span<const std::uint32_t> hits);
 /// Returns the pixels whose first hit is a smooth dielectric.
-Mask dielectrics(std::span<const std::uint32_t> hits);
+Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits);
 
 /// Returns how many pixels of a mask count.
-std::size_t pixel_count(const Mask& mask);
+std::size_t count_mask_pixels(const Mask& mask);
 
 } // namespace catoptric::measure

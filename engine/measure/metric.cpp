@@ -10,18 +10,18 @@ namespace catoptric::measure {
 
 namespace {
 
-std::vector<Metric>& table() {
+std::vector<Metric>& metric_table() {
     static std::vector<Metric> rows; // filled while the program starts
     return rows;
 }
 
-bool is_of_row(const Metric& quantity) {
+bool is_row_metric(const Metric& quantity) {
     return std::holds_alternative<Metric::RowFunction>(quantity.get) ||
            std::holds_alternative<Metric::OfStudy>(quantity.get);
 }
 
-std::vector<Metric> in_order() {
-    std::vector<Metric> rows = table();
+std::vector<Metric> metrics_in_order() {
+    std::vector<Metric> rows = metric_table();
     std::ranges::sort(rows, {}, [](const Metric& row) { return std::pair(row.order, row.name); });
     for (const Metric& row : rows)
         check(std::ranges::count(rows, row.name, &Metric::name) == 1, Failure::internal,
@@ -30,9 +30,9 @@ std::vector<Metric> in_order() {
 }
 
 /// Returns the index of a metric among those that are computed from pictures.
-std::size_t index_of(const Metric& quantity) {
+std::size_t picture_metric_index(const Metric& quantity) {
     std::size_t index = 0;
-    for (const Metric& row : metrics()) {
+    for (const Metric& row : list_metrics()) {
         if (row.name == quantity.name) break;
         index += std::holds_alternative<Metric::PictureFunction>(row.get);
     }
@@ -51,48 +51,49 @@ constexpr RowMask kMasks[] = {
 
 } // namespace
 
-Registered::Registered(Metric quantity) {
-    if (!is_of_row(quantity)) quantity.mask = "each";
-    table().push_back(std::move(quantity));
+RegisteredMetric::RegisteredMetric(Metric quantity) {
+    if (!is_row_metric(quantity)) quantity.mask = "each";
+    metric_table().push_back(std::move(quantity));
 }
 
-const std::vector<Metric>& metrics() {
-    static const std::vector<Metric> kRows = in_order();
+const std::vector<Metric>& list_metrics() {
+    static const std::vector<Metric> kRows = metrics_in_order();
     return kRows;
 }
 
-const std::vector<Metric>& difference_metrics() {
+const std::vector<Metric>& list_difference_metrics() {
     static const std::vector<Metric> kRows = [] {
-        std::vector<Metric> rows = metrics();
-        std::erase_if(rows, is_of_row);
+        std::vector<Metric> rows = list_metrics();
+        std::erase_if(rows, is_row_metric);
         return rows;
     }();
     return kRows;
 }
 
-void set_studied(Row& row, const std::string& metric, Value value) {
+void set_studied(Row& row, const std::string& metric, MetricValue value) {
     if (!row.studied) row.studied = std::make_shared<Studied>();
     row.studied->values[metric] = std::move(value);
 }
 
-Value studied(const Row& row, std::string_view metric) {
+MetricValue studied(const Row& row, std::string_view metric) {
     if (!row.studied) return {};
     const auto found = row.studied->values.find(metric);
-    return found == row.studied->values.end() ? Value() : found->second;
+    return found == row.studied->values.end() ? MetricValue() : found->second;
 }
 
-Value value_of(const Metric& quantity, const Row& row) {
-    check(is_of_row(quantity), Failure::internal, "'", quantity.name, "' is no figure of a row");
+MetricValue metric_value(const Metric& quantity, const Row& row) {
+    check(is_row_metric(quantity), Failure::internal, "'", quantity.name,
+          "' is no figure of a row");
     if (const auto* get = std::get_if<Metric::RowFunction>(&quantity.get)) return (*get)(row);
     return studied(row, quantity.name);
 }
 
-Value value_of(const Metric& quantity, const Difference& difference) {
-    check(!is_of_row(quantity), Failure::internal, "'", quantity.name,
+MetricValue metric_value(const Metric& quantity, const Difference& difference) {
+    check(!is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a difference");
     if (const auto* get = std::get_if<Metric::DifferenceFunction>(&quantity.get))
         return (*get)(difference);
-    const std::size_t index = index_of(quantity);
+    const std::size_t index = picture_metric_index(quantity);
     return index < difference.others.size() ? difference.others[index] : NAN;
 }
 
@@ -101,7 +102,7 @@ bool is_shown(const Metric& quantity, const Comparison& comparison) {
            std::ranges::find(comparison.studies, quantity.study) != comparison.studies.end();
 }
 
-bool is_nothing(const Value& value) {
+bool is_missing_value(const MetricValue& value) {
     struct Asks {
         bool operator()(std::monostate) const { return true; }
         bool operator()(bool) const { return false; }
@@ -110,22 +111,22 @@ bool is_nothing(const Value& value) {
             return !std::isfinite(colour.x + colour.y + colour.z);
         }
         bool operator()(const PixelPosition& place) const { return place.x < 0; }
-        bool operator()(const Summary& times) const { return times.n == 0; }
+        bool operator()(const SampleSummary& times) const { return times.n == 0; }
         bool operator()(const std::vector<double>& list) const { return list.empty(); }
-        bool operator()(const std::vector<Parts>& list) const { return list.empty(); }
+        bool operator()(const std::vector<ValueParts>& list) const { return list.empty(); }
     };
     return std::visit(Asks{}, value);
 }
 
-std::vector<double> other_figures(const Compared& compared) {
+std::vector<double> compute_picture_metrics(const PicturePair& compared) {
     std::vector<double> figures;
-    for (const Metric& quantity : metrics())
+    for (const Metric& quantity : list_metrics())
         if (const auto* get = std::get_if<Metric::PictureFunction>(&quantity.get))
             figures.push_back((*get)(compared));
     return figures;
 }
 
-std::span<const RowMask> masks() { return kMasks; }
+std::span<const RowMask> list_row_masks() { return kMasks; }
 
 bool has_columns(const RowMask& mask, const Comparison& comparison) {
     return !mask.only_where_some || std::ranges::any_of(comparison.rows, [&](const Row& row) {

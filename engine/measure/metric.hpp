@@ -22,33 +22,33 @@ struct PixelPosition {
     int x = -1, y = -1;
 };
 
-struct Parts;
+struct ValueParts;
 
 /// Value of a metric. A double that is not finite, a time that was never measured and an invalid
-/// place count as no value (see is_nothing).
-using Value = std::variant<std::monostate, bool, double, dvec3, PixelPosition, Summary,
-                           std::vector<double>, std::vector<Parts>>;
+/// place count as no value (see is_missing_value).
+using MetricValue = std::variant<std::monostate, bool, double, dvec3, PixelPosition, SampleSummary,
+                                 std::vector<double>, std::vector<ValueParts>>;
 
 /// An entry of a list of values, such as the times of passes or the shares of causes.
-struct Parts {
+struct ValueParts {
     std::string_view kind; ///< the field that holds the entry's name, such as "name"
     std::string name;
-    std::vector<std::pair<std::string_view, Value>> values;
+    std::vector<std::pair<std::string_view, MetricValue>> values;
 };
 
 /// Results of studies that have no member of their own in Row, by the name of the metric.
 struct Studied {
-    std::map<std::string, Value, std::less<>> values;
+    std::map<std::string, MetricValue, std::less<>> values;
 };
 /// Sets the row's value of a metric of a study.
-void set_studied(Row& row, const std::string& metric, Value value);
+void set_studied(Row& row, const std::string& metric, MetricValue value);
 /// Returns the row's value of a metric of a study; no value if the study has not set it.
-Value studied(const Row& row, std::string_view metric);
+MetricValue studied(const Row& row, std::string_view metric);
 
-enum class Better : std::uint8_t { neither, less, more };
+enum class BetterDirection : std::uint8_t { neither, less, more };
 
 /// Format of a value in a table cell.
-enum class Style : std::uint8_t {
+enum class ValueFormat : std::uint8_t {
     fixed,         ///< a fixed number of decimals
     error,         ///< error: four decimals, or a power of ten if all four are 0
     times,         ///< the median, with the decimals of the whole table
@@ -62,14 +62,14 @@ enum class MetricTable : std::uint8_t { rows, lookup };
 /// Column of the report's tables.
 struct MetricColumn {
     std::string_view title;
-    Style style = Style::error;
+    ValueFormat style = ValueFormat::error;
     int decimals = 0;
     MetricTable table = MetricTable::rows;
     int order = 0; ///< place among the table's columns; 0 means the metric's order
 };
 
 /// Input of a metric of two pictures. If `mask` is empty, all pixels count.
-struct Compared {
+struct PicturePair {
     const Picture &a, &b;
     const Mask& mask;
     std::span<const float> flip_map;
@@ -81,11 +81,11 @@ struct Metric {
     std::string_view name;
     std::string_view unit = {}; ///< "ms", "bytes"; empty for a plain number
     std::string_view help;
-    /// Pixels that the metric covers: a name of `masks()`, or empty if it is not about pixels. A
-    /// metric of a difference has a value for each mask and each mirror, and its `mask` becomes
-    /// "each".
+    /// Pixels that the metric covers: a name of `list_row_masks()`, or empty if it is not about
+    /// pixels. A metric of a difference has a value for each mask and each mirror, and its `mask`
+    /// becomes "each".
     std::string_view mask = {};
-    Better better = Better::neither;
+    BetterDirection better = BetterDirection::neither;
     int order = 1000;             ///< place in files and lists; equal orders are sorted by name
     bool only_where_true = false; ///< whether JSON leaves this mark out if it is false
     bool each_mask_in_table = false;
@@ -97,40 +97,40 @@ struct Metric {
 
     /// Marks a metric whose value is the entry of its name in Row::studied.
     struct OfStudy {};
-    using RowFunction = Value (*)(const Row&);
-    using DifferenceFunction = Value (*)(const Difference&);
+    using RowFunction = MetricValue (*)(const Row&);
+    using DifferenceFunction = MetricValue (*)(const Difference&);
     /// Function that computes a metric of two pictures. A value that is not finite counts as no
     /// value. The function is called once for each mask of pixels.
-    using PictureFunction = double (*)(const Compared&);
+    using PictureFunction = double (*)(const PicturePair&);
     std::variant<OfStudy, RowFunction, DifferenceFunction, PictureFunction> get;
 };
 
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program
 /// starts.
-struct Registered {
-    explicit Registered(Metric quantity);
+struct RegisteredMetric {
+    explicit RegisteredMetric(Metric quantity);
 };
 
 /// Upper limit of Metric::order for metrics of differences, which use orders from 100 on.
 inline constexpr int kAfterDifferences = 200;
 
 /// Returns all metrics sorted by `order`, then name. Throws `internal` if two have the same name.
-const std::vector<Metric>& metrics();
+const std::vector<Metric>& list_metrics();
 /// Returns the metrics of a difference, whose mask is "each".
-const std::vector<Metric>& difference_metrics();
+const std::vector<Metric>& list_difference_metrics();
 
 /// Return the value of a metric. The first overload throws `internal` for a metric of a difference,
 /// the second for a metric of a row.
-Value value_of(const Metric& quantity, const Row& row);
-Value value_of(const Metric& quantity, const Difference& difference);
+MetricValue metric_value(const Metric& quantity, const Row& row);
+MetricValue metric_value(const Metric& quantity, const Difference& difference);
 /// Returns whether reports on the comparison show the metric (see Metric::study).
 bool is_shown(const Metric& quantity, const Comparison& comparison);
-/// Returns whether a value counts as none (see Value).
-bool is_nothing(const Value& value);
+/// Returns whether a value counts as none (see MetricValue).
+bool is_missing_value(const MetricValue& value);
 
 /// Returns the values of the metrics that are computed from pictures, in the order of
 /// Difference::others.
-std::vector<double> other_figures(const Compared& compared);
+std::vector<double> compute_picture_metrics(const PicturePair& compared);
 
 /// Set of pixels over which each row has a difference.
 struct RowMask {
@@ -143,7 +143,7 @@ struct RowMask {
     /// Whether tables show the columns of this mask only if some row has pixels in the mask.
     bool only_where_some = false;
 };
-std::span<const RowMask> masks();
+std::span<const RowMask> list_row_masks();
 /// Returns whether tables have columns of this mask.
 bool has_columns(const RowMask& mask, const Comparison& comparison);
 

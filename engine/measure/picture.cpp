@@ -7,13 +7,13 @@
 
 namespace catoptric::measure {
 
-vec3 exposed(const vec3& pixel, double exposure_stops) {
+vec3 apply_exposure(const vec3& pixel, double exposure_stops) {
     return vec3(std::exp2(exposure_stops) * dvec3(pixel));
 }
 
-Picture exposed(Picture picture, double exposure_stops) {
+Picture apply_exposure(Picture picture, double exposure_stops) {
     if (exposure_stops == 0) return picture;
-    for (vec3& pixel : picture.pixels) pixel = exposed(pixel, exposure_stops);
+    for (vec3& pixel : picture.pixels) pixel = apply_exposure(pixel, exposure_stops);
     return picture;
 }
 
@@ -21,8 +21,8 @@ namespace {
 
 /// Writes the picture as displayed. `curve` gets values between 0 and 1.
 template <typename Curve>
-void write_displayed(const Picture& picture, double exposure_stops, Picture& display,
-                     const Curve& curve) {
+void write_display_rows(const Picture& picture, double exposure_stops, Picture& display,
+                        const Curve& curve) {
     const double gain = std::exp2(exposure_stops);
     const auto shown = [&](float linear) {
         const double value = gain * static_cast<double>(linear);
@@ -40,23 +40,23 @@ void write_displayed(const Picture& picture, double exposure_stops, Picture& dis
 
 } // namespace
 
-void write_display(const Picture& picture, double exposure_stops, bool is_rounded,
-                   Picture& display) {
+void convert_to_display(const Picture& picture, double exposure_stops, bool is_rounded,
+                        Picture& display) {
     if (is_rounded)
-        write_displayed(picture, exposure_stops, display, EightBitCurve::get());
+        write_display_rows(picture, exposure_stops, display, EightBitCurve::get());
     else
-        write_displayed(picture, exposure_stops, display, srgb_from_linear);
+        write_display_rows(picture, exposure_stops, display, srgb_from_linear);
 }
 
 Picture to_display(const Picture& picture, double exposure_stops) {
     Picture display;
-    write_display(picture, exposure_stops, true, display);
+    convert_to_display(picture, exposure_stops, true, display);
     return display;
 }
 
 Picture to_unrounded_display(const Picture& picture, double exposure_stops) {
     Picture display;
-    write_display(picture, exposure_stops, false, display);
+    convert_to_display(picture, exposure_stops, false, display);
     return display;
 }
 

@@ -59,11 +59,11 @@ CATOPTRIC_API Mask read_mask(const std::filesystem::path& path, int width, int h
 
 /// Returns an OpenEXR file: 32-bit float R, G, B with each value bit-exact. The same picture always
 /// gives the same bytes, because the date in the header is fixed.
-CATOPTRIC_API std::string exr_bytes(const Picture& picture);
+CATOPTRIC_API std::string encode_exr(const Picture& picture);
 /// Returns a PNG file with 8 bits a channel. Values must already be as displayed (see
 /// `to_display`). Others are clamped to [0,1] and NaN becomes 0. The same picture gives the same
 /// bytes.
-CATOPTRIC_API std::string png_bytes(const Picture& display);
+CATOPTRIC_API std::string encode_picture_png(const Picture& display);
 
 /// Write these files. A file is replaced as a whole or not at all.
 CATOPTRIC_API void write_exr(const Picture& picture, const std::filesystem::path& path);
@@ -119,7 +119,7 @@ CATOPTRIC_API Difference difference(const Picture& a, const Picture& b, const Ma
                                     std::span<const float> flip_map);
 
 /// Whether values are averaged as they are or clamped to [0,1] first.
-enum class Range { unclamped, clamped };
+enum class ValueRange { unclamped, clamped };
 
 /// Mean of a picture in linear RGB, by channel and over all three.
 struct Mean {
@@ -129,6 +129,6 @@ struct Mean {
 
 /// Returns the mean over the pixels of the mask, or NaN if the mask has none. The mean is not
 /// finite if a pixel is NaN or, unclamped, infinite.
-CATOPTRIC_API Mean mean_of(const Picture& picture, Range range, const Mask& mask = {});
+CATOPTRIC_API Mean mean_of(const Picture& picture, ValueRange range, const Mask& mask = {});
 
 } // namespace catoptric::measure

@@ -17,7 +17,7 @@ namespace {
 
 /// Returns the indices of the channels R, G and B. A picture without them is grey in its first
 /// channel.
-std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
+std::array<std::size_t, 3> find_rgb_channels(const std::vector<std::string>& channels) {
     std::array<std::size_t, 3> rgb = {0, 0, 0};
     constexpr std::array<const char*, 3> kNames = {"R", "G", "B"};
     for (std::size_t c = 0; c < rgb.size(); ++c) {
@@ -29,17 +29,18 @@ std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
 }
 
 /// Returns the format by the first bytes, not by the file name.
-std::string format_of(const ByteSource& bytes, const std::string& name) {
+std::string detect_picture_format(const ByteSource& bytes, const std::string& name) {
     std::array<char, 16> first{};
     const std::size_t count = bytes.read(0, first);
-    std::string format = image_format({first.data(), count});
+    std::string format = detect_image_format({first.data(), count});
     check(format == "openexr" || format == "hdr" || format == "png", Failure::bad_data, name,
           ": wanted an OpenEXR, Radiance or PNG picture, found ", bytes.size(),
           " bytes of something else");
     return format;
 }
 
-ImageReader::ShapeCheck judge_of(const std::string& name, const PictureReader::Judge& judge) {
+ImageReader::ImageShapeCheck make_shape_check(const std::string& name,
+                                              const PictureReader::PictureSizeCheck& judge) {
     return [&name, &judge](const ImageShape& shape) {
         if (judge) judge(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
         check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMostValues,
@@ -50,9 +51,9 @@ ImageReader::ShapeCheck judge_of(const std::string& name, const PictureReader::J
 
 /// Decodes the stored values of a PNG to linear light. Most PNGs have 8 bits, whose light is in a
 /// table.
-class Decoded {
+class LinearDecoder {
 public:
-    Decoded() {
+    LinearDecoder() {
         for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = curve(stored(i));
     }
     float operator()(float value) const {
@@ -70,7 +71,7 @@ private:
     std::array<float, 256> table_{};
 };
 
-ImageShape shape_of(const Picture& picture) {
+ImageShape picture_shape(const Picture& picture) {
     return {{static_cast<std::uint32_t>(std::max(picture.width, 0)),
              static_cast<std::uint32_t>(std::max(picture.height, 0))},
             3,
@@ -79,11 +80,12 @@ ImageShape shape_of(const Picture& picture) {
 
 } // namespace
 
-struct PictureReader::Open {
-    Open(const std::filesystem::path& path, const Judge& judge)
-        : name(path.string()), bytes(open_bytes(path)), format(format_of(*bytes, name)),
-          reader(*bytes, format, name, judge_of(name, judge)),
-          rgb(find_rgb(reader.shape().channels)) {}
+struct PictureReader::PictureReadState {
+    PictureReadState(const std::filesystem::path& path, const PictureSizeCheck& judge)
+        : name(path.string()), bytes(open_file_bytes(path)),
+          format(detect_picture_format(*bytes, name)),
+          reader(*bytes, format, name, make_shape_check(name, judge)),
+          rgb(find_rgb_channels(reader.shape().channels)) {}
 
     std::string name;
     std::unique_ptr<ByteSource> bytes;
@@ -94,8 +96,8 @@ struct PictureReader::Open {
     std::vector<float> values;
 };
 
-PictureReader::PictureReader(const std::filesystem::path& path, const Judge& judge)
-    : open_(std::make_unique<Open>(path, judge)) {}
+PictureReader::PictureReader(const std::filesystem::path& path, const PictureSizeCheck& judge)
+    : open_(std::make_unique<PictureReadState>(path, judge)) {}
 PictureReader::~PictureReader() = default;
 PictureReader::PictureReader(PictureReader&&) noexcept = default;
 PictureReader& PictureReader::operator=(PictureReader&&) noexcept = default;
@@ -107,7 +109,7 @@ std::string PictureReader::format() const {
 }
 
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
-    static const Decoded kDecoded;
+    static const LinearDecoder kDecoded;
     // Pixels that are read at once; at least a row.
     constexpr std::size_t kPixels = std::size_t{1} << 18;
     const bool is_stored = open_->format == "png"; // PNGs store sRGB values
@@ -134,7 +136,8 @@ void PictureReader::read_rows(int first, std::span<vec3> pixels) {
 
 Picture read_picture(const std::filesystem::path& path) { return read_picture(path, {}); }
 
-Picture read_picture(const std::filesystem::path& path, const PictureReader::Judge& judge) {
+Picture read_picture(const std::filesystem::path& path,
+                     const PictureReader::PictureSizeCheck& judge) {
     PictureReader reader(path, judge);
     Picture picture(reader.width(), reader.height());
     reader.read_rows(0, picture.pixels);
@@ -144,7 +147,7 @@ Picture read_picture(const std::filesystem::path& path, const PictureReader::Jud
 bool is_png(const std::filesystem::path& path) {
     std::string start(8, '\0');
     std::ifstream file(path, std::ios::binary);
-    return file.read(start.data(), 8) && image_format(start) == "png";
+    return file.read(start.data(), 8) && detect_image_format(start) == "png";
 }
 
 Mask read_mask(const std::filesystem::path& path, int width, int height) {
@@ -165,15 +168,15 @@ Mask read_mask(const std::filesystem::path& path, int width, int height) {
     return mask;
 }
 
-std::string exr_bytes(const Picture& picture) {
+std::string encode_exr(const Picture& picture) {
     std::vector<float> values;
     values.reserve(3 * picture.pixels.size());
     for (const vec3& pixel : picture.pixels)
         values.insert(values.end(), {pixel.x, pixel.y, pixel.z});
-    return openexr_bytes(shape_of(picture), values);
+    return encode_openexr(picture_shape(picture), values);
 }
 
-std::string png_bytes(const Picture& display) {
+std::string encode_picture_png(const Picture& display) {
     const auto byte = [](float value) {
         if (!(value > 0)) return std::uint8_t{0}; // NaN falls here
         return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0F) * 255));
@@ -182,15 +185,15 @@ std::string png_bytes(const Picture& display) {
     values.reserve(3 * display.pixels.size());
     for (const vec3& pixel : display.pixels)
         values.insert(values.end(), {byte(pixel.x), byte(pixel.y), byte(pixel.z)});
-    return catoptric::png_bytes(shape_of(display), values);
+    return catoptric::encode_png(picture_shape(display), values);
 }
 
 void write_exr(const Picture& picture, const std::filesystem::path& path) {
-    write_file(path, exr_bytes(picture));
+    write_file(path, encode_exr(picture));
 }
 
 void write_png(const Picture& display, const std::filesystem::path& path) {
-    write_file(path, png_bytes(display));
+    write_file(path, encode_picture_png(display));
 }
 
 } // namespace catoptric::measure

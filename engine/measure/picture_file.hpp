@@ -19,11 +19,11 @@ constexpr std::uint64_t kMostValues = std::uint64_t{1} << 29;
 class PictureReader {
 public:
     /// Refuses a picture by its width and height: throws if they are not accepted.
-    using Judge = std::function<void(int, int)>;
+    using PictureSizeCheck = std::function<void(int, int)>;
 
     /// Reads only the header and checks it against `judge`, `kMostValues`, and whether a file of
     /// this size can hold so many values. Memory for the picture is allocated after these checks.
-    explicit PictureReader(const std::filesystem::path& path, const Judge& judge = {});
+    explicit PictureReader(const std::filesystem::path& path, const PictureSizeCheck& judge = {});
     ~PictureReader();
     PictureReader(PictureReader&&) noexcept;
     PictureReader& operator=(PictureReader&&) noexcept;
@@ -36,12 +36,13 @@ public:
     void read_rows(int first, std::span<vec3> pixels);
 
 private:
-    struct Open;
-    std::unique_ptr<Open> open_;
+    struct PictureReadState;
+    std::unique_ptr<PictureReadState> open_;
 };
 
 /// Reads a whole picture. `judge` may refuse it by its size.
-Picture read_picture(const std::filesystem::path& path, const PictureReader::Judge& judge);
+Picture read_picture(const std::filesystem::path& path,
+                     const PictureReader::PictureSizeCheck& judge);
 
 /// Returns whether a file begins with the signature of a PNG.
 bool is_png(const std::filesystem::path& path);

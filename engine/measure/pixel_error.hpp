@@ -16,24 +16,26 @@ inline bool is_finite(const vec3& pixel) {
 }
 
 /// Returns the pixel clamped to [0,1]. NaN stays NaN.
-inline dvec3 clamped(const vec3& pixel) {
+inline dvec3 clamp_pixel(const vec3& pixel) {
     const auto one = [](float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); };
     return {one(pixel.x), one(pixel.y), one(pixel.z)};
 }
 
 /// Returns the absolute difference of each channel, 0..1.
-inline dvec3 apart(const vec3& a, const vec3& b) { return glm::abs(clamped(a) - clamped(b)); }
+inline dvec3 differ_over_views(const vec3& a, const vec3& b) {
+    return glm::abs(clamp_pixel(a) - clamp_pixel(b));
+}
 
 /// Returns whether a channel differs by more than kOff. Both pixels must be finite.
-inline bool is_off(const vec3& a, const vec3& b) {
-    const dvec3 channels = apart(a, b);
+inline bool differs_visibly(const vec3& a, const vec3& b) {
+    const dvec3 channels = differ_over_views(a, b);
     return std::max({channels.x, channels.y, channels.z}) > kOff;
 }
 
 /// Returns the mean squared difference over the channels, 0..1, or NaN if a pixel is not finite.
 inline double squared_error(const vec3& a, const vec3& b) {
     if (!is_finite(a) || !is_finite(b)) return std::numeric_limits<double>::quiet_NaN();
-    const dvec3 difference = apart(a, b);
+    const dvec3 difference = differ_over_views(a, b);
     return glm::dot(difference, difference) / 3;
 }
 

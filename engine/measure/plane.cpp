@@ -6,21 +6,21 @@ namespace catoptric::measure {
 namespace {
 
 /// Four adjacent values of a row.
-using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+using FourValues [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 constexpr int kSums = 8; // sums that stay in registers
 constexpr int kBlock = 4 * kSums;
 
 /// Writes the weighted sum of `taps` rows to `to`. Each row has `width` values.
-CATOPTRIC_WIDE void weigh(const double* const* rows, const double* weights, std::size_t taps,
-                          int width, double* to) {
+CATOPTRIC_WIDE void sum_weighted_rows(const double* const* rows, const double* weights,
+                                      std::size_t taps, int width, double* to) {
     int x = 0;
     for (; x + kBlock <= width; x += kBlock) {
-        Four sums[kSums] = {};
+        FourValues sums[kSums] = {};
         for (std::size_t tap = 0; tap < taps; ++tap) {
-            const Four* row = reinterpret_cast<const Four*>(rows[tap] + x);
+            const FourValues* row = reinterpret_cast<const FourValues*>(rows[tap] + x);
             for (int i = 0; i < kSums; ++i) sums[i] += weights[tap] * row[i];
         }
-        Four* const there = reinterpret_cast<Four*>(to + x);
+        FourValues* const there = reinterpret_cast<FourValues*>(to + x);
         for (int i = 0; i < kSums; ++i) there[i] = sums[i];
     }
     for (; x < width; ++x) {
@@ -32,29 +32,32 @@ CATOPTRIC_WIDE void weigh(const double* const* rows, const double* weights, std:
 
 } // namespace
 
-void along_x(const Plane& in, const Kernel& kernel, int border, Plane& out) {
+void convolve_along_x(const ChannelPlane& in, const FilterKernel& kernel, int border,
+                      ChannelPlane& out) {
     out.resize(in.width - 2 * border, in.height);
     std::vector<const double*> shifted(kernel.weights.size());
     for (int y = 0; y < in.height; ++y) {
         const double* const first = in.row(y) + border - kernel.radius;
         for (std::size_t tap = 0; tap < shifted.size(); ++tap) shifted[tap] = first + tap;
-        weigh(shifted.data(), kernel.weights.data(), shifted.size(), out.width, out.row(y));
+        sum_weighted_rows(shifted.data(), kernel.weights.data(), shifted.size(), out.width,
+                          out.row(y));
     }
 }
 
-void sum_along_y(std::initializer_list<Filtered> parts, int border, Plane& out) {
-    const Plane& one = parts.begin()->plane;
+void sum_convolutions_along_y(std::initializer_list<FilteredPlane> parts, int border,
+                              ChannelPlane& out) {
+    const ChannelPlane& one = parts.begin()->plane;
     out.resize(one.width, one.height - 2 * border);
     std::vector<const double*> rows;
     std::vector<double> weights;
-    for (const Filtered& part : parts)
+    for (const FilteredPlane& part : parts)
         weights.insert(weights.end(), part.kernel.weights.begin(), part.kernel.weights.end());
     for (int y = 0; y < out.height; ++y) {
         rows.clear();
-        for (const Filtered& part : parts)
+        for (const FilteredPlane& part : parts)
             for (int offset = -part.kernel.radius; offset <= part.kernel.radius; ++offset)
                 rows.push_back(part.plane.row(y + border + offset));
-        weigh(rows.data(), weights.data(), rows.size(), out.width, out.row(y));
+        sum_weighted_rows(rows.data(), weights.data(), rows.size(), out.width, out.row(y));
     }
 }
 

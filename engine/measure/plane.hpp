@@ -7,7 +7,7 @@
 namespace catoptric::measure {
 
 /// One channel of a picture.
-struct Plane {
+struct ChannelPlane {
     int width = 0;
     int height = 0;
     std::vector<double> values;
@@ -24,11 +24,12 @@ struct Plane {
 };
 
 /// Filter kernel: weights for the offsets -radius .. radius.
-struct Kernel {
+struct FilterKernel {
     int radius = 0;
     std::vector<double> weights;
 
-    explicit Kernel(int reach) : radius(reach), weights(2 * static_cast<std::size_t>(reach) + 1) {}
+    explicit FilterKernel(int reach)
+        : radius(reach), weights(2 * static_cast<std::size_t>(reach) + 1) {}
     double& operator[](int offset) { return weights[static_cast<std::size_t>(offset + radius)]; }
     double operator[](int offset) const {
         return weights[static_cast<std::size_t>(offset + radius)];
@@ -38,16 +39,18 @@ struct Kernel {
 /// Writes the convolution of `in` along x to `out`, which must be another plane. `out` lacks
 /// `border` columns on each side. `border` is at least the kernel's radius. Costs 2 * radius + 1
 /// multiplications a pixel, on one core.
-void along_x(const Plane& in, const Kernel& kernel, int border, Plane& out);
+void convolve_along_x(const ChannelPlane& in, const FilterKernel& kernel, int border,
+                      ChannelPlane& out);
 
 /// Plane and the kernel with which it is convolved.
-struct Filtered {
-    const Plane& plane;
-    const Kernel& kernel;
+struct FilteredPlane {
+    const ChannelPlane& plane;
+    const FilterKernel& kernel;
 };
 
 /// Writes the sum of convolutions along y to `out`. All planes have one size. `out` lacks `border`
 /// rows above and below.
-void sum_along_y(std::initializer_list<Filtered> parts, int border, Plane& out);
+void sum_convolutions_along_y(std::initializer_list<FilteredPlane> parts, int border,
+                              ChannelPlane& out);
 
 } // namespace catoptric::measure

@@ -7,13 +7,13 @@ namespace catoptric::measure {
 
 namespace {
 
-bool holds(const Row& row, const KnobText& wanted) {
+bool has_knob_text(const Row& row, const KnobText& wanted) {
     return std::ranges::any_of(row.settings, [&](const Setting& setting) {
         return setting.name == wanted.knob && setting.text == wanted.text;
     });
 }
 
-bool changes_only(const Row& row, std::span<const KnobText> wanted) {
+bool changes_only_these_knobs(const Row& row, std::span<const KnobText> wanted) {
     return std::ranges::all_of(row.settings, [&](const Setting& setting) {
         return !setting.changed ||
                std::ranges::find(wanted, setting.name, &KnobText::knob) != wanted.end();
@@ -25,29 +25,30 @@ bool changes_only(const Row& row, std::span<const KnobText> wanted) {
 const Row* find_row(const Comparison& comparison, std::string_view technique,
                     std::span<const KnobText> wanted) {
     const auto fits = [&](const Row& row) {
-        return row.technique == technique && changes_only(row, wanted) &&
-               std::ranges::all_of(wanted, [&](const KnobText& one) { return holds(row, one); });
+        return row.technique == technique && changes_only_these_knobs(row, wanted) &&
+               std::ranges::all_of(wanted,
+                                   [&](const KnobText& one) { return has_knob_text(row, one); });
     };
     const auto found = std::ranges::find_if(comparison.rows, fits);
     return found == comparison.rows.end() ? nullptr : &*found;
 }
 
-const Row* find_parallax(const Comparison& comparison) {
+const Row* find_parallax_row(const Comparison& comparison) {
     const KnobText wanted[] = {{"distance", "r32f"}};
     return find_row(comparison, "parallax", wanted);
 }
 
-const Row* find_ray_traced(const Comparison& comparison) {
+const Row* find_ray_traced_row(const Comparison& comparison) {
     const KnobText wanted[] = {{"depth", "8"}, {"sphere", "mesh"}};
     return find_row(comparison, "raytrace", wanted);
 }
 
-const Row* find_naive(const Comparison& comparison, int bounces) {
+const Row* find_naive_row(const Comparison& comparison, int bounces) {
     const std::string text = std::to_string(bounces);
     const KnobText wanted[] = {{"bounces", text}};
     return find_row(comparison, "naive", wanted);
 }
 
-bool is_ray_traced(const Row& row) { return row.technique == "raytrace"; }
+bool is_ray_traced_row(const Row& row) { return row.technique == "raytrace"; }
 
 } // namespace catoptric::measure

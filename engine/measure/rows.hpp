@@ -20,9 +20,9 @@ const Row* find_row(const Comparison& comparison, std::string_view technique,
                     std::span<const KnobText> wanted = {});
 /// Three functions that return the row of `naive` with `bounces` bounces, of `parallax`, and of ray
 /// tracing, each with default knobs. Null if the comparison has no such row.
-const Row* find_naive(const Comparison& comparison, int bounces);
-const Row* find_parallax(const Comparison& comparison);
-const Row* find_ray_traced(const Comparison& comparison);
-bool is_ray_traced(const Row& row);
+const Row* find_naive_row(const Comparison& comparison, int bounces);
+const Row* find_parallax_row(const Comparison& comparison);
+const Row* find_ray_traced_row(const Comparison& comparison);
+bool is_ray_traced_row(const Row& row);
 
 } // namespace catoptric::measure

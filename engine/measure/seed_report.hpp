@@ -5,7 +5,7 @@
 // Table 1 of the seed report (section 4.2): frames per second in a browser on a GeForce GTX 770.
 namespace catoptric::measure {
 
-struct SeedRow {
+struct SeedReportRow {
     std::string_view implementation;
     /// Technique of this program that corresponds to the row of the seed report.
     std::string_view technique;
@@ -19,12 +19,12 @@ struct SeedRow {
 
 inline constexpr int kSeedMirrors = 4;
 
-inline constexpr SeedRow kSeedPartOne{"Part one", "naive", 0, 2, 93, 10.8};
-inline constexpr SeedRow kSeedPartTwo{"Part two", "reuse", -1, 6, 136, 7.4};
-inline constexpr SeedRow kSeedPartThree{"Part three", "parallax", -1, 6, 134, 7.5};
-inline constexpr SeedRow kSeedRayTrace{"ray trace", "raytrace", -1, 0, 10.7, 93.0};
+inline constexpr SeedReportRow kSeedPartOne{"Part one", "naive", 0, 2, 93, 10.8};
+inline constexpr SeedReportRow kSeedPartTwo{"Part two", "reuse", -1, 6, 136, 7.4};
+inline constexpr SeedReportRow kSeedPartThree{"Part three", "parallax", -1, 6, 134, 7.5};
+inline constexpr SeedReportRow kSeedRayTrace{"ray trace", "raytrace", -1, 0, 10.7, 93.0};
 
-inline constexpr SeedRow kSeedTable[] = {
+inline constexpr SeedReportRow kSeedTable[] = {
     kSeedPartOne,
     {"Part one", "naive", 1, 6, 88, 11.4},
     {"Part one", "naive", 2, 10, 68, 14.7},

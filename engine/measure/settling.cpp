@@ -2,7 +2,7 @@
 
 namespace catoptric::measure {
 
-std::optional<int> settled_from(std::span<const double> errors, double bound) {
+std::optional<int> find_settled_frame(std::span<const double> errors, double bound) {
     std::size_t first = errors.size();
     while (first > 0 && errors[first - 1] <= bound) --first;
     if (first == errors.size()) return std::nullopt;

@@ -6,34 +6,34 @@
 namespace catoptric::measure {
 namespace {
 
-int code_by_formula(double linear) {
+int srgb_code_by_formula(double linear) {
     return static_cast<int>(std::lround(srgb_from_linear(linear) * 255));
 }
 
 /// Returns the least value in [0,1] with this code. Bisects the bits: the curve is increasing, and
 /// the bits of positive numbers are ordered as the numbers are.
-double least_with(int code) {
+double least_value_with_code(int code) {
     std::uint64_t below = 0, there = std::bit_cast<std::uint64_t>(1.0);
     while (there - below > 1) {
         const std::uint64_t middle = below + (there - below) / 2;
-        (code_by_formula(std::bit_cast<double>(middle)) < code ? below : there) = middle;
+        (srgb_code_by_formula(std::bit_cast<double>(middle)) < code ? below : there) = middle;
     }
     return std::bit_cast<double>(there);
 }
 
 } // namespace
 
-LinearTable::Stored::Stored() {
+LinearTable::StoredCodeTable::StoredCodeTable() {
     for (std::size_t code = 0; code < srgb.size(); ++code) {
         srgb[code] = static_cast<float>(static_cast<double>(code) / 255);
         linear[code] = linear_from_srgb(static_cast<double>(srgb[code]));
     }
 }
-const LinearTable::Stored LinearTable::kStored;
+const LinearTable::StoredCodeTable LinearTable::kStored;
 
 EightBitCurve::EightBitCurve() {
     for (std::size_t code = 1; code <= 255; ++code)
-        least_[code] = least_with(static_cast<int>(code));
+        least_[code] = least_value_with_code(static_cast<int>(code));
     least_.back() = 2;
     std::size_t code = 0;
     for (std::size_t i = 0; i < guesses_.size(); ++i) {

@@ -29,12 +29,12 @@ public:
     }
 
 private:
-    struct Stored {
-        Stored();
+    struct StoredCodeTable {
+        StoredCodeTable();
         std::array<float, 256> srgb{};
         std::array<double, 256> linear{};
     };
-    static const Stored kStored;
+    static const StoredCodeTable kStored;
 };
 
 /// Encodes light in [0,1] with the sRGB curve and rounds it to the nearest of the 256 values of 8

@@ -12,11 +12,11 @@ namespace catoptric::measure {
 
 /// Verdict on a property. `unsupported` means not judged, because the device does not allow
 /// something the property needs; the remark names it.
-enum class Verdict { pass, fail, quality_warning, unsupported, waived };
-std::string name_of(Verdict verdict);
+enum class StressVerdict { pass, fail, quality_warning, unsupported, waived };
+std::string name_of(StressVerdict verdict);
 
 /// Part of a property that could not be run, and the reason. It has no measured value.
-struct NotRun {
+struct SkippedStressPart {
     std::string what, why;
 };
 
@@ -37,13 +37,13 @@ struct StressPicture {
 
 struct StressRow {
     std::string id, stimulus, property;
-    Verdict verdict = Verdict::pass;
+    StressVerdict verdict = StressVerdict::pass;
     /// Reason if the property was not judged. Otherwise the part that is not covered, or empty.
     std::string remark;
     std::vector<StressCase> cases;       ///< empty if the property was not judged
     std::vector<StressPicture> pictures; ///< pictures of cases that do not hold
     double seconds = 0;
-    std::vector<NotRun> not_run;
+    std::vector<SkippedStressPart> not_run;
     /// Rule of tests/mutations: the wrong code that this property must notice.
     std::string turned_red_by;
     /// Returns the case whose measured value is nearest to its limit, or furthest beyond it. Wrong
@@ -51,7 +51,7 @@ struct StressRow {
     const StressCase* worst() const;
 };
 
-struct Stress {
+struct StressResults {
     std::string version, commit;
     std::vector<std::string> command;
     /// False if the run goes on or was stopped: `rows` are the rows so far.

@@ -9,13 +9,13 @@
 namespace catoptric::measure {
 
 /// One variant and the default, measured in the same rounds.
-struct Tried {
+struct TriedVariant {
     std::string variant, choice, standard; ///< "groups", "in order", "scattered"
     std::string benchmark;                 ///< name of the benchmark
     std::vector<double> ms, standard_ms;   ///< milliseconds of each round, on the device
 
     /// Returns the variant's time divided by the default's.
-    Ratio ratio() const { return ratio_of(ms, standard_ms); }
+    CostRatio ratio() const { return compute_cost_ratio(ms, standard_ms); }
     /// Returns whether the variant is faster than the default with 95 % confidence.
     bool is_taken() const { return ratio().is_below_one(); }
 };

@@ -14,73 +14,74 @@ namespace {
 
 constexpr std::string_view kOrdering[] = {"flip", "off", "mae"};
 
-const RowMask& mirrors_mask() { return masks().front(); }
+const RowMask& mirror_row_mask() { return list_row_masks().front(); }
 
-const Metric& figure_of(std::string_view name) {
-    const std::vector<Metric>& figures = difference_metrics();
+const Metric& find_metric_by_name(std::string_view name) {
+    const std::vector<Metric>& figures = list_difference_metrics();
     const auto found = std::ranges::find(figures, name, &Metric::name);
-    check(found != figures.end() && is_number(*found), Failure::internal, "'", name,
+    check(found != figures.end() && is_single_number(*found), Failure::internal, "'", name,
           "': wanted a figure of a difference that is a number");
     return *found;
 }
 
-double number_of(const Metric& figure, const Difference& error) {
-    const Value value = value_of(figure, error);
+double metric_number(const Metric& figure, const Difference& error) {
+    const MetricValue value = metric_value(figure, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
 }
 
-double median_of(std::vector<double> values) {
-    return values.empty() ? Difference::kNone : percentile(std::move(values), .5);
+double compute_median(std::vector<double> values) {
+    return values.empty() ? Difference::kNone : compute_percentile(std::move(values), .5);
 }
 
 /// Returns the row's score in one figure, such as FLIP: the number of rows that have a larger value
 /// than this row, minus the number of rows that have a smaller value.
-int standing_of(const Row& row, const std::vector<const Row*>& rows, std::string_view figure) {
+int rank_score(const Row& row, const std::vector<const Row*>& rows, std::string_view figure) {
     int standing = 0;
     for (const Row* other : rows)
-        standing += is_less(row, *other, figure) - is_less(*other, row, figure);
+        standing += is_metric_less(row, *other, figure) - is_metric_less(*other, row, figure);
     return standing;
 }
 
-Order order_by(std::string_view name, const std::vector<const Row*>& rows) {
-    Order order{&figure_of(name), rows, {}, {}};
+RowOrder order_rows_by_metric(std::string_view name, const std::vector<const Row*>& rows) {
+    RowOrder order{&find_metric_by_name(name), rows, {}, {}};
     std::ranges::stable_sort(order.rows, {}, [&](const Row* row) {
-        const double median = over_views(*row, mirrors_mask(), *order.figure).median;
-        return std::pair(-standing_of(*row, rows, name), std::isnan(median) ? INFINITY : median);
+        const double median = metric_over_views(*row, mirror_row_mask(), *order.figure).median;
+        return std::pair(-rank_score(*row, rows, name), std::isnan(median) ? INFINITY : median);
     });
     for (std::size_t i = 0; i < order.rows.size(); ++i)
         for (std::size_t k = i + 1; k < order.rows.size(); ++k) {
             const Row &first = *order.rows[i], &second = *order.rows[k];
-            if (!apart(first, second, name)) order.ties.emplace_back(&first, &second);
-            if (is_less(second, first, name)) order.reversed.emplace_back(&first, &second);
+            if (!differ_over_views(first, second, name)) order.ties.emplace_back(&first, &second);
+            if (is_metric_less(second, first, name)) order.reversed.emplace_back(&first, &second);
         }
     return order;
 }
 
 } // namespace
 
-bool is_number(const Metric& figure) {
-    return figure.mask == "each" && std::holds_alternative<double>(value_of(figure, Difference{}));
+bool is_single_number(const Metric& figure) {
+    return figure.mask == "each" &&
+           std::holds_alternative<double>(metric_value(figure, Difference{}));
 }
 
-OverViews over_views(const Row& row, const RowMask& mask, const Metric& figure) {
-    OverViews over;
+MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure) {
+    MetricOverViews over;
     for (const Errors& errors : row.views)
-        over.values.push_back(number_of(figure, errors.*mask.error));
+        over.values.push_back(metric_number(figure, errors.*mask.error));
     std::vector<double> known = over.values;
     std::erase_if(known, [](double value) { return !std::isfinite(value); });
     over.ci95 = median_interval(known);
-    over.median = median_of(std::move(known));
+    over.median = compute_median(std::move(known));
     return over;
 }
 
-Interval difference_over_views(const Row& a, const Row& b, std::string_view figure) {
-    const Metric& quantity = figure_of(figure);
+Interval metric_difference_over_views(const Row& a, const Row& b, std::string_view figure) {
+    const Metric& quantity = find_metric_by_name(figure);
     std::vector<double> of_a, of_b;
     for (std::size_t i = 0; i < std::min(a.views.size(), b.views.size()); ++i) {
-        const double in_a = number_of(quantity, a.views[i].error),
-                     in_b = number_of(quantity, b.views[i].error);
+        const double in_a = metric_number(quantity, a.views[i].error),
+                     in_b = metric_number(quantity, b.views[i].error);
         if (!std::isfinite(in_a) || !std::isfinite(in_b)) continue;
         of_a.push_back(in_a);
         of_b.push_back(in_b);
@@ -88,25 +89,27 @@ Interval difference_over_views(const Row& a, const Row& b, std::string_view figu
     return difference_interval(of_a, of_b);
 }
 
-bool is_less(const Row& a, const Row& b, std::string_view figure) {
+bool is_metric_less(const Row& a, const Row& b, std::string_view figure) {
     if (!a.views.empty() || !b.views.empty())
         // False if the interval is not known.
-        return difference_over_views(a, b, figure).high < 0;
-    const Metric& quantity = figure_of(figure);
-    return number_of(quantity, a.error) < number_of(quantity, b.error);
+        return metric_difference_over_views(a, b, figure).high < 0;
+    const Metric& quantity = find_metric_by_name(figure);
+    return metric_number(quantity, a.error) < metric_number(quantity, b.error);
 }
 
-bool apart(const Row& a, const Row& b, std::string_view figure) {
-    return is_less(a, b, figure) || is_less(b, a, figure);
+bool differ_over_views(const Row& a, const Row& b, std::string_view figure) {
+    return is_metric_less(a, b, figure) || is_metric_less(b, a, figure);
 }
 
-std::vector<Order> orders_over_views(const Comparison& comparison) {
+std::vector<RowOrder> order_rows_over_views(const Comparison& comparison) {
     std::vector<const Row*> rows;
     for (const Row& row : comparison.rows)
-        if (!row.is_reference && !failed(row) && !row.views.empty()) rows.push_back(&row);
-    std::vector<Order> orders;
+        if (!row.is_reference && !has_nonfinite_pixels(row) && !row.views.empty())
+            rows.push_back(&row);
+    std::vector<RowOrder> orders;
     if (rows.size() > 1)
-        for (const std::string_view name : kOrdering) orders.push_back(order_by(name, rows));
+        for (const std::string_view name : kOrdering)
+            orders.push_back(order_rows_by_metric(name, rows));
     return orders;
 }
 

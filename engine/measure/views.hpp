@@ -8,7 +8,7 @@
 namespace catoptric::measure {
 
 /// Metric over the views in which it is defined: those whose mask has a finite pixel.
-struct OverViews {
+struct MetricOverViews {
     double median = Difference::kNone;
     Interval ci95;
     std::vector<double> values; ///< value in each view, in order; NaN where it is not defined
@@ -16,37 +16,37 @@ struct OverViews {
 
 /// Returns a metric of a row over its views. `figure` must be a metric of a difference that is one
 /// number.
-OverViews over_views(const Row& row, const RowMask& mask, const Metric& figure);
+MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure);
 /// Returns whether a metric of differences is one number, so that it has a median.
-bool is_number(const Metric& figure);
+bool is_single_number(const Metric& figure);
 
 /// Returns the 95 % interval of the median of a's metric minus b's, over the mirrors, view by view.
 /// `figure` is a name such as "flip", "off" or "mae". Views in which either is not finite are left
 /// out. Throws `internal` if no metric of differences that is a number has this name.
-Interval difference_over_views(const Row& a, const Row& b, std::string_view figure);
+Interval metric_difference_over_views(const Row& a, const Row& b, std::string_view figure);
 
 /// Returns whether a metric of `a` over the mirrors is less than that of `b`: the interval of their
 /// difference over the views lies below 0. Without drawn views, the metrics of the picture are
 /// compared. Fewer views than kFewest give false.
-bool is_less(const Row& a, const Row& b, std::string_view figure);
+bool is_metric_less(const Row& a, const Row& b, std::string_view figure);
 /// Returns whether the metrics of two rows differ over the views with 95 % confidence. Otherwise
 /// the rows tie.
-bool apart(const Row& a, const Row& b, std::string_view figure);
+bool differ_over_views(const Row& a, const Row& b, std::string_view figure);
 
 /// Rows in order of a metric over the mirrors for which less is better, with the pairs that tie.
-struct Order {
+struct RowOrder {
     /// Pairs in the order of `rows`.
-    using Pairs = std::vector<std::pair<const Row*, const Row*>>;
+    using RowPairs = std::vector<std::pair<const Row*, const Row*>>;
     const Metric* figure;
     /// All rows except the reference and failed rows. A row's score in the metric is the number of
     /// rows with larger values minus the number of rows with smaller values, over the views. Rows
     /// with a larger score come first, and between equal scores the row with the smaller median.
     std::vector<const Row*> rows;
-    Pairs ties;
-    Pairs reversed; ///< pairs whose second row is less than the first: no order fits all pairs
+    RowPairs ties;
+    RowPairs reversed; ///< pairs whose second row is less than the first: no order fits all pairs
 };
 /// Returns the orders by FLIP, share off and MAE. Empty if no views were drawn or fewer than two
 /// rows have views.
-std::vector<Order> orders_over_views(const Comparison& comparison);
+std::vector<RowOrder> order_rows_over_views(const Comparison& comparison);
 
 } // namespace catoptric::measure

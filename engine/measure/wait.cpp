@@ -5,14 +5,14 @@ namespace catoptric::measure {
 
 namespace {
 
-const Registered kWaitTime{
+const RegisteredMetric kWaitTime{
     {.name = "wait_ms",
      .unit = "ms",
      .help = "time that the host waited for the device; no other time includes it",
-     .better = Better::less,
+     .better = BetterDirection::less,
      .order = 28,
-     .columns = {{.title = "wait ms", .style = Style::own_times, .order = 992}},
-     .get = [](const Row& row) -> Value { return row.wait_ms; }}};
+     .columns = {{.title = "wait ms", .style = ValueFormat::own_times, .order = 992}},
+     .get = [](const Row& row) -> MetricValue { return row.wait_ms; }}};
 
 } // namespace
 

@@ -4,7 +4,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-SharedKnobs::Shadow shadow_of(const Settings& settings) {
+SharedKnobs::Shadow shadow_of(const KnobSettings& settings) {
     using enum SharedKnobs::Shadow;
     constexpr SharedKnobs::Shadow kRastered[] = {map, none}, kTraced[] = {ray, map, none};
     if (settings.has(kShadow)) return kRastered[settings.integer(kShadow)];
@@ -12,19 +12,19 @@ SharedKnobs::Shadow shadow_of(const Settings& settings) {
 }
 
 /// Returns the value of a knob, or nothing if there is no such knob or its special word is set.
-std::optional<std::uint32_t> number_of(const Settings& settings, const Knob& knob) {
+std::optional<std::uint32_t> number_of(const KnobSettings& settings, const Knob& knob) {
     if (!settings.has(knob) || settings.is_special(knob)) return std::nullopt;
     return static_cast<std::uint32_t>(settings.integer(knob));
 }
 
 /// Returns whether a knob of two choices has the second.
-bool has_second(const Settings& settings, const Knob& knob) {
+bool has_second(const KnobSettings& settings, const Knob& knob) {
     return settings.has(knob) && settings.integer(knob) == 1;
 }
 
 } // namespace
 
-SharedKnobs shared_knobs(const Settings& settings) {
+SharedKnobs shared_knobs(const KnobSettings& settings) {
     constexpr Format kFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};
     SharedKnobs knobs{.shadow = shadow_of(settings)};
     knobs.shadow_map = number_of(settings, kShadowMapEdge).value_or(1);
@@ -42,12 +42,12 @@ SharedKnobs shared_knobs(const Settings& settings) {
     return knobs;
 }
 
-int shadow_passes(int lights, const Settings& settings) {
+int count_shadow_passes(int lights, const KnobSettings& settings) {
     return shadow_of(settings) == SharedKnobs::Shadow::map ? lights : 0;
 }
 
-render::CaptureOptions capture_options(const render::FrameInputs& inputs,
-                                       const Settings& settings) {
+render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
+                                            const KnobSettings& settings) {
     const SharedKnobs knobs = shared_knobs(settings);
     render::CaptureOptions options;
     options.face = knobs.face ? *knobs.face : inputs.scene.common_face();
@@ -68,8 +68,8 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs,
     return options;
 }
 
-render::MirrorShader shading_with_captures(const MirrorInputs& around, std::string fragment,
-                                           const Settings& settings) {
+render::MirrorShader make_capture_shader(const MirrorInputs& around, std::string fragment,
+                                         const KnobSettings& settings) {
     render::MirrorShader look;
     look.fragment = std::move(fragment);
     const auto set = [&](const char* constant, int value) {
@@ -83,7 +83,7 @@ render::MirrorShader shading_with_captures(const MirrorInputs& around, std::stri
     // The captures of mirrors that share a technique all hold surface numbers, or none does. Some
     // mirrors may have no capture, so all are checked.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
-            const render::Cubes* const cubes = around.captures->array_of(mirror);
+            const render::CubeArray* const cubes = around.captures->array_of(mirror);
             return cubes && cubes->surfaces;
         }))
         set("has_surfaces", 1);
@@ -91,9 +91,9 @@ render::MirrorShader shading_with_captures(const MirrorInputs& around, std::stri
     return look;
 }
 
-render::MirrorShader shading_of_search(const Technique& technique, const MirrorInputs& around,
-                                       const Settings& settings) {
-    render::MirrorShader look = shading_with_captures(around, technique.search, settings);
+render::MirrorShader make_search_shader(const Technique& technique, const MirrorInputs& around,
+                                        const KnobSettings& settings) {
+    render::MirrorShader look = make_capture_shader(around, technique.search, settings);
     for (const Knob& knob : technique.knobs) {
         if (std::ranges::find(kSearchKnobs, knob.name, &Knob::name) != kSearchKnobs.end()) continue;
         const double value = settings.number(knob);

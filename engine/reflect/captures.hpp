@@ -102,39 +102,41 @@ inline constexpr std::array kSearchKnobs{kFace,     kColour, kDistance,     kRan
                                          kShow,     kShadow, kShadowMapEdge};
 
 template <std::size_t N>
-constexpr std::array<Knob, N + kSearchKnobs.size()> search_knobs(const std::array<Knob, N>& own) {
+constexpr std::array<Knob, N + kSearchKnobs.size()>
+list_search_knobs(const std::array<Knob, N>& own) {
     std::array<Knob, N + kSearchKnobs.size()> knobs{};
     std::ranges::copy(kSearchKnobs, std::ranges::copy(own, knobs.begin()).out);
     return knobs;
 }
 
 /// Returns the number of shadow passes: one for each light, or 0 with `shadow=none`.
-int shadow_passes(int lights, const Settings& settings);
+int count_shadow_passes(int lights, const KnobSettings& settings);
 
 /// Returns the options of a capture from the knobs: face edge, colour format and, for techniques
 /// with these knobs, distance format and surface numbers. Throws `Failure::no_device` for
 /// `colour=float` on a device that cannot filter 32-bit floats.
-render::CaptureOptions capture_options(const render::FrameInputs& inputs, const Settings& settings);
+render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
+                                            const KnobSettings& settings);
 
 /// Returns whether the search may read captures of other mirrors (`continue` above 0 or
 /// `captures=all`).
-inline bool visits_others(const SharedKnobs& knobs) {
+inline bool reads_other_captures(const SharedKnobs& knobs) {
     return knobs.continues > 0 || knobs.asks_all;
 }
 
 /// Returns a mirror shading that looks into the captures with the fragment shader `fragment`. The
 /// knobs `continue`, `lookup`, `captures` and `show`, where they exist, become shader constants.
-render::MirrorShader shading_with_captures(const MirrorInputs& around, std::string fragment,
-                                           const Settings& settings);
+render::MirrorShader make_capture_shader(const MirrorInputs& around, std::string fragment,
+                                         const KnobSettings& settings);
 
 /// Returns the mirror shading of a technique with Technique::search. The technique's own knobs
 /// become shader constants of the same names.
-render::MirrorShader shading_of_search(const Technique& technique, const MirrorInputs& around,
-                                       const Settings& settings);
+render::MirrorShader make_search_shader(const Technique& technique, const MirrorInputs& around,
+                                        const KnobSettings& settings);
 
 /// Returns the scene passes R of techniques with one capture per mirror: N + 2 with one light.
-inline int feedback_passes(int mirrors, int lights, const Settings& settings) {
-    return mirrors + shadow_passes(lights, settings) + 1;
+inline int count_feedback_passes(int mirrors, int lights, const KnobSettings& settings) {
+    return mirrors + count_shadow_passes(lights, settings) + 1;
 }
 
 } // namespace catoptric::reflect

@@ -11,7 +11,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-std::optional<std::uint32_t> map_edge(const SharedKnobs& knobs) {
+std::optional<std::uint32_t> shadow_map_edge(const SharedKnobs& knobs) {
     if (knobs.shadow != SharedKnobs::Shadow::map) return std::nullopt;
     return knobs.shadow_map;
 }
@@ -27,7 +27,7 @@ public:
         const auto found = made_.find(*edge);
         if (found != made_.end()) return found->second;
         const std::string suffix = made_.empty() ? "" : "." + std::to_string(*edge);
-        return made_[*edge] = {render::add_shadow(graph_, inputs_, *edge, model_, suffix)};
+        return made_[*edge] = {render::add_shadow_passes(graph_, inputs_, *edge, model_, suffix)};
     }
 
 private:
@@ -38,8 +38,8 @@ private:
 };
 
 /// Returns whether a tracer completes the whole view (Technique::completes_view).
-bool is_completed(const std::vector<Choice>& choices) {
-    const Choice& choice = choices.front();
+bool is_completed(const std::vector<TechniqueChoice>& choices) {
+    const TechniqueChoice& choice = choices.front();
     const Technique& technique = *choice.technique;
     return choices.size() == 1 && technique.completes_view &&
            technique.completes_view(choice.settings);
@@ -47,10 +47,11 @@ bool is_completed(const std::vector<Choice>& choices) {
 
 /// Returns the shadow map edge for the view, in texels; none: no map. `is_drawn`: the view is
 /// rasterised although a technique traces shadow rays, so that it needs a map even for them.
-std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices, bool is_drawn) {
+std::optional<std::uint32_t> shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices,
+                                                      bool is_drawn) {
     std::optional<std::uint32_t> finest;
-    if (!is_drawn) return map_edge(choices.front().shared);
-    for (const Choice& choice : choices)
+    if (!is_drawn) return shadow_map_edge(choices.front().shared);
+    for (const TechniqueChoice& choice : choices)
         if (choice.shared.shadow != SharedKnobs::Shadow::none)
             finest = std::max(finest.value_or(1), choice.shared.shadow_map);
     return finest;
@@ -58,19 +59,19 @@ std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices, b
 
 /// Returns the capture options of each mirror: those of its technique, extended by the data that
 /// searches need which read captures of other mirrors.
-std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs& inputs,
-                                                       const Assignment& assignment,
-                                                       ShadowMaps& maps,
-                                                       const render::Lighting& view_lighting) {
+std::vector<render::CaptureOptions> choose_capture_options(const render::FrameInputs& inputs,
+                                                           const MirrorAssignment& assignment,
+                                                           ShadowMaps& maps,
+                                                           const render::Lighting& view_lighting) {
     std::vector<render::CaptureOptions> of_choice;
     render::CaptureOptions shared;
-    for (const Choice& choice : assignment.choices) {
+    for (const TechniqueChoice& choice : assignment.choices) {
         const Technique* const technique = choice.technique;
         render::CaptureOptions options{.face = 0, .lighting = view_lighting};
         if (technique->capture) {
             options = technique->capture(inputs, choice.settings);
-            options.lighting = maps.of(map_edge(choice.shared));
-            if (visits_others(choice.shared)) {
+            options.lighting = maps.of(shadow_map_edge(choice.shared));
+            if (reads_other_captures(choice.shared)) {
                 shared.surfaces = shared.surfaces || options.surfaces;
                 shared.second_layer = shared.second_layer || options.second_layer;
                 shared.distance = Format::r32f;
@@ -94,9 +95,9 @@ std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs
 
 /// Returns the mirror shading of all mirrors inside captures: lookups in the captures of the last
 /// frame.
-render::Looks looks_in_captures(const render::CaptureUpdate& feeding,
-                                const Assignment& assignment) {
-    render::Looks looks;
+render::MirrorShaders choose_shaders_in_captures(const render::CaptureUpdate& feeding,
+                                                 const MirrorAssignment& assignment) {
+    render::MirrorShaders looks;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const Technique& technique = *assignment.choices[assignment.of_mirror[i]].technique;
         render::MirrorShader look; // no fragment shader: black
@@ -115,38 +116,40 @@ render::Looks looks_in_captures(const render::CaptureUpdate& feeding,
     return looks;
 }
 
-bool has_mirrored_views(const Choice& choice) {
+bool uses_mirrored_views(const TechniqueChoice& choice) {
     return choice.technique->mirrored_bounces != nullptr;
 }
 
 /// Declares the captures of parts two and later of the report, which show mirrors by the captures
 /// of the frame before. Returns an empty update if no technique needs captures.
-render::CaptureUpdate add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const Assignment& assignment, const CaptureHistory& keeping,
-                                   ShadowMaps& maps, const render::Lighting& view_lighting) {
+render::CaptureUpdate add_feedback_passes(graph::Graph& graph, const render::FrameInputs& inputs,
+                                          const MirrorAssignment& assignment,
+                                          const CaptureHistory& keeping, ShadowMaps& maps,
+                                          const render::Lighting& view_lighting) {
     // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&
-                           std::ranges::any_of(assignment.choices, has_mirrored_views);
-    const auto captures_any = [](const Choice& choice) {
+                           std::ranges::any_of(assignment.choices, uses_mirrored_views);
+    const auto captures_any = [](const TechniqueChoice& choice) {
         return choice.technique->capture != nullptr;
     };
     if (assignment.of_mirror.empty() ||
         !(has_views || std::ranges::any_of(assignment.choices, captures_any)))
         return {};
-    std::vector<render::CaptureOptions> options = options_of_mirrors(inputs, assignment, maps,
-                                                                     view_lighting);
+    std::vector<render::CaptureOptions> options = choose_capture_options(inputs, assignment, maps,
+                                                                         view_lighting);
     const render::CaptureUpdate feeding =
         keeping.model.is_everything
             ? render::update_all_captures(graph, inputs, "capture", std::move(options))
             : render::update_required_captures(graph, inputs, "capture", options, keeping.model,
                                                {keeping.before, keeping.comparisons, keeping.most});
-    render::add_captures(graph, inputs, *feeding.captures, looks_in_captures(feeding, assignment),
-                         feeding.work);
-    render::add_comparison(graph, inputs, feeding);
+    render::add_capture_passes(graph, inputs, *feeding.captures,
+                               choose_shaders_in_captures(feeding, assignment), feeding.work);
+    render::add_capture_comparison(graph, inputs, feeding);
     return feeding;
 }
 
-std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assignment) {
+std::vector<std::uint32_t> list_mirrors_of_choice(std::size_t choice,
+                                                  const MirrorAssignment& assignment) {
     std::vector<std::uint32_t> mirrors;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i)
         if (assignment.of_mirror[i] == choice) mirrors.push_back(i);
@@ -155,14 +158,15 @@ std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assi
 
 /// Returns the mirror shading of all mirrors inside mirrored views: as in the picture, but without
 /// tracing. Mirrors that are only traced are shown by their captures, if they have any.
-render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignment,
-                               render::Looks looks) {
+render::MirrorShaders choose_shaders_in_mirrored_views(const TechniqueOutputs& outputs,
+                                                       const MirrorAssignment& assignment,
+                                                       render::MirrorShaders looks) {
     for (std::size_t i = 0; i < looks.looks.size(); ++i) {
         render::MirrorShader& look = looks.looks[i];
         std::erase_if(look.constants,
                       [](const auto& constant) { return constant.first == "tracer"; });
         const Technique& technique = *assignment.choices[i].technique;
-        if (has_mirrored_views(assignment.choices[i])) look = {};
+        if (uses_mirrored_views(assignment.choices[i])) look = {};
         if (technique.capture || !technique.picture) continue;
         look = {};
         if (assignment.choices[i].shared.is_black_in_others || !outputs.captures) continue;
@@ -174,34 +178,37 @@ render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignm
 
 } // namespace
 
-Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
-                  const Assignment& assignment, const CaptureHistory& keeping) {
-    const std::vector<Choice>& choices = assignment.choices;
+TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
+                                  const MirrorAssignment& assignment,
+                                  const CaptureHistory& keeping) {
+    const std::vector<TechniqueChoice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
     ShadowMaps maps(graph, inputs, keeping.model);
     const bool completes = is_completed(choices);
-    const render::Lighting lighting = maps.of(view_map_edge(choices, is_mixed || completes));
+    const render::Lighting lighting = maps.of(
+        shadow_map_edge_for_view(choices, is_mixed || completes));
     if (!is_mixed && !completes && choices.front().technique->picture)
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
                                                   lighting);
-    Outputs outputs;
-    const render::CaptureUpdate feeding = add_feedback(graph, inputs, assignment, keeping, maps,
-                                                       lighting);
+    TechniqueOutputs outputs;
+    const render::CaptureUpdate feeding = add_feedback_passes(graph, inputs, assignment, keeping,
+                                                              maps, lighting);
     outputs.captures = feeding.captures;
     outputs.kept = feeding.kept;
-    render::Looks looks{{}, assignment.of_mirror};
-    std::vector<Tracer> tracers;
+    render::MirrorShaders looks{{}, assignment.of_mirror};
+    std::vector<TracerSettings> tracers;
     const bool needs_looks = completes || !assignment.of_mirror.empty();
     for (std::size_t i = 0; i < choices.size() && needs_looks; ++i) {
         render::FrameInputs own = inputs;
         if (is_mixed) own.prefix += choices[i].file_name() + "/";
-        const Settings& settings = choices[i].settings;
+        const KnobSettings& settings = choices[i].settings;
         const Technique& technique = *choices[i].technique;
-        const MirrorInputs around{outputs.captures,
-                                  completes ? lighting : maps.of(map_edge(choices[i].shared)),
-                                  mirrors_of(i, assignment)};
+        const MirrorInputs around{
+            outputs.captures, completes ? lighting : maps.of(shadow_map_edge(choices[i].shared)),
+            list_mirrors_of_choice(i, assignment)};
         MirrorShading look = technique.search
-                                 ? MirrorShading{shading_of_search(technique, around, settings), {}}
+                                 ? MirrorShading{make_search_shader(technique, around, settings),
+                                                 {}}
                                  : technique.look(graph, own, settings, around);
         if (look.tracer) {
             tracers.push_back(*look.tracer);
@@ -212,16 +219,17 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         looks.looks.push_back(std::move(look.mirror));
     }
     if (outputs.captures) outputs.notes = outputs.captures->notes;
-    if (std::ranges::any_of(choices, has_mirrored_views) && !assignment.of_mirror.empty())
-        std::ranges::move(add_mirrored(graph, inputs, assignment, lighting,
-                                       looks_in_mirrors(outputs, assignment, looks), looks),
-                          std::back_inserter(outputs.notes));
-    const render::CameraOutputs view = render::add_view(graph, inputs, lighting, std::move(looks),
-                                                        !tracers.empty(), completes ? 1 : 0);
+    if (std::ranges::any_of(choices, uses_mirrored_views) && !assignment.of_mirror.empty())
+        std::ranges::move(
+            add_mirrored_views(graph, inputs, assignment, lighting,
+                               choose_shaders_in_mirrored_views(outputs, assignment, looks), looks),
+            std::back_inserter(outputs.notes));
+    const render::CameraOutputs view = render::add_camera_view(
+        graph, inputs, lighting, std::move(looks), !tracers.empty(), completes ? 1 : 0);
     outputs.hdr = view.hdr;
     if (inputs.with_lookup) outputs.lookup = view.lookup;
     for (std::uint32_t i = 0; i < tracers.size(); ++i)
-        outputs.counters.push_back(add_listed(graph, inputs, tracers[i], i + 1, view));
+        outputs.counters.push_back(add_list_tracing(graph, inputs, tracers[i], i + 1, view));
     return outputs;
 }
 

@@ -6,14 +6,14 @@
 
 namespace catoptric::reflect {
 
-/// Input of add_frame: the work that the frame may skip, and the captures that the frame before
-/// left.
+/// Input of add_frame_passes: the work that the frame may skip, and the captures that the frame
+/// before left.
 struct CaptureHistory {
     const require::Model& model;
-    /// Outputs::kept of the frame before; null for the first frame.
+    /// TechniqueOutputs::kept of the frame before; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
-    render::Comparisons* comparisons = nullptr; ///< see render::PreviousCaptures
-    std::uint32_t most = 0;                     ///< capture budget; see render::PreviousCaptures
+    render::ComparisonBuffers* comparisons = nullptr; ///< see render::PreviousCaptures
+    std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
 };
 /// The model that culls no work, so that all captures are drawn.
 inline const require::Model kEverything;
@@ -25,8 +25,8 @@ inline const require::Model kEverything;
 /// finest shadow map that any of the techniques asks for. If any technique uses captures, all
 /// mirrors get captures, so that the captures can show every mirror. Work that the model culls gets
 /// no passes.
-Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
-                  const Assignment& assignment,
-                  const CaptureHistory& keeping = {.model = kEverything});
+TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
+                                  const MirrorAssignment& assignment,
+                                  const CaptureHistory& keeping = {.model = kEverything});
 
 } // namespace catoptric::reflect

@@ -13,13 +13,13 @@ constexpr Knob kForce{.name = "force",
                       .help = "pixels to trace: those for which the search answers unknown, or all",
                       .high = 1,
                       .choices = kForceChoices};
-constexpr auto kKnobs = search_knobs(std::array{kForce});
+constexpr auto kKnobs = list_search_knobs(std::array{kForce});
 
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
-MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                   const MirrorInputs& around) {
-    MirrorShading look = shading_with_pyramid(graph, inputs, settings, around);
+MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                  const KnobSettings& settings, const MirrorInputs& around) {
+    MirrorShading look = make_pyramid_shading(graph, inputs, settings, around);
     if (settings.as<Force>(kForce) == Force::unknown)
         look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
@@ -28,7 +28,7 @@ MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const
         look.tracer->first_raster = true;
     }
     if (shared_knobs(settings).shadow == SharedKnobs::Shadow::none)
-        look.tracer->shadow = Tracer::Shadow::none;
+        look.tracer->shadow = TracerSettings::TracedShadow::none;
     return look;
 }
 
@@ -40,11 +40,11 @@ constexpr Technique kHybrid{
     .order = 15,
     .knobs = kKnobs,
     .compared = kCompared,
-    .scene_passes = feedback_passes,
-    .capture = capture_options,
+    .scene_passes = count_feedback_passes,
+    .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
-    .look = look};
-const Registered kRow{kHybrid};
+    .look = make_hybrid_shading};
+const RegisteredTechnique kRow{kHybrid};
 
 } // namespace
 

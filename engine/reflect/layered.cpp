@@ -11,24 +11,25 @@ constexpr Knob kSteps{.name = "steps",
                       .low = 1,
                       .high = 256,
                       .value = 16};
-constexpr auto kKnobs = search_knobs(std::array{kSteps});
+constexpr auto kKnobs = list_search_knobs(std::array{kSteps});
 
-render::CaptureOptions capture(const render::FrameInputs& inputs, const Settings& settings) {
-    render::CaptureOptions options = capture_options(inputs, settings);
+render::CaptureOptions choose_layered_capture_options(const render::FrameInputs& inputs,
+                                                      const KnobSettings& settings) {
+    render::CaptureOptions options = make_capture_options(inputs, settings);
     options.second_layer = true;
     return options;
 }
 
-MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-                   const MirrorInputs& around) {
-    MirrorShading look{shading_with_captures(around, "reflect/layered.frag", settings), {}};
+MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
+                                   const KnobSettings& settings, const MirrorInputs& around) {
+    MirrorShading look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back("steps",
                                        static_cast<std::uint32_t>(settings.integer(kSteps)));
     // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
     // binding.
     const auto images = [&](const char* name, auto&& image) {
         std::vector<graph::ImageHandle> list;
-        for (const render::Cubes& cubes : around.captures->arrays) list.push_back(image(cubes));
+        for (const render::CubeArray& cubes : around.captures->arrays) list.push_back(image(cubes));
         look.mirror.images.emplace_back(name, std::move(list));
     };
     images("distance1", [](const auto& cubes) { return cubes.distance.value_or(cubes.colour); });
@@ -50,13 +51,13 @@ constexpr Technique kLayered{
     .compared = kCompared,
     // R = 2 N + 2
     .scene_passes =
-        [](int mirrors, int lights, const Settings& settings) {
-            return feedback_passes(2 * mirrors, lights, settings);
+        [](int mirrors, int lights, const KnobSettings& settings) {
+            return count_feedback_passes(2 * mirrors, lights, settings);
         },
-    .capture = capture,
+    .capture = choose_layered_capture_options,
     .in_captures = "reflect/parallax.frag",
-    .look = look};
-const Registered kRow{kLayered};
+    .look = make_layered_shading};
+const RegisteredTechnique kRow{kLayered};
 
 } // namespace
 

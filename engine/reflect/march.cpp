@@ -6,7 +6,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = search_knobs(
+constexpr auto kKnobs = list_search_knobs(
     std::array{Knob{.name = "steps",
                     .help = "number of steps of equal angle along the reflected ray",
                     .low = 1,
@@ -22,11 +22,11 @@ constexpr Technique kMarch{
     .order = 12,
     .knobs = kKnobs,
     .compared = kCompared,
-    .scene_passes = feedback_passes,
-    .capture = capture_options,
+    .scene_passes = count_feedback_passes,
+    .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .search = "reflect/march.frag"};
-const Registered kRow{kMarch};
+const RegisteredTechnique kRow{kMarch};
 
 } // namespace
 

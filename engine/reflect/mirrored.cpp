@@ -10,7 +10,7 @@ namespace {
 using render::MirroredView;
 
 /// A flat face that can have mirrored views, with its mirror and its triangles.
-struct Face {
+struct MirroredFace {
     std::uint32_t mirror = 0;
     std::size_t number = 0; ///< from 1; 0: the face is the whole mirror
     std::vector<scene::TriangleRun> triangles;
@@ -18,22 +18,23 @@ struct Face {
 
 /// All mirrors that are drawn by mirrored views.
 struct MirroredFaces {
-    std::vector<Face> faces;
+    std::vector<MirroredFace> faces;
     std::vector<std::optional<render::MirrorPlane>> planes; ///< plane of each face
     /// Mirrors with several faces, and their triangles that belong to no flat face.
     std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleRun>>> bodies;
 };
 
-MirroredFaces faces_of(const render::GpuScene& scene, const Assignment& assignment) {
+MirroredFaces list_mirrored_faces(const render::GpuScene& scene,
+                                  const MirrorAssignment& assignment) {
     MirroredFaces all;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
-        const Choice& choice = assignment.choices[assignment.of_mirror[i]];
+        const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
         if (!choice.technique->mirrored_bounces) continue;
         const scene::FlatFaces& flats = scene.flat_mirrors()[i];
         const int bounces = choice.technique->mirrored_bounces(choice.settings);
         if (!flats.is_one()) all.bodies.emplace_back(i, flats.bent);
         for (std::size_t k = 0; k < flats.faces.size(); ++k) {
-            const scene::Flat& face = flats.faces[k];
+            const scene::FlatFace& face = flats.faces[k];
             if (face.off > scene.flat_tolerance()) {
                 std::ranges::copy(face.triangles, std::back_inserter(all.bodies.back().second));
                 continue;
@@ -47,11 +48,11 @@ MirroredFaces faces_of(const render::GpuScene& scene, const Assignment& assignme
 
 /// Returns the name of a view. "mirrored/2/1" is the view of mirror 1 inside mirror 2.
 /// "mirrored/2.3" is the view of face 3 of mirror 2.
-std::string name_of(const MirroredFaces& all, const std::vector<MirroredView>& views,
-                    std::size_t view) {
+std::string name_mirrored_view(const MirroredFaces& all, const std::vector<MirroredView>& views,
+                               std::size_t view) {
     const auto& within = views[view].within;
-    const Face& face = all.faces[views[view].mirror];
-    return (within ? name_of(all, views, *within) : "mirrored") + "/" +
+    const MirroredFace& face = all.faces[views[view].mirror];
+    return (within ? name_mirrored_view(all, views, *within) : "mirrored") + "/" +
            std::to_string(face.mirror + 1) +
            (face.number > 0 ? "." + std::to_string(face.number) : "");
 }
@@ -59,10 +60,10 @@ std::string name_of(const MirroredFaces& all, const std::vector<MirroredView>& v
 /// Adds to `looks` the mirror shading inside view `within`, or in the picture if it is none. Faces
 /// with views show the images `made`. Faces without views and triangles outside all faces are
 /// black.
-render::Looks shown_in(render::Looks looks, const MirroredFaces& all,
-                       const std::vector<MirroredView>& views,
-                       const std::vector<graph::ImageHandle>& made,
-                       std::optional<std::size_t> within) {
+render::MirrorShaders add_shaders_within_view(render::MirrorShaders looks, const MirroredFaces& all,
+                                              const std::vector<MirroredView>& views,
+                                              const std::vector<graph::ImageHandle>& made,
+                                              std::optional<std::size_t> within) {
     const auto black = static_cast<std::uint32_t>(looks.looks.size());
     looks.looks.emplace_back();
     std::vector<std::uint32_t> of_face(all.faces.size(), black);
@@ -76,11 +77,11 @@ render::Looks shown_in(render::Looks looks, const MirroredFaces& all,
                                .buffers = {}});
     }
     for (const auto& [mirror, bent] : all.bodies) {
-        looks.of_mirror[mirror] = render::Looks::kInParts;
+        looks.of_mirror[mirror] = render::MirrorShaders::kInParts;
         if (!bent.empty()) looks.parts.push_back({mirror, black, bent});
     }
     for (std::size_t i = 0; i < all.faces.size(); ++i) {
-        const Face& face = all.faces[i];
+        const MirroredFace& face = all.faces[i];
         const bool is_looked_through = within && views[*within].mirror == i;
         if (face.number == 0)
             looks.of_mirror[face.mirror] = of_face[i];
@@ -92,27 +93,29 @@ render::Looks shown_in(render::Looks looks, const MirroredFaces& all,
 
 } // namespace
 
-std::vector<std::string> add_mirrored(graph::Graph& graph, const render::FrameInputs& inputs,
-                                      const Assignment& assignment,
-                                      const render::Lighting& lighting, const render::Looks& others,
-                                      render::Looks& looks) {
-    const MirroredFaces all = faces_of(inputs.scene, assignment);
+std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::FrameInputs& inputs,
+                                            const MirrorAssignment& assignment,
+                                            const render::Lighting& lighting,
+                                            const render::MirrorShaders& others,
+                                            render::MirrorShaders& looks) {
+    const MirroredFaces all = list_mirrored_faces(inputs.scene, assignment);
     int asked = 0;
     for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
     int most = asked;
-    const std::vector<MirroredView> views = render::mirrored_views(inputs.scene.eye(), all.planes,
-                                                                   inputs.size, most);
+    const std::vector<MirroredView> views = render::find_mirrored_views(
+        inputs.scene.eye(), all.planes, inputs.size, most);
     std::vector<graph::ImageHandle> made(views.size());
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first
         const std::uint32_t number = inputs.scene.add_view(views[i].view);
-        const Face& face = all.faces[views[i].mirror];
+        const MirroredFace& face = all.faces[views[i].mirror];
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
                                                                     : std::nullopt;
-        made[i] = render::add_mirrored_view(graph, inputs, name_of(all, views, i), views[i], number,
-                                            lighting, shown_in(others, all, views, made, i), whole);
+        made[i] = render::add_mirrored_view(
+            graph, inputs, name_mirrored_view(all, views, i), views[i], number, lighting,
+            add_shaders_within_view(others, all, views, made, i), whole);
     }
-    looks = shown_in(std::move(looks), all, views, made, {});
+    looks = add_shaders_within_view(std::move(looks), all, views, made, {});
     if (most == asked) return {};
     return {"flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
             std::to_string(asked) + ": a frame has at most " +

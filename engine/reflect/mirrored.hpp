@@ -11,9 +11,10 @@ namespace catoptric::reflect {
 /// `looks` receives the mirror shading of these mirrors in the picture, with one entry per mirror.
 /// Mirrors without a view are black. `others` is the mirror shading of all other mirrors inside the
 /// views. Returns notes, one sentence each, on views that differ from the request.
-std::vector<std::string> add_mirrored(graph::Graph& graph, const render::FrameInputs& inputs,
-                                      const Assignment& assignment,
-                                      const render::Lighting& lighting, const render::Looks& others,
-                                      render::Looks& looks);
+std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::FrameInputs& inputs,
+                                            const MirrorAssignment& assignment,
+                                            const render::Lighting& lighting,
+                                            const render::MirrorShaders& others,
+                                            render::MirrorShaders& looks);
 
 } // namespace catoptric::reflect

@@ -17,9 +17,9 @@ constexpr Knob kKnobs[] = {kBounces, kFace, kColour, kShadow, kShadowMapEdge, kC
 
 /// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
 /// technique, since only these look into it.
-MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                   const MirrorInputs& around) {
-    render::CaptureOptions options = capture_options(inputs, settings);
+MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                 const KnobSettings& settings, const MirrorInputs& around) {
+    render::CaptureOptions options = make_capture_options(inputs, settings);
     options.lighting = around.lighting;
     render::MirrorShader look; // no fragment shader: black
     const int bounces = settings.integer(kBounces);
@@ -30,9 +30,10 @@ MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const
         for (const std::uint32_t mirror : around.mirrors) of_mirrors[mirror] = options;
         const auto captures = std::make_shared<const render::Captures>(render::declare_captures(
             graph, inputs, "bounce" + std::to_string(bounce), std::move(of_mirrors)));
-        render::add_captures(graph, inputs, *captures, render::same_shader(inputs.scene, look));
-        look = shading_with_captures({captures, around.lighting, around.mirrors},
-                                     "reflect/naive.frag", settings);
+        render::add_capture_passes(graph, inputs, *captures,
+                                   render::use_one_shader(inputs.scene, look));
+        look = make_capture_shader({captures, around.lighting, around.mirrors},
+                                   "reflect/naive.frag", settings);
     }
     return {std::move(look), {}};
 }
@@ -49,11 +50,11 @@ constexpr Technique kNaive{
     .knobs = kKnobs,
     .compared = kCompared,
     .scene_passes =
-        [](int mirrors, int lights, const Settings& settings) {
-            return mirrors * settings.integer(kBounces) + shadow_passes(lights, settings) + 1;
+        [](int mirrors, int lights, const KnobSettings& settings) {
+            return mirrors * settings.integer(kBounces) + count_shadow_passes(lights, settings) + 1;
         },
-    .look = look};
-const Registered kRow{kNaive};
+    .look = make_naive_shading};
+const RegisteredTechnique kRow{kNaive};
 
 } // namespace
 

@@ -16,8 +16,8 @@ constexpr Knob kWithout{.name = "without",
                         .choices = kRules};
 constexpr Knob kKnobs[] = {kFace, kColour, kDistance, kRange, kShadow, kShadowMapEdge, kWithout};
 
-render::CaptureOptions capture(const render::FrameInputs& inputs, const Settings& settings) {
-    render::CaptureOptions options = capture_options(inputs, settings);
+render::CaptureOptions capture(const render::FrameInputs& inputs, const KnobSettings& settings) {
+    render::CaptureOptions options = make_capture_options(inputs, settings);
     options.saturates = settings.as<Rule>(kWithout) != Rule::saturation;
     return options;
 }
@@ -30,17 +30,17 @@ constexpr Technique kParallax{
     .order = 3,
     .knobs = kKnobs,
     .compared = kCompared,
-    .scene_passes = feedback_passes,
+    .scene_passes = count_feedback_passes,
     .capture = capture,
     .in_captures = kFragment,
-    .look = [](graph::Graph&, const render::FrameInputs&, const Settings& settings,
+    .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings& settings,
                const MirrorInputs& around) {
-        MirrorShading look{shading_with_captures(around, kFragment, settings), {}};
+        MirrorShading look{make_capture_shader(around, kFragment, settings), {}};
         if (settings.as<Rule>(kWithout) == Rule::void_test)
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;
     }};
-const Registered kRow{kParallax};
+const RegisteredTechnique kRow{kParallax};
 
 } // namespace
 

@@ -22,17 +22,17 @@ constexpr std::size_t kLongestFileName = 80;
 constexpr double kLeastSaid =
     .001; // smallest share of area outside all flat faces that is reported
 
-std::string percent(double share) {
+std::string parse_percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
     return text;
 }
 
 /// How precisely an item of a pattern names a mirror; the smallest rank wins.
-enum Rank { kNumber, kName, kRest, kNone };
+enum PatternPrecision { kNumber, kName, kRest, kNone };
 
 /// Returns the item as a number, or none if it is not a number.
-std::optional<std::size_t> number_of(const std::string& item) {
+std::optional<std::size_t> parse_item_number(const std::string& item) {
     std::size_t number = 0;
     const char* end = item.data() + item.size();
     const auto [stop, error] = std::from_chars(item.data(), end, number);
@@ -40,44 +40,47 @@ std::optional<std::size_t> number_of(const std::string& item) {
 }
 
 /// Returns how precisely the item names mirror `index`, from 0.
-Rank rank_of(const std::string& item, std::size_t index, const std::string& name) {
+PatternPrecision pattern_precision(const std::string& item, std::size_t index,
+                                   const std::string& name) {
     if (item == "*") return kRest;
-    if (const auto number = number_of(item)) return *number == index + 1 ? kNumber : kNone;
+    if (const auto number = parse_item_number(item)) return *number == index + 1 ? kNumber : kNone;
     return fnmatch(item.c_str(), name.c_str(), 0) == 0 ? kName : kNone;
 }
 
-std::string list_of(const std::vector<std::string>& names) {
+std::string quote_names(const std::vector<std::string>& names) {
     constexpr std::size_t kMostListed = 20;
     std::string list = std::to_string(names.size()) + (names.size() == 1 ? " mirror" : " mirrors");
     for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
-        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + in_quotes(names[i]);
+        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote_printable(names[i]);
     return list + (names.size() > kMostListed ? ", ..." : "");
 }
 
-Rule parse_rule(const std::string& text, std::string_view plan) {
+PlanRule parse_plan_rule(const std::string& text, std::string_view plan) {
     const auto equals = text.find('=');
     check(equals != std::string::npos && equals > 0 && text.find(':') > equals, Failure::usage,
           "plan '", plan, "': wanted PATTERN=TECHNIQUE, found '", text, "'");
-    Rule rule{text.substr(0, equals), parse_choice(std::string_view(text).substr(equals + 1))};
-    for (const std::string& item : split(rule.pattern, ","))
+    PlanRule rule{text.substr(0, equals),
+                  parse_technique_choice(std::string_view(text).substr(equals + 1))};
+    for (const std::string& item : split_text(rule.pattern, ","))
         check(!item.empty(), Failure::usage, "plan '", plan, "': pattern '", rule.pattern,
               "' has an empty entry");
     return rule;
 }
 
 /// Returns the index of the choice in `choices`. Adds the choice unless an equal one is present.
-std::uint32_t index_of(const Choice& choice, std::vector<Choice>& choices) {
+std::uint32_t find_choice_index(const TechniqueChoice& choice,
+                                std::vector<TechniqueChoice>& choices) {
     const auto found = std::ranges::find_if(
-        choices, [&](const Choice& known) { return known.same_as(choice); });
+        choices, [&](const TechniqueChoice& known) { return known.same_as(choice); });
     if (found != choices.end()) return static_cast<std::uint32_t>(found - choices.begin());
     choices.push_back(choice);
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
 /// Returns the technique of unfit mirrors, with the shadow settings of `choice`.
-Choice rest_of(const Choice& choice) {
-    Choice rest = *choice.rest;
-    const Settings defaults(choice.technique->knobs);
+TechniqueChoice fallback_choice(const TechniqueChoice& choice) {
+    TechniqueChoice rest = *choice.rest;
+    const KnobSettings defaults(choice.technique->knobs);
     for (const Knob* const knob : {&kShadow, &kShadowMapEdge}) {
         const std::string value = choice.settings.text(*knob);
         if (value == defaults.text(*knob)) continue;
@@ -91,7 +94,7 @@ Choice rest_of(const Choice& choice) {
 
 } // namespace
 
-std::string Plan::file_name() const {
+std::string TechniquePlan::file_name() const {
     if (is_technique) return rules.front().choice.file_name();
     if (is_auto) return std::string(kAuto);
     std::string name = label.starts_with("plan:") ? label : "plan-" + label;
@@ -104,13 +107,13 @@ std::string Plan::file_name() const {
     return name.substr(0, kLongestFileName - 7) + "-" + std::to_string(mark % 1000000);
 }
 
-bool Plan::same_as(const Plan& other) const {
-    return std::ranges::equal(rules, other.rules, [](const Rule& a, const Rule& b) {
+bool TechniquePlan::same_as(const TechniquePlan& other) const {
+    return std::ranges::equal(rules, other.rules, [](const PlanRule& a, const PlanRule& b) {
         return a.pattern == b.pattern && a.choice.same_as(b.choice);
     });
 }
 
-Plan parse_plan(std::string_view text) {
+TechniquePlan parse_plan(std::string_view text) {
     if (text == kAuto)
         return {.label = std::string(text), .rules = {}, .is_auto = true, .reasons = {}};
     const std::string_view head = text.substr(0, text.find(':'));
@@ -120,17 +123,17 @@ Plan parse_plan(std::string_view text) {
           text.substr(kAuto.size()), "' after it");
     if (head.find('=') == std::string_view::npos)
         return {.label = std::string(text),
-                .rules = {{"*", parse_choice(text)}},
+                .rules = {{"*", parse_technique_choice(text)}},
                 .is_technique = true,
                 .reasons = {}};
-    Plan plan{.label = std::string(text), .rules = {}, .reasons = {}};
-    for (const std::string& rule : split(text, kBlanks))
-        if (!rule.empty()) plan.rules.push_back(parse_rule(rule, text));
+    TechniquePlan plan{.label = std::string(text), .rules = {}, .reasons = {}};
+    for (const std::string& rule : split_text(text, kBlanks))
+        if (!rule.empty()) plan.rules.push_back(parse_plan_rule(rule, text));
     return plan;
 }
 
-Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
-    Assignment assignment;
+MirrorAssignment assign_mirrors(const TechniquePlan& plan, const std::vector<std::string>& names) {
+    MirrorAssignment assignment;
     if (plan.is_technique) {
         assignment.choices = {plan.rules.front().choice};
         assignment.of_mirror.assign(names.size(), 0);
@@ -140,27 +143,28 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
         return assignment;
     }
     struct Best {
-        Rank rank = kNone;
-        const Rule* rule = nullptr;
+        PatternPrecision rank = kNone;
+        const PlanRule* rule = nullptr;
     };
     std::vector<Best> best(names.size());
-    for (const Rule& rule : plan.rules) {
-        for (const std::string& item : split(rule.pattern, ",")) {
+    for (const PlanRule& rule : plan.rules) {
+        for (const std::string& item : split_text(rule.pattern, ",")) {
             bool matches = false;
             for (std::size_t i = 0; i < names.size(); ++i) {
-                const Rank rank = rank_of(item, i, names[i]);
+                const PatternPrecision rank = pattern_precision(item, i, names[i]);
                 matches = matches || rank != kNone;
                 if (rank < best[i].rank) best[i] = {rank, &rule};
             }
             check(matches, Failure::usage, "plan '", plan.label, "': pattern '", item,
-                  "' matches no mirror; the scene has ", list_of(names), did_you_mean(item, names));
+                  "' matches no mirror; the scene has ", quote_names(names),
+                  suggest_name(item, names));
         }
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
         check(best[i].rule != nullptr, Failure::usage, "plan '", plan.label,
-              "': no rule for mirror ", i + 1, " ", in_quotes(names[i]),
+              "': no rule for mirror ", i + 1, " ", quote_printable(names[i]),
               "; '*=TECHNIQUE' takes the rest");
-        assignment.of_mirror.push_back(index_of(best[i].rule->choice, assignment.choices));
+        assignment.of_mirror.push_back(find_choice_index(best[i].rule->choice, assignment.choices));
         assignment.patterns.push_back(best[i].rule->pattern);
     }
     assignment.reasons = plan.reasons;
@@ -168,11 +172,11 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
     return assignment;
 }
 
-void demand(require::Question& question, const std::vector<Plan>& plans) {
+void add_plan_demands(require::ModelInput& question, const std::vector<TechniquePlan>& plans) {
     std::optional<std::uint32_t> coarsest;
-    for (const Plan& plan : plans)
+    for (const TechniquePlan& plan : plans)
         for (const auto& [pattern, choice] : plan.rules) {
-            const Choice& searching = choice.rest ? *choice.rest : choice;
+            const TechniqueChoice& searching = choice.rest ? *choice.rest : choice;
             question.whole_cubes = question.whole_cubes || searching.technique->reads_whole_cubes;
             question.asks_all = question.asks_all || searching.shared.asks_all;
             if (choice.shared.shadow == SharedKnobs::Shadow::none) continue;
@@ -182,28 +186,30 @@ void demand(require::Question& question, const std::vector<Plan>& plans) {
     question.shadow_edge = coarsest.value_or(question.shadow_edge);
 }
 
-Assignment fitted(Assignment assignment, const std::vector<scene::FlatFaces>& flats,
-                  double tolerance) {
-    std::vector<Choice> choices; // only choices that some mirror still uses
+MirrorAssignment replace_unfit_techniques(MirrorAssignment assignment,
+                                          const std::vector<scene::FlatFaces>& flats,
+                                          double tolerance) {
+    std::vector<TechniqueChoice> choices; // only choices that some mirror still uses
     assignment.lacks.assign(assignment.of_mirror.size(), "");
     if (assignment.of_mirror.empty()) return assignment;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
-        Choice choice = assignment.choices[assignment.of_mirror[i]];
+        TechniqueChoice choice = assignment.choices[assignment.of_mirror[i]];
         const std::string lack = choice.technique->unfit
                                      ? choice.technique->unfit(flats[i], tolerance)
                                      : "";
         if (!lack.empty()) {
             const std::string asked(choice.technique->name);
-            choice = rest_of(choice);
+            choice = fallback_choice(choice);
             assignment.reasons[i] = asked + " draws flat mirrors, and this is " + lack +
                                     ": rest=" + choice.label;
             assignment.lacks[i] = lack + ", drawn by " + choice.label;
         } else if (choice.technique->mirrored_bounces) {
             const double bent = 1 - flats[i].share(tolerance);
             if (bent >= kLeastSaid)
-                assignment.lacks[i] = percent(bent) + " of its surface is not flat, black there";
+                assignment.lacks[i] = parse_percent(bent) +
+                                      " of its surface is not flat, black there";
         }
-        assignment.of_mirror[i] = index_of(choice, choices);
+        assignment.of_mirror[i] = find_choice_index(choice, choices);
     }
     assignment.choices = std::move(choices);
     return assignment;

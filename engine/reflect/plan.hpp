@@ -12,15 +12,15 @@ namespace catoptric::reflect {
 
 /// One entry of a plan. The pattern is a list of mirror numbers from 1, names with shell wildcards,
 /// or `*`, separated by commas.
-struct Rule {
+struct PlanRule {
     std::string pattern;
-    Choice choice;
+    TechniqueChoice choice;
 };
 
 /// The techniques of a frame as the user asked for them.
-struct Plan {
+struct TechniquePlan {
     std::string label; ///< "secant:face=64", "1=planar *=reuse", "plan:mixed.json"
-    std::vector<Rule> rules;
+    std::vector<PlanRule> rules;
     bool is_technique = false; ///< one technique for all mirrors; the scene may have none
     bool is_auto = false;      ///< no rules until a scene has suggested them (kAuto)
     /// Reason for the technique of each mirror, in suggested plans.
@@ -30,20 +30,20 @@ struct Plan {
     std::string file_name() const;
     /// Returns whether both plans have the same patterns with the same techniques and settings. The
     /// spelling of the labels does not matter.
-    bool same_as(const Plan& other) const;
+    bool same_as(const TechniquePlan& other) const;
 };
 
-/// Name of the technique `auto`, which chooses a plan for each scene (require::suggest).
+/// Name of the technique `auto`, which chooses a plan for each scene (require::suggest_plan).
 inline constexpr std::string_view kAuto = "auto";
 
 /// Reads "name[:knob=value,...]", or rules "PATTERN=name[:knob=value,...] ..." separated by blanks,
 /// or kAuto. Throws `Failure::usage` with the faulty part and the nearest name.
-Plan parse_plan(std::string_view text);
+TechniquePlan parse_plan(std::string_view text);
 
 /// A plan applied to the mirrors of a scene. All lists but `choices` have one entry per mirror;
 /// entry n-1 belongs to mirror n.
-struct Assignment {
-    std::vector<Choice> choices;          ///< all different; at least one
+struct MirrorAssignment {
+    std::vector<TechniqueChoice> choices; ///< all different; at least one
     std::vector<std::uint32_t> of_mirror; ///< index into `choices`
     /// For each mirror: the pattern of the rule that chose its technique. Empty: one technique
     /// draws all mirrors.
@@ -60,18 +60,19 @@ struct Assignment {
 /// wins over a name and a name over `*`. Between equals the first rule wins. Throws
 /// `Failure::usage` for a pattern without a match and for a mirror without a rule. O(rules *
 /// mirrors).
-Assignment assign(const Plan& plan, const std::vector<std::string>& names);
+MirrorAssignment assign_mirrors(const TechniquePlan& plan, const std::vector<std::string>& names);
 
 /// Adds to the question the needs of the plans' techniques that do not depend on visibility: whole
 /// cubes, captures of all mirrors, and the edge of the coarsest shadow map.
-void demand(require::Question& question, const std::vector<Plan>& plans);
+void add_plan_demands(require::ModelInput& question, const std::vector<TechniquePlan>& plans);
 
 /// Replaces the technique of each mirror that the technique cannot draw (Technique::unfit). The
 /// knob `rest` names the replacement, which keeps the shadow settings.
 ///
-/// Assignment::lacks reports the replacement, and the share of a mirror that lies in none of its
-/// flat faces. `flats` has one entry per mirror. `tolerance` is in radians.
-Assignment fitted(Assignment assignment, const std::vector<scene::FlatFaces>& flats,
-                  double tolerance);
+/// MirrorAssignment::lacks reports the replacement, and the share of a mirror that lies in none of
+/// its flat faces. `flats` has one entry per mirror. `tolerance` is in radians.
+MirrorAssignment replace_unfit_techniques(MirrorAssignment assignment,
+                                          const std::vector<scene::FlatFaces>& flats,
+                                          double tolerance);
 
 } // namespace catoptric::reflect

@@ -24,7 +24,7 @@ constexpr Knob kRest{.name = "rest",
                      .choices = kRestChoices};
 constexpr Knob kKnobs[] = {kBounces, kRest, kShadow, kShadowMapEdge, kCapture};
 
-std::string unfit(const scene::FlatFaces& flats, double tolerance) {
+std::string describe_planar_misfit(const scene::FlatFaces& flats, double tolerance) {
     if (flats.share(tolerance) >= scene::kFlatEnough) return {};
     char text[96] = "not flat";
     if (flats.share(scene::kFarFromFlat) >= scene::kFlatEnough)
@@ -41,14 +41,16 @@ constexpr Technique kPlanar{
     .order = 16,
     .knobs = kKnobs,
     .compared = kCompared,
-    .scene_passes = [](int, int lights,
-                       const Settings& settings) { return shadow_passes(lights, settings) + 1; },
-    .look = [](graph::Graph&, const render::FrameInputs&, const Settings&,
+    .scene_passes =
+        [](int, int lights, const KnobSettings& settings) {
+            return count_shadow_passes(lights, settings) + 1;
+        },
+    .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
                const MirrorInputs&) { return MirrorShading{}; },
-    .mirrored_bounces = [](const Settings& settings) { return settings.integer(kBounces); },
-    .unfit = unfit,
+    .mirrored_bounces = [](const KnobSettings& settings) { return settings.integer(kBounces); },
+    .unfit = describe_planar_misfit,
     .rest = &kRest};
-const Registered kRow{kPlanar};
+const RegisteredTechnique kRow{kPlanar};
 
 } // namespace
 

@@ -13,7 +13,7 @@ constexpr Knob kShape{.name = "shape",
                       .high = 1,
                       .choices = kShapes};
 constexpr auto kKnobs = [] {
-    auto knobs = search_knobs(std::array{kShape});
+    auto knobs = list_search_knobs(std::array{kShape});
     std::ranges::find(knobs, kContinue.name, &Knob::name)->value =
         0; // as published, without following rays through other mirrors
     return knobs;
@@ -21,17 +21,17 @@ constexpr auto kKnobs = [] {
 constexpr std::uint64_t kProxyBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
 
 /// Declares the pass that derives one proxy per mirror. Returns the buffer of proxies.
-graph::BufferHandle add_proxies(graph::Graph& graph, const render::FrameInputs& inputs,
-                                const std::shared_ptr<const render::Captures>& captures) {
+graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const std::shared_ptr<const render::Captures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
     const graph::BufferHandle proxies = graph.buffer(
         {inputs.prefix + "proxies", kProxyBytes * mirrors});
     graph::PassBuilder pass = graph.pass(inputs.prefix + "proxies");
     std::vector<graph::ImageHandle> faces;
-    for (const render::Cubes& cubes : captures->arrays) {
+    for (const render::CubeArray& cubes : captures->arrays) {
         faces.push_back(
             cubes.distance.value_or(cubes.colour)); // placeholder: never read without distance
-        pass.reads(faces.back(), graph::Use::sampled);
+        pass.reads(faces.back(), graph::ResourceUse::sampled);
     }
     gpu::ComputeState state{"reflect/proxy.comp", {}};
     const render::CaptureOptions& options = captures->options.front();
@@ -39,27 +39,27 @@ graph::BufferHandle add_proxies(graph::Graph& graph, const render::FrameInputs& 
         state.constants = {{"has_capture_table", 1u},
                            {"array_count", static_cast<std::uint32_t>(captures->arrays.size())},
                            {"stored_unit", 0.f}};
-        pass.reads(*captures->table, graph::Use::sampled);
+        pass.reads(*captures->table, graph::ResourceUse::sampled);
     } else {
         state.constants = {{"stored_unit", options.stored_unit},
                            {"range_ends", options.distance == Format::r8_unorm ? 1u : 0u}};
     }
-    pass.writes(proxies, graph::Use::storage_write)
-        .record([=, table = captures->table](graph::Commands& commands) {
+    pass.writes(proxies, graph::ResourceUse::storage_write)
+        .record([=, table = captures->table](graph::PassCommands& commands) {
             commands.use(state);
             commands.bind("distance_faces", faces);
             commands.bind("Proxies", proxies);
-            commands.bind("nearest_texels", graph::Filter::nearest);
+            commands.bind("nearest_texels", graph::TextureFilter::nearest);
             if (table) commands.bind("Captures", *table);
             commands.dispatch(mirrors, 1);
         });
     return proxies;
 }
 
-MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                   const MirrorInputs& around) {
-    MirrorShading look{shading_with_captures(around, "reflect/proxy.frag", settings), {}};
-    look.mirror.buffers.emplace_back("Proxies", add_proxies(graph, inputs, around.captures));
+MirrorShading make_proxy_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                 const KnobSettings& settings, const MirrorInputs& around) {
+    MirrorShading look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
+    look.mirror.buffers.emplace_back("Proxies", add_proxy_pass(graph, inputs, around.captures));
     look.mirror.constants.emplace_back("shape",
                                        static_cast<std::uint32_t>(settings.integer(kShape)));
     return look;
@@ -71,12 +71,12 @@ constexpr Technique kProxy{
         "Approximates each mirror's surroundings by a box or sphere, derived from the capture.",
     .order = 10,
     .knobs = kKnobs,
-    .scene_passes = feedback_passes,
-    .capture = capture_options,
+    .scene_passes = count_feedback_passes,
+    .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .reads_whole_cubes = true,
-    .look = look};
-const Registered kRow{kProxy};
+    .look = make_proxy_shading};
+const RegisteredTechnique kRow{kProxy};
 
 } // namespace
 

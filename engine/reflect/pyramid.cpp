@@ -13,26 +13,26 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = search_knobs(std::array<Knob, 0>{});
+constexpr auto kKnobs = list_search_knobs(std::array<Knob, 0>{});
 
-/// Returns the topmost level, which has one cell per face. Must match level_edge and top_level in
-/// shaders/reflect/pyramid.glsl.
-std::uint32_t top_level(std::uint32_t face) {
+/// Returns the topmost level, which has one cell per face. Must match pyramid_level_edge and
+/// top_pyramid_level in shaders/reflect/pyramid.glsl.
+std::uint32_t top_pyramid_level(std::uint32_t face) {
     return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1));
 }
-std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
+std::uint32_t pyramid_level_edge(std::uint32_t face, std::uint32_t level) {
     return (face + (1u << level) - 1) >> level;
 }
 
 /// Consecutive cubes of one array.
-struct CubeRun {
+struct CubeRange {
     graph::ImageHandle distances, bounds;
     std::uint32_t face = 0;
 };
 
 /// Returns the content hash of the distance bounds of a mirror's cube. It covers the whole cube,
 /// because cells at the edge of a face read the neighbouring faces.
-std::uint64_t content_hash_of(const render::Captures& captures, std::size_t mirror) {
+std::uint64_t distance_bounds_hash(const render::Captures& captures, std::size_t mirror) {
     const render::CaptureOptions& options = captures.options[mirror];
     return ContentHash()
         .add(captures.drawings[mirror])
@@ -43,20 +43,20 @@ std::uint64_t content_hash_of(const render::Captures& captures, std::size_t mirr
 }
 
 /// Returns the cubes of the array whose stored bounds are out of date, as runs.
-std::vector<CubeRun> to_be_made(graph::Graph& graph, const render::Captures& captures,
-                                std::uint32_t array, graph::ImageHandle bounds) {
-    const render::Cubes& cubes = captures.arrays[array];
+std::vector<CubeRange> find_outdated_pyramids(graph::Graph& graph, const render::Captures& captures,
+                                              std::uint32_t array, graph::ImageHandle bounds) {
+    const render::CubeArray& cubes = captures.arrays[array];
     // Captures that no search reads have no distance. Their colour is a placeholder that is never
     // read.
     const graph::ImageHandle distances = cubes.distance.value_or(cubes.colour);
-    std::vector<CubeRun> runs;
+    std::vector<CubeRange> runs;
     std::uint32_t end = 0; // first layer after the last run
     for (std::size_t mirror = 0; mirror < captures.places.size(); ++mirror) {
         const render::CapturePlace& place = captures.places[mirror];
         if (place.array != array) continue;
         const std::uint32_t first = 6 * place.cube;
         if (!captures.drawings.empty()) {
-            const std::uint64_t content_hash = content_hash_of(captures, mirror);
+            const std::uint64_t content_hash = distance_bounds_hash(captures, mirror);
             if (graph.holds_content(bounds.layers(first, 6), content_hash)) continue;
             graph.set_content_hash(bounds.layers(first, 6), content_hash);
         }
@@ -72,39 +72,40 @@ std::vector<CubeRun> to_be_made(graph::Graph& graph, const render::Captures& cap
 /// Declares the pyramids of all arrays: all levels of all faces, one layer per face. Each level of
 /// each run of cubes is one dispatch. If captures are kept from frame to frame, the pyramids are
 /// kept as well.
-std::vector<graph::ImageHandle> add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                                            const render::Captures& captures) {
+std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
+                                                   const render::FrameInputs& inputs,
+                                                   const render::Captures& captures) {
     std::vector<graph::ImageHandle> pyramids;
-    std::vector<CubeRun> runs;
+    std::vector<CubeRange> runs;
     std::uint32_t top_of_all = 0;
     for (std::uint32_t array = 0; array < captures.arrays.size(); ++array) {
-        const render::Cubes& cubes = captures.arrays[array];
-        const std::uint32_t top = top_level(cubes.face);
+        const render::CubeArray& cubes = captures.arrays[array];
+        const std::uint32_t top = top_pyramid_level(cubes.face);
         top_of_all = std::max(top_of_all, top);
         graph::ImageDesc desc{inputs.prefix + "pyramid" + (array ? std::to_string(array + 1) : ""),
-                              Format::r32ui, 1u << top, level_edge(cubes.face, 1),
+                              Format::r32ui, 1u << top, pyramid_level_edge(cubes.face, 1),
                               cubes.colour.layer_count};
         pyramids.push_back(captures.drawings.empty() ? graph.image(std::move(desc))
                                                      : graph.persistent(std::move(desc)));
-        std::ranges::copy(to_be_made(graph, captures, array, pyramids.back()),
+        std::ranges::copy(find_outdated_pyramids(graph, captures, array, pyramids.back()),
                           std::back_inserter(runs));
     }
     if (runs.empty()) return pyramids;
     graph::PassBuilder pass = graph.pass(inputs.prefix + "pyramid");
-    for (const CubeRun& run : runs)
-        pass.reads(run.distances, graph::Use::sampled)
-            .writes(run.bounds, graph::Use::storage_write);
-    pass.record([top_of_all, runs = std::move(runs)](graph::Commands& commands) {
+    for (const CubeRange& run : runs)
+        pass.reads(run.distances, graph::ResourceUse::sampled)
+            .writes(run.bounds, graph::ResourceUse::storage_write);
+    pass.record([top_of_all, runs = std::move(runs)](graph::PassCommands& commands) {
         for (std::uint32_t level = 1; level <= top_of_all; ++level) {
             if (level > 1) commands.barrier();
             commands.use(
                 gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
             commands.push(static_cast<std::int32_t>(level));
-            for (const CubeRun& run : runs) {
-                if (level > top_level(run.face)) continue;
+            for (const CubeRange& run : runs) {
+                if (level > top_pyramid_level(run.face)) continue;
                 commands.bind("distances", run.distances);
                 commands.bind("bounds", run.bounds);
-                const std::uint32_t groups = (level_edge(run.face, level) + 7) / 8;
+                const std::uint32_t groups = (pyramid_level_edge(run.face, level) + 7) / 8;
                 commands.dispatch(groups, groups, run.bounds.layer_count);
             }
         }
@@ -114,10 +115,10 @@ std::vector<graph::ImageHandle> add_pyramid(graph::Graph& graph, const render::F
 
 } // namespace
 
-MirrorShading shading_with_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const Settings& settings, const MirrorInputs& around) {
-    MirrorShading look{shading_with_captures(around, "reflect/pyramid.frag", settings), {}};
-    look.mirror.images.emplace_back("bounds", add_pyramid(graph, inputs, *around.captures));
+MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const KnobSettings& settings, const MirrorInputs& around) {
+    MirrorShading look{make_capture_shader(around, "reflect/pyramid.frag", settings), {}};
+    look.mirror.images.emplace_back("bounds", add_pyramid_passes(graph, inputs, *around.captures));
     return look;
 }
 
@@ -132,11 +133,11 @@ constexpr Technique kPyramid{
     .order = 13,
     .knobs = kKnobs,
     .compared = kCompared,
-    .scene_passes = feedback_passes,
-    .capture = capture_options,
+    .scene_passes = count_feedback_passes,
+    .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
-    .look = shading_with_pyramid};
-const Registered kRow{kPyramid};
+    .look = make_pyramid_shading};
+const RegisteredTechnique kRow{kPyramid};
 
 } // namespace
 

@@ -5,7 +5,7 @@
 /// The search of `pyramid`, which other techniques use as well.
 namespace catoptric::reflect {
 
-MirrorShading shading_with_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const Settings& settings, const MirrorInputs& around);
+MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const KnobSettings& settings, const MirrorInputs& around);
 
 } // namespace catoptric::reflect

@@ -45,19 +45,19 @@ constexpr Knob kWithout{.name = "without",
 constexpr Knob kKnobs[] = {kDepth, kSamples, kTracedShadow,  kSphere, kFirst,
                            kHit,   kWithout, kShadowMapEdge, kCapture};
 
-bool is_first_raster(const Settings& settings) {
+bool is_first_raster(const KnobSettings& settings) {
     return settings.as<First>(kFirst) == First::raster;
 }
 
-Tracer tracer_of(const Settings& settings, const render::Lighting& lighting) {
+TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting& lighting) {
     const SharedKnobs::Shadow shadow = shared_knobs(settings).shadow;
     return {.depth = static_cast<std::uint32_t>(settings.integer(kDepth)),
             .samples = settings.integer(kSamples),
             // A scene without lights has no shadow map, and no light needs a shadow test.
-            .shadow = shadow == SharedKnobs::Shadow::none ? Tracer::Shadow::none
+            .shadow = shadow == SharedKnobs::Shadow::none ? TracerSettings::TracedShadow::none
                       : shadow == SharedKnobs::Shadow::map && lighting.shadow_map
-                          ? Tracer::Shadow::map
-                          : Tracer::Shadow::ray,
+                          ? TracerSettings::TracedShadow::map
+                          : TracerSettings::TracedShadow::ray,
             .lighting = lighting,
             .exact_spheres = settings.as<Shape>(kSphere) == Shape::exact,
             .first_raster = is_first_raster(settings),
@@ -65,7 +65,7 @@ Tracer tracer_of(const Settings& settings, const render::Lighting& lighting) {
             .without = static_cast<std::uint32_t>(settings.integer(kWithout))};
 }
 
-std::string conflict(const Settings& settings) {
+std::string conflict(const KnobSettings& settings) {
     if (!is_first_raster(settings)) return {};
     if (settings.integer(kSamples) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
@@ -77,21 +77,23 @@ std::string conflict(const Settings& settings) {
 }
 
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
-int scene_passes(int, int lights, const Settings& settings) {
-    if (!is_first_raster(settings)) return shadow_passes(lights, settings);
+int scene_passes(int, int lights, const KnobSettings& settings) {
+    if (!is_first_raster(settings)) return count_shadow_passes(lights, settings);
     return 1 + (shared_knobs(settings).shadow == SharedKnobs::Shadow::none ? 0 : lights);
 }
 
-Outputs picture(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                const render::Lighting& lighting) {
-    const Traced traced = add_traced(graph, inputs, tracer_of(settings, lighting));
+TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
+                                        const KnobSettings& settings,
+                                        const render::Lighting& lighting) {
+    const TracedPicture traced = add_picture_tracing(graph, inputs,
+                                                     make_tracer(settings, lighting));
     return {traced.hdr, true, {traced.counters}, {}, {}};
 }
 
-MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-                   const MirrorInputs& around) {
+MirrorShading make_ray_traced_shading(graph::Graph&, const render::FrameInputs&,
+                                      const KnobSettings& settings, const MirrorInputs& around) {
     MirrorShading look;
-    look.tracer = tracer_of(settings, around.lighting);
+    look.tracer = make_tracer(settings, around.lighting);
     look.mirror.fragment = "reflect/traced.frag";
     if (look.tracer->first_raster) look.mirror.variant = "#first";
     return look;
@@ -109,11 +111,11 @@ constexpr Technique kRaytrace{
     .knobs = kKnobs,
     .compared = kCompared,
     .scene_passes = scene_passes,
-    .look = look,
+    .look = make_ray_traced_shading,
     .conflict = conflict,
     .completes_view = is_first_raster,
-    .picture = picture};
-const Registered kRow{kRaytrace};
+    .picture = add_ray_traced_picture};
+const RegisteredTechnique kRow{kRaytrace};
 
 } // namespace
 

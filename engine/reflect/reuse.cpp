@@ -18,11 +18,11 @@ constexpr Technique kReuse{
     .order = 2,
     .knobs = kKnobs,
     .compared = kCompared,
-    .scene_passes = feedback_passes,
-    .capture = capture_options,
+    .scene_passes = count_feedback_passes,
+    .capture = make_capture_options,
     .in_captures = kFragment,
     .search = kFragment};
-const Registered kRow{kReuse};
+const RegisteredTechnique kRow{kReuse};
 
 } // namespace
 

@@ -11,14 +11,14 @@ constexpr Knob kSteps{.name = "steps",
                       .low = 0,
                       .high = 8,
                       .value = 2};
-constexpr auto kKnobs = search_knobs(std::array{kSteps});
+constexpr auto kKnobs = list_search_knobs(std::array{kSteps});
 
-MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-                   const MirrorInputs& around) {
+MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
+                                  const KnobSettings& settings, const MirrorInputs& around) {
     const int steps = settings.integer(kSteps);
     if (steps == 0) // without the knobs of a search, which `parallax` does not have
-        return {shading_with_captures(around, "reflect/parallax.frag", Settings({})), {}};
-    MirrorShading look{shading_with_captures(around, "reflect/secant.frag", settings), {}};
+        return {make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})), {}};
+    MirrorShading look{make_capture_shader(around, "reflect/secant.frag", settings), {}};
     look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));
     return look;
 }
@@ -31,11 +31,11 @@ constexpr Technique kSecant{.name = "secant",
                             .order = 11,
                             .knobs = kKnobs,
                             .compared = kCompared,
-                            .scene_passes = feedback_passes,
-                            .capture = capture_options,
+                            .scene_passes = count_feedback_passes,
+                            .capture = make_capture_options,
                             .in_captures = "reflect/parallax.frag",
-                            .look = look};
-const Registered kRow{kSecant};
+                            .look = make_secant_shading};
+const RegisteredTechnique kRow{kSecant};
 
 } // namespace
 

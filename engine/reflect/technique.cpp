@@ -8,17 +8,19 @@ namespace catoptric::reflect {
 
 namespace {
 
-std::vector<const Technique*>& table() {
+std::vector<const Technique*>& technique_table() {
     static std::vector<const Technique*> rows; // filled when the program starts
     return rows;
 }
 
 } // namespace
 
-Registered::Registered(const Technique& technique) { table().push_back(&technique); }
+RegisteredTechnique::RegisteredTechnique(const Technique& technique) {
+    technique_table().push_back(&technique);
+}
 
-std::vector<const Technique*> techniques() {
-    std::vector<const Technique*> rows = table();
+std::vector<const Technique*> list_techniques() {
+    std::vector<const Technique*> rows = technique_table();
     std::ranges::sort(rows, {},
                       [](const Technique* row) { return std::pair(row->order, row->name); });
     return rows;
@@ -26,17 +28,17 @@ std::vector<const Technique*> techniques() {
 
 const Technique& find_technique(std::string_view name) {
     std::vector<std::string> names;
-    for (const Technique* row : techniques()) {
+    for (const Technique* row : list_techniques()) {
         if (row->name == name) return *row;
         names.emplace_back(row->name);
     }
     std::string all;
     for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
-    fail(Failure::usage, "no technique '", name, "'", did_you_mean(name, names), "; there are ",
+    fail(Failure::usage, "no technique '", name, "'", suggest_name(name, names), "; there are ",
          all);
 }
 
-std::string Choice::file_name() const {
+std::string TechniqueChoice::file_name() const {
     std::string name = label;
     std::erase(name, '=');
     std::ranges::replace_if(
@@ -44,17 +46,17 @@ std::string Choice::file_name() const {
     return name;
 }
 
-void Choice::settle() {
+void TechniqueChoice::settle() {
     shared = shared_knobs(settings);
-    rest = technique->rest
-               ? std::make_shared<const Choice>(parse_choice(settings.choice(*technique->rest)))
-               : nullptr;
+    rest = technique->rest ? std::make_shared<const TechniqueChoice>(
+                                 parse_technique_choice(settings.choice(*technique->rest)))
+                           : nullptr;
 }
 
-Choice parse_choice(std::string_view text) {
+TechniqueChoice parse_technique_choice(std::string_view text) {
     const auto colon = text.find(':');
     const Technique& technique = find_technique(text.substr(0, colon));
-    Choice choice{&technique, Settings(technique.knobs), std::string(text)};
+    TechniqueChoice choice{&technique, KnobSettings(technique.knobs), std::string(text)};
     std::string_view rest = colon == std::string_view::npos ? "" : text.substr(colon + 1);
     while (colon != std::string_view::npos) {
         const auto comma = rest.find(',');

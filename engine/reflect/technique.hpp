@@ -17,7 +17,7 @@
 namespace catoptric::reflect {
 
 /// Images and buffers that a technique adds to the graph, with notes for the user.
-struct Outputs {
+struct TechniqueOutputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
     /// Whether the alpha of `hdr` says which surface the ray met (shared::kMetBits).
     bool has_hits = false;
@@ -42,7 +42,8 @@ struct MirrorInputs {
 /// Shaders and resources with which the view draws mirrors.
 struct MirrorShading {
     render::MirrorShader mirror;
-    std::optional<Tracer> tracer; ///< traces the pixels that the mirror's shader leaves to rays
+    std::optional<TracerSettings>
+        tracer; ///< traces the pixels that the mirror's shader leaves to rays
 };
 
 /// Values of the knobs that techniques share, as typed values.
@@ -67,7 +68,7 @@ struct SharedKnobs {
 };
 
 /// Reads the shared knobs.
-SharedKnobs shared_knobs(const Settings& settings);
+SharedKnobs shared_knobs(const KnobSettings& settings);
 
 struct Technique {
     std::string_view name;
@@ -77,12 +78,12 @@ struct Technique {
     /// Rows that `compare` uses by default: "name[:knob=value,...]" each.
     std::span<const std::string_view> compared = {};
     /// Returns the scene passes R per frame as the report counts them. A cube counts once.
-    int (*scene_passes)(int mirrors, int lights, const Settings& settings) = nullptr;
+    int (*scene_passes)(int mirrors, int lights, const KnobSettings& settings) = nullptr;
     /// Returns the options of the captures, one per mirror and frame. Null: the technique uses no
     /// such captures. In these captures, mirrors show last frame's captures by the shader
     /// `in_captures`.
     render::CaptureOptions (*capture)(const render::FrameInputs& inputs,
-                                      const Settings& settings) = nullptr;
+                                      const KnobSettings& settings) = nullptr;
     const char* in_captures = nullptr; ///< path of a fragment shader
     bool reads_whole_cubes = false;    ///< captures need all six faces
     /// Path of a fragment shader that needs only the captures. If set, `look` is null
@@ -90,46 +91,48 @@ struct Technique {
     const char* search = nullptr;
     /// Returns how the technique draws its mirrors, and declares the passes that this needs.
     MirrorShading (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const Settings& settings, const MirrorInputs& around) = nullptr;
+                          const KnobSettings& settings, const MirrorInputs& around) = nullptr;
     /// Returns how many flat mirrors one behind the other a mirrored view shows. Null: the
     /// technique has no mirrored views (reflect/mirrored.hpp).
-    int (*mirrored_bounces)(const Settings& settings) = nullptr;
+    int (*mirrored_bounces)(const KnobSettings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
-    /// Null: the technique draws any mirror. `tolerance`: scene::flat_tolerance.
+    /// Null: the technique draws any mirror. `tolerance`: scene::compute_flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
     /// Knob whose choice is the technique that draws the mirrors that are unfit; null: `unfit` is.
     const Knob* rest = nullptr;
     /// Returns why the technique cannot draw with these settings together, as words after
     /// "technique
     /// '...': "; empty: it can. Null: it can with all settings.
-    std::string (*conflict)(const Settings& settings) = nullptr;
+    std::string (*conflict)(const KnobSettings& settings) = nullptr;
     /// Returns whether the tracer of `look` completes a rasterised view in which all mirrors have
     /// this technique. The tracer then also draws surfaces that reflect without being mirrors, and
     /// pixels whose shadow the shadow map leaves open. `picture` is not used. Null: false.
-    bool (*completes_view)(const Settings& settings) = nullptr;
+    bool (*completes_view)(const KnobSettings& settings) = nullptr;
     /// Declares the whole picture without a rasterised view, if all mirrors have this technique.
     /// Null: the view is rasterised.
-    Outputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
-                       const Settings& settings, const render::Lighting& lighting) = nullptr;
+    TechniqueOutputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
+                                const KnobSettings& settings,
+                                const render::Lighting& lighting) = nullptr;
 };
 
 /// Adds a technique to the table when the program starts, as an object of namespace scope.
-struct Registered {
-    explicit Registered(const Technique& technique);
+struct RegisteredTechnique {
+    explicit RegisteredTechnique(const Technique& technique);
 };
 
 /// Returns all techniques, sorted by `order`.
-std::vector<const Technique*> techniques();
+std::vector<const Technique*> list_techniques();
 /// Returns the technique of this name. Throws `Failure::usage` with the nearest name.
 const Technique& find_technique(std::string_view name);
 
 /// A technique with a value for each knob.
-struct Choice {
+struct TechniqueChoice {
     const Technique* technique = nullptr;
-    Settings settings{{}};
-    std::string label;                  ///< the technique as the user wrote it
-    SharedKnobs shared = {};            ///< read from `settings`
-    std::shared_ptr<const Choice> rest; ///< draws the mirrors that are unfit; null: none are
+    KnobSettings settings{{}};
+    std::string label;       ///< the technique as the user wrote it
+    SharedKnobs shared = {}; ///< read from `settings`
+    std::shared_ptr<const TechniqueChoice>
+        rest; ///< draws the mirrors that are unfit; null: none are
 
     /// Reads `shared` and `rest` again, after a change of `settings`.
     void settle();
@@ -137,13 +140,13 @@ struct Choice {
     std::string file_name() const;
     /// Returns whether technique and knob values are the same. The spelling of the labels does not
     /// matter.
-    bool same_as(const Choice& other) const {
+    bool same_as(const TechniqueChoice& other) const {
         return technique == other.technique && settings == other.settings;
     }
 };
 
 /// Reads "name[:knob=value,...]". Throws `Failure::usage` with the faulty part and the nearest
 /// name.
-Choice parse_choice(std::string_view text);
+TechniqueChoice parse_technique_choice(std::string_view text);
 
 } // namespace catoptric::reflect

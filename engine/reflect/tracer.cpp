@@ -11,7 +11,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-using graph::Use;
+using graph::ResourceUse;
 
 /// Offset of a ray's origin in the report, in world units.
 constexpr double kReportOffset = 1e-3;
@@ -21,7 +21,7 @@ constexpr std::uint32_t kMostAcross = 32768;
 /// Returns the positions of the samples in the pixel. These are the centre for one sample, and a
 /// regular grid for n*n. Other counts get one jittered point in each of n cells of the smallest
 /// grid that holds them.
-std::vector<vec2> sample_offsets(int count, std::uint64_t seed) {
+std::vector<vec2> make_sample_offsets(int count, std::uint64_t seed) {
     const int edge = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
     const bool regular = edge * edge == count;
     std::mt19937_64 random(seed);
@@ -37,15 +37,16 @@ std::vector<vec2> sample_offsets(int count, std::uint64_t seed) {
     return offsets;
 }
 
-render::Spheres spheres_of(const Tracer& tracer) {
-    return tracer.exact_spheres ? render::Spheres::exact : render::Spheres::mesh;
+render::SphereMode sphere_mode_of_tracer(const TracerSettings& tracer) {
+    return tracer.exact_spheres ? render::SphereMode::exact : render::SphereMode::mesh;
 }
 
-bool reads_shadow_map(const Tracer& tracer) {
-    return tracer.shadow != Tracer::Shadow::none && tracer.lighting.shadow_map;
+bool reads_shadow_map(const TracerSettings& tracer) {
+    return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
 
-gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, bool listed) {
+gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::GpuScene& scene,
+                                    bool listed) {
     std::string build;
     for (const auto& [wanted, name] :
          {std::pair{listed, "listed"}, std::pair{tracer.doubles, "doubles"}})
@@ -58,60 +59,63 @@ gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, 
              {"first_raster", tracer.first_raster ? 1u : 0u},
              {"without", tracer.without},
              {"fixed_offset", scene.space().length(kReportOffset)}},
-            scene.tracing_features(spheres_of(tracer))};
+            scene.tracing_features(sphere_mode_of_tracer(tracer))};
 }
 
 /// Binds the resources of a tracing pass.
-void bind(graph::Commands& commands, const render::GpuScene& scene, const Tracer& tracer) {
+void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene& scene,
+                           const TracerSettings& tracer) {
     scene.bind(commands);
-    scene.bind_tracing(commands, spheres_of(tracer));
+    scene.bind_tracing(commands, sphere_mode_of_tracer(tracer));
     if (reads_shadow_map(tracer))
-        commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::Filter::compare);
+        commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::TextureFilter::compare);
 }
 
 /// Runs one dispatch per sample, with barriers between them.
 template <typename Dispatch>
-void dispatch_samples(graph::Commands& commands, const Tracer& tracer, uvec2 size,
+void dispatch_samples(graph::PassCommands& commands, const TracerSettings& tracer, uvec2 size,
                       std::uint64_t seed, Dispatch&& dispatch) {
-    const std::vector<vec2> offsets = sample_offsets(tracer.samples, seed);
+    const std::vector<vec2> offsets = make_sample_offsets(tracer.samples, seed);
     for (std::uint32_t i = 0; i < offsets.size(); ++i) {
         if (i > 0) commands.barrier();
-        commands.push(
-            shared::Trace{offsets[i], i, static_cast<std::uint32_t>(offsets.size()), size});
+        commands.push(shared::TraceParameters{offsets[i], i,
+                                              static_cast<std::uint32_t>(offsets.size()), size});
         dispatch();
     }
 }
 
 /// The pixels to trace, the dispatch arguments in work groups, and counters.
-struct List {
+struct PixelList {
     graph::BufferHandle pixels, arguments, counters;
 };
 
-List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const std::string& suffix,
-              std::uint32_t number, const render::CameraOutputs& view) {
+PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
+                         const std::string& suffix, std::uint32_t number,
+                         const render::CameraOutputs& view) {
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
-    List list;
+    PixelList list;
     list.pixels = graph.buffer({name, sizeof(std::uint32_t) * size.x * size.y});
     list.arguments = graph.buffer({name + "/arguments", 3 * sizeof(std::uint32_t)});
     list.counters = graph.buffer({inputs.prefix + "counters" + suffix, sizeof(shared::Counters)});
     graph.pass(name + "/reset")
-        .writes(list.counters, Use::copy_to)
-        .writes(list.arguments, Use::copy_to)
-        .record([=](graph::Commands& commands) {
+        .writes(list.counters, ResourceUse::copy_to)
+        .writes(list.arguments, ResourceUse::copy_to)
+        .record([=](graph::PassCommands& commands) {
             commands.fill(list.counters, 0);
             commands.fill(list.arguments, 0);
         });
-    const bool in_alpha = !view.tracers; // see render::add_view
+    const bool in_alpha = !view.tracers; // see render::add_camera_view
     graph::PassBuilder pass = graph.pass(name);
     if (in_alpha)
-        pass.reads(view.hdr, Use::storage_read);
+        pass.reads(view.hdr, ResourceUse::storage_read);
     else
-        pass.reads(*view.lookup, Use::storage_read).reads(*view.tracers, Use::storage_read);
-    pass.writes(list.counters, Use::storage)
-        .writes(list.arguments, Use::storage)
-        .writes(list.pixels, Use::storage_write)
-        .record([=](graph::Commands& commands) {
+        pass.reads(*view.lookup, ResourceUse::storage_read)
+            .reads(*view.tracers, ResourceUse::storage_read);
+    pass.writes(list.counters, ResourceUse::storage)
+        .writes(list.arguments, ResourceUse::storage)
+        .writes(list.pixels, ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
             if (in_alpha) {
                 commands.bind("picture", view.hdr);
             } else {
@@ -131,23 +135,25 @@ List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const std:
 
 } // namespace
 
-Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const Tracer& tracer) {
+TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
+                                  const TracerSettings& tracer) {
     const uvec2 size = inputs.size;
-    const Traced traced{graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y}),
-                        graph.buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
+    const TracedPicture traced{
+        graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y}),
+        graph.buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
     graph.pass(inputs.prefix + "raytrace/reset")
-        .writes(traced.counters, Use::copy_to)
-        .record([=](graph::Commands& commands) { commands.fill(traced.counters, 0); });
-    inputs.scene.want_tracing(spheres_of(tracer));
+        .writes(traced.counters, ResourceUse::copy_to)
+        .record([=](graph::PassCommands& commands) { commands.fill(traced.counters, 0); });
+    inputs.scene.want_tracing(sphere_mode_of_tracer(tracer));
     graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
-    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
-    pass.writes(traced.hdr, Use::storage_write)
-        .writes(traced.counters, Use::storage)
-        .record([=, &scene = inputs.scene, seed = inputs.seed](graph::Commands& commands) {
-            bind(commands, scene, tracer);
+    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
+    pass.writes(traced.hdr, ResourceUse::storage_write)
+        .writes(traced.counters, ResourceUse::storage)
+        .record([=, &scene = inputs.scene, seed = inputs.seed](graph::PassCommands& commands) {
+            bind_tracer_resources(commands, scene, tracer);
             commands.bind("picture", traced.hdr);
             commands.bind("counters", traced.counters);
-            commands.use(state_of(tracer, scene, false));
+            commands.use(make_tracer_state(tracer, scene, false));
             const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),
                                 rows = (groups + kMostAcross - 1) / kMostAcross;
             dispatch_samples(commands, tracer, size, seed,
@@ -156,25 +162,25 @@ Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const 
     return traced;
 }
 
-graph::BufferHandle add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
-                               const Tracer& tracer, std::uint32_t number,
-                               const render::CameraOutputs& view) {
+graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
+                                     const TracerSettings& tracer, std::uint32_t number,
+                                     const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
-    const List list = add_list(graph, inputs, suffix, number, view);
-    inputs.scene.want_tracing(spheres_of(tracer), tracer.first_raster);
+    const PixelList list = add_pixel_list(graph, inputs, suffix, number, view);
+    inputs.scene.want_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
     graph::PassBuilder pass = graph.pass(inputs.prefix + "trace" + suffix);
-    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
-    pass.reads(list.arguments, Use::indirect)
-        .reads(list.pixels, Use::storage_read)
-        .writes(list.counters, Use::storage)
-        .writes(view.hdr, Use::storage)
+    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
+    pass.reads(list.arguments, ResourceUse::indirect)
+        .reads(list.pixels, ResourceUse::storage_read)
+        .writes(list.counters, ResourceUse::storage)
+        .writes(view.hdr, ResourceUse::storage)
         .record([=, &scene = inputs.scene, size = inputs.size, seed = inputs.seed,
-                 hdr = view.hdr](graph::Commands& commands) {
-            bind(commands, scene, tracer);
+                 hdr = view.hdr](graph::PassCommands& commands) {
+            bind_tracer_resources(commands, scene, tracer);
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);
-            commands.use(state_of(tracer, scene, true));
+            commands.use(make_tracer_state(tracer, scene, true));
             dispatch_samples(commands, tracer, size, seed,
                              [&] { commands.dispatch_indirect(list.arguments); });
         });

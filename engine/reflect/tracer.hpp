@@ -5,12 +5,12 @@
 /// Ray tracing from the camera, of a whole picture or of selected pixels of a view.
 namespace catoptric::reflect {
 
-struct Tracer {
-    enum class Shadow : std::uint32_t { none, map, ray }; ///< as in shaders/lib/bindings.glsl
+struct TracerSettings {
+    enum class TracedShadow : std::uint32_t { none, map, ray }; ///< as in shaders/lib/bindings.glsl
 
     std::uint32_t depth = render::kReferenceDepth; ///< mirror bounces; longer paths end black
     int samples = 1; ///< rays per pixel: 1 = its centre, n*n = a regular grid, else stratified
-    Shadow shadow = Shadow::ray;
+    TracedShadow shadow = TracedShadow::ray;
     /// Has a shadow map if `shadow` is `map`. With `first_raster` and `ray`, a shadow map here
     /// spares the shadow rays where it can tell alone.
     render::Lighting lighting;
@@ -22,17 +22,18 @@ struct Tracer {
     std::uint32_t without = 0; ///< number of a robustness rule to disable: shaders/lib/plain.glsl
 };
 
-struct Traced {
+struct TracedPicture {
     graph::ImageHandle
         hdr; ///< linear radiance, rgba32f; alpha says which surface the ray met (shared::kMetBits)
     graph::BufferHandle counters;
 };
-Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const Tracer& tracer);
+TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
+                                  const TracerSettings& tracer);
 
 /// Lists the pixels of the view that are marked for tracer `number`, from 1, and traces them into
 /// `view.hdr`. Returns the shared::Counters of the tracing.
-graph::BufferHandle add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
-                               const Tracer& tracer, std::uint32_t number,
-                               const render::CameraOutputs& view);
+graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
+                                     const TracerSettings& tracer, std::uint32_t number,
+                                     const render::CameraOutputs& view);
 
 } // namespace catoptric::reflect

@@ -23,7 +23,7 @@ struct BackdropPlane {
 };
 
 /// Returns how far the farthest corner of the box lies behind the plane.
-double depth_of(const BackdropPlane& plane, const Bounds<float>& box) {
+double depth_behind_plane(const BackdropPlane& plane, const Bounds<float>& box) {
     const dvec3 corner(plane.normal.x < 0 ? box.hi.x : box.lo.x,
                        plane.normal.y < 0 ? box.hi.y : box.lo.y,
                        plane.normal.z < 0 ? box.hi.z : box.lo.z);
@@ -61,8 +61,9 @@ private:
         if (height == 0) return true; // edge-on to the light, so it casts no shadow
         if (height < 0) plane = {-plane.normal, -plane.at, plane.room};
         return std::ranges::all_of(geometry_.ranges, [&](const DrawRange& other) {
-            return ++looks_ < kMostLooks && (depth_of(plane, other.bounds) <= plane.room ||
-                                             all_vertices_before(plane, other));
+            return ++looks_ < kMostLooks &&
+                   (depth_behind_plane(plane, other.bounds) <= plane.room ||
+                    all_vertices_before(plane, other));
         });
     }
 
@@ -83,7 +84,8 @@ private:
 
 } // namespace
 
-std::vector<std::uint8_t> find_backdrops(const Geometry& geometry, const shared::Light& light) {
+std::vector<std::uint8_t> find_shadowless_backdrops(const Geometry& geometry,
+                                                    const shared::Light& light) {
     BackdropSearch search(geometry, light);
     std::vector<std::uint8_t> backdrops;
     for (const DrawRange& range : geometry.ranges)

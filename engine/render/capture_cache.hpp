@@ -27,7 +27,7 @@ struct CachedFace {
     /// Content hash of all surfaces and lights that the face shows, except mirrors and the moving
     /// objects in `pieces`.
     std::uint64_t settings = 0;
-    std::shared_ptr<const require::Pieces>
+    std::shared_ptr<const require::FacePieces>
         pieces; ///< moving pieces in the mirror's faces, as of `content_hash`
     bool operator==(const CachedFace&) const = default;
 };
@@ -63,15 +63,15 @@ struct CaptureCache {
 /// Returns, for each mirror, whether its capture may differ from the frame before. An unknown
 /// change counts as a change if one of the mirrors that the capture showed had changed. If none had
 /// changed, the redrawn capture equals the old one.
-std::vector<char> changed(const CaptureCache& captures);
+std::vector<char> find_changed_captures(const CaptureCache& captures);
 
 /// Reads the results of comparisons in frames that have ended, for these captures and the frames
 /// before. `has_ended`: called with CaptureCache::frame.
-void learn(const std::shared_ptr<CaptureCache>& captures,
-           const std::function<bool(std::uint64_t)>& has_ended);
+void read_finished_comparisons(const std::shared_ptr<CaptureCache>& captures,
+                               const std::function<bool(std::uint64_t)>& has_ended);
 
 /// Marks all captures as unchanged since the frame before, without a comparison.
-void find_unchanged(CaptureCache& captures);
+void mark_all_unchanged(CaptureCache& captures);
 
 /// The work of a frame on one face.
 enum class FaceWork : std::uint8_t {
@@ -89,14 +89,15 @@ struct CaptureWork {
     /// For each mirror: the part of each face that is redrawn. Outside the part, the texels equal
     /// those of the frame before.
     std::vector<std::array<require::FacePart, 6>> parts;
-    FaceWork of(std::uint32_t mirror, std::uint32_t face) const {
+    FaceWork work_on_face(std::uint32_t mirror, std::uint32_t face) const {
         return faces.empty() ? FaceWork::draw : faces[mirror][face];
     }
     require::FacePart part(std::uint32_t mirror, std::uint32_t face) const {
         return parts.empty() ? require::FacePart() : parts[mirror][face];
     }
     bool is_drawn(std::uint32_t mirror, std::uint32_t face) const {
-        return of(mirror, face) == FaceWork::draw || of(mirror, face) == FaceWork::compare;
+        return work_on_face(mirror, face) == FaceWork::draw ||
+               work_on_face(mirror, face) == FaceWork::compare;
     }
 };
 
@@ -111,10 +112,10 @@ struct CaptureUpdate {
 };
 
 /// The buffers of a session into which comparisons write their results.
-class Comparisons {
+class ComparisonBuffers {
 public:
     /// `has_ended`: called with the numbers of frames.
-    Comparisons(gpu::Device& device, std::function<bool(std::uint64_t)> has_ended)
+    ComparisonBuffers(gpu::Device& device, std::function<bool(std::uint64_t)> has_ended)
         : device_(device), has_ended_(std::move(has_ended)) {}
     /// Returns a buffer of zeros, one word a mirror, that neither the host nor the device uses.
     std::shared_ptr<gpu::Buffer> buffer(std::size_t mirrors);
@@ -143,7 +144,7 @@ struct PreviousCaptures {
     std::shared_ptr<CaptureCache> before;
     /// Buffers for the results of comparing captures. Null: the frame does not belong to the frame
     /// sequence and leaves nothing for the next frame.
-    Comparisons* comparisons = nullptr;
+    ComparisonBuffers* comparisons = nullptr;
     /// The capture budget: the most mirrors whose captures are drawn again; 0: no limit. The other
     /// captures stay as they are. A capture without valid contents in a needed face does not count
     /// and is always drawn.
@@ -152,11 +153,12 @@ struct PreviousCaptures {
 
 /// Returns whether the next frame must first read the comparisons of this frame. The order of
 /// captures under a budget depends on their results.
-bool must_learn(const CaptureCache& captures, std::uint32_t most);
+bool must_read_comparisons(const CaptureCache& captures, std::uint32_t most);
 
 /// Decides which captures must be drawn, given those of the frame before. Declares the arrays, and
 /// the pass that copies unchanged faces into the set that the frame fills. Throws `internal` if
-/// must_learn holds and `learn` was not called. Costs O(mirrors seen by mirrors).
+/// must_read_comparisons holds and `read_finished_comparisons` was not called. Costs O(mirrors seen
+/// by mirrors).
 CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& inputs,
                                        const std::string& name,
                                        const std::vector<CaptureOptions>& options,
@@ -164,11 +166,12 @@ CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& i
 
 /// Declares the pass that compares captures with those of the frame before. Call it after the
 /// captures are drawn. Declares nothing if no capture needs a comparison.
-void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const CaptureUpdate& feeding);
+void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
+                            const CaptureUpdate& feeding);
 
 /// Calls visit(first, end) for each run of a mirror's six faces for which `is` holds.
 template <typename Is, typename Visit>
-void for_each_run(Is&& is, Visit&& visit) {
+void for_each_face_run(Is&& is, Visit&& visit) {
     for (std::uint32_t first = 0; first < 6; ++first) {
         std::uint32_t end = first;
         while (end < 6 && is(end)) ++end;

@@ -6,9 +6,9 @@
 
 namespace catoptric::render {
 
-std::vector<char> changed(const CaptureCache& captures) {
+std::vector<char> find_changed_captures(const CaptureCache& captures) {
     std::vector<char> before;
-    if (captures.before) before = changed(*captures.before);
+    if (captures.before) before = find_changed_captures(*captures.before);
     const auto was = [&](std::uint32_t other) { return before.empty() || before[other]; };
     std::vector<char> now;
     for (std::size_t mirror = 0; mirror < captures.changes.size(); ++mirror)
@@ -18,10 +18,10 @@ std::vector<char> changed(const CaptureCache& captures) {
     return now;
 }
 
-void learn(const std::shared_ptr<CaptureCache>& captures,
-           const std::function<bool(std::uint64_t)>& has_ended) {
+void read_finished_comparisons(const std::shared_ptr<CaptureCache>& captures,
+                               const std::function<bool(std::uint64_t)>& has_ended) {
     if (!captures) return;
-    learn(captures->before, has_ended);
+    read_finished_comparisons(captures->before, has_ended);
     if (!captures->differing || !has_ended(captures->frame)) return;
     const std::vector<std::byte> found = captures->differing->read();
     for (std::size_t mirror = 0; mirror < captures->changes.size(); ++mirror) {
@@ -34,13 +34,13 @@ void learn(const std::shared_ptr<CaptureCache>& captures,
     captures->differing = nullptr;
 }
 
-void find_unchanged(CaptureCache& captures) {
+void mark_all_unchanged(CaptureCache& captures) {
     std::ranges::fill(captures.changes, CaptureChange::none);
     captures.before = nullptr;
     captures.differing = nullptr;
 }
 
-std::shared_ptr<gpu::Buffer> Comparisons::buffer(std::size_t mirrors) {
+std::shared_ptr<gpu::Buffer> ComparisonBuffers::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
     // A caller that discards a frame releases its buffer while the device may still write to it.
     const auto fits = [&](const PooledBuffer& entry) {
@@ -57,29 +57,31 @@ std::shared_ptr<gpu::Buffer> Comparisons::buffer(std::size_t mirrors) {
     return found->buffer;
 }
 
-void Comparisons::used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame) {
+void ComparisonBuffers::used(const std::shared_ptr<const gpu::Buffer>& buffer,
+                             std::uint64_t frame) {
     const auto is_it = [&](const PooledBuffer& entry) { return entry.buffer == buffer; };
     const auto found = std::ranges::find_if(entries_, is_it);
     if (found != entries_.end()) found->frame = frame;
 }
 
-void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const CaptureUpdate& feeding) {
+void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
+                            const CaptureUpdate& feeding) {
     if (!feeding.kept || !feeding.kept->differing) return;
     const Captures &last = *feeding.last, &now = *feeding.captures;
     struct Push {
         std::uint32_t before, after, mirror;
     };
     struct CubePair {
-        Cubes before, after; ///< the whole arrays
+        CubeArray before, after; ///< the whole arrays
         Push push;
         std::uint32_t faces;
     };
     std::vector<CubePair> all;
     for (std::uint32_t mirror = 0; mirror < now.places.size(); ++mirror)
-        for_each_run(
+        for_each_face_run(
             [&](std::uint32_t face) {
                 return now.places[mirror].exists() &&
-                       feeding.work.of(mirror, face) == FaceWork::compare;
+                       feeding.work.work_on_face(mirror, face) == FaceWork::compare;
             },
             [&](std::uint32_t first, std::uint32_t end) {
                 const auto &from = last.places[mirror], &to = now.places[mirror];
@@ -95,13 +97,13 @@ void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const Captur
     graph::PassBuilder pass = graph.pass(inputs.prefix + now.name + ".compare");
     std::vector<graph::ImageHandle> images;
     for (const CubePair& one : all)
-        for (const Cubes* const cubes : {&one.before, &one.after})
+        for (const CubeArray* const cubes : {&one.before, &one.after})
             for (const graph::ImageHandle image :
                  {cubes->colour, cubes->distance.value_or(cubes->colour)})
                 if (std::ranges::find(images, image) == images.end()) images.push_back(image);
-    for (const graph::ImageHandle image : images) pass.reads(image, graph::Use::sampled);
-    pass.writes(differing, graph::Use::storage_write)
-        .record([all = std::move(all), differing](graph::Commands& commands) {
+    for (const graph::ImageHandle image : images) pass.reads(image, graph::ResourceUse::sampled);
+    pass.writes(differing, graph::ResourceUse::storage_write)
+        .record([all = std::move(all), differing](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"differing.comp", {}});
             commands.bind("Differing", differing);
             for (const auto& [before, after, push, faces] : all) {

@@ -11,74 +11,76 @@ namespace catoptric::render {
 
 namespace {
 
-using graph::Clear;
-using graph::Commands;
+using graph::ClearValue;
 using graph::ImageHandle;
-using graph::Tag;
-using graph::Use;
+using graph::PassCommands;
+using graph::PassTag;
+using graph::ResourceUse;
 
 /// Declares that a pass clears and writes the cubes. With an area, clears and writes only inside it
 /// and keeps the rest.
-void write_cubes(graph::PassBuilder& pass, const CaptureOptions& options, const Cubes& cubes,
-                 const std::optional<graph::Area>& area = {}) {
+void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options,
+                         const CubeArray& cubes, const std::optional<graph::PixelArea>& area = {}) {
     // An empty direction has the distance +infinity. Unorm8 cannot store it and uses the end of its
     // range.
     const float nothing = options.distance == Format::r8_unorm
                               ? 1.0f
                               : std::numeric_limits<float>::infinity();
-    const auto write = [&](ImageHandle image, const Clear& clear) {
-        area ? pass.updates(image, Use::colour, clear) : pass.writes(image, Use::colour, clear);
+    const auto write = [&](ImageHandle image, const ClearValue& clear) {
+        area ? pass.updates(image, ResourceUse::colour, clear)
+             : pass.writes(image, ResourceUse::colour, clear);
     };
     write(cubes.colour, kBlack);
-    if (cubes.distance) write(*cubes.distance, Clear{nothing, 0, 0, 0});
-    if (cubes.surfaces) write(*cubes.surfaces, Clear{});
+    if (cubes.distance) write(*cubes.distance, ClearValue{nothing, 0, 0, 0});
+    if (cubes.surfaces) write(*cubes.surfaces, ClearValue{});
     if (area) pass.area(*area);
 }
 
 /// Returns whether the part of the face may show the object.
-bool may_show(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
-              const require::FacePart& part, std::size_t object) {
+bool may_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
+                          const require::FacePart& part, std::size_t object) {
     return part.is_whole() ||
-           !common(part, part_with(scene.views()[scene.capture_view(mirror) + face],
-                                   static_cast<int>(face), scene.ranges()[object].bounds))
+           !intersect_face_parts(
+                part, face_part_showing_box(scene.views()[scene.capture_view(mirror) + face],
+                                            static_cast<int>(face), scene.ranges()[object].bounds))
                 .empty();
 }
 
 /// Declares a pass that draws a range of faces of a mirror's capture. `peeled`: draws only what
 /// lies behind these distances.
-void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                 const FaceRange& faces, const std::string& pass_name, const Cubes& cubes,
-                 const std::shared_ptr<const Looks>& looks, std::optional<ImageHandle> peeled,
-                 const require::FacePart& changing) {
+void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+                      const FaceRange& faces, const std::string& pass_name, const CubeArray& cubes,
+                      const std::shared_ptr<const MirrorShaders>& looks,
+                      std::optional<ImageHandle> peeled, const require::FacePart& changing) {
     const std::string name = inputs.prefix + pass_name;
     const ImageHandle depth = graph.image(
         {name + ".depth", Format::d32f, options.face, options.face, faces.count, faces.count == 6});
-    graph::PassBuilder pass = graph.pass(name, Tag::scene);
-    read_surroundings(pass, options.lighting, *looks);
-    if (peeled) pass.reads(*peeled, Use::sampled);
-    const require::FacePart part = in_texels(changing, options.face);
-    write_cubes(pass, options, cubes, area_of(part, options.face));
-    Drawing drawing{.first_view = inputs.scene.capture_view(faces.owner) + faces.first,
-                    .layers = faces.count,
-                    .lighting = options.lighting,
-                    .looks = looks,
-                    .store = {{"distance_scale", 1 / options.stored_unit}},
-                    .peeled = peeled};
+    graph::PassBuilder pass = graph.pass(name, PassTag::scene);
+    declare_shader_reads(pass, options.lighting, *looks);
+    if (peeled) pass.reads(*peeled, ResourceUse::sampled);
+    const require::FacePart part = grow_to_texels(changing, options.face);
+    declare_cube_writes(pass, options, cubes, face_part_to_area(part, options.face));
+    DrawSettings drawing{.first_view = inputs.scene.capture_view(faces.owner) + faces.first,
+                         .layers = faces.count,
+                         .lighting = options.lighting,
+                         .looks = looks,
+                         .store = {{"distance_scale", 1 / options.stored_unit}},
+                         .peeled = peeled};
     if (options.colour == Format::rgba16f && options.saturates)
         drawing.store.emplace_back("largest_colour", kLargestHalf);
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == Format::r8_unorm)
         drawing.store.emplace_back("half_step", 0.5f / 255);
-    pass.writes(depth, Use::depth, kFarthest)
+    pass.writes(depth, ResourceUse::depth, kFarthest)
         .layers(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
                  drawing = std::move(drawing),
-                 leaves_out = options.leaves_out_spheres](Commands& commands) {
+                 leaves_out = options.leaves_out_spheres](PassCommands& commands) {
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 const DrawRange& range = scene.ranges()[object];
                 return object != scene.mirror_object(mirror) &&
                        !(leaves_out && range.mirror && range.exact_sphere && !range.lit) &&
-                       may_show(scene, mirror, face, part, object);
+                       may_face_show_object(scene, mirror, face, part, object);
             });
             if (!drawing.peeled)
                 draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
@@ -86,20 +88,21 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
 }
 
 /// Declares a pass that clears faces that no ray can ask for.
-void add_clear(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-               const FaceRange& faces, const std::string& name, const Cubes& cubes) {
+void add_clear_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+                    const FaceRange& faces, const std::string& name, const CubeArray& cubes) {
     graph::PassBuilder pass = graph.pass(inputs.prefix + name_of(name, faces) + ".clear");
-    write_cubes(pass, options, cubes);
+    declare_cube_writes(pass, options, cubes);
     if (cubes.colour2)
-        write_cubes(pass, options, {cubes.face, *cubes.colour2, cubes.distance2, {}, {}, {}});
-    pass.layers(faces.count).record([](Commands&) {});
+        declare_cube_writes(pass, options,
+                            {cubes.face, *cubes.colour2, cubes.distance2, {}, {}, {}});
+    pass.layers(faces.count).record([](PassCommands&) {});
 }
 
 } // namespace
 
-void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
-                  Looks looks, const CaptureWork& work) {
-    const auto shared = std::make_shared<const Looks>(std::move(looks));
+void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
+                        MirrorShaders looks, const CaptureWork& work) {
+    const auto shared = std::make_shared<const MirrorShaders>(std::move(looks));
     for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
         if (!captures.places[mirror].exists()) continue;
         const auto& [array, cube] = captures.places[mirror];
@@ -109,30 +112,32 @@ void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures
                               std::uint32_t first, std::uint32_t end) {
             const FaceRange faces{mirror, first, end - first};
             const require::FacePart changing = work.part(mirror, first);
-            const Cubes part = part_of(cubes, first_layer + first, faces.count);
-            const Cubes front{part.face, part.colour, part.distance, {}, {}, part.surfaces};
-            add_capture(graph, inputs, options, faces, name_of(captures.name + number, faces),
-                        front, shared, {}, changing);
+            const CubeArray part = cube_layer_range(cubes, first_layer + first, faces.count);
+            const CubeArray front{part.face, part.colour, part.distance, {}, {}, part.surfaces};
+            add_capture_pass(graph, inputs, options, faces, name_of(captures.name + number, faces),
+                             front, shared, {}, changing);
             if (part.colour2)
-                add_capture(graph, inputs, options, faces,
-                            name_of(captures.name + "2" + number, faces),
-                            {part.face, *part.colour2, part.distance2, {}, {}, {}}, shared,
-                            part.distance, changing);
+                add_capture_pass(graph, inputs, options, faces,
+                                 name_of(captures.name + "2" + number, faces),
+                                 {part.face, *part.colour2, part.distance2, {}, {}, {}}, shared,
+                                 part.distance, changing);
         };
         const auto clear = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                                std::uint32_t first, std::uint32_t end) {
-            add_clear(graph, inputs, options, {mirror, first, end - first}, captures.name + number,
-                      part_of(cubes, first_layer + first, end - first));
+            add_clear_pass(graph, inputs, options, {mirror, first, end - first},
+                           captures.name + number,
+                           cube_layer_range(cubes, first_layer + first, end - first));
         };
-        for_each_run(
+        for_each_face_run(
             [&](std::uint32_t face) {
                 return work.is_drawn(mirror, face) && work.part(mirror, face).is_whole();
             },
             draw);
         for (std::uint32_t face = 0; face < 6; ++face)
             if (!work.part(mirror, face).is_whole()) draw(face, face + 1);
-        for_each_run([&](std::uint32_t face) { return work.of(mirror, face) == FaceWork::clear; },
-                     clear);
+        for_each_face_run(
+            [&](std::uint32_t face) { return work.work_on_face(mirror, face) == FaceWork::clear; },
+            clear);
     }
 }
 

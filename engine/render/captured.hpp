@@ -10,10 +10,10 @@ namespace catoptric::render {
 
 /// The cube captures of all mirrors of a scene, read back to the host. Faces are ordered +X -X +Y
 /// -Y +Z -Z; texel (0, 0) is the top left one.
-struct Captured {
+struct CapturedCubes {
     std::uint32_t face = 0; ///< edge in texels
     std::vector<std::byte> colour_bytes, distance_bytes;
-    Space space;
+    SceneUnits space;
 
     /// Returns the colour of texel (x, y) of face `cube_face`, 0 to 5. Mirrors count from 0.
     vec3 colour(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const;

@@ -12,25 +12,27 @@ namespace catoptric::render {
 namespace {
 
 /// The properties that captures of one array share, except the edge.
-using Contents = std::tuple<Format, std::optional<Format>, bool, bool, float>;
+using CaptureContents = std::tuple<Format, std::optional<Format>, bool, bool, float>;
 
-Contents contents_of(const CaptureOptions& options) {
+CaptureContents capture_contents(const CaptureOptions& options) {
     return {options.colour, options.distance, options.second_layer, options.surfaces,
             options.stored_unit};
 }
 
 /// Mirrors by format and edge.
-using Kinds = std::map<std::pair<Contents, std::uint32_t>, std::vector<std::uint32_t>>;
+using MirrorsByFormatAndEdge =
+    std::map<std::pair<CaptureContents, std::uint32_t>, std::vector<std::uint32_t>>;
 
-Kinds kinds_of(const std::vector<CaptureOptions>& options) {
-    Kinds kinds;
+MirrorsByFormatAndEdge
+group_mirrors_by_format_and_edge(const std::vector<CaptureOptions>& options) {
+    MirrorsByFormatAndEdge kinds;
     for (std::uint32_t mirror = 0; mirror < options.size(); ++mirror)
         if (options[mirror].face > 0)
-            kinds[{contents_of(options[mirror]), options[mirror].face}].push_back(mirror);
+            kinds[{capture_contents(options[mirror]), options[mirror].face}].push_back(mirror);
     return kinds;
 }
 
-std::size_t arrays_for(const Kinds& kinds, std::size_t most_cubes) {
+std::size_t count_cube_arrays(const MirrorsByFormatAndEdge& kinds, std::size_t most_cubes) {
     std::size_t arrays = 0;
     for (const auto& [kind, mirrors] : kinds)
         arrays += (mirrors.size() + most_cubes - 1) / most_cubes;
@@ -39,7 +41,7 @@ std::size_t arrays_for(const Kinds& kinds, std::size_t most_cubes) {
 
 /// Enlarges one kind of captures to the next larger edge of the same format. Chooses the kind for
 /// which that adds the fewest texels. Returns false if no format has two edges.
-bool merge(Kinds& kinds, std::vector<std::string>& notes) {
+bool merge_smaller_captures(MirrorsByFormatAndEdge& kinds, std::vector<std::string>& notes) {
     auto cheapest = kinds.end();
     double least = 0;
     for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
@@ -65,8 +67,8 @@ bool merge(Kinds& kinds, std::vector<std::string>& notes) {
 }
 
 /// Declares one array for captures of the same kind.
-Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureOptions& options,
-                    std::size_t cubes, bool stay) {
+CubeArray declare_cube_array(graph::Graph& graph, const std::string& name,
+                             const CaptureOptions& options, std::size_t cubes, bool stay) {
     const auto image = [&](const char* what, Format format) {
         graph::ImageDesc desc{
             name + what, format, options.face, options.face, static_cast<std::uint32_t>(6 * cubes),
@@ -75,7 +77,7 @@ Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureO
     };
     check(options.distance || !(options.surfaces || options.second_layer), Failure::internal,
           "captures '", name, "' want surfaces or a second layer, which need the distance");
-    Cubes made;
+    CubeArray made;
     made.face = options.face;
     made.colour = image("colour", options.colour);
     if (options.distance) made.distance = image("distance", *options.distance);
@@ -88,8 +90,8 @@ Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureO
 }
 
 /// Declares a buffer with the place of each mirror's capture, and the pass that fills it.
-graph::BufferHandle add_table(graph::Graph& graph, const std::string& name,
-                              const Captures& captures) {
+graph::BufferHandle add_capture_table(graph::Graph& graph, const std::string& name,
+                                      const Captures& captures) {
     shared::CaptureTable places{};
     for (std::size_t i = 0; i < captures.places.size(); ++i) {
         const auto& [array, cube] = captures.places[i];
@@ -101,8 +103,8 @@ graph::BufferHandle add_table(graph::Graph& graph, const std::string& name,
     }
     const graph::BufferHandle table = graph.buffer({name + ".table", sizeof places});
     graph.pass(name + ".table")
-        .writes(table, graph::Use::copy_to)
-        .record([table, places](graph::Commands& commands) {
+        .writes(table, graph::ResourceUse::copy_to)
+        .record([table, places](graph::PassCommands& commands) {
             commands.update(table, std::as_bytes(std::span(&places, 1)));
         });
     return table;
@@ -110,7 +112,7 @@ graph::BufferHandle add_table(graph::Graph& graph, const std::string& name,
 
 } // namespace
 
-Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count) {
+CubeArray cube_layer_range(const CubeArray& cubes, std::uint32_t first, std::uint32_t count) {
     const auto part = [&](const std::optional<graph::ImageHandle>& image) {
         return image ? std::optional(image->layers(first, count)) : image;
     };
@@ -122,21 +124,21 @@ Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count) {
             part(cubes.surfaces)};
 }
 
-bool same_contents(const CaptureOptions& a, const CaptureOptions& b) {
-    return a.face == b.face && contents_of(a) == contents_of(b) && a.saturates == b.saturates &&
-           a.leaves_out_spheres == b.leaves_out_spheres;
+bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b) {
+    return a.face == b.face && capture_contents(a) == capture_contents(b) &&
+           a.saturates == b.saturates && a.leaves_out_spheres == b.leaves_out_spheres;
 }
 
 Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
                           std::vector<CaptureOptions> options, const std::string& set) {
     Captures captures;
     captures.name = std::move(name);
-    Kinds kinds = kinds_of(options);
+    MirrorsByFormatAndEdge kinds = group_mirrors_by_format_and_edge(options);
     const std::size_t most_cubes = inputs.scene.most_cubes();
     bool merged = true;
-    while (merged && arrays_for(kinds, most_cubes) > shared::kMostArrays)
-        merged = merge(kinds, captures.notes);
-    const std::size_t count = arrays_for(kinds, most_cubes);
+    while (merged && count_cube_arrays(kinds, most_cubes) > shared::kMostArrays)
+        merged = merge_smaller_captures(kinds, captures.notes);
+    const std::size_t count = count_cube_arrays(kinds, most_cubes);
     check(count <= shared::kMostArrays && options.size() <= shared::kMostCaptured,
           Failure::exhausted, "captures of ", options.size(), " mirrors in ", kinds.size(),
           " sizes and formats want ", count, " arrays of at most ", most_cubes,
@@ -153,7 +155,7 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
                 captures.places[mirror] = {array, cube};
             }
             const std::string number = array == 0 ? "" : std::to_string(array + 1);
-            captures.arrays.push_back(declare_cubes(
+            captures.arrays.push_back(declare_cube_array(
                 graph, inputs.prefix + captures.name + "/cubes" + number + dot_set + ".",
                 options[mirrors[first]], cubes, !set.empty()));
         }
@@ -163,13 +165,14 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror)
         in_order.push_back({0, mirror});
     if (captures.places != in_order)
-        captures.table = add_table(graph, inputs.prefix + captures.name + dot_set, captures);
+        captures.table = add_capture_table(graph, inputs.prefix + captures.name + dot_set,
+                                           captures);
     return captures;
 }
 
-Captures previous(graph::Graph& graph, const Captures& captures) {
+Captures captures_of_previous_frame(graph::Graph& graph, const Captures& captures) {
     Captures last = captures;
-    for (Cubes& cubes : last.arrays) {
+    for (CubeArray& cubes : last.arrays) {
         cubes = {cubes.face, graph.previous(cubes.colour), cubes.distance, {}, {}, {}};
         if (cubes.distance) cubes.distance = graph.previous(*cubes.distance);
     }

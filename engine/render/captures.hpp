@@ -16,7 +16,7 @@ namespace catoptric::render {
 /// A cube array with 6 layers a mirror: colour and, if requested, radial distance. `colour2` and
 /// `distance2` hold the next surface behind the first in the same direction, if that surface faces
 /// the centre.
-struct Cubes {
+struct CubeArray {
     std::uint32_t face = 0; ///< edge in texels
     graph::ImageHandle colour;
     std::optional<graph::ImageHandle> distance;
@@ -27,7 +27,7 @@ struct Cubes {
 };
 
 /// Returns a range of layers of every image that exists.
-Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count);
+CubeArray cube_layer_range(const CubeArray& cubes, std::uint32_t first, std::uint32_t count);
 
 /// Contents of one mirror's capture, and settings with which the capture is drawn.
 struct CaptureOptions {
@@ -44,7 +44,7 @@ struct CaptureOptions {
 };
 
 /// Returns whether both options give captures of the same layout and content, apart from lighting.
-bool same_contents(const CaptureOptions& a, const CaptureOptions& b);
+bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b);
 
 /// The place of a mirror's capture in the arrays.
 struct CapturePlace {
@@ -59,7 +59,7 @@ struct Captures {
     std::string name;                    ///< passes have the names name/1, name/2, ...
     std::vector<CaptureOptions> options; ///< options of each mirror's capture
     std::vector<CapturePlace> places;    ///< place of each mirror's capture
-    std::vector<Cubes> arrays;           ///< 1 to shared::kMostArrays arrays
+    std::vector<CubeArray> arrays;       ///< 1 to shared::kMostArrays arrays
     /// Holds a shared::CaptureTable; absent if mirror n is cube n of the only array.
     std::optional<graph::BufferHandle> table;
     std::vector<std::string> notes; ///< deviations from the request, one sentence each
@@ -68,7 +68,7 @@ struct Captures {
     std::vector<std::array<std::uint64_t, 6>> drawings;
 
     /// Returns the array that holds the mirror's capture; null if the mirror has none.
-    const Cubes* array_of(std::uint32_t mirror) const {
+    const CubeArray* array_of(std::uint32_t mirror) const {
         return places[mirror].exists() ? &arrays[places[mirror].array] : nullptr;
     }
 };
@@ -78,12 +78,12 @@ struct Captures {
 /// the fewest texels, and says so in `notes`.
 /// `options`: by mirror; at least one mirror must have a capture.
 /// `set`: if not empty, the arrays persist until they are overwritten
-/// (graph::Lifetime::persistent). The name tells them from other arrays of the same captures.
+/// (graph::ImageLifetime::persistent). The name tells them from other arrays of the same captures.
 /// Throws `exhausted` if kMostArrays arrays cannot hold the captures. Costs O(mirrors).
 Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
                           std::vector<CaptureOptions> options, const std::string& set = "");
 
 /// Returns the colours and distances of these captures at the end of the frame before.
-Captures previous(graph::Graph& graph, const Captures& captures);
+Captures captures_of_previous_frame(graph::Graph& graph, const Captures& captures);
 
 } // namespace catoptric::render

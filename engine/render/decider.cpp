@@ -15,11 +15,11 @@ constexpr std::uint64_t kCleared = 1; // `drawing` of a face that holds nothing
 
 } // namespace
 
-Decider::Decider(const GpuScene& scene, const require::Model& model,
-                 const std::vector<CaptureOptions>& layout, const CaptureCache* before,
-                 bool compares)
+CaptureDecider::CaptureDecider(const GpuScene& scene, const require::Model& model,
+                               const std::vector<CaptureOptions>& layout,
+                               const CaptureCache* before, bool compares)
     : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
-    if (before) changed_ = changed(*before);
+    if (before) changed_ = find_changed_captures(*before);
     ContentHash lit;
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         lit.add_all(std::span(scene.backdrops(light)));
@@ -29,24 +29,26 @@ Decider::Decider(const GpuScene& scene, const require::Model& model,
     shadow_views_ = lit.value();
 }
 
-bool Decider::was_there(std::uint32_t mirror) const {
+bool CaptureDecider::had_same_capture(std::uint32_t mirror) const {
     return before_ && layout_[mirror].face > 0 &&
-           same_contents(before_->options[mirror], layout_[mirror]);
+           have_equal_contents(before_->options[mirror], layout_[mirror]);
 }
 
-std::uint32_t Decider::waited(std::uint32_t mirror) const {
-    return was_there(mirror) ? before_->waited[mirror] : 0;
+std::uint32_t CaptureDecider::frames_waited(std::uint32_t mirror) const {
+    return had_same_capture(mirror) ? before_->waited[mirror] : 0;
 }
 
-void Decider::decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const {
+void CaptureDecider::decide_faces(std::uint32_t mirror, CaptureWork& work,
+                                  CaptureCache& kept) const {
     CaptureChange change = CaptureChange::none;
     std::vector<std::uint32_t>& saw = kept.saw[mirror];
     for (std::uint32_t face = 0; face < 6; ++face) {
-        const std::vector<std::uint32_t> seen = seen_by(mirror, face);
-        const FaceWork what = decide(mirror, face, seen, kept.faces[mirror][face]);
+        const std::vector<std::uint32_t> seen = mirrors_seen_by_face(mirror, face);
+        const FaceWork what = decide_faces(mirror, face, seen, kept.faces[mirror][face]);
         work.faces[mirror][face] = what;
         if (work.is_drawn(mirror, face))
-            work.parts[mirror][face] = changing(mirror, face, seen, kept.faces[mirror][face]);
+            work.parts[mirror][face] = changing_face_part(mirror, face, seen,
+                                                          kept.faces[mirror][face]);
         if (what == FaceWork::draw) change = CaptureChange::some;
         if (what != FaceWork::compare) continue;
         change = std::max(change, CaptureChange::unknown);
@@ -55,15 +57,16 @@ void Decider::decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept
     kept.changes[mirror] = change;
 }
 
-bool Decider::can_wait(std::uint32_t mirror, const CaptureWork& work) const {
-    if (!was_there(mirror)) return false;
+bool CaptureDecider::can_wait(std::uint32_t mirror, const CaptureWork& work) const {
+    if (!had_same_capture(mirror)) return false;
     for (std::uint32_t face = 0; face < 6; ++face)
         if (work.is_drawn(mirror, face) && before_->faces[mirror][face].content_hash == 0)
             return false;
     return true;
 }
 
-void Decider::put_off(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const {
+void CaptureDecider::postpone_redraw(std::uint32_t mirror, CaptureWork& work,
+                                     CaptureCache& kept) const {
     for (std::uint32_t face = 0; face < 6; ++face) {
         if (!work.is_drawn(mirror, face)) continue;
         kept.faces[mirror][face] = before_->faces[mirror][face];
@@ -75,23 +78,26 @@ void Decider::put_off(std::uint32_t mirror, CaptureWork& work, CaptureCache& kep
     kept.waited[mirror] = before_->waited[mirror] + 1;
 }
 
-std::vector<std::uint32_t> Decider::seen_by(std::uint32_t mirror, std::uint32_t face) const {
+std::vector<std::uint32_t> CaptureDecider::mirrors_seen_by_face(std::uint32_t mirror,
+                                                                std::uint32_t face) const {
     const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t other : model_.mirrors[mirror].sees)
-        if (layout_[other].face > 0 && may_meet(view, scene_.ranges()[scene_.mirror_object(other)]))
+        if (layout_[other].face > 0 &&
+            may_view_show_box(view, scene_.ranges()[scene_.mirror_object(other)]))
             seen.push_back(other);
     return seen;
 }
 
-FaceWork Decider::decide(std::uint32_t mirror, std::uint32_t face,
-                         const std::vector<std::uint32_t>& seen, CachedFace& now) const {
+FaceWork CaptureDecider::decide_faces(std::uint32_t mirror, std::uint32_t face,
+                                      const std::vector<std::uint32_t>& seen,
+                                      CachedFace& now) const {
     const require::MirrorNeeds& needs = model_.mirrors[mirror];
     ContentHash shown =
         ContentHash(shadow_views_).add(scene_.views()[scene_.capture_view(mirror) + face]);
     for (const std::uint32_t other : seen) shown.add(other);
     const std::uint64_t content_hash = ContentHash(shown).add(needs.content_hashes[face]).value();
-    now = was_there(mirror) ? before_->faces[mirror][face] : CachedFace();
+    now = had_same_capture(mirror) ? before_->faces[mirror][face] : CachedFace();
     const bool shows_same = now.drawing > 0 && now.content_hash == content_hash;
     const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
     if (shows_same && !now.is_behind && std::ranges::none_of(seen, has_changed))
@@ -103,37 +109,38 @@ FaceWork Decider::decide(std::uint32_t mirror, std::uint32_t face,
         now.drawing = kCleared;
         return FaceWork::clear;
     }
-    now = {content_hash, drawing(content_hash, seen), false,
+    now = {content_hash, face_picture_hash(content_hash, seen), false,
            ContentHash(shown).add(needs.settings[face]).value(), needs.pieces};
     return shows_same && compares_ ? FaceWork::compare : FaceWork::draw;
 }
 
-require::FacePart Decider::changing(std::uint32_t mirror, std::uint32_t face,
-                                    const std::vector<std::uint32_t>& seen,
-                                    const CachedFace& now) const {
-    if (!was_there(mirror)) return {};
+require::FacePart CaptureDecider::changing_face_part(std::uint32_t mirror, std::uint32_t face,
+                                                     const std::vector<std::uint32_t>& seen,
+                                                     const CachedFace& now) const {
+    if (!had_same_capture(mirror)) return {};
     const CachedFace& before = before_->faces[mirror][face];
     if (before.content_hash == 0 || before.is_behind || before.settings != now.settings ||
         !before.pieces || !now.pieces)
         return {};
-    require::FacePart part = require::differing(before.pieces->faces[face],
-                                                now.pieces->faces[face]);
+    require::FacePart part = require::find_differing_part(before.pieces->faces[face],
+                                                          now.pieces->faces[face]);
     const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
     // All of them, because the position of other mirrors can change a mirror's look before its
     // capture changes.
     for (const std::uint32_t other : seen)
-        part = united(part, part_with(view, static_cast<int>(face),
-                                      scene_.ranges()[scene_.mirror_object(other)].bounds));
+        part = unite_face_parts(
+            part, face_part_showing_box(view, static_cast<int>(face),
+                                        scene_.ranges()[scene_.mirror_object(other)].bounds));
     return part.empty() ? require::FacePart() : part;
 }
 
-std::uint64_t Decider::drawing(std::uint64_t content_hash,
-                               const std::vector<std::uint32_t>& seen) const {
+std::uint64_t CaptureDecider::face_picture_hash(std::uint64_t content_hash,
+                                                const std::vector<std::uint32_t>& seen) const {
     ContentHash number;
     number.add(content_hash);
     for (const std::uint32_t other : seen)
         for (std::uint32_t face = 0; face < 6; ++face)
-            number.add(was_there(other) ? before_->faces[other][face].drawing : 0);
+            number.add(had_same_capture(other) ? before_->faces[other][face].drawing : 0);
     return std::max<std::uint64_t>(number.value(), kCleared + 1);
 }
 

@@ -10,39 +10,42 @@ namespace catoptric::render {
 
 /// Decides for each mirror whether a frame keeps, clears, draws or compares the faces of the
 /// mirror's capture.
-class Decider {
+class CaptureDecider {
 public:
     /// `layout`: options of this frame's captures. `before`: captures of the frame before; null:
     /// there are none. All references must outlive this object. `compares`: captures that may have
     /// changed are compared.
-    Decider(const GpuScene& scene, const require::Model& model,
-            const std::vector<CaptureOptions>& layout, const CaptureCache* before, bool compares);
+    CaptureDecider(const GpuScene& scene, const require::Model& model,
+                   const std::vector<CaptureOptions>& layout, const CaptureCache* before,
+                   bool compares);
 
     /// Returns whether the frame before left a capture of the mirror with the same options.
-    bool was_there(std::uint32_t mirror) const;
+    bool had_same_capture(std::uint32_t mirror) const;
     /// Returns for how many frames, up to the frame before, the redraw of the mirror's capture has
     /// waited.
-    std::uint32_t waited(std::uint32_t mirror) const;
+    std::uint32_t frames_waited(std::uint32_t mirror) const;
 
     /// Decides for all six faces of the mirror. Fills the mirror's entries in `work` and `kept`.
-    void decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
+    void decide_faces(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
     /// Returns whether the redraw can wait. The old contents must be valid in every face that would
     /// be drawn.
     bool can_wait(std::uint32_t mirror, const CaptureWork& work) const;
-    /// Cancels the redraw that `decide` asked for; the old contents stay.
-    void put_off(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
+    /// Cancels the redraw that `decide_faces` asked for; the old contents stay.
+    void postpone_redraw(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
 
 private:
     /// Returns the other mirrors whose captures the face shows.
-    std::vector<std::uint32_t> seen_by(std::uint32_t mirror, std::uint32_t face) const;
-    FaceWork decide(std::uint32_t mirror, std::uint32_t face,
-                    const std::vector<std::uint32_t>& seen, CachedFace& now) const;
+    std::vector<std::uint32_t> mirrors_seen_by_face(std::uint32_t mirror, std::uint32_t face) const;
+    FaceWork decide_faces(std::uint32_t mirror, std::uint32_t face,
+                          const std::vector<std::uint32_t>& seen, CachedFace& now) const;
     /// Returns the part of a drawn face that may differ from its old contents.
-    require::FacePart changing(std::uint32_t mirror, std::uint32_t face,
-                               const std::vector<std::uint32_t>& seen, const CachedFace& now) const;
+    require::FacePart changing_face_part(std::uint32_t mirror, std::uint32_t face,
+                                         const std::vector<std::uint32_t>& seen,
+                                         const CachedFace& now) const;
     /// Returns the number of a face's picture, from the content hash and the captures that the face
     /// shows.
-    std::uint64_t drawing(std::uint64_t content_hash, const std::vector<std::uint32_t>& seen) const;
+    std::uint64_t face_picture_hash(std::uint64_t content_hash,
+                                    const std::vector<std::uint32_t>& seen) const;
 
     const GpuScene& scene_;
     const require::Model& model_;

@@ -10,14 +10,14 @@ namespace catoptric::render {
 
 namespace {
 
-using graph::Commands;
-using graph::Filter;
 using graph::ImageHandle;
+using graph::PassCommands;
+using graph::TextureFilter;
 
 constexpr const char* kBlackMirror = "mirror_black.frag";
 
 /// Returns the winding of back faces in a view's picture. Cube faces show the scene mirrored.
-gpu::Winding turns_away(const shared::View& view) {
+gpu::Winding back_face_winding(const shared::View& view) {
     return dot(glm::cross(view.right, view.down), view.forward) > 0
                ? gpu::Winding::clockwise
                : gpu::Winding::counterclockwise;
@@ -25,8 +25,8 @@ gpu::Winding turns_away(const shared::View& view) {
 
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
-void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, TriangleRuns triangles) {
+void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
+                 std::uint32_t first_view, std::uint32_t layers, VisibleTriangles triangles) {
     const DrawRange& range = scene.ranges()[object];
     const auto instance = static_cast<std::uint32_t>(object) << shared::kLayerBits;
     scene.bind_vertices(commands, object);
@@ -39,7 +39,7 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
     };
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
-        while (end < layers && may_meet(scene.views()[first_view + end], range)) ++end;
+        while (end < layers && may_view_show_box(scene.views()[first_view + end], range)) ++end;
         if (end > layer) draw_layers(layer, end - layer);
         layer = end + 1;
     }
@@ -47,30 +47,30 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
 
 /// Returns one image of each array.
 template <typename Part>
-std::vector<ImageHandle> images_of(const Captures& captures, Part&& part) {
+std::vector<ImageHandle> list_cube_images(const Captures& captures, Part&& part) {
     std::vector<ImageHandle> images;
-    for (const Cubes& cubes : captures.arrays) images.push_back(part(cubes));
+    for (const CubeArray& cubes : captures.arrays) images.push_back(part(cubes));
     return images;
 }
 
-void bind_captures(Commands& commands, const Captures& captures) {
+void bind_capture_images(PassCommands& commands, const Captures& captures) {
     commands.bind("colour_cubes",
-                  images_of(captures, [](const Cubes& cubes) { return cubes.colour; }));
+                  list_cube_images(captures, [](const CubeArray& cubes) { return cubes.colour; }));
     // Every shader has these bindings. If a capture lacks an image, its colour is bound instead,
     // and nothing reads it.
-    commands.bind("surface_cubes", images_of(captures, [](const Cubes& cubes) {
+    commands.bind("surface_cubes", list_cube_images(captures, [](const CubeArray& cubes) {
                       return cubes.surfaces.value_or(cubes.colour);
                   }));
-    const std::vector<ImageHandle> distances = images_of(
-        captures, [](const Cubes& cubes) { return cubes.distance.value_or(cubes.colour); });
+    const std::vector<ImageHandle> distances = list_cube_images(
+        captures, [](const CubeArray& cubes) { return cubes.distance.value_or(cubes.colour); });
     commands.bind("distance_cubes", distances);
-    commands.bind("linear_texels", Filter::linear);
-    commands.bind("nearest_texels", Filter::nearest);
+    commands.bind("linear_texels", TextureFilter::linear);
+    commands.bind("nearest_texels", TextureFilter::nearest);
     if (captures.table) commands.bind("Captures", *captures.table);
 }
 
 /// Adds the constants that tell a shader where the captures are stored.
-void add_places(const Captures& captures, gpu::Constants& constants) {
+void add_capture_place_constants(const Captures& captures, gpu::ShaderConstants& constants) {
     const auto unit_of = [](const CaptureOptions& options) { return options.stored_unit; };
     const float unit = unit_of(captures.options.front());
     const bool same = std::ranges::all_of(
@@ -85,29 +85,29 @@ void add_places(const Captures& captures, gpu::Constants& constants) {
 }
 
 /// Returns the constants of the pass for fragment shaders that draw objects with a colour.
-gpu::Constants features_of(const GpuScene& scene, const Drawing& drawing) {
-    gpu::Constants features;
+gpu::ShaderConstants fragment_shader_constants(const GpuScene& scene, const DrawSettings& drawing) {
+    gpu::ShaderConstants features;
     if (drawing.peeled) features.emplace_back("peels", 1u);
     if (scene.has_details()) features.emplace_back("lights_mirrors", 1u);
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
     return features;
 }
 
-void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
+void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
                   const MirrorShader& look, const ObjectFilter& wanted,
-                  TriangleRuns triangles = nullptr) {
+                  VisibleTriangles triangles = nullptr) {
     gpu::RasterState state{"", kBlackMirror, drawing.store};
-    state.features = features_of(scene, drawing);
+    state.features = fragment_shader_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = look.fragment +
                          (look.ablated && !drawing.peeled ? "#ablate" : look.variant);
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
-        if (look.captures) bind_captures(commands, *look.captures);
-        if (look.captures) add_places(*look.captures, state.constants);
+        if (look.captures) bind_capture_images(commands, *look.captures);
+        if (look.captures) add_capture_place_constants(*look.captures, state.constants);
         for (const auto& [name, images] : look.images) commands.bind(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
-    const auto& draw = drawing.peeled ? draw_objects : draw_fronts;
+    const auto& draw = drawing.peeled ? draw_objects : draw_objects_without_backs;
     draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted,
          triangles);
 }
@@ -115,7 +115,7 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
 /// Returns whether no back face of the object is visible in a view and back faces can be skipped.
 /// For a sphere they are half of all triangles. Returns false if the eye is inside the object's
 /// bounds or the view has a clip plane.
-bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t object) {
+bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::size_t object) {
     const DrawRange& range = scene.ranges()[object];
     const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
                         all(lessThanEqual(view.eye, range.bounds.hi));
@@ -124,9 +124,9 @@ bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t
 
 } // namespace
 
-void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
+void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const ObjectFilter& wanted, TriangleRuns triangles) {
+                  const ObjectFilter& wanted, VisibleTriangles triangles) {
     std::ranges::copy(scene.features(first_view), std::back_inserter(state.features));
     const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
@@ -137,34 +137,36 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
             if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) {
                 commands.use(state);
-                commands.push(shared::Draw{first_view, ablated});
+                commands.push(shared::DrawParameters{first_view, ablated});
             }
             draw_object(commands, scene, i, first_view, layers, triangles);
         }
     }
 }
 
-void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState state,
-                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                 const ObjectFilter& wanted, TriangleRuns triangles) {
+void draw_objects_without_backs(PassCommands& commands, const GpuScene& scene,
+                                gpu::RasterState state, std::uint32_t first_view,
+                                std::uint32_t layers, std::uint32_t ablated,
+                                const ObjectFilter& wanted, VisibleTriangles triangles) {
     const shared::View& view = scene.views()[first_view];
-    const auto is_front = [&](std::size_t i) { return hides_its_back(scene, view, i); };
+    const auto is_front = [&](std::size_t i) { return can_cull_back_faces(scene, view, i); };
     draw_objects(
         commands, scene, state, first_view, layers, ablated,
         [&](std::size_t i) { return wanted(i) && !is_front(i); }, triangles);
-    state.hidden = turns_away(view);
+    state.hidden = back_face_winding(view);
     draw_objects(
         commands, scene, std::move(state), first_view, layers, ablated,
         [&](std::size_t i) { return wanted(i) && is_front(i); }, triangles);
 }
 
-void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,
+void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
                 const ObjectFilter& wanted) {
     const auto& [first_view, layers, lighting, looks, store, completing_tracer, peeled] = drawing;
-    const gpu::Constants features = features_of(scene, drawing);
+    const gpu::ShaderConstants features = fragment_shader_constants(scene, drawing);
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
-    if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
+    if (lighting.shadow_map)
+        commands.bind("shadow_map", *lighting.shadow_map, TextureFilter::compare);
     if (peeled) commands.bind("first_layer", *peeled);
     gpu::RasterState diffuse{"", "diffuse.frag", store, gpu::Winding::none, features};
     if (completing_tracer > 0) {
@@ -188,7 +190,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
                 return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
                        !is_black(i);
             });
-        for (const PartShader& part : looks->parts)
+        for (const MirrorPartShader& part : looks->parts)
             draw_mirrors(
                 commands, scene, drawing, looks->looks[part.look],
                 [&](std::size_t i) {
@@ -202,7 +204,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
     if (mirrors_first) draw_all_mirrors();
     draw_diffuse(false, gpu::Winding::none);
     if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))
-        draw_diffuse(true, turns_away(scene.views()[first_view]));
+        draw_diffuse(true, back_face_winding(scene.views()[first_view]));
     if (!mirrors_first) draw_all_mirrors();
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)

@@ -11,27 +11,28 @@ namespace catoptric::render {
 using ObjectFilter = std::function<bool(std::size_t)>;
 
 /// The triangles of an object to draw; null: all of them.
-using TriangleRuns = const std::vector<scene::TriangleRun>*;
+using VisibleTriangles = const std::vector<scene::TriangleRun>*;
 
 /// Draws the wanted objects with this fragment shader and state. Draws each object into those
 /// layers whose views may meet it; the views start at `first_view`. Draws objects with an object
 /// space last.
-void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
+void draw_objects(graph::PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const ObjectFilter& wanted, TriangleRuns triangles = nullptr);
+                  const ObjectFilter& wanted, VisibleTriangles triangles = nullptr);
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
-void draw_fronts(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
-                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                 const ObjectFilter& wanted, TriangleRuns triangles = nullptr);
+void draw_objects_without_backs(graph::PassCommands& commands, const GpuScene& scene,
+                                gpu::RasterState state, std::uint32_t first_view,
+                                std::uint32_t layers, std::uint32_t ablated,
+                                const ObjectFilter& wanted, VisibleTriangles triangles = nullptr);
 
 /// The settings with which a picture of the scene is drawn.
-struct Drawing {
+struct DrawSettings {
     std::uint32_t first_view = 0, layers = 1;
     Lighting lighting;
-    std::shared_ptr<const Looks> looks; ///< shaders of the mirrors
-    gpu::Constants store;               ///< constants for storing distances and surfaces
+    std::shared_ptr<const MirrorShaders> looks; ///< shaders of the mirrors
+    gpu::ShaderConstants store;                 ///< constants for storing distances and surfaces
     /// Number, from 1, of the tracer that completes surfaces that are no mirrors, where the shadow
     /// map leaves their light open or they reflect; 0: none.
     std::uint32_t completing_tracer = 0;
@@ -41,7 +42,7 @@ struct Drawing {
 
 /// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
 /// draw the mirrors first.
-void draw_scene(graph::Commands& commands, const GpuScene& scene, const Drawing& drawing,
+void draw_scene(graph::PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
                 const ObjectFilter& wanted);
 
 } // namespace catoptric::render

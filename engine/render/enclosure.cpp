@@ -14,16 +14,16 @@ constexpr double kRoundings = 1e-3;
 
 using PointKey = std::array<double, 3>;
 
-PointKey place_of(const dvec3& p) { return {p.x, p.y, p.z}; }
+PointKey make_point_key(const dvec3& p) { return {p.x, p.y, p.z}; }
 
 /// Returns whether each edge is traversed equally often in both directions. Edges are compared by
 /// position, not by vertex index. `at(k)`: corner k, three corners a triangle.
 template <typename At>
-bool is_closed(std::size_t corners, At&& at) {
+bool is_closed_surface(std::size_t corners, At&& at) {
     std::map<std::pair<PointKey, PointKey>, int> runs;
     for (std::size_t k = 0; k < corners; k += 3)
         for (std::size_t j = 0; j < 3; ++j) {
-            const PointKey a = place_of(at(k + j)), b = place_of(at(k + (j + 1) % 3));
+            const PointKey a = make_point_key(at(k + j)), b = make_point_key(at(k + (j + 1) % 3));
             if (a < b) ++runs[{a, b}];
             if (b < a) --runs[{b, a}];
         }
@@ -40,7 +40,7 @@ double solid_angle(dvec3 a, dvec3 b, dvec3 c) {
 
 } // namespace
 
-bool encloses(const Geometry& geometry, const DrawRange& range, const dvec3& place) {
+bool encloses_point(const Geometry& geometry, const DrawRange& range, const dvec3& place) {
     const vec3 in_scene(place);
     if (!(all(lessThanEqual(range.bounds.lo, in_scene)) &&
           all(lessThanEqual(in_scene, range.bounds.hi))))
@@ -55,12 +55,12 @@ bool encloses(const Geometry& geometry, const DrawRange& range, const dvec3& pla
     }
     // Inside, the sum is the whole sphere of directions. On a face it is half of that, and on an
     // edge or a corner a fraction. Outside it is 0.
-    return std::abs(seen) > kRoundings && is_closed(range.index_count, [&](std::size_t k) {
+    return std::abs(seen) > kRoundings && is_closed_surface(range.index_count, [&](std::size_t k) {
                return dvec3(geometry.vertices[geometry.indices[range.first_index + k]].position);
            });
 }
 
-bool is_shell(const scene::Mesh& mesh) {
+bool is_closed_shell(const scene::Mesh& mesh) {
     Bounds<double> box;
     for (const dvec3& position : mesh.positions) box.add(position);
     const dvec3 middle = box.empty() ? dvec3(0) : box.centre();
@@ -68,7 +68,7 @@ bool is_shell(const scene::Mesh& mesh) {
     const bool faces_out = std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
         return dot(arm(t.x), cross(arm(t.y), arm(t.z))) > 0;
     });
-    return faces_out && is_closed(3 * mesh.triangles.size(), [&](std::size_t k) {
+    return faces_out && is_closed_surface(3 * mesh.triangles.size(), [&](std::size_t k) {
                return mesh.positions[mesh.triangles[k / 3][static_cast<int>(k % 3)]];
            });
 }

@@ -2,7 +2,7 @@
 
 namespace catoptric::render {
 
-require::FacePart in_texels(const require::FacePart& part, std::uint32_t edge) {
+require::FacePart grow_to_texels(const require::FacePart& part, std::uint32_t edge) {
     if (part.is_whole()) return part;
     const double size = edge;
     const auto texel = [&](const dvec2& place) { return (place * .5 + .5) * size; };
@@ -11,18 +11,20 @@ require::FacePart in_texels(const require::FacePart& part, std::uint32_t edge) {
     return {first / size * 2. - 1., end / size * 2. - 1.};
 }
 
-std::optional<graph::Area> area_of(const require::FacePart& part, std::uint32_t edge) {
+std::optional<graph::PixelArea> face_part_to_area(const require::FacePart& part,
+                                                  std::uint32_t edge) {
     if (part.is_whole()) return {};
     const auto texel = [&](const dvec2& place) {
         return uvec2(round((place * .5 + .5) * static_cast<double>(edge)));
     };
     const uvec2 first = texel(part.low), size = texel(part.high) - first;
-    return graph::Area{first.x, first.y, size.x, size.y};
+    return graph::PixelArea{first.x, first.y, size.x, size.y};
 }
 
-require::FacePart part_with(const shared::View& view, int face, const Bounds<float>& box) {
+require::FacePart face_part_showing_box(const shared::View& view, int face,
+                                        const Bounds<float>& box) {
     const dvec3 centre(view.eye);
-    return require::part_with(face, {dvec3(box.lo) - centre, dvec3(box.hi) - centre});
+    return require::face_part_containing(face, {dvec3(box.lo) - centre, dvec3(box.hi) - centre});
 }
 
 } // namespace catoptric::render

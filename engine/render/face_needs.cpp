@@ -8,7 +8,8 @@ namespace catoptric::render {
 namespace {
 
 /// Returns the vertices of an object with an object space, relative to its middle, in scene units.
-std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& range) {
+std::vector<shared::Vertex> vertices_relative_to_middle(const Geometry& geometry,
+                                                        const DrawRange& range) {
     std::vector<shared::Vertex> arms;
     const dmat3 turn = range.own->scene_from_own, normals = glm::transpose(glm::inverse(turn));
     for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
@@ -20,7 +21,8 @@ std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& r
 }
 
 /// Returns the object's indices, counted from its first vertex.
-std::vector<std::uint32_t> own_indices(const Geometry& geometry, const DrawRange& range) {
+std::vector<std::uint32_t> indices_from_first_vertex(const Geometry& geometry,
+                                                     const DrawRange& range) {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
         indices.push_back(geometry.indices[k] - range.first_vertex);
@@ -29,7 +31,7 @@ std::vector<std::uint32_t> own_indices(const Geometry& geometry, const DrawRange
 
 /// Replaces an orthographic view by a perspective one whose eye is one unit, the size of the scene,
 /// in front of the shown point.
-shared::View in_perspective(shared::View view, const vec3& shown) {
+shared::View to_perspective_view(shared::View view, const vec3& shown) {
     if (view.parallel == 0) return view;
     view.eye += view.forward * (dot(view.forward, shown - view.eye) - 1);
     view.parallel = 0;
@@ -46,19 +48,20 @@ std::vector<double> find_face_needs(const Geometry& geometry, std::span<const st
     for (std::size_t mirror = 0; mirror < mirrors.size(); ++mirror) {
         const DrawRange& range = geometry.ranges[mirrors[mirror]];
         const double radius{probes[mirror].radius};
-        PixelGrid pixels{in_perspective(camera, range.bounds.centre()), height};
+        PixelGrid pixels{to_perspective_view(camera, range.bounds.centre()), height};
         if (range.own)
             pixels.view.eye = vec3(eye + dvec3(pixels.view.eye - camera.eye) - range.own->centre);
-        if (!range.seen_by_camera || !may_meet(camera, range.bounds))
+        if (!range.seen_by_camera || !may_view_show_box(camera, range.bounds))
             needs.push_back(0);
         else if (radius > 0)
-            needs.push_back(
-                sphere_need(pixels, range.own ? vec3(0) : probes[mirror].sphere, radius));
+            needs.push_back(texels_needed_by_sphere(
+                pixels, range.own ? vec3(0) : probes[mirror].sphere, radius));
         else if (range.own)
-            needs.push_back(
-                mesh_need(pixels, arms_of(geometry, range), own_indices(geometry, range)));
+            needs.push_back(texels_needed_by_mesh(pixels,
+                                                  vertices_relative_to_middle(geometry, range),
+                                                  indices_from_first_vertex(geometry, range)));
         else
-            needs.push_back(mesh_need(
+            needs.push_back(texels_needed_by_mesh(
                 pixels, geometry.vertices,
                 std::span(geometry.indices).subspan(range.first_index, range.index_count)));
     }

@@ -8,6 +8,6 @@ namespace catoptric::render {
 /// by more than 6 degrees. Light on such meshes fades towards the plane of the facet (`facet_share`
 /// in lib/math/light.glsl). Other meshes are lit by their normals alone, and so receive light from
 /// up to 6 degrees below the plane. Angles are measured in the mesh's own coordinates. Costs O(n).
-bool leaves_facets(const scene::Mesh& mesh);
+bool normals_differ_from_facets(const scene::Mesh& mesh);
 
 } // namespace catoptric::render

@@ -13,7 +13,7 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 constexpr std::uint32_t kMultiple = 16;
 
 /// One triangle of a mirror.
-struct Facet {
+struct MirrorFacet {
     std::array<dvec3, 3> position, normal;
 
     dvec3 middle() const { return (position[0] + position[1] + position[2]) / 3.0; }
@@ -23,7 +23,7 @@ struct Facet {
 /// Returns the least and the largest normal curvature of the surface with the facet's interpolated
 /// normals. They are the eigenvalues of the symmetric part of the matrix that maps two edges to the
 /// change of normal along them.
-std::array<double, 2> principal_curvatures(const Facet& facet) {
+std::array<double, 2> principal_curvatures(const MirrorFacet& facet) {
     const dvec3 edge1 = facet.position[1] - facet.position[0],
                 edge2 = facet.position[2] - facet.position[0];
     const dvec3 turn1 = facet.normal[1] - facet.normal[0],
@@ -40,13 +40,13 @@ std::array<double, 2> principal_curvatures(const Facet& facet) {
 }
 
 /// Returns the inward normals of the planes through the eye that bound the picture.
-std::array<dvec3, 5> picture_planes(const shared::View& view) {
+std::array<dvec3, 5> picture_side_planes(const shared::View& view) {
     const dvec3 forward(view.forward), right(view.right), down(view.down);
     return {forward, forward + right, forward - right, forward + down, forward - down};
 }
 
-bool is_in_picture(const PixelGrid& pixels, const Facet& facet) {
-    return std::ranges::none_of(picture_planes(pixels.view), [&](const dvec3& inward) {
+bool is_facet_in_picture(const PixelGrid& pixels, const MirrorFacet& facet) {
+    return std::ranges::none_of(picture_side_planes(pixels.view), [&](const dvec3& inward) {
         return std::ranges::all_of(facet.position, [&](const dvec3& corner) {
             return dot(inward, corner - dvec3(pixels.view.eye)) <= 0;
         });
@@ -60,7 +60,7 @@ double cosine_to_axis(const shared::View& view, const dvec3& place) {
     return distance > 0 ? dot(seen, dvec3(view.forward)) / distance : 0;
 }
 
-double facet_need(const PixelGrid& pixels, const Facet& facet) {
+double texels_needed_by_facet(const PixelGrid& pixels, const MirrorFacet& facet) {
     double to_axis = 1;
     for (const dvec3& corner : facet.position)
         to_axis = std::min(to_axis, cosine_to_axis(pixels.view, corner));
@@ -72,8 +72,8 @@ double facet_need(const PixelGrid& pixels, const Facet& facet) {
     for (const double curvature : principal_curvatures(facet)) {
         // A concave mirror is convex from behind.
         const double seen = cosine < 0 ? -curvature : curvature;
-        need = std::max(
-            need, face_need(reflected_footprint(pixel_angle, distance, seen, std::abs(cosine))));
+        need = std::max(need, texels_for_footprint(reflected_pixel_footprint(
+                                  pixel_angle, distance, seen, std::abs(cosine))));
     }
     return need;
 }
@@ -91,19 +91,20 @@ double PixelGrid::angle(double cosine) const {
     return 2 / (glm::length(dvec3(view.down)) * height) * at_most * at_most;
 }
 
-double reflected_footprint(double pixel_angle, double distance, double curvature, double cosine) {
+double reflected_pixel_footprint(double pixel_angle, double distance, double curvature,
+                                 double cosine) {
     if (curvature == 0) return pixel_angle; // holds for any cosine
     return pixel_angle * std::max(1.0, std::abs(1 + 2 * distance * curvature / cosine));
 }
 
-double face_need(double footprint) { return kRightAngle / footprint; }
+double texels_for_footprint(double footprint) { return kRightAngle / footprint; }
 
-double sphere_need(const PixelGrid& pixels, const vec3& centre, double radius) {
+double texels_needed_by_sphere(const PixelGrid& pixels, const vec3& centre, double radius) {
     const dvec3 seen = dvec3(centre) - dvec3(pixels.view.eye);
-    for (const dvec3& inward : picture_planes(pixels.view))
+    for (const dvec3& inward : picture_side_planes(pixels.view))
         if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
     const double distance = glm::length(seen);
-    if (distance <= radius) return face_need(pixels.angle(0));
+    if (distance <= radius) return texels_for_footprint(pixels.angle(0));
     // Samples the sphere in the plane of the axis and its centre, outwards from the centre, because
     // pixels shrink in that direction.
     const double axis = std::acos(glm::clamp(cosine_to_axis(pixels.view, dvec3(centre)), -1., 1.));
@@ -114,29 +115,30 @@ double sphere_need(const PixelGrid& pixels, const vec3& centre, double radius) {
         const double cosine = std::sqrt(1 - across * across / (radius * radius));
         const double along = std::sqrt(distance * distance - across * across) - radius * cosine;
         const double pixel = pixels.angle(std::cos(axis + std::asin(across / distance)));
-        need = std::max(need, face_need(reflected_footprint(pixel, along, 1 / radius, cosine)));
+        need = std::max(need, texels_for_footprint(
+                                  reflected_pixel_footprint(pixel, along, 1 / radius, cosine)));
     }
     return need;
 }
 
-double mesh_need(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
-                 std::span<const std::uint32_t> indices) {
+double texels_needed_by_mesh(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
+                             std::span<const std::uint32_t> indices) {
     double need = 0;
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
-        Facet facet;
+        MirrorFacet facet;
         for (std::size_t j = 0; j < 3; ++j) {
             const shared::Vertex& vertex = vertices[indices[k + j]];
             facet.position[j] = dvec3(vertex.position), facet.normal[j] = dvec3(vertex.normal);
         }
         const dvec3 area = glm::cross(facet.position[1] - facet.position[0],
                                       facet.position[2] - facet.position[0]);
-        if (glm::length(area) > 0 && is_in_picture(pixels, facet))
-            need = std::max(need, facet_need(pixels, facet));
+        if (glm::length(area) > 0 && is_facet_in_picture(pixels, facet))
+            need = std::max(need, texels_needed_by_facet(pixels, facet));
     }
     return need;
 }
 
-std::uint32_t common_edge(std::span<const double> needs, std::uint32_t most) {
+std::uint32_t common_capture_edge(std::span<const double> needs, std::uint32_t most) {
     const double need = needs.empty() ? 0 : *std::ranges::max_element(needs);
     if (!(need < most)) return most;
     const auto multiples = static_cast<std::uint32_t>(std::ceil(need / kMultiple));

@@ -20,7 +20,7 @@ bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& tr
 }
 
 /// Writes the object's indices.
-void store_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
+void write_object_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
     std::size_t index = range.first_index;
     for (uvec3 triangle : mesh.triangles) {
         triangle += range.first_vertex;
@@ -31,8 +31,9 @@ void store_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange&
 }
 
 /// Writes the vertices that all copies of a mesh share. Returns their space.
-MeshSpace store_shared(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
-    MeshSpace space = space_of_mesh(mesh);
+MeshSpace write_shared_vertices(Geometry& geometry, const scene::Mesh& mesh,
+                                const DrawRange& range) {
+    MeshSpace space = make_mesh_space(mesh);
     const dmat3 to_own(space.unit), normal_to_own(1);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const vec3 position(to_own * (mesh.positions[i] - space.middle));
@@ -40,24 +41,25 @@ MeshSpace store_shared(Geometry& geometry, const scene::Mesh& mesh, const DrawRa
         geometry.vertices[range.first_vertex + i] = {
             position, vec3(scene::world_normal(normal_to_own, dvec3(mesh.normals[i])))};
     }
-    store_indices(geometry, mesh, range);
+    write_object_indices(geometry, mesh, range);
     return space;
 }
 
 /// Writes the vertices of a single object into its object space. Returns whether they changed.
-bool move_own(Geometry& geometry, const scene::Scene& now, const Space& space, std::size_t index) {
+bool write_object_space_vertices(Geometry& geometry, const scene::Scene& now,
+                                 const SceneUnits& space, std::size_t index) {
     const scene::Object& object = now.objects[index];
     const scene::Mesh& mesh = now.meshes[object.mesh];
     DrawRange& range = geometry.ranges[index];
-    range.own = object_space_of(now, object, space);
+    range.own = make_object_space(now, object, space);
     // Transforms the mesh relative to the middle of the space.
-    const dvec3 middle = space_of_mesh(mesh).middle;
+    const dvec3 middle = make_mesh_space(mesh).middle;
     const dmat3 own_from_scene = glm::inverse(range.own->scene_from_own),
                 turn = own_from_scene * space.scale * dmat3(object.world_from_object),
                 normal_to_own = scene::normal_matrix(object.world_from_object);
-    const dvec3 at_middle = own_from_scene *
-                            (space.place(scene::transform_point(object.world_from_object, middle)) -
-                             range.own->centre);
+    const dvec3 at_middle = own_from_scene * (space.to_scene_units(scene::transform_point(
+                                                  object.world_from_object, middle)) -
+                                              range.own->centre);
     Bounds<double> box;
     bool changed = false;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -69,12 +71,14 @@ bool move_own(Geometry& geometry, const scene::Scene& now, const Space& space, s
         changed = changed || kept.position != vertex.position || kept.normal != vertex.normal;
         kept = vertex;
     }
-    range.bounds = mesh.positions.empty() ? Bounds<float>() : scene_bounds(*range.own, box);
+    range.bounds = mesh.positions.empty() ? Bounds<float>()
+                                          : bounds_in_scene_units(*range.own, box);
     return changed;
 }
 
 /// Writes the object's vertices in scene units.
-void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, std::size_t index) {
+void write_scene_space_vertices(Geometry& geometry, const scene::Scene& now,
+                                const SceneUnits& space, std::size_t index) {
     const dmat4& world_from_object = now.objects[index].world_from_object;
     const scene::Mesh& mesh = now.meshes[now.objects[index].mesh];
     const dmat3 normal_to_world = scene::normal_matrix(world_from_object);
@@ -99,48 +103,48 @@ bool has_extra_factors(const scene::Material& material) {
 }
 
 /// Returns whether the visible surface has more than one constant colour and its emission.
-bool varies(const scene::Mesh& mesh, const scene::Material& material,
-            float max_specular_roughness) {
+bool has_varying_colour(const scene::Mesh& mesh, const scene::Material& material,
+                        float max_specular_roughness) {
     const bool is_sharp = material.roughness <= max_specular_roughness ||
                           material.roughness_texture;
     const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
-           material.unlit || scene::is_masked(material) || has_extra_factors(material) ||
-           (material.mirror ? throws_back || scene::glows(material) : is_sharp);
+           material.unlit || scene::has_alpha_mask(material) || has_extra_factors(material) ||
+           (material.mirror ? throws_back || scene::is_visibly_emissive(material) : is_sharp);
 }
 
 /// Returns whether a mirror shows nothing except reflections.
-bool is_pure(const scene::Mesh& mesh, const scene::Material& material) {
-    if (scene::glows(material)) return false;
+bool shows_only_reflections(const scene::Mesh& mesh, const scene::Material& material) {
+    if (scene::is_visibly_emissive(material)) return false;
     if (material.mirror) return material.albedo == vec3(0) || material.reflectance == vec3(1);
     return material.metallic == 1 && mesh.colours.empty() && !material.albedo_texture &&
            !material.roughness_texture && !material.unlit;
 }
 
 /// Returns the properties of an object that do not depend on its place.
-DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
+DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) {
     const scene::Mesh& mesh = now.meshes[object.mesh];
     const scene::Material& material = now.materials[object.material];
     DrawRange range;
     range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
     range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     range.mirror = scene::is_mirror(now, object);
-    range.casts_shadow = scene::light_of(material) == vec3(0);
+    range.casts_shadow = scene::emitted_radiance(material) == vec3(0);
     range.seen_by_camera = object.seen_by_camera;
     range.exact_sphere = object.sphere.has_value();
     range.one_sided = !range.mirror && scene::is_one_sided(material);
-    range.varies = varies(mesh, material, now.mirror_max_roughness);
+    range.varies = has_varying_colour(mesh, material, now.mirror_max_roughness);
     // A mirror reflects on both sides, even if its material is one-sided.
     range.turns = (material.two_sided || range.mirror) &&
                   (material.albedo != vec3(0) || range.varies);
-    range.masked = scene::is_masked(material);
-    range.lit = range.mirror && !is_pure(mesh, material);
+    range.masked = scene::has_alpha_mask(material);
+    range.lit = range.mirror && !shows_only_reflections(mesh, material);
     return range;
 }
 
 /// Gives each range its part of the vertex and index lists. Objects in scene units come first.
 /// Copies that share a mesh have one part.
-void lay_out(Geometry& geometry, const scene::Scene& now) {
+void lay_out_geometry(Geometry& geometry, const scene::Scene& now) {
     std::uint32_t vertices = 0, indices = 0;
     const auto store = [&](DrawRange& range) {
         range.first_index = indices, range.first_vertex = vertices;
@@ -189,25 +193,27 @@ void lay_out_attributes(Geometry& geometry, const scene::Scene& now) {
 
 } // namespace
 
-Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces spaces) {
+Geometry make_geometry(const scene::Scene& now, const SceneUnits& space, ObjectSpaceChoice spaces) {
     Geometry geometry{.core = space.core, .spaces = spaces};
-    const std::vector<bool> shared = spaces == Spaces::own ? shared_objects(now)
-                                                           : std::vector<bool>(now.objects.size());
+    const std::vector<bool> shared = spaces == ObjectSpaceChoice::own
+                                         ? find_objects_sharing_meshes(now)
+                                         : std::vector<bool>(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
-        DrawRange range = range_of(now, now.objects[i]);
+        DrawRange range = make_draw_range(now, now.objects[i]);
         range.storage = static_cast<std::uint32_t>(i);
         range.shares = shared[i];
-        if (range.shares || (spaces == Spaces::own && is_small(now, now.objects[i], space)))
+        if (range.shares ||
+            (spaces == ObjectSpaceChoice::own && is_small_for_distance(now, now.objects[i], space)))
             range.own.emplace();
         geometry.ranges.push_back(range);
     }
-    lay_out(geometry, now);
+    lay_out_geometry(geometry, now);
     lay_out_attributes(geometry, now);
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         const std::size_t mesh = now.objects[i].mesh;
         if (range.shares && range.storage == i)
-            geometry.mesh_spaces[mesh] = store_shared(geometry, now.meshes[mesh], range);
+            geometry.mesh_spaces[mesh] = write_shared_vertices(geometry, now.meshes[mesh], range);
         move_object(geometry, now, space, i);
     }
     return geometry;
@@ -215,7 +221,7 @@ Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces space
 
 /// Returns the radius of a sphere around the middle of the object's bounds that contains the
 /// object.
-float radius_of(const Geometry& geometry, const DrawRange& range) {
+float bounding_radius(const Geometry& geometry, const DrawRange& range) {
     constexpr float kRoom = 1 + 0x1p-20f;
     if (range.bounds.empty()) return 0;
     if (range.own) return kRoom * length(range.bounds.extent()) / 2;
@@ -228,36 +234,36 @@ float radius_of(const Geometry& geometry, const DrawRange& range) {
     return kRoom * std::sqrt(squared);
 }
 
-bool changes_space(const Geometry& geometry, const scene::Scene& now, const Space& space,
-                   std::size_t object) {
-    if (geometry.spaces == Spaces::one) return false;
+bool needs_other_space(const Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                       std::size_t object) {
+    if (geometry.spaces == ObjectSpaceChoice::one) return false;
     const DrawRange& range = geometry.ranges[object];
-    if (range.shares) return !may_share(now, now.objects[object]);
-    return range.own.has_value() != is_small(now, now.objects[object], space);
+    if (range.shares) return !may_share_mesh(now, now.objects[object]);
+    return range.own.has_value() != is_small_for_distance(now, now.objects[object], space);
 }
 
-bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space,
+bool move_object(Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
                  std::size_t index) {
     const scene::Object& object = now.objects[index];
     DrawRange& range = geometry.ranges[index];
     bool changed = !range.shares;
     if (range.shares) {
         const MeshSpace& mesh = geometry.mesh_spaces.at(object.mesh);
-        range.own = object_space_of(mesh, object.world_from_object, space);
-        range.bounds = scene_bounds(*range.own, mesh.box);
+        range.own = make_object_space(mesh, object.world_from_object, space);
+        range.bounds = bounds_in_scene_units(*range.own, mesh.box);
     } else if (range.own) {
-        changed = move_own(geometry, now, space, index);
+        changed = write_object_space_vertices(geometry, now, space, index);
     } else {
-        move_flat(geometry, now, space, index);
+        write_scene_space_vertices(geometry, now, space, index);
     }
-    range.radius = radius_of(geometry, range);
+    range.radius = bounding_radius(geometry, range);
     range.flipped = !(glm::determinant(dmat3(object.world_from_object)) > 0);
-    check_reach(range.bounds, object.name);
-    if (!range.shares) store_indices(geometry, now.meshes[object.mesh], range);
+    check_object_distance(range.bounds, object.name);
+    if (!range.shares) write_object_indices(geometry, now.meshes[object.mesh], range);
     return changed;
 }
 
-float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c) {
+float squared_distance_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     const vec3 ab = b - a, ac = c - a, ap = p - a;
     const float d1 = dot(ab, ap), d2 = dot(ac, ap);
     const auto to = [&](vec3 closest) { return dot(p - closest, p - closest); };

@@ -11,7 +11,7 @@
 namespace catoptric::render {
 
 /// The choice of objects that are stored in object space.
-enum class Spaces {
+enum class ObjectSpaceChoice {
     one, ///< none: all vertices are in scene units
     own  ///< some: see make_geometry
 };
@@ -55,30 +55,31 @@ struct Geometry {
     std::vector<std::uint32_t> indices;
     std::vector<DrawRange> ranges;
     /// Vertex attributes, stored once for each mesh that has them.
-    std::vector<shared::Attribute> attributes;
+    std::vector<shared::VertexAttribute> attributes;
     /// Object spaces of meshes that copies share, by mesh index.
     std::map<std::size_t, MeshSpace> mesh_spaces;
-    Bounds<float> core; ///< bounds of most of the scene (Space::core)
-    Spaces spaces = Spaces::one;
+    Bounds<float> core; ///< bounds of most of the scene (SceneUnits::core)
+    ObjectSpaceChoice spaces = ObjectSpaceChoice::one;
     std::uint32_t flat_indices = 0; ///< number of indices in scene units
 };
-/// Builds the geometry of a scene. With Spaces::own, an object keeps an object space if it is small
-/// (is_small) or one of many copies (shared_objects). Costs O(n) in stored vertices and triangles;
-/// a copy that shares its mesh costs O(1).
-Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces spaces = Spaces::one);
+/// Builds the geometry of a scene. With ObjectSpaceChoice::own, an object keeps an object space if
+/// it is small (is_small) or one of many copies (shared_objects). Costs O(n) in stored vertices and
+/// triangles; a copy that shares its mesh costs O(1).
+Geometry make_geometry(const scene::Scene& now, const SceneUnits& space,
+                       ObjectSpaceChoice spaces = ObjectSpaceChoice::one);
 
 /// Returns whether `make_geometry` would now choose another kind of space for the object.
-bool changes_space(const Geometry& geometry, const scene::Scene& now, const Space& space,
-                   std::size_t object);
+bool needs_other_space(const Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                       std::size_t object);
 
 /// Moves an object's triangles to their present place. Nothing else about the object may have
 /// changed since `make_geometry`. Returns whether vertices changed; moving only an object space
 /// changes none. Throws as check_reach does.
-bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space,
+bool move_object(Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
                  std::size_t index);
 
 /// Returns the squared distance from p to the triangle (Ericson, Real-Time Collision Detection,
 /// 5.1.5).
-float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c);
+float squared_distance_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c);
 
 } // namespace catoptric::render

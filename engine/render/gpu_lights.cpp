@@ -12,13 +12,13 @@ namespace catoptric::render {
 namespace {
 
 /// Returns the light's entry, without its position and its shadow axes.
-shared::Light light_of(const scene::PointLight& light, const Space& space) {
+shared::Light make_light_entry(const scene::PointLight& light, const SceneUnits& space) {
     const scene::LightKind& kind = scene::kind_of(light.kind);
     shared::Light entry{};
     entry.normal = vec3(light.normal);
     entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
     const bool is_alike_all_round = light.normal == dvec3(0) && light.cosines == dvec3(0);
-    const double share = is_alike_all_round ? share_towards(light, {0, 0, 1}) : 1;
+    const double share = is_alike_all_round ? light_share_towards(light, {0, 0, 1}) : 1;
     const double area = light.directional ? 1 : share * light.area * space.scale * space.scale;
     entry.intensity = light.emission * static_cast<float>(area);
     entry.reach = 1 / space.length(light.range);
@@ -35,7 +35,7 @@ shared::Light light_of(const scene::PointLight& light, const Space& space) {
 } // namespace
 
 void GpuScene::fill_lights(const scene::Scene& now, bool others) {
-    if (others) world_lights_ = scene::lights(now);
+    if (others) world_lights_ = scene::list_lights(now);
     check(world_lights_.size() <= shared::kMaxLights, Failure::exhausted, "the scene has ",
           world_lights_.size(), " lights, ", shared::kMaxLights, " are allowed");
     lights_.clear(), light_places_.clear();
@@ -45,22 +45,22 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
                            return light.cosines != dvec3(0);
                        });
     for (const scene::PointLight& light : world_lights_) {
-        shared::Light entry = light_of(light, space_);
+        shared::Light entry = make_light_entry(light, space_);
         if (light.directional)
             light_places_.emplace_back(
-                sun_views(entry.forward, space_.core, bounds_of(geometry_))[0].eye);
+                make_sun_views(entry.forward, space_.core, geometry_bounds(geometry_))[0].eye);
         else
-            light_places_.push_back(space_.place(light.position));
+            light_places_.push_back(space_.to_scene_units(light.position));
         entry.position = vec3(light_places_.back());
         if (!light.directional) {
             const float gap = nearest_.distance(
                 geometry_, light_places_.back(),
                 [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
             const bool has_axes = light.cosines != dvec3(0);
-            const shared::View main = has_axes ? turned_cube_views(entry.position,
-                                                                   glm::mat3(light.axes), gap)[4]
-                                               : turned_cube_views(entry.position, entry.forward,
-                                                                   gap)[4];
+            const shared::View main = has_axes ? make_turned_cube_views(
+                                                     entry.position, glm::mat3(light.axes), gap)[4]
+                                               : make_turned_cube_views(entry.position,
+                                                                        entry.forward, gap)[4];
             entry.right = main.right, entry.down = main.down, entry.forward = main.forward,
             entry.near = main.near;
             if (has_axes) entry.normal = vec3(light.cosines);
@@ -76,11 +76,11 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
 std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {
     std::vector<shared::View> views;
     if (light.kind == shared::kLightDirectional) {
-        std::ranges::copy(sun_views(light.forward, space_.core, bounds_of(geometry_)),
+        std::ranges::copy(make_sun_views(light.forward, space_.core, geometry_bounds(geometry_)),
                           std::back_inserter(views));
     } else {
-        views = turned_cube_views(light.position,
-                                  glm::mat3(light.right, -light.down, light.forward), 0);
+        views = make_turned_cube_views(light.position,
+                                       glm::mat3(light.right, -light.down, light.forward), 0);
         for (shared::View& view : views) view.near = light.near;
     }
     views.resize(shadow_faces_); // the last face looks back, where a one-sided light is dark

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kNoMirror = 0;
 
-shared::Surface surface_of(const scene::Object& object, const scene::Material& material,
-                           std::uint32_t mirror, const Space& space) {
+shared::Surface make_surface_entry(const scene::Object& object, const scene::Material& material,
+                                   std::uint32_t mirror, const SceneUnits& space) {
     shared::Surface surface{};
     // Diffuse light of a mirror counts only if the mirror reflects less than all light.
     const bool is_pure = material.mirror && material.reflectance == vec3(1);
@@ -35,24 +35,26 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
 }
 
 /// Returns the flat faces of a mirror, in scene units.
-scene::FlatFaces faces_in(const Space& space, const scene::Scene& now, std::size_t object) {
+scene::FlatFaces flat_faces_in_scene_units(const SceneUnits& space, const scene::Scene& now,
+                                           std::size_t object) {
     const scene::Object& mirror = now.objects[object];
-    scene::FlatFaces flats = scene::flat_faces(now.meshes[mirror.mesh], mirror.world_from_object);
-    for (scene::Flat& face : flats.faces) {
-        face.point = space.place(face.point);
-        for (dvec3& corner : face.corners) corner = space.place(corner);
+    scene::FlatFaces flats = scene::find_flat_faces(now.meshes[mirror.mesh],
+                                                    mirror.world_from_object);
+    for (scene::FlatFace& face : flats.faces) {
+        face.point = space.to_scene_units(face.point);
+        for (dvec3& corner : face.corners) corner = space.to_scene_units(corner);
     }
     return flats;
 }
 
-bool same(const scene::Camera& a, const scene::Camera& b) {
+bool is_same_camera(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up &&
            a.vertical_fov_degrees == b.vertical_fov_degrees &&
            a.orthographic_height == b.orthographic_height;
 }
 
 /// Returns, by object, whether the scene gives it a motion.
-std::vector<bool> expected_motion(const scene::Scene& scene) {
+std::vector<bool> find_moving_objects(const scene::Scene& scene) {
     std::vector<bool> moves;
     for (const scene::Object& object : scene.objects)
         moves.push_back(!std::holds_alternative<std::monostate>(object.motion));
@@ -60,18 +62,19 @@ std::vector<bool> expected_motion(const scene::Scene& scene) {
 }
 
 /// Returns the scene after checking that it fits on the device.
-const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene) {
-    check_limits(scene.name, amounts_of(scene),
-                 {device.most_texels(sizeof(vec4)), device.limits().maxStorageBufferRange,
-                  device.max_allocation(), device.memory_budget()});
+const scene::Scene& check_scene_fits(const gpu::Device& device, const scene::Scene& scene) {
+    check_geometry_limits(scene.name, count_scene_amounts(scene),
+                          {device.max_texel_count(sizeof(vec4)),
+                           device.limits().maxStorageBufferRange, device.max_allocation(),
+                           device.memory_budget()});
     return scene;
 }
 
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
-    : device_(device), space_(space_of(fitting(device, scene))),
-      vertices_(expected_motion(scene), slots),
+    : device_(device), space_(make_scene_units(check_scene_fits(device, scene))),
+      vertices_(find_moving_objects(scene), slots),
       view_buffer_("views", gpu::BufferUsage::plain, slots),
       frame_("frame", gpu::BufferUsage::uniform, slots),
       surface_buffer_("surfaces", gpu::BufferUsage::texels, slots),
@@ -79,7 +82,7 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
       light_buffer_("lights", gpu::BufferUsage::uniform, slots),
       probe_buffer_("probes", gpu::BufferUsage::texels, slots),
       mirror_tree_("mirror_tree", gpu::BufferUsage::texels, slots), details_(slots), sky_(slots),
-      tracing_(std::make_unique<Tracing>(slots)) {}
+      tracing_(std::make_unique<RayTracingTrees>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
                       double ambient, std::size_t slot) {
@@ -94,7 +97,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         move(now, changes.moved);
     const bool moves_vertices = vertices_.layouts() != known_layouts_;
     if (changes.layout || changes.materials || moves_vertices)
-        details_.fill(now, geometry_, vertices_, device_.most_texels(sizeof(std::uint32_t)));
+        details_.fill(now, geometry_, vertices_, device_.max_texel_count(sizeof(std::uint32_t)));
     if (changes.shapes() || changes.materials || moves_vertices) fill_surfaces(now);
     if (changes.shapes()) fill_placements();
     known_layouts_ = vertices_.layouts();
@@ -102,11 +105,11 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     if (changes.shapes() || changes.lights) {
         backdrops_.clear();
         for (const shared::Light& light : lights_)
-            backdrops_.push_back(find_backdrops(geometry_, light));
+            backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
     }
     sky_.set(now.environment);
     if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);
-    if (changes.shapes() || changes.lights || !same(camera_, camera) || size_ != size)
+    if (changes.shapes() || changes.lights || !is_same_camera(camera_, camera) || size_ != size)
         fill_views(camera, size);
     if (face_needs_.empty())
         face_needs_ = find_face_needs(geometry_, mirror_objects_, probes_, views_[kCameraView],
@@ -118,7 +121,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
 }
 
 void GpuScene::lay_out(const scene::Scene& now) {
-    geometry_ = make_geometry(now, space_, Spaces::own);
+    geometry_ = make_geometry(now, space_, ObjectSpaceChoice::own);
     has_object_spaces_ = std::ranges::any_of(
         geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
@@ -135,14 +138,14 @@ void GpuScene::find_shells(const scene::Scene& now) {
         DrawRange& range = geometry_.ranges[object];
         if (!range.exact_sphere || range.masked) continue;
         const std::size_t mesh = now.objects[object].mesh;
-        if (!known.contains(mesh)) known[mesh] = is_shell(now.meshes[mesh]);
+        if (!known.contains(mesh)) known[mesh] = is_closed_shell(now.meshes[mesh]);
         range.shell = known[mesh];
     }
 }
 
 void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& objects) {
     if (std::ranges::any_of(objects, [&](std::size_t object) {
-            return changes_space(geometry_, now, space_, object);
+            return needs_other_space(geometry_, now, space_, object);
         }))
         return lay_out(now);
     bool rebuild = false;
@@ -156,7 +159,7 @@ void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& obj
     if (rebuild)
         vertices_.lay_out(geometry_);
     else if (!objects.empty())
-        vertices_.follow(geometry_);
+        vertices_.copy_moved_vertices(geometry_);
 }
 
 void GpuScene::fill_surfaces(const scene::Scene& now) {
@@ -164,7 +167,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     std::uint32_t mirrors = 0;
     for (const scene::Object& object : now.objects) {
         const scene::Material& material = now.materials[object.material];
-        surfaces_.push_back(surface_of(
+        surfaces_.push_back(make_surface_entry(
             object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirror, space_));
         surfaces_.back().detail = details_.indices()[surfaces_.size() - 1];
     }
@@ -173,7 +176,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
-    surface_buffer_.set(texels_of(listed));
+    surface_buffer_.set(pack_into_texels(listed));
 }
 
 /// Writes the placements of object spaces: an entry for each object, or a single entry if no object
@@ -185,7 +188,7 @@ void GpuScene::fill_placements() {
         if (!own) continue;
         const dmat3& axes = own->scene_from_own;
         placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
-                         bvh::low_part(own->centre)};
+                         bvh::float_rounding_error(own->centre)};
     }
     placement_buffer_.set(placements);
 }
@@ -206,8 +209,9 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         const std::size_t object = mirror_objects_[mirror];
         shared::Probe& probe = probes_[mirror];
         if (mirror >= known || std::ranges::binary_search(changes.moved, object)) {
-            probe_places_[mirror] = space_.place(scene::bounds(now, now.objects[object]).centre());
-            flats_[mirror] = faces_in(space_, now, object);
+            probe_places_[mirror] = space_.to_scene_units(
+                scene::bounds(now, now.objects[object]).centre());
+            flats_[mirror] = flat_faces_in_scene_units(space_, now, object);
         }
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
@@ -223,18 +227,18 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         const float gap = nearest_.distance(
             geometry_, probe_places_[mirror],
             [&](std::size_t i, const DrawRange&) { return i == object; });
-        for (shared::View& view : cube_views(probe.centre, gap)) {
-            view.eye_low = bvh::low_part(probe_places_[mirror]);
+        for (shared::View& view : make_cube_views(probe.centre, gap)) {
+            view.eye_low = bvh::float_rounding_error(probe_places_[mirror]);
             scene_views_.push_back(view);
         }
     }
     for (std::size_t light = 0; light < lights_.size(); ++light)
         for (shared::View& view : shadow_views(lights_[light])) {
-            view.eye_low = bvh::low_part(light_places_[light]);
+            view.eye_low = bvh::float_rounding_error(light_places_[light]);
             scene_views_.push_back(view);
         }
-    probe_buffer_.set(texels_of(probes_));
-    if (uses_mirror_bvh()) mirror_tree_.set(mirror_tree(probes_));
+    probe_buffer_.set(pack_into_texels(probes_));
+    if (uses_mirror_bvh()) mirror_tree_.set(build_mirror_tree(probes_));
 }
 
 void GpuScene::fill_frame(double ambient) {
@@ -244,18 +248,18 @@ void GpuScene::fill_frame(double ambient) {
 }
 
 std::uint32_t GpuScene::common_face() const {
-    return common_edge(face_needs_, device_.limits().maxImageDimensionCube);
+    return common_capture_edge(face_needs_, device_.limits().maxImageDimensionCube);
 }
 
 void GpuScene::write(std::size_t slot) {
     uploads_ += vertices_.write(device_, slot) + sky_.write(device_, slot);
-    for (Resident* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
-                             &light_buffer_, &probe_buffer_, &mirror_tree_})
+    for (DeviceList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
+                               &light_buffer_, &probe_buffer_, &mirror_tree_})
         uploads_ += buffer->write(device_, slot);
     uploads_ += details_.write(device_, slot);
 }
 
-void GpuScene::bind(graph::Commands& commands) const {
+void GpuScene::bind(graph::PassCommands& commands) const {
     commands.bind("frame", frame_.at(slot_));
     commands.bind("Views", view_buffer_.at(slot_));
     commands.bind("surface_texels", surface_buffer_.at(slot_));
@@ -268,7 +272,7 @@ void GpuScene::bind(graph::Commands& commands) const {
     vertices_.bind(commands, slot_);
 }
 
-gpu::Constants GpuScene::features(std::uint32_t view) const {
+gpu::ShaderConstants GpuScene::features(std::uint32_t view) const {
     return {{"object_spaces", has_object_spaces() ? 1u : 0u},
             {"details", details_.any() ? 1u : 0u},
             {"masks", details_.masks() ? 1u : 0u},
@@ -279,20 +283,20 @@ gpu::Constants GpuScene::features(std::uint32_t view) const {
             {"mirror_tree", uses_mirror_bvh() ? 1u : 0u}};
 }
 
-gpu::Constants GpuScene::tracing_features(Spheres spheres) const {
-    gpu::Constants constants = features();
+gpu::ShaderConstants GpuScene::tracing_features(SphereMode spheres) const {
+    gpu::ShaderConstants constants = features();
     for (const auto& constant :
-         constants_of(device_.choices(), tracing_->largest_bytes(spheres, slot_),
-                      device_.limits().maxStorageBufferRange))
+         make_tracer_constants(device_.choices(), tracing_->largest_bytes(spheres, slot_),
+                               device_.limits().maxStorageBufferRange))
         constants.push_back(constant);
     return constants;
 }
 
-void GpuScene::bind_sky_vertices(graph::Commands& commands) const {
+void GpuScene::bind_sky_vertices(graph::PassCommands& commands) const {
     sky_.bind_vertices(commands, slot_);
 }
 
-void GpuScene::bind_vertices(graph::Commands& commands, std::size_t object) const {
+void GpuScene::bind_vertices(graph::PassCommands& commands, std::size_t object) const {
     vertices_.bind(commands, slot_, object);
 }
 
@@ -301,12 +305,12 @@ void GpuScene::prepare() const {
         view_buffer_.set(views_);
         uploads_ += view_buffer_.write(device_, slot_);
     }
-    for (const Spheres spheres : {Spheres::mesh, Spheres::exact})
+    for (const SphereMode spheres : {SphereMode::mesh, SphereMode::exact})
         if (wants_tracing_[static_cast<std::size_t>(spheres)])
             tracing_->prepare(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
 }
 
-void GpuScene::bind_tracing(graph::Commands& commands, Spheres spheres) const {
+void GpuScene::bind_tracing(graph::PassCommands& commands, SphereMode spheres) const {
     tracing_->prepare(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
     tracing_->bind(commands, spheres, slot_);
 }

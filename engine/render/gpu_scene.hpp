@@ -26,10 +26,11 @@ public:
     /// (render/limits.hpp) does if the device cannot hold the scene.
     GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots = 1);
 
-    /// Writes the data that differ from the last update, and nothing else. `now` is scene::at of
-    /// the scene given above, possibly with other transforms, materials and lights; the meshes
-    /// stay. Later binds refer to slot `slot`, in which no frame may be in flight. Frames in other
-    /// slots keep their own data. Costs O(n) in what has moved and O(log n) a near plane.
+    /// Writes the data that differ from the last update, and nothing else. `now` is
+    /// scene::scene_at_time of the scene given above, possibly with other transforms, materials and
+    /// lights; the meshes stay. Later binds refer to slot `slot`, in which no frame may be in
+    /// flight. Frames in other slots keep their own data. Costs O(n) in what has moved and O(log n)
+    /// a near plane.
     void update(const scene::Scene& now, const scene::Camera& camera, uvec2 size, double ambient,
                 std::size_t slot = 0);
 
@@ -47,7 +48,7 @@ public:
         return backdrops_[light];
     }
     const gpu::Device& device() const { return device_; }
-    const Space& space() const { return space_; }
+    const SceneUnits& space() const { return space_; }
     const std::vector<DrawRange>& ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& views() const { return views_; }
     /// Returns the index of the object that is the given mirror. Mirrors count from 0 here.
@@ -57,7 +58,7 @@ public:
     /// Returns the flat faces of each mirror, scene units; empty for mirrors that are not flat.
     const std::vector<scene::FlatFaces>& flat_mirrors() const { return flats_; }
     /// Returns how far from flat a mirror may be to be drawn as a plane in this picture.
-    double flat_tolerance() const { return scene::flat_tolerance(camera_, size_); }
+    double flat_tolerance() const { return scene::compute_flat_tolerance(camera_, size_); }
     /// Returns the eye from which mirrored views start.
     MirroredEye eye() const;
     /// Returns whether the object is a closed mirror around the camera, which no light from outside
@@ -81,10 +82,10 @@ public:
     bool has_object_spaces() const { return has_object_spaces_; }
     /// Returns the constants for building shaders that show this view. Features that the scene
     /// lacks cost nothing.
-    gpu::Constants features(std::uint32_t view = kCameraView) const;
+    gpu::ShaderConstants features(std::uint32_t view = kCameraView) const;
     /// Returns `features` for the tracer, plus the device's choices that are not the default
     /// (gpu/variants.hpp). Call it after `bind_tracing` with the same spheres.
-    gpu::Constants tracing_features(Spheres spheres) const;
+    gpu::ShaderConstants tracing_features(SphereMode spheres) const;
     /// Returns whether some surface has more than one colour.
     bool has_details() const { return details_.any(); }
     /// Returns whether rays that leave the scene can see an environment.
@@ -105,16 +106,16 @@ public:
     }
 
     /// Binds every buffer of the scene except the hierarchy, under its name in shaders/lib.
-    void bind(graph::Commands& commands) const;
+    void bind(graph::PassCommands& commands) const;
     /// Binds the triangle that draws the sky.
-    void bind_sky_vertices(graph::Commands& commands) const;
+    void bind_sky_vertices(graph::PassCommands& commands) const;
     /// Binds the object's vertices. Call it after `bind`, before each draw.
-    void bind_vertices(graph::Commands& commands, std::size_t object) const;
+    void bind_vertices(graph::PassCommands& commands, std::size_t object) const;
 
     /// Announces that a pass traces rays. Call it when the pass is declared.
     /// `first_hits`: the rays start at triangles that the rasteriser has drawn
     /// (shaders/lib/first_hit.glsl).
-    void want_tracing(Spheres spheres = Spheres::mesh, bool first_hits = false) const {
+    void want_tracing(SphereMode spheres = SphereMode::mesh, bool first_hits = false) const {
         wants_tracing_[static_cast<std::size_t>(spheres)] = true;
         wants_first_hits_ = wants_first_hits_ || first_hits;
     }
@@ -122,7 +123,7 @@ public:
     /// after the frame's passes are declared.
     void prepare() const;
     /// Binds the hierarchy. Updates it first if `prepare` has not.
-    void bind_tracing(graph::Commands& commands, Spheres spheres = Spheres::mesh) const;
+    void bind_tracing(graph::PassCommands& commands, SphereMode spheres = SphereMode::mesh) const;
 
     /// Returns the host milliseconds of the last update, and of hierarchies since it began.
     double update_ms() const { return update_ms_; }
@@ -151,11 +152,11 @@ private:
     void write(std::size_t slot);
 
     gpu::Device& device_;
-    Space space_;
+    SceneUnits space_;
     Geometry geometry_;
-    Nearest nearest_;
+    NearestTriangleQuery nearest_;
     SceneChangeTracker seen_;
-    Vertices vertices_;
+    DeviceVertices vertices_;
     mutable std::vector<shared::View> views_; ///< all views
     std::vector<shared::View> scene_views_;   ///< views of mirrors and lights
     mutable std::size_t added_views_ = 0;     ///< the last of `views_`, valid in this frame only
@@ -179,11 +180,12 @@ private:
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
-    mutable Resident view_buffer_;
-    Resident frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_, mirror_tree_;
+    mutable DeviceList view_buffer_;
+    DeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
+        mirror_tree_;
     MaterialParameterLists details_;
-    Sky sky_;
-    std::unique_ptr<Tracing> tracing_;
+    EnvironmentOnDevice sky_;
+    std::unique_ptr<RayTracingTrees> tracing_;
     /// Whether a pass of this frame traces rays, for each value of Spheres.
     mutable std::array<bool, 2> wants_tracing_{};
     mutable bool wants_first_hits_ = false;

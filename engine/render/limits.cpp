@@ -15,9 +15,9 @@ constexpr std::uint64_t kTexelBytes = 16, kTexelsOfTriangle = 3, kTexelsOfNode =
 
 } // namespace
 
-Amounts amounts_of(const scene::Scene& scene) {
-    Amounts amounts;
-    const std::vector<bool> shared = shared_objects(scene);
+SceneAmounts count_scene_amounts(const scene::Scene& scene) {
+    SceneAmounts amounts;
+    const std::vector<bool> shared = find_objects_sharing_meshes(scene);
     // By mesh: its copies share vertices, which count once.
     std::vector<bool> stored(scene.meshes.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -34,7 +34,8 @@ Amounts amounts_of(const scene::Scene& scene) {
     return amounts;
 }
 
-void check_limits(const std::string& scene, const Amounts& amounts, const GeometryLimits& limits) {
+void check_geometry_limits(const std::string& scene, const SceneAmounts& amounts,
+                           const GeometryLimits& limits) {
     const auto within = [&](std::uint64_t wanted, std::uint64_t allowed, const char* what) {
         check(wanted <= allowed, Failure::exhausted, "scene '", scene, "' wants ", wanted, " ",
               what, ", the device allows ", allowed);

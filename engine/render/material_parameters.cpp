@@ -19,15 +19,16 @@ namespace {
 
 constexpr std::size_t kTableTexels = 256; // a table before the images: sRGB bytes in linear light
 
-std::uint32_t bit(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
+std::uint32_t flag_if(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
-shared::MaterialParameters detail_of(const scene::Material& material, const DrawRange& range) {
+shared::MaterialParameters make_material_parameters(const scene::Material& material,
+                                                    const DrawRange& range) {
     shared::MaterialParameters detail{};
-    detail.flags = bit(range.varies, shared::kMaterialVaries) |
-                   bit(range.first_attribute.has_value(), shared::kMaterialAttributes) |
-                   bit(material.mirror, shared::kMaterialConstant) |
-                   bit(material.unlit, shared::kMaterialUnlit) |
-                   bit(range.turns, shared::kMaterialTurns);
+    detail.flags = flag_if(range.varies, shared::kMaterialVaries) |
+                   flag_if(range.first_attribute.has_value(), shared::kMaterialAttributes) |
+                   flag_if(material.mirror, shared::kMaterialConstant) |
+                   flag_if(material.unlit, shared::kMaterialUnlit) |
+                   flag_if(range.turns, shared::kMaterialTurns);
 #define COPY_FACTOR(name) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
@@ -52,9 +53,9 @@ MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) con
     use.size = texture->image->size.x | texture->image->size.y << 16;
     use.how = static_cast<std::uint32_t>(texture->wrap_u) |
               static_cast<std::uint32_t>(texture->wrap_v) << 2 |
-              bit(texture->nearest, shared::kTextureNearest) |
-              bit(texture->srgb, shared::kTextureSrgb) |
-              bit(texture->uv_set == 1, shared::kTextureSecondUv);
+              flag_if(texture->nearest, shared::kTextureNearest) |
+              flag_if(texture->srgb, shared::kTextureSrgb) |
+              flag_if(texture->uv_set == 1, shared::kTextureSecondUv);
     use.u_row = texture->u_row, use.v_row = texture->v_row;
     return use;
 }
@@ -70,8 +71,8 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
             images.push_back((*texture)->image);
             count += images.back()->texels.size();
             check(count <= most, Failure::exhausted, "scene '", now.name, "': its images up to ",
-                  in_quotes(images.back()->name), " take ", count, " texels, the device allows ",
-                  most);
+                  quote_printable(images.back()->name), " take ", count,
+                  " texels, the device allows ", most);
         }
     }
     if (images == images_ && !first_texels_.empty()) return;
@@ -89,7 +90,7 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
 }
 
 void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geometry,
-                                  const Vertices& vertices, std::uint64_t most) {
+                                  const DeviceVertices& vertices, std::uint64_t most) {
     fill_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
@@ -99,7 +100,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
-        shared::MaterialParameters detail = detail_of(material, range);
+        shared::MaterialParameters detail = make_material_parameters(material, range);
         detail.max_specular_roughness = now.mirror_max_roughness;
         // The difference may wrap around, because draws count vertices from the start of their own
         // buffer.
@@ -112,8 +113,8 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
         if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {
             const std::size_t mesh = now.objects[i].mesh;
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
-            if (is_new) entry->second = leaves_facets(now.meshes[mesh]);
-            detail.flags |= bit(entry->second, shared::kMaterialFacets);
+            if (is_new) entry->second = normals_differ_from_facets(now.meshes[mesh]);
+            detail.flags |= flag_if(entry->second, shared::kMaterialFacets);
             any_ = any_ || entry->second;
         }
         masks_ = masks_ || range.masked;
@@ -126,7 +127,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
     }
     if (details.empty()) details.emplace_back(); // buffers must not be empty
     details_.set(details);
-    attributes_.set(geometry.attributes.empty() ? std::vector<shared::Attribute>(1)
+    attributes_.set(geometry.attributes.empty() ? std::vector<shared::VertexAttribute>(1)
                                                 : geometry.attributes);
 }
 
@@ -135,7 +136,7 @@ std::size_t MaterialParameterLists::write(gpu::Device& device, std::size_t slot)
            texels_.write(device, slot);
 }
 
-void MaterialParameterLists::bind(graph::Commands& commands, std::size_t slot) const {
+void MaterialParameterLists::bind(graph::PassCommands& commands, std::size_t slot) const {
     commands.bind("detail_quads", details_.at(slot));
     commands.bind("attribute_texels", attributes_.at(slot));
     commands.bind("texture_words", texels_.at(slot));

@@ -16,11 +16,11 @@ public:
     /// Fills the lists for a new geometry layout. Costs O(n) in attributes, and in texels if the
     /// images changed. Throws `exhausted` if the images and a table of 256 texels take more than
     /// `most` texels.
-    void fill(const scene::Scene& now, const Geometry& geometry, const Vertices& vertices,
+    void fill(const scene::Scene& now, const Geometry& geometry, const DeviceVertices& vertices,
               std::uint64_t most);
-    /// Writes the changes, like Resident::write.
+    /// Writes the changes, like DeviceList::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
-    void bind(graph::Commands& commands, std::size_t slot) const;
+    void bind(graph::PassCommands& commands, std::size_t slot) const;
 
     bool any() const { return any_; }     ///< some surface has more than one colour
     bool masks() const { return masks_; } ///< some surface is partly cut out
@@ -36,7 +36,7 @@ private:
     std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
     std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
     bool any_ = false, masks_ = false;
-    Resident details_, attributes_, texels_;
+    DeviceList details_, attributes_, texels_;
 };
 
 } // namespace catoptric::render

@@ -7,7 +7,7 @@ namespace catoptric::render {
 namespace {
 
 /// The resources that a pass has declared so far.
-struct Reads {
+struct PassReads {
     graph::PassBuilder& pass;
     std::vector<graph::ImageHandle> images = {};
     std::vector<graph::BufferHandle> buffers = {};
@@ -15,37 +15,39 @@ struct Reads {
     void add(graph::ImageHandle image) {
         if (std::ranges::find(images, image) != images.end()) return;
         images.push_back(image);
-        pass.reads(image, graph::Use::sampled);
+        pass.reads(image, graph::ResourceUse::sampled);
     }
-    void add(graph::BufferHandle buffer, graph::Use use) {
+    void add(graph::BufferHandle buffer, graph::ResourceUse use) {
         if (std::ranges::find(buffers, buffer) != buffers.end()) return;
         buffers.push_back(buffer);
         pass.reads(buffer, use);
     }
     void add(const Captures& captures) {
-        for (const Cubes& cubes : captures.arrays) {
+        for (const CubeArray& cubes : captures.arrays) {
             add(cubes.colour);
             if (cubes.distance) add(*cubes.distance);
             if (cubes.surfaces) add(*cubes.surfaces);
         }
-        if (captures.table) add(*captures.table, graph::Use::sampled);
+        if (captures.table) add(*captures.table, graph::ResourceUse::sampled);
     }
 };
 
 } // namespace
 
-Looks same_shader(const GpuScene& scene, MirrorShader look) {
+MirrorShaders use_one_shader(const GpuScene& scene, MirrorShader look) {
     return {{std::move(look)}, std::vector<std::uint32_t>(scene.mirror_count(), 0)};
 }
 
-void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const Looks& looks) {
-    Reads reads{pass};
+void declare_shader_reads(graph::PassBuilder& pass, const Lighting& lighting,
+                          const MirrorShaders& looks) {
+    PassReads reads{pass};
     if (lighting.shadow_map) reads.add(*lighting.shadow_map);
     for (const MirrorShader& look : looks.looks) {
         if (look.captures) reads.add(*look.captures);
         for (const auto& [name, images] : look.images)
             for (const graph::ImageHandle& image : images) reads.add(image);
-        for (const auto& [name, buffer] : look.buffers) reads.add(buffer, graph::Use::storage_read);
+        for (const auto& [name, buffer] : look.buffers)
+            reads.add(buffer, graph::ResourceUse::storage_read);
     }
 }
 

@@ -14,7 +14,7 @@ namespace catoptric::render {
 struct MirrorShader {
     std::string fragment; ///< empty: the mirror is black
     std::string variant;  ///< suffix of `fragment`, where no cause of error is removed
-    gpu::Constants constants;
+    gpu::ShaderConstants constants;
     std::shared_ptr<const Captures> captures;
     /// Further images that the mirror's shader samples (nearest), by their names in the shader. An
     /// entry has one image, or one for each array of captures.
@@ -26,24 +26,25 @@ struct MirrorShader {
 };
 
 /// A part of a mirror with its own shader.
-struct PartShader {
+struct MirrorPartShader {
     std::uint32_t mirror = 0; ///< number from 0
-    std::uint32_t look = 0;   ///< index into Looks::looks
+    std::uint32_t look = 0;   ///< index into MirrorShaders::looks
     std::vector<scene::TriangleRun> triangles;
 };
 
 /// The shader of each mirror, chosen from a list.
-struct Looks {
+struct MirrorShaders {
     static constexpr std::uint32_t kInParts = ~0u;
     std::vector<MirrorShader> looks;
     std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kInParts: see `parts`
-    std::vector<PartShader> parts;        ///< triangles in no part are not drawn
+    std::vector<MirrorPartShader> parts;  ///< triangles in no part are not drawn
 };
 
 /// Returns shaders that draw all mirrors alike.
-Looks same_shader(const GpuScene& scene, MirrorShader look);
+MirrorShaders use_one_shader(const GpuScene& scene, MirrorShader look);
 
 /// Declares that a pass reads the resources of these shaders and of the lighting, each once.
-void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const Looks& looks);
+void declare_shader_reads(graph::PassBuilder& pass, const Lighting& lighting,
+                          const MirrorShaders& looks);
 
 } // namespace catoptric::render

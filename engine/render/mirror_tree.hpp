@@ -17,6 +17,6 @@ inline constexpr std::size_t kFewMirrors = 8;
 /// children, and two texels a node. The first texel holds the low corner and the node's mirror
 /// number from 1, or 0. The second holds the high corner and the number of the node after the whole
 /// subtree. Costs O(n log n).
-std::vector<vec4> mirror_tree(std::span<const shared::Probe> probes);
+std::vector<vec4> build_mirror_tree(std::span<const shared::Probe> probes);
 
 } // namespace catoptric::render

@@ -9,7 +9,7 @@ namespace catoptric::render {
 namespace {
 
 /// Planes; a point p is inside a plane if dot(xyz, p - eye) + w >= 0.
-using Planes = std::vector<dvec4>;
+using ClipPlanes = std::vector<dvec4>;
 using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 
 /// An eye nearer than this to a mirror's plane, in scene units, sees the mirror edge-on. The value
@@ -17,7 +17,7 @@ using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 constexpr double kEdgeOn = 1e-7;
 
 /// Returns the part of a polygon in front of the plane (Sutherland and Hodgman 1974).
-Polygon clipped(const Polygon& polygon, const dvec4& plane) {
+Polygon clip_polygon(const Polygon& polygon, const dvec4& plane) {
     Polygon left;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -29,7 +29,7 @@ Polygon clipped(const Polygon& polygon, const dvec4& plane) {
 }
 
 /// Returns the position of a point in the view's picture, each coordinate from -1 to 1.
-dvec2 projected(const shared::View& view, const dvec3& v) {
+dvec2 project_to_picture(const shared::View& view, const dvec3& v) {
     const double w = view.parallel != 0 ? 1 : dot(dvec3(view.forward), v);
     return dvec2(dot(dvec3(view.right), v), dot(dvec3(view.down), v)) / w;
 }
@@ -39,13 +39,13 @@ struct PictureRectangle {
     dvec2 low{-1}, high{1};
 };
 
-PictureRectangle part_of(const graph::Area& area, uvec2 size) {
+PictureRectangle picture_part_of_area(const graph::PixelArea& area, uvec2 size) {
     const dvec2 low(area.x, area.y), extent(area.width, area.height);
     return {low / dvec2(size) * 2.0 - 1.0, (low + extent) / dvec2(size) * 2.0 - 1.0};
 }
 
 /// Returns the side planes and the near plane of a part of the view.
-Planes sides_of(const shared::View& view, const PictureRectangle& part) {
+ClipPlanes view_side_planes(const shared::View& view, const PictureRectangle& part) {
     const dvec3 right(view.right), down(view.down), forward(view.forward);
     if (view.parallel != 0)
         return {{right, -part.low.x},
@@ -61,11 +61,11 @@ Planes sides_of(const shared::View& view, const PictureRectangle& part) {
 }
 
 /// Returns the pixels that a visible polygon may cover, and one more on each side.
-graph::Area pixels_of(const Polygon& polygon, const shared::View& view, uvec2 size,
-                      const graph::Area& within) {
+graph::PixelArea pixels_covered_by_polygon(const Polygon& polygon, const shared::View& view,
+                                           uvec2 size, const graph::PixelArea& within) {
     dvec2 low(1), high(-1);
     for (const dvec3& v : polygon) {
-        const dvec2 at = projected(view, v);
+        const dvec2 at = project_to_picture(view, v);
         low = min(low, at), high = max(high, at);
     }
     const auto pixel = [&](const dvec2& at, double more) {
@@ -79,17 +79,19 @@ graph::Area pixels_of(const Polygon& polygon, const shared::View& view, uvec2 si
     return {corner.x, corner.y, extent.x, extent.y};
 }
 
-dvec3 mirrored(const dvec3& direction, const dvec3& normal) {
+dvec3 mirror_vector(const dvec3& direction, const dvec3& normal) {
     return direction - 2 * dot(direction, normal) * normal;
 }
 
 /// Returns the view of the eye mirrored in the plane. `height`: of the original eye above the
 /// plane, along the normal.
-MirroredView behind(const MirroredView& from, const scene::Flat& plane, double height,
-                    const Bounds<float>& everything) {
+MirroredView view_behind_plane(const MirroredView& from, const scene::FlatFace& plane,
+                               double height, const Bounds<float>& everything) {
     MirroredView made;
     made.eye = from.eye - 2 * height * plane.normal;
-    const auto turned = [&](const vec3& axis) { return vec3(mirrored(dvec3(axis), plane.normal)); };
+    const auto turned = [&](const vec3& axis) {
+        return vec3(mirror_vector(dvec3(axis), plane.normal));
+    };
     shared::View& view = made.view = from.view;
     view.eye = vec3(made.eye);
     view.eye_low = vec3(made.eye - dvec3(view.eye));
@@ -109,8 +111,8 @@ MirroredView behind(const MirroredView& from, const scene::Flat& plane, double h
 }
 
 /// Returns the view in the mirror as `from` shows it; nothing if `from` does not show the mirror.
-std::optional<MirroredView> view_in(const MirroredView& from, const scene::Flat& mirror, uvec2 size,
-                                    const Bounds<float>& everything) {
+std::optional<MirroredView> view_in_mirror(const MirroredView& from, const scene::FlatFace& mirror,
+                                           uvec2 size, const Bounds<float>& everything) {
     const double height = dot(from.eye - mirror.point, mirror.normal);
     if (std::abs(height) < kEdgeOn || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
@@ -122,19 +124,19 @@ std::optional<MirroredView> view_in(const MirroredView& from, const scene::Flat&
             return dot(dvec3(clip), corner) + clip.w <= kEdgeOn;
         }))
         return {};
-    Planes planes = sides_of(from.view, part_of(from.area, size));
+    ClipPlanes planes = view_side_planes(from.view, picture_part_of_area(from.area, size));
     if (clip != dvec4(0)) planes.push_back(clip);
-    for (const dvec4& plane : planes) polygon = clipped(polygon, plane);
+    for (const dvec4& plane : planes) polygon = clip_polygon(polygon, plane);
     if (polygon.empty()) return {};
-    const graph::Area area = pixels_of(polygon, from.view, size, from.area);
+    const graph::PixelArea area = pixels_covered_by_polygon(polygon, from.view, size, from.area);
     if (area.width == 0) return {};
-    MirroredView made = behind(from, mirror, height, everything);
+    MirroredView made = view_behind_plane(from, mirror, height, everything);
     made.area = area;
     return made;
 }
 
 /// The inputs that all views share.
-struct Mirrors {
+struct MirroredViewInputs {
     const std::vector<std::optional<MirrorPlane>>& planes;
     uvec2 size;
     const Bounds<float>& everything;
@@ -142,40 +144,42 @@ struct Mirrors {
 
 /// Adds the views of mirrors that `from` shows, up to `left` mirrors deep. `within`: index of
 /// `from`; empty for the camera. Returns false if there are too many views.
-bool add_views(std::vector<MirroredView>& views, const MirroredView& from,
-               std::optional<std::size_t> within, const Mirrors& mirrors, int left) {
+bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& from,
+                        std::optional<std::size_t> within, const MirroredViewInputs& mirrors,
+                        int left) {
     for (std::uint32_t mirror = 0; mirror < mirrors.planes.size(); ++mirror) {
         if (!mirrors.planes[mirror] || (within && from.mirror == mirror)) continue;
         const auto& [flat, bounces] = *mirrors.planes[mirror];
         const int deep = within ? left : std::min(left, bounces);
         if (deep == 0) continue;
-        std::optional<MirroredView> made = view_in(from, flat, mirrors.size, mirrors.everything);
+        std::optional<MirroredView> made = view_in_mirror(from, flat, mirrors.size,
+                                                          mirrors.everything);
         if (!made) continue;
         if (views.size() == kMostMirroredViews) return false;
         made->mirror = mirror, made->within = within;
         views.push_back(*made);
-        if (!add_views(views, *made, views.size() - 1, mirrors, deep - 1)) return false;
+        if (!add_mirrored_views(views, *made, views.size() - 1, mirrors, deep - 1)) return false;
     }
     return true;
 }
 
 } // namespace
 
-std::vector<MirroredView> mirrored_views(const MirroredEye& camera,
-                                         const std::vector<std::optional<MirrorPlane>>& mirrors,
-                                         uvec2 size, int& most) {
+std::vector<MirroredView>
+find_mirrored_views(const MirroredEye& camera,
+                    const std::vector<std::optional<MirrorPlane>>& mirrors, uvec2 size, int& most) {
     const MirroredView first{
         .view = camera.view, .eye = camera.place, .area = {0, 0, size.x, size.y}};
     std::vector<MirroredView> views;
-    while (!add_views(views, first, {}, {mirrors, size, camera.everything}, most)) {
+    while (!add_mirrored_views(views, first, {}, {mirrors, size, camera.everything}, most)) {
         views.clear();
         --most;
     }
     return views;
 }
 
-bool may_meet(const MirroredView& view, uvec2 size, const Bounds<float>& box) {
-    Planes planes = sides_of(view.view, part_of(view.area, size));
+bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>& box) {
+    ClipPlanes planes = view_side_planes(view.view, picture_part_of_area(view.area, size));
     planes.emplace_back(view.view.clip);
     const dvec3 middle = dvec3(box.centre()) - view.eye, half(dvec3(box.extent()) * .5);
     return std::ranges::all_of(planes, [&](const dvec4& plane) {

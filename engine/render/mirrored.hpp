@@ -16,9 +16,9 @@ struct MirroredView {
     std::uint32_t mirror = 0; ///< the mirror whose plane shows the view, from 0
     /// Index of the view that shows the plane; empty: the camera's view.
     std::optional<std::size_t> within;
-    shared::View view; ///< as in shared.h, with the mirror's plane in `clip`
-    dvec3 eye{0};      ///< scene units
-    graph::Area area;  ///< pixels of the picture, around the mirror
+    shared::View view;     ///< as in shared.h, with the mirror's plane in `clip`
+    dvec3 eye{0};          ///< scene units
+    graph::PixelArea area; ///< pixels of the picture, around the mirror
 };
 
 /// The eye from which mirrored views start; scene units.
@@ -30,7 +30,7 @@ struct MirroredEye {
 
 /// A flat mirror, or one flat face of a mirror.
 struct MirrorPlane {
-    scene::Flat flat; ///< scene units
+    scene::FlatFace flat; ///< scene units
     /// Number of mirror reflections, one behind the other, that the mirrored view draws; 0: the
     /// view is black.
     int bounces = 0;
@@ -45,11 +45,11 @@ inline constexpr std::size_t kMostMirroredViews = 1000;
 /// mirrored, and the projection stays (Diefenbach and Badler 1997). If this gives more than
 /// kMostMirroredViews, reduces `most`, the greatest depth, until the views fit; else `most` stays.
 /// Ignores occlusion. Costs O(views * mirrors).
-std::vector<MirroredView> mirrored_views(const MirroredEye& camera,
-                                         const std::vector<std::optional<MirrorPlane>>& mirrors,
-                                         uvec2 size, int& most);
+std::vector<MirroredView>
+find_mirrored_views(const MirroredEye& camera,
+                    const std::vector<std::optional<MirrorPlane>>& mirrors, uvec2 size, int& most);
 
 /// Returns false only if the box certainly lies outside the view's area or behind its plane.
-bool may_meet(const MirroredView& view, uvec2 size, const Bounds<float>& box);
+bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>& box);
 
 } // namespace catoptric::render

@@ -10,21 +10,21 @@ namespace {
 
 constexpr std::uint32_t kFew = 16; // the most triangles that are tested one by one
 
-Bounds<float> bounds_of(const Geometry& geometry, std::uint32_t first_index) {
+Bounds<float> triangle_bounds(const Geometry& geometry, std::uint32_t first_index) {
     Bounds<float> box;
     for (std::uint32_t j = 0; j < 3; ++j)
         box.add(geometry.vertices[geometry.indices[first_index + j]].position);
     return box;
 }
 
-std::vector<Bounds<float>> triangle_boxes(const Geometry& geometry, const DrawRange& range) {
+std::vector<Bounds<float>> list_triangle_boxes(const Geometry& geometry, const DrawRange& range) {
     std::vector<Bounds<float>> boxes;
     for (std::uint32_t k = 0; k < range.index_count; k += 3)
-        boxes.push_back(bounds_of(geometry, range.first_index + k));
+        boxes.push_back(triangle_bounds(geometry, range.first_index + k));
     return boxes;
 }
 
-std::vector<Bounds<float>> object_boxes(const Geometry& geometry) {
+std::vector<Bounds<float>> list_object_boxes(const Geometry& geometry) {
     std::vector<Bounds<float>> boxes;
     for (const DrawRange& range : geometry.ranges) boxes.push_back(range.bounds);
     return boxes;
@@ -32,7 +32,7 @@ std::vector<Bounds<float>> object_boxes(const Geometry& geometry) {
 
 } // namespace
 
-float gap_below(const vec3& point, const Bounds<float>& box) {
+float min_distance_to_box(const vec3& point, const Bounds<float>& box) {
     if (box.empty()) return std::numeric_limits<float>::infinity();
     const vec3 apart = max(max(box.lo - point, point - box.hi), vec3(0));
     const vec3 size = max(abs(point), max(abs(box.lo), abs(box.hi)));
@@ -96,23 +96,24 @@ std::vector<BoxTree::WalkStep> BoxTree::steps() const {
     return steps;
 }
 
-void Nearest::lay_out(const Geometry& geometry) {
-    objects_ = BoxTree(object_boxes(geometry));
+void NearestTriangleQuery::lay_out(const Geometry& geometry) {
+    objects_ = BoxTree(list_object_boxes(geometry));
     moved_ = false;
     parts_.assign(geometry.ranges.size(), {});
 }
 
-void Nearest::move(std::size_t object) { moved_ = parts_[object].moved = true; }
+void NearestTriangleQuery::move(std::size_t object) { moved_ = parts_[object].moved = true; }
 
-void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& point,
-                      float& squared) {
+void NearestTriangleQuery::visit_scene_triangle(const Geometry& geometry, std::size_t object,
+                                                const vec3& point, float& squared) {
     const DrawRange& range = geometry.ranges[object];
     const auto look = [&](std::uint32_t triangle) {
         const auto corner = [&](std::uint32_t j) {
             return geometry.vertices[geometry.indices[range.first_index + 3 * triangle + j]]
                 .position;
         };
-        squared = std::min(squared, squared_distance(point, corner(0), corner(1), corner(2)));
+        squared = std::min(squared,
+                           squared_distance_to_triangle(point, corner(0), corner(1), corner(2)));
     };
     if (range.index_count <= 3 * kFew) {
         for (std::uint32_t i = 0; i < range.index_count / 3; ++i) look(i);
@@ -120,38 +121,39 @@ void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& 
     }
     ObjectTree& part = parts_[range.storage];
     if (!part.tree)
-        part.tree = BoxTree(triangle_boxes(geometry, range));
+        part.tree = BoxTree(list_triangle_boxes(geometry, range));
     else if (part.moved)
-        part.tree->refit(triangle_boxes(geometry, range));
+        part.tree->refit(list_triangle_boxes(geometry, range));
     part.moved = false;
     part.tree->nearest(point, squared, look);
 }
 
-void Nearest::look_at_own(const Geometry& geometry, std::size_t object, const dvec3& point,
-                          float& squared) {
+void NearestTriangleQuery::visit_own_triangle(const Geometry& geometry, std::size_t object,
+                                              const dvec3& point, float& squared) {
     constexpr double kRoundings = 1e-5; // above the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
     // Starts from the known distance, so that farther triangles are skipped.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kRoundings);
     float own_squared = static_cast<float>(known * known);
-    look_at(geometry, object, vec3(own.point(point)), own_squared);
+    visit_scene_triangle(geometry, object, vec3(own.point(point)), own_squared);
     const double gap = std::sqrt(double{own_squared}) * own.least;
     squared = std::min(squared, static_cast<float>(gap * gap));
 }
 
-float Nearest::distance(const Geometry& geometry, const dvec3& at,
-                        const std::function<bool(std::size_t, const DrawRange&)>& skip) {
-    if (moved_) objects_.refit(object_boxes(geometry));
+float NearestTriangleQuery::distance(
+    const Geometry& geometry, const dvec3& at,
+    const std::function<bool(std::size_t, const DrawRange&)>& skip) {
+    if (moved_) objects_.refit(list_object_boxes(geometry));
     moved_ = false;
     const vec3 point(at);
     float squared = std::numeric_limits<float>::infinity();
     objects_.nearest(point, squared, [&](std::uint32_t object) {
         if (skip(object, geometry.ranges[object])) return;
         if (geometry.ranges[object].own)
-            look_at_own(geometry, object, at, squared);
-        else if (const float gap = gap_below(point, geometry.ranges[object].bounds);
+            visit_own_triangle(geometry, object, at, squared);
+        else if (const float gap = min_distance_to_box(point, geometry.ranges[object].bounds);
                  !(gap * gap >= squared))
-            look_at(geometry, object, point, squared);
+            visit_scene_triangle(geometry, object, point, squared);
     });
     return std::sqrt(squared);
 }

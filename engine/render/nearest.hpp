@@ -46,7 +46,7 @@ private:
 /// Distance queries to the nearest triangle of a scene. Keeps a tree over objects. Builds a tree
 /// over an object's triangles at the first query that comes near the object. A query costs O(log
 /// n).
-class Nearest {
+class NearestTriangleQuery {
 public:
     /// Prepares for a new geometry layout.
     void lay_out(const Geometry& geometry);
@@ -65,9 +65,10 @@ private:
         std::optional<BoxTree> tree;
         bool moved = false;
     };
-    void look_at(const Geometry& geometry, std::size_t object, const vec3& point, float& squared);
-    void look_at_own(const Geometry& geometry, std::size_t object, const dvec3& point,
-                     float& squared);
+    void visit_scene_triangle(const Geometry& geometry, std::size_t object, const vec3& point,
+                              float& squared);
+    void visit_own_triangle(const Geometry& geometry, std::size_t object, const dvec3& point,
+                            float& squared);
 
     BoxTree objects_;
     bool moved_ = false;
@@ -76,12 +77,12 @@ private:
 
 /// Returns a lower bound of the distance from the point to the box. The bound also holds for the
 /// rounded result of squared_distance.
-float gap_below(const vec3& point, const Bounds<float>& box);
+float min_distance_to_box(const vec3& point, const Bounds<float>& box);
 
 template <typename Visit>
 void BoxTree::nearest(const vec3& point, const float& squared, Visit&& visit) const {
     const auto may_be_nearer = [&](std::uint32_t node) {
-        const float gap = gap_below(point, nodes_[node].box);
+        const float gap = min_distance_to_box(point, nodes_[node].box);
         return !(gap * gap >= squared);
     };
     std::vector<std::uint32_t> waiting;
@@ -93,8 +94,8 @@ void BoxTree::nearest(const vec3& point, const float& squared, Visit&& visit) co
         const BoxNode& node = nodes_[place];
         for (std::uint32_t i = 0; i < node.count; ++i) visit(order_[node.first + i]);
         if (node.count > 0) continue;
-        const bool swap = gap_below(point, nodes_[node.second].box) <
-                          gap_below(point, nodes_[place + 1].box);
+        const bool swap = min_distance_to_box(point, nodes_[node.second].box) <
+                          min_distance_to_box(point, nodes_[place + 1].box);
         waiting.push_back(swap ? place + 1 : node.second);
         waiting.push_back(swap ? node.second : place + 1);
     }

@@ -15,7 +15,7 @@ namespace {
 constexpr double kWorstStretch = 64;
 
 /// Returns the power of two that scales `size` to about 1.
-double unit_of(double size) { return std::exp2(-std::ceil(std::log2(size))); }
+double power_of_two_unit(double size) { return std::exp2(-std::ceil(std::log2(size))); }
 
 Bounds<double> mesh_bounds(const scene::Mesh& mesh) {
     Bounds<double> box;
@@ -25,7 +25,7 @@ Bounds<double> mesh_bounds(const scene::Mesh& mesh) {
 
 /// Returns, by mesh, whether its copies share vertices. Meshes early in the list are copied while
 /// the limit allows it.
-std::vector<bool> shared_meshes(const scene::Scene& scene) {
+std::vector<bool> find_shared_meshes(const scene::Scene& scene) {
     std::vector<std::uint64_t> uses(scene.meshes.size());
     for (const scene::Object& object : scene.objects) ++uses[object.mesh];
     std::uint64_t copied = 0;
@@ -44,54 +44,57 @@ std::vector<bool> shared_meshes(const scene::Scene& scene) {
 
 } // namespace
 
-bool may_share(const scene::Scene& now, const scene::Object& object) {
+bool may_share_mesh(const scene::Scene& now, const scene::Object& object) {
     const scene::Material& material = now.materials[object.material];
-    const bool is_lamp = scene::is_one_sided(material) && scene::light_of(material) != vec3(0);
-    return !is_lamp && bvh::stretch(dmat3(object.world_from_object)) <= kWorstStretch;
+    const bool is_lamp = scene::is_one_sided(material) &&
+                         scene::emitted_radiance(material) != vec3(0);
+    return !is_lamp &&
+           bvh::bound_rounding_amplification(dmat3(object.world_from_object)) <= kWorstStretch;
 }
 
-std::vector<bool> shared_objects(const scene::Scene& scene) {
-    const std::vector<bool> meshes = shared_meshes(scene);
+std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene) {
+    const std::vector<bool> meshes = find_shared_meshes(scene);
     std::vector<bool> objects;
     for (const scene::Object& object : scene.objects)
-        objects.push_back(meshes[object.mesh] && may_share(scene, object));
+        objects.push_back(meshes[object.mesh] && may_share_mesh(scene, object));
     return objects;
 }
 
-bool is_small(const scene::Scene& now, const scene::Object& object, const Space& space) {
-    return is_small(scene::bounds(now, object), space.origin_world);
+bool is_small_for_distance(const scene::Scene& now, const scene::Object& object,
+                           const SceneUnits& space) {
+    return is_small_for_distance(scene::bounds(now, object), space.origin_world);
 }
 
-MeshSpace space_of_mesh(const scene::Mesh& mesh) {
+MeshSpace make_mesh_space(const scene::Mesh& mesh) {
     const Bounds<double> box = mesh_bounds(mesh);
-    return {box.centre(), unit_of(largest_component(box.extent())), {}};
+    return {box.centre(), power_of_two_unit(largest_component(box.extent())), {}};
 }
 
-ObjectSpace object_space_of(const MeshSpace& mesh, const dmat4& world_from_object,
-                            const Space& space) {
+ObjectSpace make_object_space(const MeshSpace& mesh, const dmat4& world_from_object,
+                              const SceneUnits& space) {
     ObjectSpace own;
     own.scene_from_own = dmat3(world_from_object) * (space.scale / mesh.unit);
-    own.centre = space.place(scene::transform_point(world_from_object, mesh.middle));
+    own.centre = space.to_scene_units(scene::transform_point(world_from_object, mesh.middle));
     const dmat3 inverse = glm::inverse(own.scene_from_own);
     own.least = 1 / std::sqrt(dot(inverse[0], inverse[0]) + dot(inverse[1], inverse[1]) +
                               dot(inverse[2], inverse[2]));
     return own;
 }
 
-ObjectSpace object_space_of(const scene::Scene& now, const scene::Object& object,
-                            const Space& space) {
+ObjectSpace make_object_space(const scene::Scene& now, const scene::Object& object,
+                              const SceneUnits& space) {
     const Bounds<double> box = scene::bounds(now, object);
     // Object space units in one world unit.
-    const double unit = unit_of(largest_component(box.extent()));
+    const double unit = power_of_two_unit(largest_component(box.extent()));
     ObjectSpace own;
     own.scene_from_own = dmat3(space.scale / unit);
-    own.centre = space.place(object.sphere ? object.sphere->centre : box.centre());
+    own.centre = space.to_scene_units(object.sphere ? object.sphere->centre : box.centre());
     own.least = space.scale / unit;
     if (object.sphere) own.radius = static_cast<float>(object.sphere->radius * unit);
     return own;
 }
 
-Bounds<float> scene_bounds(const ObjectSpace& own, const Bounds<double>& box) {
+Bounds<float> bounds_in_scene_units(const ObjectSpace& own, const Bounds<double>& box) {
     constexpr double kRoundings = 0x1p-22;
     Bounds<double> result;
     for (int corner = 0; corner < 8; ++corner)

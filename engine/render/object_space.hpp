@@ -30,13 +30,14 @@ inline constexpr std::uint64_t kMostCopied = 1u << 18;
 /// three cases: it is a one-sided lamp, whose corners may have to be swapped; its mesh has no
 /// extent; or its transform loses too much float precision for rays. Costs O(objects + vertices of
 /// such meshes).
-std::vector<bool> shared_objects(const scene::Scene& scene);
+std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene);
 /// Returns whether a copy may share its mesh in its present state.
-bool may_share(const scene::Scene& now, const scene::Object& object);
+bool may_share_mesh(const scene::Scene& now, const scene::Object& object);
 
 /// Returns whether the object is smaller than kSmallPart of its distance from the origin. Costs
 /// O(triangles).
-bool is_small(const scene::Scene& now, const scene::Object& object, const Space& space);
+bool is_small_for_distance(const scene::Scene& now, const scene::Object& object,
+                           const SceneUnits& space);
 
 /// The object space of a mesh that copies share: the axes of the mesh, around the middle of its
 /// bounds.
@@ -46,17 +47,17 @@ struct MeshSpace {
     Bounds<double> box; ///< bounds in object space
 };
 /// Returns the space of a mesh, with an empty box.
-MeshSpace space_of_mesh(const scene::Mesh& mesh);
+MeshSpace make_mesh_space(const scene::Mesh& mesh);
 /// Returns the placement of a copy's object space.
-ObjectSpace object_space_of(const MeshSpace& mesh, const dmat4& world_from_object,
-                            const Space& space);
+ObjectSpace make_object_space(const MeshSpace& mesh, const dmat4& world_from_object,
+                              const SceneUnits& space);
 
 /// Returns the object space of a single object. It has the world's axes, so that vertices need no
 /// rotation. Its middle is that of the exact sphere, or else of the bounds.
-ObjectSpace object_space_of(const scene::Scene& now, const scene::Object& object,
-                            const Space& space);
+ObjectSpace make_object_space(const scene::Scene& now, const scene::Object& object,
+                              const SceneUnits& space);
 
 /// Returns the scene bounds of a box in object space, padded for rounding to float.
-Bounds<float> scene_bounds(const ObjectSpace& own, const Bounds<double>& box);
+Bounds<float> bounds_in_scene_units(const ObjectSpace& own, const Bounds<double>& box);
 
 } // namespace catoptric::render

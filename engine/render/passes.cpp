@@ -9,14 +9,15 @@ namespace catoptric::render {
 
 namespace {
 
-using graph::Clear;
-using graph::Commands;
+using graph::ClearValue;
 using graph::ImageHandle;
-using graph::Tag;
-using graph::Use;
+using graph::PassCommands;
+using graph::PassTag;
+using graph::ResourceUse;
 
 /// Returns the same shaders with some causes of error removed.
-Looks ablated(Looks looks, const FrameInputs& inputs, const Lighting& lighting) {
+MirrorShaders remove_error_causes(MirrorShaders looks, const FrameInputs& inputs,
+                                  const Lighting& lighting) {
     if (!inputs.ablated) return looks;
     inputs.scene.want_tracing();
     for (MirrorShader& look : looks.looks) {
@@ -33,34 +34,36 @@ Looks ablated(Looks looks, const FrameInputs& inputs, const Lighting& lighting) 
 
 } // namespace
 
-CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting,
-                       Looks looks, bool is_traced, std::uint32_t completing_tracer) {
+CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
+                              const Lighting& lighting, MirrorShaders looks, bool is_traced,
+                              std::uint32_t completing_tracer) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
     const ImageHandle depth = graph.image(
         {inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
-    graph::PassBuilder pass = graph.pass(inputs.prefix + "view", Tag::scene);
-    read_surroundings(pass, lighting, looks);
+    graph::PassBuilder pass = graph.pass(inputs.prefix + "view", PassTag::scene);
+    declare_shader_reads(pass, lighting, looks);
     CameraOutputs view{hdr, {}, {}};
-    pass.writes(hdr, Use::colour, kBlack);
+    pass.writes(hdr, ResourceUse::colour, kBlack);
     if ((is_traced && completing_tracer == 0) || inputs.with_lookup) {
         // The order of attachments is that of the shaders' outputs. `tracers` takes the location
         // that captures use for distance. The lookup follows.
         view.tracers = graph.image({inputs.prefix + "view.tracers", Format::r32f, size.x, size.y});
         view.lookup = graph.image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
-        pass.writes(*view.tracers, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});
+        pass.writes(*view.tracers, ResourceUse::colour, ClearValue{})
+            .writes(*view.lookup, ResourceUse::colour, ClearValue{});
     }
-    Drawing drawing{
-        .first_view = GpuScene::kCameraView,
-        .layers = 1,
-        .lighting = lighting,
-        .looks = std::make_shared<const Looks>(ablated(std::move(looks), inputs, lighting)),
-        .store = {},
-        .completing_tracer = completing_tracer,
-        .peeled = {}};
+    DrawSettings drawing{.first_view = GpuScene::kCameraView,
+                         .layers = 1,
+                         .lighting = lighting,
+                         .looks = std::make_shared<const MirrorShaders>(
+                             remove_error_causes(std::move(looks), inputs, lighting)),
+                         .store = {},
+                         .completing_tracer = completing_tracer,
+                         .peeled = {}};
     if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
-    pass.writes(depth, Use::depth, kFarthest)
-        .record([&scene = inputs.scene, drawing = std::move(drawing)](Commands& commands) {
+    pass.writes(depth, ResourceUse::depth, kFarthest)
+        .record([&scene = inputs.scene, drawing = std::move(drawing)](PassCommands& commands) {
             draw_scene(commands, scene, drawing,
                        [&](std::size_t object) { return scene.ranges()[object].seen_by_camera; });
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
@@ -70,48 +73,49 @@ CameraOutputs add_view(graph::Graph& graph, const FrameInputs& inputs, const Lig
 
 ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                               const std::string& name, const MirroredView& view,
-                              std::uint32_t number, const Lighting& lighting, Looks looks,
+                              std::uint32_t number, const Lighting& lighting, MirrorShaders looks,
                               std::optional<std::uint32_t> left_out) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.image({inputs.prefix + name, Format::rgba32f, size.x, size.y});
     const ImageHandle depth = graph.image(
         {inputs.prefix + name + ".depth", Format::d32f, size.x, size.y});
-    graph::PassBuilder pass = graph.pass(inputs.prefix + name, Tag::scene);
-    read_surroundings(pass, lighting, looks);
-    const Drawing drawing{.first_view = number,
-                          .layers = 1,
-                          .lighting = lighting,
-                          .looks = std::make_shared<const Looks>(std::move(looks)),
-                          .store = {},
-                          .peeled = {}};
-    pass.writes(hdr, Use::colour, kBlack)
-        .writes(depth, Use::depth, kFarthest)
+    graph::PassBuilder pass = graph.pass(inputs.prefix + name, PassTag::scene);
+    declare_shader_reads(pass, lighting, looks);
+    const DrawSettings drawing{.first_view = number,
+                               .layers = 1,
+                               .lighting = lighting,
+                               .looks = std::make_shared<const MirrorShaders>(std::move(looks)),
+                               .store = {},
+                               .peeled = {}};
+    pass.writes(hdr, ResourceUse::colour, kBlack)
+        .writes(depth, ResourceUse::depth, kFarthest)
         .area(view.area)
-        .record([&scene = inputs.scene, drawing, view, size, left_out](Commands& commands) {
+        .record([&scene = inputs.scene, drawing, view, size, left_out](PassCommands& commands) {
             const auto is_left_out = [&](std::size_t object) {
                 return left_out && object == scene.mirror_object(*left_out);
             };
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
-                return !is_left_out(object) && may_meet(view, size, scene.ranges()[object].bounds);
+                return !is_left_out(object) &&
+                       may_view_show_box(view, size, scene.ranges()[object].bounds);
             });
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
     return hdr;
 }
 
-ImageHandle add_compose(graph::Graph& graph, const FrameInputs& inputs, ImageHandle hdr,
-                        double exposure_stops) {
+ImageHandle add_compose_pass(graph::Graph& graph, const FrameInputs& inputs, ImageHandle hdr,
+                             double exposure_stops) {
     const uvec2 size = inputs.size;
     const ImageHandle picture = graph.image(
         {inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
     graph.pass(inputs.prefix + "compose")
-        .reads(hdr, Use::sampled)
-        .writes(picture, Use::colour, kBlack)
-        .record([=](Commands& commands) {
+        .reads(hdr, ResourceUse::sampled)
+        .writes(picture, ResourceUse::colour, kBlack)
+        .record([=](PassCommands& commands) {
             commands.use(gpu::RasterState{"screen.vert", "compose.frag", {}});
             commands.bind("hdr", hdr);
             commands.push(static_cast<float>(std::exp2(exposure_stops)));
-            commands.cover();
+            commands.draw_covering_triangle();
         });
     return picture;
 }

@@ -9,18 +9,18 @@ namespace {
 
 constexpr std::size_t kPage = 16384; // bytes that are compared and written together
 
-std::size_t page_count(std::size_t bytes) { return (bytes + kPage - 1) / kPage; }
+std::size_t count_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage; }
 
 } // namespace
 
-bool Resident::set(std::span<const std::byte> data, std::size_t from, std::size_t to) {
+bool DeviceList::set(std::span<const std::byte> data, std::size_t from, std::size_t to) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
     data_.resize(data.size());
-    pages_.resize(page_count(data.size()), next);
+    pages_.resize(count_pages(data.size()), next);
     if (changed) from = 0, to = data.size();
-    for (std::size_t page = from / kPage; page < page_count(to); ++page) {
+    for (std::size_t page = from / kPage; page < count_pages(to); ++page) {
         const std::size_t first = page * kPage, end = std::min(first + kPage, data.size());
         if (end <= kept && std::memcmp(&data_[first], &data[first], end - first) == 0) continue;
         std::memcpy(&data_[first], &data[first], end - first);
@@ -32,7 +32,7 @@ bool Resident::set(std::span<const std::byte> data, std::size_t from, std::size_
 }
 
 /// Returns a copy that no other slot binds.
-std::size_t Resident::free_copy(std::size_t slot) {
+std::size_t DeviceList::free_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)
             if (other != slot && bound_[other] == copy) return false;
@@ -45,14 +45,14 @@ std::size_t Resident::free_copy(std::size_t slot) {
     return copies_.size() - 1;
 }
 
-std::size_t Resident::write(gpu::Device& device, std::size_t slot) {
-    const auto current = std::ranges::find(copies_, version_, &Copy::version);
+std::size_t DeviceList::write(gpu::Device& device, std::size_t slot) {
+    const auto current = std::ranges::find(copies_, version_, &DeviceCopy::version);
     if (current != copies_.end()) {
         bound_[slot] = static_cast<std::size_t>(current - copies_.begin());
         return 0;
     }
     const std::size_t place = free_copy(slot);
-    Copy& copy = copies_[place];
+    DeviceCopy& copy = copies_[place];
     if (!copy.buffer.handle() || copy.buffer.bytes() < data_.size()) {
         copy = {};
         copy.buffer = gpu::Buffer(device, name_, data_.size(), use_);

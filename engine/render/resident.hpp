@@ -13,9 +13,9 @@ namespace catoptric::render {
 /// reads. Each slot (a frame in flight) binds one of several copies of the list; slots with equal
 /// contents bind the same copy. A list that never changes has one copy. A changing list has at most
 /// one a slot.
-class Resident {
+class DeviceList {
 public:
-    Resident(std::string name, gpu::BufferUsage use, std::size_t slots)
+    DeviceList(std::string name, gpu::BufferUsage use, std::size_t slots)
         : name_(std::move(name)), use_(use), bound_(slots) {}
 
     /// Sets the contents for the next `write`. Returns whether they differ from the last contents;
@@ -38,7 +38,7 @@ public:
     std::size_t copy_count() const { return copies_.size(); }
 
 private:
-    struct Copy {
+    struct DeviceCopy {
         gpu::Buffer buffer;
         std::uint64_t version = 0;
     };
@@ -51,7 +51,7 @@ private:
     std::vector<std::byte> data_;
     std::vector<std::uint64_t> pages_; ///< version of the last change of each page of `data_`
     std::uint64_t version_ = 1;
-    std::vector<Copy> copies_;
+    std::vector<DeviceCopy> copies_;
     std::vector<std::optional<std::size_t>> bound_; ///< copy, by slot
 };
 

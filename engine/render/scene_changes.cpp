@@ -9,17 +9,20 @@ namespace catoptric::render {
 
 namespace {
 
-bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
+bool has_equal_values(const std::optional<scene::Sphere>& a,
+                      const std::optional<scene::Sphere>& b) {
     return a.has_value() == b.has_value() &&
            (!a || (a->centre == b->centre && a->radius == b->radius));
 }
 
-bool lights(const scene::Material& material) { return scene::light_of(material) != vec3(0); }
+bool emits_light(const scene::Material& material) {
+    return scene::emitted_radiance(material) != vec3(0);
+}
 
 /// Returns whether the object is drawn, traced and counted in the same way with either material, so
 /// that only values differ.
-bool same_kind(const scene::Material& a, scene::Material b) {
-    if (lights(a) != lights(b) || (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
+bool is_drawn_alike(const scene::Material& a, scene::Material b) {
+    if (emits_light(a) != emits_light(b) || (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
         (a.reflectance == vec3(1)) != (b.reflectance == vec3(1)))
         return false;
     b.albedo = a.albedo, b.emission = a.emission, b.reflectance = a.reflectance;
@@ -45,11 +48,12 @@ SceneChanges SceneChangeTracker::take_over(const scene::Scene& now, bool report_
                          seen.seen_by_camera != object.seen_by_camera ||
                          seen.mirror != object.mirror ||
                          seen.sphere.has_value() != object.sphere.has_value() || is_new ||
-                         !same_kind(materials_[seen.material], material);
-        changes.lights = changes.lights ||
-                         ((moved || repainted) &&
-                          (lights(material) || (!is_new && lights(materials_[seen.material]))));
-        changes.materials = changes.materials || repainted || !same(seen.sphere, object.sphere);
+                         !is_drawn_alike(materials_[seen.material], material);
+        changes.lights = changes.lights || ((moved || repainted) &&
+                                            (emits_light(material) ||
+                                             (!is_new && emits_light(materials_[seen.material]))));
+        changes.materials = changes.materials || repainted ||
+                            !has_equal_values(seen.sphere, object.sphere);
         if (moved) changes.moved.push_back(i);
         seen = {object.mesh,   object.material,       object.world_from_object,
                 object.sphere, object.seen_by_camera, object.mirror};

@@ -32,7 +32,7 @@ private:
     };
     std::vector<ObjectState> objects_;
     std::vector<scene::Material> materials_;
-    std::vector<scene::Punctual> punctual_;
+    std::vector<scene::PunctualLight> punctual_;
 };
 
 } // namespace catoptric::render

@@ -12,15 +12,15 @@ namespace catoptric::render {
 
 namespace {
 
-using graph::Commands;
 using graph::ImageHandle;
-using graph::Tag;
-using graph::Use;
+using graph::PassCommands;
+using graph::PassTag;
+using graph::ResourceUse;
 
 /// Returns the content hash of everything that a face of a light's shadow map may show, and of the
 /// face's view.
-std::uint64_t shadow_content_hash(const GpuScene& scene, const require::Model& model,
-                                  std::uint32_t light, std::uint32_t face) {
+std::uint64_t hash_shadow_face(const GpuScene& scene, const require::Model& model,
+                               std::uint32_t light, std::uint32_t face) {
     const require::LightNeeds& needs = model.lights[light];
     ContentHash content_hash;
     content_hash.add(needs.has_map);
@@ -28,40 +28,42 @@ std::uint64_t shadow_content_hash(const GpuScene& scene, const require::Model& m
     const shared::View& view = scene.views()[scene.shadow_view(light) + face];
     content_hash.add(needs.content_hash).add(view);
     content_hash.add_all(std::span(scene.backdrops(light)));
-    for (const require::Caster& caster : model.casters)
-        if (may_meet(view, scene.ranges()[caster.object]))
+    for (const require::ShadowCaster& caster : model.casters)
+        if (may_view_show_box(view, scene.ranges()[caster.object]))
             content_hash.add(caster.object).add(caster.content_hash);
     return content_hash.value();
 }
 
 /// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears
 /// them to the farthest depth, so that nothing is in shadow.
-void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
-                      const FaceRange& faces, bool has_map, const std::string& name,
-                      ImageHandle part) {
-    graph.pass(name, Tag::scene)
-        .writes(part, Use::depth, kFarthest)
+void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
+                     const FaceRange& faces, bool has_map, const std::string& name,
+                     ImageHandle part) {
+    graph.pass(name, PassTag::scene)
+        .writes(part, ResourceUse::depth, kFarthest)
         .layers(faces.count)
-        .record([&scene, light, faces, has_map](Commands& commands) {
+        .record([&scene, light, faces, has_map](PassCommands& commands) {
             const std::uint32_t drawn = scene.drawn_shadow_faces(light);
             if (!has_map || faces.first >= drawn) return;
             scene.bind(commands);
             for (const bool masked : {false, true})
-                draw_fronts(commands, scene, {"", masked ? "masked.frag" : "", {}},
-                            scene.shadow_view(light) + faces.first,
-                            std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
-                                const DrawRange& range = scene.ranges()[i];
-                                return range.casts_shadow && range.masked == masked &&
-                                       !scene.backdrops(light)[i];
-                            });
+                draw_objects_without_backs(commands, scene, {"", masked ? "masked.frag" : "", {}},
+                                           scene.shadow_view(light) + faces.first,
+                                           std::min(faces.count, drawn - faces.first), 0,
+                                           [&](std::size_t i) {
+                                               const DrawRange& range = scene.ranges()[i];
+                                               return range.casts_shadow &&
+                                                      range.masked == masked &&
+                                                      !scene.backdrops(light)[i];
+                                           });
         });
 }
 
 } // namespace
 
-std::optional<ImageHandle> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
-                                      std::uint32_t edge, const require::Model& model,
-                                      const std::string& suffix) {
+std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
+                                             std::uint32_t edge, const require::Model& model,
+                                             const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
     if (scene.light_count() == 0) return std::nullopt;
     const std::uint32_t faces = scene.shadow_faces();
@@ -77,18 +79,18 @@ std::optional<ImageHandle> add_shadow(graph::Graph& graph, const FrameInputs& in
         };
         std::array<std::uint64_t, 6> content_hashes{};
         for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
-            content_hashes[face] = shadow_content_hash(scene, model, light, face);
+            content_hashes[face] = hash_shadow_face(scene, model, light, face);
         const auto is_drawn = [&](std::uint32_t face) {
             return face < faces && (model.is_everything ||
                                     !graph.holds_content(part(face, 1), content_hashes[face]));
         };
-        for_each_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
+        for_each_face_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
             const FaceRange run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
                 graph.set_content_hash(part(face, 1), content_hashes[face]);
             const std::string text = run.count == faces ? name : name_of(name, run);
-            add_shadow_faces(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
-                             part(first, run.count));
+            add_shadow_pass(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
+                            part(first, run.count));
         });
     }
     return map;

@@ -13,20 +13,20 @@ namespace {
 
 constexpr std::uint32_t kNone = 0, kMap = 1, kStudio = 2;
 
-shared::Sky sky_of(const scene::Environment& environment) {
+shared::Sky make_sky_entry(const scene::Environment& environment) {
     shared::Sky sky{};
     sky.size = environment.size;
     sky.scale = static_cast<float>(environment.scale);
     const double angle = glm::radians(environment.rotation_degrees);
     sky.turn = vec2(std::cos(angle), std::sin(angle));
-    std::ranges::transform(scene::irradiance_coefficients(environment), sky.irradiance,
+    std::ranges::transform(scene::compute_irradiance_coefficients(environment), sky.irradiance,
                            [](const dvec3& coefficient) { return vec3(coefficient); });
     return sky;
 }
 
 } // namespace
 
-Sky::Sky(std::size_t slots)
+EnvironmentOnDevice::EnvironmentOnDevice(std::size_t slots)
     : sky_("sky", gpu::BufferUsage::uniform, slots),
       texels_("sky.texels", gpu::BufferUsage::texels, slots),
       vertices_("sky.vertices", gpu::BufferUsage::vertex, slots),
@@ -34,7 +34,7 @@ Sky::Sky(std::size_t slots)
     sky_.set(std::vector(1, shared::Sky{}));
 }
 
-void Sky::set(const std::shared_ptr<const scene::Environment>& environment) {
+void EnvironmentOnDevice::set(const std::shared_ptr<const scene::Environment>& environment) {
     if (environment_ == environment) return;
     if (environment && !environment->studio) {
         const auto [width, height] = std::pair(environment->size.x, environment->size.y);
@@ -44,7 +44,7 @@ void Sky::set(const std::shared_ptr<const scene::Environment>& environment) {
     }
     environment_ = environment;
     kind_ = !environment ? kNone : environment->studio ? kStudio : kMap;
-    sky_.set(std::vector(1, environment ? sky_of(*environment) : shared::Sky{}));
+    sky_.set(std::vector(1, environment ? make_sky_entry(*environment) : shared::Sky{}));
     std::vector<vec4> texels;
     if (kind_ == kMap)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
@@ -55,30 +55,30 @@ void Sky::set(const std::shared_ptr<const scene::Environment>& environment) {
     indices_.set(std::vector<std::uint32_t>{0, 1, 2});
 }
 
-std::size_t Sky::write(gpu::Device& device, std::size_t slot) {
+std::size_t EnvironmentOnDevice::write(gpu::Device& device, std::size_t slot) {
     std::size_t writes = 0;
-    for (Resident* buffer : {&sky_, &texels_, &vertices_, &indices_})
+    for (DeviceList* buffer : {&sky_, &texels_, &vertices_, &indices_})
         writes += buffer->write(device, slot);
     return writes;
 }
 
-void Sky::bind(graph::Commands& commands, std::size_t slot) const {
+void EnvironmentOnDevice::bind(graph::PassCommands& commands, std::size_t slot) const {
     commands.bind("sky", sky_.at(slot));
     commands.bind("sky_texels", texels_.at(slot));
 }
 
-void Sky::bind_vertices(graph::Commands& commands, std::size_t slot) const {
+void EnvironmentOnDevice::bind_vertices(graph::PassCommands& commands, std::size_t slot) const {
     commands.geometry(vertices_.at(slot), indices_.at(slot));
 }
 
-void draw_sky(graph::Commands& commands, const GpuScene& scene, std::uint32_t first_view,
-              std::uint32_t layers, const gpu::Constants& store) {
+void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
+              std::uint32_t layers, const gpu::ShaderConstants& store) {
     if (!scene.has_sky()) return;
     commands.use(gpu::RasterState{.vertex = "sky.vert",
                                   .fragment = "sky.frag",
                                   .constants = store,
                                   .features = scene.features(first_view)});
-    commands.push(shared::Draw{.first_view = first_view});
+    commands.push(shared::DrawParameters{.first_view = first_view});
     scene.bind_sky_vertices(commands);
     commands.draw(0, 3, 0, layers);
 }

@@ -12,30 +12,30 @@ namespace catoptric::render {
 class GpuScene;
 
 /// A scene's environment on the device.
-class Sky {
+class EnvironmentOnDevice {
 public:
-    explicit Sky(std::size_t slots);
+    explicit EnvironmentOnDevice(std::size_t slots);
 
     /// Sets the environment; null: black. Costs O(texels) if the environment differs from the last
     /// one.
     void set(const std::shared_ptr<const scene::Environment>& environment);
-    /// Writes the changes, like Resident::write.
+    /// Writes the changes, like DeviceList::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
-    void bind(graph::Commands& commands, std::size_t slot) const;
+    void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the triangle that covers the picture.
-    void bind_vertices(graph::Commands& commands, std::size_t slot) const;
+    void bind_vertices(graph::PassCommands& commands, std::size_t slot) const;
     /// Returns the kind of environment, numbered as in shaders/lib/environment.glsl; 0: none.
     std::uint32_t kind() const { return kind_; }
 
 private:
     std::shared_ptr<const scene::Environment> environment_;
     std::uint32_t kind_ = 0;
-    Resident sky_, texels_, vertices_, indices_;
+    DeviceList sky_, texels_, vertices_, indices_;
 };
 
 /// Draws the environment into pixels that no surface covers, into layers whose views start at
 /// `first_view`. `store`: as in Drawing.
-void draw_sky(graph::Commands& commands, const GpuScene& scene, std::uint32_t first_view,
-              std::uint32_t layers, const gpu::Constants& store);
+void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
+              std::uint32_t layers, const gpu::ShaderConstants& store);
 
 } // namespace catoptric::render

@@ -12,28 +12,28 @@ namespace catoptric::render {
 
 namespace {
 
-bool is_inside(const Bounds<double>& box, const Bounds<double>& core) {
+bool is_box_inside(const Bounds<double>& box, const Bounds<double>& core) {
     return all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
 }
 
-dvec3 origin_of(const scene::Scene& scene, const Bounds<double>& core) {
+dvec3 choose_scene_origin(const scene::Scene& scene, const Bounds<double>& core) {
     std::vector<Bounds<double>> small;
     Bounds<double> around;
     for (const std::size_t mirror : scene::mirrors(scene)) {
         const Bounds<double> box = scene::bounds(scene, scene.objects[mirror]);
-        if (!is_inside(box, core) || !is_small(box, core.centre())) continue;
+        if (!is_box_inside(box, core) || !is_small_for_distance(box, core.centre())) continue;
         small.push_back(box), around.add(box);
     }
     const dvec3 theirs = around.centre();
     const bool helps = !small.empty() && std::ranges::none_of(small, [&](const auto& box) {
-        return is_small(box, theirs);
+        return is_small_for_distance(box, theirs);
     });
     return helps ? theirs : core.centre();
 }
 
 } // namespace
 
-bool is_small(const Bounds<double>& box, const dvec3& origin) {
+bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin) {
     if (box.empty()) return false;
     const double size = largest_component(box.extent()),
                  distance = largest_component(
@@ -41,18 +41,18 @@ bool is_small(const Bounds<double>& box, const dvec3& origin) {
     return size > 0 && size < kSmallPart * distance;
 }
 
-Space space_of(const scene::Scene& scene) {
-    const Bounds<double> core = scene::core_bounds(scene);
+SceneUnits make_scene_units(const scene::Scene& scene) {
+    const Bounds<double> core = scene::compute_core_bounds(scene);
     if (core.empty()) return {};
-    Space space;
-    space.origin_world = origin_of(scene, core);
+    SceneUnits space;
+    space.origin_world = choose_scene_origin(scene, core);
     if (const double extent = largest_component(core.extent()); extent > 0)
         space.scale = std::exp2(-std::ceil(std::log2(extent)));
     space.core = {space.point(core.lo), space.point(core.hi)};
     return space;
 }
 
-void check_reach(const Bounds<float>& box, const std::string& object) {
+void check_object_distance(const Bounds<float>& box, const std::string& object) {
     const float farthest = f32::largest(max(abs(box.lo), abs(box.hi)));
     // Written so that infinity and NaN fail too. An empty box has no position and passes.
     check(box.empty() || farthest <= scene::kFarthestReach, Failure::exhausted, "object '", object,

@@ -16,7 +16,7 @@ namespace catoptric::render {
 
 namespace {
 
-std::uint32_t flags_of(const DrawRange& range) {
+std::uint32_t ray_mask_of_range(const DrawRange& range) {
     return (range.seen_by_camera ? 0 : bvh::kHidden) | (range.casts_shadow ? 0 : bvh::kShadowless) |
            (range.exact_sphere ? bvh::kSphere : 0) | (range.one_sided ? bvh::kOneSided : 0) |
            (range.masked ? bvh::kMasked : 0);
@@ -24,40 +24,40 @@ std::uint32_t flags_of(const DrawRange& range) {
 
 /// Reads an object's triangles, as rays see them. Also reads the normal and the attribute number of
 /// each corner.
-void read_object(const Geometry& geometry, std::size_t object,
-                 std::vector<bvh::Triangle>& triangles, std::vector<vec4>& normals) {
+void read_object_triangles(const Geometry& geometry, std::size_t object,
+                           std::vector<bvh::Triangle>& triangles, std::vector<vec4>& normals) {
     const DrawRange& range = geometry.ranges[object];
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
             return geometry.vertices[geometry.indices[k + j]];
         };
         triangles[k / 3] = {vertex(0).position, vertex(1).position, vertex(2).position,
-                            static_cast<std::uint32_t>(object), flags_of(range)};
+                            static_cast<std::uint32_t>(object), ray_mask_of_range(range)};
         for (std::uint32_t j = 0; j < 3; ++j) {
             const std::uint32_t local = geometry.indices[k + j] - range.first_vertex;
             normals[k + j] = vec4(vertex(j).normal,
-                                  bvh::id_word(range.first_attribute.value_or(0) +
-                                               (range.first_attribute ? local : 0)));
+                                  bvh::id_to_float_word(range.first_attribute.value_or(0) +
+                                                        (range.first_attribute ? local : 0)));
         }
     }
 }
 
 /// Adds `first` to the triangle numbers of a tree.
-void renumber(bvh::Bvh& tree, std::uint32_t first) {
+void offset_triangle_numbers(bvh::Bvh& tree, std::uint32_t first) {
     for (std::size_t i = 1; i < tree.triangles.size(); i += 3)
         tree.triangles[i].w = std::bit_cast<float>(
             std::bit_cast<std::uint32_t>(tree.triangles[i].w) + first);
 }
 
-bool is_own_storage(const Geometry& geometry, std::size_t object) {
+bool has_object_space(const Geometry& geometry, std::size_t object) {
     return geometry.ranges[object].own && geometry.ranges[object].storage == object;
 }
 
 /// Returns the list with exact spheres in scene units as spheres. Each sphere takes the place of
 /// its first triangle. Its other triangles become NaN, which the build drops.
-std::vector<bvh::Triangle> with_spheres(std::span<const bvh::Triangle> flat,
-                                        const Geometry& geometry,
-                                        std::span<const shared::Surface> surfaces) {
+std::vector<bvh::Triangle> replace_by_exact_spheres(std::span<const bvh::Triangle> flat,
+                                                    const Geometry& geometry,
+                                                    std::span<const shared::Surface> surfaces) {
     std::vector<bvh::Triangle> triangles(flat.begin(), flat.end());
     const bvh::Triangle nothing{.a = vec3(std::numeric_limits<float>::quiet_NaN())};
     for (std::uint32_t i = 0; i < geometry.ranges.size(); ++i) {
@@ -65,16 +65,17 @@ std::vector<bvh::Triangle> with_spheres(std::span<const bvh::Triangle> flat,
         if (!range.exact_sphere || range.own || range.index_count == 0) continue;
         const auto own = std::span(triangles).subspan(range.first_index / 3, range.index_count / 3);
         std::ranges::fill(own, nothing);
-        own.front() = bvh::sphere(surfaces[i].centre, surfaces[i].radius, i,
-                                  flags_of(range) & (bvh::kHidden | bvh::kShadowless));
+        own.front() = bvh::make_sphere_primitive(surfaces[i].centre, surfaces[i].radius, i,
+                                                 ray_mask_of_range(range) &
+                                                     (bvh::kHidden | bvh::kShadowless));
     }
     return triangles;
 }
 
 /// Returns a key that is equal for two objects of one mesh whose object spaces have the same
 /// placement.
-std::array<double, 15> place_of(const DrawRange& range) {
-    std::array<double, 15> place{double(range.storage), double(flags_of(range)),
+std::array<double, 15> object_space_key(const DrawRange& range) {
+    std::array<double, 15> place{double(range.storage), double(ray_mask_of_range(range)),
                                  double(range.own->radius)};
     for (int i = 0; i < 3; ++i) {
         place[static_cast<std::size_t>(3 + i)] = range.own->centre[i];
@@ -89,7 +90,7 @@ constexpr std::string_view kInStorage = "bvh_in_storage";
 /// Returns the list with which shaders find a triangle of the rasteriser in the hierarchy
 /// (known_hit in shaders/lib/whitted.glsl). `count`: the number of stored triangles.
 std::vector<std::uint32_t> list_first_hits(const bvh::Bvh& shown,
-                                           std::span<const bvh::Instance> instances,
+                                           std::span<const bvh::BvhInstance> instances,
                                            const Geometry& geometry, std::size_t count) {
     constexpr std::uint32_t kNoFirstHit = 0xffffffff; // as in shaders/lib/whitted.glsl
     const std::size_t objects = geometry.ranges.size();
@@ -101,36 +102,37 @@ std::vector<std::uint32_t> list_first_hits(const bvh::Bvh& shown,
     }
     for (std::uint32_t i = 0; i < instances.size(); ++i)
         list[2 * std::size_t{instances[i].object}] = shown.first_record + f32::kBvhRecordNodes * i;
-    for (std::uint32_t place = 0; place < bvh::triangle_count(shown); ++place)
-        list[first + bvh::number_of(shown.triangles[3 * std::size_t{place} + 1].w)] = place;
+    for (std::uint32_t place = 0; place < bvh::count_triangles(shown); ++place)
+        list[first + bvh::float_word_to_integer(shown.triangles[3 * std::size_t{place} + 1].w)] =
+            place;
     return list;
 }
 
 } // namespace
 
-gpu::Constants constants_of(const gpu::Choices& choices, std::uint64_t bytes,
-                            std::uint64_t most_of_storage) {
-    gpu::Constants constants;
+gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, std::uint64_t bytes,
+                                           std::uint64_t most_of_storage) {
+    gpu::ShaderConstants constants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        const std::string_view constant = gpu::variants()[i].constant;
+        const std::string_view constant = gpu::list_shader_variants()[i].constant;
         if (choices[i] == 0 || (constant == kInStorage && bytes > most_of_storage)) continue;
         constants.emplace_back(constant, choices[i]);
     }
     return constants;
 }
 
-Tracing::Tracing(std::size_t slots)
+RayTracingTrees::RayTracingTrees(std::size_t slots)
     : hierarchies_{Hierarchy(slots), Hierarchy(slots)},
       normals_buffer_("normals", gpu::BufferUsage::texels, slots) {}
 
-void Tracing::lay_out() {
+void RayTracingTrees::lay_out() {
     is_read_ = false;
     moved_.clear();
 }
 
-void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
-                    std::span<const bvh::Triangle> flat) {
-    hierarchy.tree = bvh::build(flat, geometry.core, bvh::Copies::of_all);
+void RayTracingTrees::build(Hierarchy& hierarchy, const Geometry& geometry,
+                            std::span<const bvh::Triangle> flat) {
+    hierarchy.tree = bvh::build_bvh(flat, geometry.core, bvh::CopyHandling::of_all);
     hierarchy.reached.clear();
     hierarchy.lists_first_hits = false;
     hierarchy.cost_when_built = hierarchy.tree.cost;
@@ -138,34 +140,35 @@ void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
     ++built_;
 }
 
-void Tracing::refit(Hierarchy& hierarchy, const Geometry& geometry,
-                    std::span<const bvh::Triangle> flat) {
+void RayTracingTrees::refit(Hierarchy& hierarchy, const Geometry& geometry,
+                            std::span<const bvh::Triangle> flat) {
     if (hierarchy.moved != hierarchy.reached) { // mostly the same objects move from frame to frame
-        hierarchy.reach = bvh::reach_of(hierarchy.tree, hierarchy.moved);
+        hierarchy.reach = bvh::find_refit_region(hierarchy.tree, hierarchy.moved);
         hierarchy.reached = hierarchy.moved;
     }
-    hierarchy.changed = bvh::refit(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
+    hierarchy.changed = bvh::refit_bvh(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
     ++refitted_;
     // Written so that NaN rebuilds too.
     if (!(hierarchy.tree.cost <= kWorstRefit * hierarchy.cost_when_built))
         build(hierarchy, geometry, flat);
 }
 
-void Tracing::build_own(const Geometry& geometry, std::size_t object) {
+void RayTracingTrees::build_own(const Geometry& geometry, std::size_t object) {
     const DrawRange& range = geometry.ranges[object];
     bvh::Bvh& tree = own_trees_[object];
-    tree = bvh::build(std::span(triangles_).subspan(range.first_index / 3, range.index_count / 3));
-    renumber(tree, range.first_index / 3);
+    tree = bvh::build_bvh(
+        std::span(triangles_).subspan(range.first_index / 3, range.index_count / 3));
+    offset_triangle_numbers(tree, range.first_index / 3);
 }
 
 /// Reads the objects that have moved.
-void Tracing::follow(const Geometry& geometry) {
+void RayTracingTrees::read_moved_objects(const Geometry& geometry) {
     bvh::IndexRange changed{normals_.size(), 0};
     for (const auto& [object, vertices] : moved_) {
         const DrawRange& range = geometry.ranges[object];
         const bool own = range.own.has_value();
         if (vertices) {
-            read_object(geometry, object, triangles_, normals_);
+            read_object_triangles(geometry, object, triangles_, normals_);
             changed = {std::min<std::size_t>(changed.first, range.first_index),
                        std::max<std::size_t>(changed.end, range.first_index + range.index_count)};
         }
@@ -179,21 +182,22 @@ void Tracing::follow(const Geometry& geometry) {
 }
 
 /// Reads a new layout, or the objects that have moved.
-void Tracing::read(const Geometry& geometry) {
+void RayTracingTrees::read_geometry_changes(const Geometry& geometry) {
     if (is_read_ && moved_.empty()) return;
     // `is_read_` stays false if this throws, so that the next call fills everything.
     if (std::exchange(is_read_, false)) {
         ++version_.moves;
-        follow(geometry);
+        read_moved_objects(geometry);
     } else {
         ++version_.layouts;
         triangles_.resize(geometry.indices.size() / 3);
         normals_.resize(geometry.indices.size());
         own_trees_.clear();
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
-            if (geometry.ranges[i].storage == i) read_object(geometry, i, triangles_, normals_);
+            if (geometry.ranges[i].storage == i)
+                read_object_triangles(geometry, i, triangles_, normals_);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
-            if (is_own_storage(geometry, i)) build_own(geometry, i);
+            if (has_object_space(geometry, i)) build_own(geometry, i);
         normals_buffer_.set(normals_);
     }
     is_read_ = true;
@@ -201,8 +205,8 @@ void Tracing::read(const Geometry& geometry) {
 }
 
 /// Returns the objects in object space that rays can meet. Checks the number of triangles.
-std::vector<bvh::Instance> Tracing::instances(const Geometry& geometry) const {
-    std::vector<bvh::Instance> instances;
+std::vector<bvh::BvhInstance> RayTracingTrees::instances(const Geometry& geometry) const {
+    std::vector<bvh::BvhInstance> instances;
     std::set<std::array<double, 15>> places; // rays never meet a copy in the same place as another
     auto next = static_cast<std::uint32_t>(triangles_.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
@@ -210,10 +214,11 @@ std::vector<bvh::Instance> Tracing::instances(const Geometry& geometry) const {
         if (!range.own) continue;
         // A copy has triangle numbers of its own, after all others.
         const bool copy = range.storage != i;
-        if (range.masked || places.insert(place_of(range)).second)
+        if (range.masked || places.insert(object_space_key(range)).second)
             instances.push_back({&own_trees_.at(range.storage), range.own->scene_from_own,
-                                 range.own->centre, static_cast<std::uint32_t>(i), flags_of(range),
-                                 copy ? next - range.first_index / 3 : 0, range.own->radius});
+                                 range.own->centre, static_cast<std::uint32_t>(i),
+                                 ray_mask_of_range(range), copy ? next - range.first_index / 3 : 0,
+                                 range.own->radius});
         if (copy) next += range.index_count / 3;
     }
     check(next <= f32::kBvhIdMask, Failure::exhausted, "rays tell ", f32::kBvhIdMask,
@@ -222,10 +227,12 @@ std::vector<bvh::Instance> Tracing::instances(const Geometry& geometry) const {
 }
 
 /// Assembles the trees that the device walks. `first_hits`: lists the places of triangles, too.
-void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry, bool first_hits) const {
-    const std::vector<bvh::Instance> instances = this->instances(geometry);
-    const bvh::Bvh whole = instances.empty() ? bvh::Bvh()
-                                             : bvh::assemble(hierarchy.tree, instances);
+void RayTracingTrees::assemble_trees(Hierarchy& hierarchy, const Geometry& geometry,
+                                     bool first_hits) const {
+    const std::vector<bvh::BvhInstance> instances = this->instances(geometry);
+    const bvh::Bvh whole = instances.empty()
+                               ? bvh::Bvh()
+                               : bvh::assemble_two_level_bvh(hierarchy.tree, instances);
     const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
     hierarchy.nodes.set(shown.nodes);
     if (instances.empty())
@@ -240,8 +247,8 @@ void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry, bool first_hi
 }
 
 /// `flat`: the triangles and spheres in scene units.
-void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
-                               std::span<const bvh::Triangle> flat, bool first_hits) {
+void RayTracingTrees::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
+                                       std::span<const bvh::Triangle> flat, bool first_hits) {
     // Triangles left out as copies may no longer coincide after a move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
     hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call fills everything
@@ -249,41 +256,43 @@ void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
         build(hierarchy, geometry, flat);
     else if (std::ranges::find(hierarchy.moved, 1) != hierarchy.moved.end())
         refit(hierarchy, geometry, flat);
-    fill(hierarchy, geometry, first_hits);
+    assemble_trees(hierarchy, geometry, first_hits);
     hierarchy.moved.clear();
     hierarchy.seen = version_;
 }
 
-void Tracing::prepare(gpu::Device& device, const Geometry& geometry,
-                      std::span<const shared::Surface> surfaces, Spheres spheres, bool first_hits,
-                      std::size_t slot) {
+void RayTracingTrees::prepare(gpu::Device& device, const Geometry& geometry,
+                              std::span<const shared::Surface> surfaces, SphereMode spheres,
+                              bool first_hits, std::size_t slot) {
     const Stopwatch watch(ms_);
     const bool is_first = built_ == 0;
-    read(geometry);
-    Hierarchy& hierarchy = of(spheres);
+    read_geometry_changes(geometry);
+    Hierarchy& hierarchy = hierarchy_of(spheres);
     if (hierarchy.seen != version_) {
         const std::size_t count = geometry.flat_indices / 3;
-        if (spheres == Spheres::mesh)
+        if (spheres == SphereMode::mesh)
             bring_up_to_date(hierarchy, geometry, std::span(triangles_).first(count), first_hits);
         else
-            bring_up_to_date(hierarchy, geometry,
-                             with_spheres(std::span(triangles_).first(count), geometry, surfaces),
-                             first_hits);
+            bring_up_to_date(
+                hierarchy, geometry,
+                replace_by_exact_spheres(std::span(triangles_).first(count), geometry, surfaces),
+                first_hits);
     }
-    if (first_hits && !hierarchy.lists_first_hits) fill(hierarchy, geometry, true);
+    if (first_hits && !hierarchy.lists_first_hits) assemble_trees(hierarchy, geometry, true);
     const double build_ms = watch.ms();
-    for (Resident* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})
+    for (DeviceList* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})
         writes_ += buffer->write(device, slot);
     if (hierarchy.lists_first_hits) writes_ += hierarchy.first_hits.write(device, slot);
     if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.ms() - build_ms;
 }
 
-std::uint64_t Tracing::largest_bytes(Spheres spheres, std::size_t slot) const {
+std::uint64_t RayTracingTrees::largest_bytes(SphereMode spheres, std::size_t slot) const {
     const Hierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
     return std::max(hierarchy.nodes.at(slot).bytes(), hierarchy.triangles.at(slot).bytes());
 }
 
-void Tracing::bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const {
+void RayTracingTrees::bind(graph::PassCommands& commands, SphereMode spheres,
+                           std::size_t slot) const {
     const Hierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
     commands.bind("bvh_nodes", hierarchy.nodes.at(slot));
     commands.bind("bvh_triangles", hierarchy.triangles.at(slot));

@@ -13,25 +13,25 @@
 
 namespace catoptric::render {
 
-/// A refitted hierarchy is rebuilt once its cost (bvh::cost) exceeds this many times the cost when
-/// built.
+/// A refitted hierarchy is rebuilt once its cost (bvh::compute_sah_cost) exceeds this many times
+/// the cost when built.
 inline constexpr double kWorstRefit = 2;
 
 /// The two ways in which rays intersect an exact sphere: as the triangles of its mesh (`mesh`), or
 /// as a sphere (`exact`). Each way has a hierarchy of its own.
-enum class Spheres { mesh, exact };
+enum class SphereMode { mesh, exact };
 
 /// Returns the constants with which the tracer's shaders are built for a device's choices, without
 /// defaults. `bytes`: the size of the nodes or triangles. If it exceeds `most_of_storage`, they are
 /// texel buffers instead of storage buffers.
-gpu::Constants constants_of(const gpu::Choices& choices, std::uint64_t bytes,
-                            std::uint64_t most_of_storage);
+gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, std::uint64_t bytes,
+                                           std::uint64_t most_of_storage);
 
 /// The hierarchies that rays walk. Each is built at its first use for a layout of objects, and
 /// refitted after objects have moved.
-class Tracing {
+class RayTracingTrees {
 public:
-    explicit Tracing(std::size_t slots);
+    explicit RayTracingTrees(std::size_t slots);
 
     /// Records that the layout of objects changed.
     void lay_out();
@@ -42,12 +42,12 @@ public:
     /// last call. `surfaces`: by object, scene units. `first_hits`: the list that finds a triangle
     /// of the rasteriser in the hierarchy is needed, too. A build costs O(n log^2 n), a refit O(n).
     void prepare(gpu::Device& device, const Geometry& geometry,
-                 std::span<const shared::Surface> surfaces, Spheres spheres, bool first_hits,
+                 std::span<const shared::Surface> surfaces, SphereMode spheres, bool first_hits,
                  std::size_t slot);
-    void bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const;
+    void bind(graph::PassCommands& commands, SphereMode spheres, std::size_t slot) const;
     /// Returns the bytes of the nodes or of the triangles, whichever is more, as written for the
     /// slot.
-    std::uint64_t largest_bytes(Spheres spheres, std::size_t slot) const;
+    std::uint64_t largest_bytes(SphereMode spheres, std::size_t slot) const;
 
     std::size_t built() const { return built_; }
     std::size_t refitted() const { return refitted_; }
@@ -60,14 +60,14 @@ public:
     double first_write_ms() const { return first_write_ms_; }
 
 private:
-    struct Move {
+    struct ObjectMove {
         std::size_t object;
         bool vertices;
     };
     /// Version number of the scene's geometry. A hierarchy with an older version is out of date.
-    struct Version {
+    struct GeometryVersion {
         std::size_t layouts = 0, moves = 0;
-        friend bool operator==(const Version&, const Version&) = default;
+        friend bool operator==(const GeometryVersion&, const GeometryVersion&) = default;
     };
     struct Hierarchy {
         explicit Hierarchy(std::size_t slots)
@@ -76,38 +76,40 @@ private:
               first_hits("first_hits", gpu::BufferUsage::words, slots) {}
         bvh::Bvh tree; ///< of the triangles in scene units
         double cost_when_built = 0;
-        Version seen;
+        GeometryVersion seen;
         std::vector<char> moved; ///< for each object in scene units: whether it moved since `seen`
         std::vector<char> reached; ///< for each object: whether `reach` includes it
-        bvh::Reach reach;
+        bvh::RefitRegion reach;
         bvh::IndexRange
-            changed; ///< range of the tree's triangles that changed since the last `fill`
+            changed; ///< range of the tree's triangles that changed since the last `assemble_trees`
         bool lists_first_hits = false; ///< `first_hits` describes the hierarchy
-        Resident nodes, triangles;
+        DeviceList nodes, triangles;
         /// Finds a triangle of the rasteriser in the hierarchy: see known_hit in
         /// shaders/lib/whitted.glsl.
-        Resident first_hits;
+        DeviceList first_hits;
     };
-    Hierarchy& of(Spheres spheres) { return hierarchies_[static_cast<std::size_t>(spheres)]; }
-    void read(const Geometry& geometry);
+    Hierarchy& hierarchy_of(SphereMode spheres) {
+        return hierarchies_[static_cast<std::size_t>(spheres)];
+    }
+    void read_geometry_changes(const Geometry& geometry);
     void bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
                           std::span<const bvh::Triangle> flat, bool first_hits);
     void build(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
     void refit(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
-    void follow(const Geometry& geometry);
+    void read_moved_objects(const Geometry& geometry);
     void build_own(const Geometry& geometry, std::size_t object);
-    std::vector<bvh::Instance> instances(const Geometry& geometry) const;
-    void fill(Hierarchy& hierarchy, const Geometry& geometry, bool first_hits) const;
+    std::vector<bvh::BvhInstance> instances(const Geometry& geometry) const;
+    void assemble_trees(Hierarchy& hierarchy, const Geometry& geometry, bool first_hits) const;
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;
     /// Trees of meshes in object space, by the object that owns the vertices.
     std::map<std::size_t, bvh::Bvh> own_trees_;
-    Version version_{1, 0};
-    bool is_read_ = false;    ///< the present layout has been read
-    std::vector<Move> moved_; ///< moves since the triangles were read
+    GeometryVersion version_{1, 0};
+    bool is_read_ = false;          ///< the present layout has been read
+    std::vector<ObjectMove> moved_; ///< moves since the triangles were read
     std::array<Hierarchy, 2> hierarchies_;
-    Resident normals_buffer_;
+    DeviceList normals_buffer_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
     double ms_ = 0, first_build_ms_ = 0, first_write_ms_ = 0;
 };

@@ -4,8 +4,9 @@
 
 namespace catoptric::render {
 
-std::vector<std::uint32_t> put_off(std::vector<Asking> asking, std::uint32_t most) {
-    std::ranges::sort(asking, [](const Asking& a, const Asking& b) {
+std::vector<std::uint32_t> choose_postponed_mirrors(std::vector<RedrawRequest> asking,
+                                                    std::uint32_t most) {
+    std::ranges::sort(asking, [](const RedrawRequest& a, const RedrawRequest& b) {
         return a.waited != b.waited ? a.waited > b.waited : a.mirror < b.mirror;
     });
     std::vector<std::uint32_t> later;

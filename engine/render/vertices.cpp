@@ -5,14 +5,14 @@
 
 namespace catoptric::render {
 
-Vertices::Vertices(const std::vector<bool>& moves, std::size_t slots)
+DeviceVertices::DeviceVertices(const std::vector<bool>& moves, std::size_t slots)
     : still_("vertices", gpu::BufferUsage::vertex, slots),
       moving_("moving vertices", gpu::BufferUsage::vertex, slots),
       indices_("indices", gpu::BufferUsage::index, slots) {
     for (const bool one : moves) places_.push_back({one, 0});
 }
 
-void Vertices::lay_out(const Geometry& geometry) {
+void DeviceVertices::lay_out(const Geometry& geometry) {
     ++layouts_;
     places_.resize(geometry.ranges.size());
     std::vector<shared::Vertex> still, moving;
@@ -34,9 +34,11 @@ void Vertices::lay_out(const Geometry& geometry) {
     indices_.set(indices);
 }
 
-bool Vertices::move(std::size_t object) { return !std::exchange(places_[object].moves, true); }
+bool DeviceVertices::move(std::size_t object) {
+    return !std::exchange(places_[object].moves, true);
+}
 
-void Vertices::follow(const Geometry& geometry) {
+void DeviceVertices::copy_moved_vertices(const Geometry& geometry) {
     std::vector<shared::Vertex> moving;
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
@@ -47,17 +49,18 @@ void Vertices::follow(const Geometry& geometry) {
     moving_.set(moving);
 }
 
-std::size_t Vertices::write(gpu::Device& device, std::size_t slot) {
+std::size_t DeviceVertices::write(gpu::Device& device, std::size_t slot) {
     return still_.write(device, slot) + moving_.write(device, slot) + indices_.write(device, slot);
 }
 
-void Vertices::bind(graph::Commands& commands, std::size_t slot) const {
+void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot) const {
     commands.geometry(still_.at(slot), indices_.at(slot));
 }
 
-void Vertices::bind(graph::Commands& commands, std::size_t slot, std::size_t object) const {
+void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot,
+                          std::size_t object) const {
     if (!anything_moves_) return;
-    const Resident& vertices = places_[object].moves ? moving_ : still_;
+    const DeviceList& vertices = places_[object].moves ? moving_ : still_;
     commands.geometry(vertices.at(slot), indices_.at(slot));
 }
 

@@ -8,10 +8,10 @@ namespace catoptric::render {
 
 /// The vertices and indices of a geometry on the device. Static vertices are stored apart from
 /// moving ones, which are written again.
-class Vertices {
+class DeviceVertices {
 public:
     /// `moves`: by object, whether it is expected to move.
-    Vertices(const std::vector<bool>& moves, std::size_t slots);
+    DeviceVertices(const std::vector<bool>& moves, std::size_t slots);
 
     /// Stores a new geometry layout, or one whose indices changed. Costs O(n).
     void lay_out(const Geometry& geometry);
@@ -19,17 +19,17 @@ public:
     /// static; the caller must then lay out everything again.
     bool move(std::size_t object);
     /// Copies the moved vertices. Nothing else may have changed.
-    void follow(const Geometry& geometry);
+    void copy_moved_vertices(const Geometry& geometry);
     /// Returns how often `lay_out` ran.
     std::size_t layouts() const { return layouts_; }
     /// Returns the index of the object's first vertex in the buffer that it is drawn from.
     std::uint32_t first_of(std::size_t object) const { return places_[object].first; }
-    /// Writes the changes, like Resident::write.
+    /// Writes the changes, like DeviceList::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
     /// Binds the static vertices and all indices.
-    void bind(graph::Commands& commands, std::size_t slot) const;
+    void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the vertices of the object and all indices.
-    void bind(graph::Commands& commands, std::size_t slot, std::size_t object) const;
+    void bind(graph::PassCommands& commands, std::size_t slot, std::size_t object) const;
 
 private:
     struct VertexRange {
@@ -39,7 +39,7 @@ private:
     std::size_t layouts_ = 0;
     std::vector<VertexRange> places_; ///< range of each object's vertices
     bool anything_moves_ = false;
-    Resident still_, moving_, indices_;
+    DeviceList still_, moving_, indices_;
 };
 
 } // namespace catoptric::render

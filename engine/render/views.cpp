@@ -26,7 +26,7 @@ constexpr double kRoom = 1e-3;
 constexpr double kHardlyLarger = 1.5;
 
 /// Returns the axes of a cube whose face +Z looks along `forward`, as columns.
-glm::mat3 turned_cube(vec3 forward) {
+glm::mat3 turned_cube_axes(vec3 forward) {
     const vec3 size = abs(forward);
     const vec3 other = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
                        : size.y <= size.z                   ? vec3(0, 1, 0)
@@ -39,7 +39,7 @@ glm::mat3 turned_cube(vec3 forward) {
 struct AxisRange {
     double low = 0, high = 0;
 };
-AxisRange along(const dvec3& axis, const Bounds<float>& box) {
+AxisRange project_box_on_axis(const dvec3& axis, const Bounds<float>& box) {
     if (box.empty()) return {};
     const dvec3 middle(box.centre()), half(dvec3(box.extent()) / 2.0);
     const double at = dot(axis, middle), reach = dot(abs(axis), half);
@@ -47,15 +47,16 @@ AxisRange along(const dvec3& axis, const Bounds<float>& box) {
 }
 
 /// Returns where all geometry begins and ends along an axis, with a margin.
-AxisRange depth_of(const dvec3& forward, const Bounds<float>& everything) {
-    const auto [low, high] = along(forward, everything);
+AxisRange depth_range_along(const dvec3& forward, const Bounds<float>& everything) {
+    const auto [low, high] = project_box_on_axis(forward, everything);
     const double room = kRoom * std::max(high - low, 1.0);
     return {low - room, high + room};
 }
 
 /// Makes the view parallel. It reaches from a plane at depth.low, to which the eye moves, to a
 /// plane at depth.high.
-void look_along(shared::View& view, dvec3& eye, const dvec3& forward, const AxisRange& depth) {
+void make_parallel_view(shared::View& view, dvec3& eye, const dvec3& forward,
+                        const AxisRange& depth) {
     eye += forward * (depth.low - dot(forward, eye));
     view.near = static_cast<float>(1 / std::max(depth.high - depth.low, kRoom));
     view.parallel = 1;
@@ -63,14 +64,14 @@ void look_along(shared::View& view, dvec3& eye, const dvec3& forward, const Axis
 
 } // namespace
 
-Bounds<float> bounds_of(const Geometry& geometry) {
+Bounds<float> geometry_bounds(const Geometry& geometry) {
     Bounds<float> everything;
     for (const DrawRange& range : geometry.ranges) everything.add(range.bounds);
     return everything;
 }
 
-shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 size, float gap,
-                         const Bounds<float>& everything) {
+shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& space, uvec2 size,
+                              float gap, const Bounds<float>& everything) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const dvec3 down = glm::cross(forward, right);
@@ -79,7 +80,7 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     // A surface at distance `gap` in the corner of the picture lies this far along the axis.
     const double along = 1 / std::sqrt(1 + tangent * tangent * (1 + aspect * aspect));
     shared::View view{};
-    dvec3 eye = space.place(camera.eye);
+    dvec3 eye = space.to_scene_units(camera.eye);
     view.right = vec3(right / (tangent * aspect));
     view.down = vec3(down / tangent);
     view.forward = vec3(forward);
@@ -88,11 +89,12 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
         const double half = camera.orthographic_height * space.scale / 2;
         view.right = vec3(right / (half * aspect));
         view.down = vec3(down / half);
-        const AxisRange depth = depth_of(forward, everything);
-        look_along(view, eye, forward, {std::max(depth.low, dot(forward, eye)), depth.high});
+        const AxisRange depth = depth_range_along(forward, everything);
+        make_parallel_view(view, eye, forward,
+                           {std::max(depth.low, dot(forward, eye)), depth.high});
     }
     view.eye = vec3(eye);
-    view.eye_low = bvh::low_part(eye);
+    view.eye_low = bvh::float_rounding_error(eye);
     // Written so that NaN fails too.
     check(length(view.eye) <= scene::kFarthestReach && length(view.forward) > .5f &&
               length(view.right) > 0 && length(view.down) > 0,
@@ -110,15 +112,17 @@ float power_of_two_below(float number) { return std::ldexp(1.0f, std::ilogb(numb
 
 } // namespace
 
-std::vector<shared::View> cube_views(vec3 eye, float gap) {
-    return turned_cube_views(eye, vec3(0), gap);
+std::vector<shared::View> make_cube_views(vec3 eye, float gap) {
+    return make_turned_cube_views(eye, vec3(0), gap);
 }
 
-std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap) {
-    return turned_cube_views(eye, forward == vec3(0) ? glm::mat3(1) : turned_cube(forward), gap);
+std::vector<shared::View> make_turned_cube_views(vec3 eye, vec3 forward, float gap) {
+    return make_turned_cube_views(
+        eye, forward == vec3(0) ? glm::mat3(1) : turned_cube_axes(forward), gap);
 }
 
-std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_from_cube, float gap) {
+std::vector<shared::View> make_turned_cube_views(vec3 eye, const glm::mat3& world_from_cube,
+                                                 float gap) {
     std::vector<shared::View> views;
     for (int face = 0; face < 6; ++face) {
         shared::View view{};
@@ -135,14 +139,14 @@ std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_fro
     return views;
 }
 
-std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
-                                      const Bounds<float>& everything) {
-    const glm::mat3 axes = turned_cube(forward);
+std::array<shared::View, 2> make_sun_views(vec3 forward, const Bounds<float>& core,
+                                           const Bounds<float>& everything) {
+    const glm::mat3 axes = turned_cube_axes(forward);
     const dvec3 right(axes[0]), down(-axes[1]); // as in face +Z
     const Bounds<float>& middle = core.empty() ? everything : core;
     dvec3 eye = middle.empty() ? dvec3(0) : dvec3(middle.centre());
     const auto half_of = [&](const dvec3& axis, const Bounds<float>& box) {
-        const auto [low, high] = along(axis, box);
+        const auto [low, high] = project_box_on_axis(axis, box);
         const double at = dot(axis, eye);
         return std::max({high - at, at - low, 1e-6}) * (1 + kRoom);
     };
@@ -150,7 +154,7 @@ std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
                  width = half_of(right, everything), height = half_of(down, everything);
     shared::View view{};
     view.forward = forward;
-    look_along(view, eye, dvec3(forward), depth_of(dvec3(forward), everything));
+    make_parallel_view(view, eye, dvec3(forward), depth_range_along(dvec3(forward), everything));
     view.eye = vec3(eye);
     view.right = vec3(right / width), view.down = vec3(down / height);
     std::array<shared::View, 2> views{view, view};
@@ -163,14 +167,14 @@ namespace {
 
 /// Returns the inward normals, of any length, of the planes that bound a perspective view. All
 /// planes pass through the eye.
-std::array<vec3, 5> inward_planes(const shared::View& view) {
+std::array<vec3, 5> inward_view_planes(const shared::View& view) {
     return {view.forward, view.forward + view.right, view.forward - view.right,
             view.forward + view.down, view.forward - view.down};
 }
 
 /// Returns whether the box may lie inside a parallel view: between its sides and in front of its
 /// eye.
-bool may_meet_parallel(const shared::View& view, const Bounds<float>& box) {
+bool may_parallel_view_show_box(const shared::View& view, const Bounds<float>& box) {
     const auto furthest = [&](const vec3& plane) {
         const vec3 corner(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
                           plane.z > 0 ? box.hi.z : box.lo.z);
@@ -182,9 +186,9 @@ bool may_meet_parallel(const shared::View& view, const Bounds<float>& box) {
 
 } // namespace
 
-bool may_meet(const shared::View& view, const Bounds<float>& box) {
-    if (view.parallel != 0) return may_meet_parallel(view, box);
-    for (const vec3& plane : inward_planes(view)) {
+bool may_view_show_box(const shared::View& view, const Bounds<float>& box) {
+    if (view.parallel != 0) return may_parallel_view_show_box(view, box);
+    for (const vec3& plane : inward_view_planes(view)) {
         const vec3 furthest(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
                             plane.z > 0 ? box.hi.z : box.lo.z);
         if (dot(plane, furthest - view.eye) < 0) return false;
@@ -192,14 +196,14 @@ bool may_meet(const shared::View& view, const Bounds<float>& box) {
     return true;
 }
 
-bool may_meet(const shared::View& view, const DrawRange& range) {
+bool may_view_show_box(const shared::View& view, const DrawRange& range) {
     // Fraction of the distance, for the roundings of positions and planes.
     constexpr float kRoom = 0x1p-20f;
-    if (!may_meet(view, range.bounds)) return false;
+    if (!may_view_show_box(view, range.bounds)) return false;
     if (view.parallel != 0) return true;
     const vec3 towards = range.bounds.centre() - view.eye;
     const float radius = range.radius + kRoom * (range.radius + length(towards));
-    return std::ranges::all_of(inward_planes(view), [&](const vec3& plane) {
+    return std::ranges::all_of(inward_view_planes(view), [&](const vec3& plane) {
         return dot(plane, towards) >= -radius * length(plane);
     });
 }

@@ -19,55 +19,55 @@ namespace {
 using measure::Benchmark;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
-using measure::Cost;
+using measure::CostKind;
 
-Json context_json(const BenchmarkRun& run) {
+Json make_context_json(const BenchmarkRun& run) {
     Json context{{"date", run.date}};
     context["executable"] = run.command.empty() ? "" : run.command.front();
     context["num_cpus"] = run.processors;
-    context["load_avg"] = Json::array({number(run.load)});
+    context["load_avg"] = Json::array({number_json(run.load)});
     context["schema"] = "catoptric/bench/1";
     context["version"] = run.version;
     context["commit"] = run.commit;
     context["command"] = run.command;
-    context["device"] = device_json(run.device);
+    context["device"] = make_device_json(run.device);
     context["cycles"] = run.uncounted.empty() ? "user mode, all threads"
                                               : "not counted: " + run.uncounted;
     context["noisy"] = run.noisy ? Json(*run.noisy) : Json();
     return context;
 }
 
-Json entry(const Benchmark& benchmark, std::size_t family) {
+Json make_benchmark_entry(const Benchmark& benchmark, std::size_t family) {
     return {{"name", benchmark.name},
             {"family_index", family},
             {"per_family_instance_index", 0},
             {"run_name", benchmark.name}};
 }
 
-Json round_json(const Benchmark& benchmark, std::size_t family, std::size_t index) {
+Json make_round_json(const Benchmark& benchmark, std::size_t family, std::size_t index) {
     const BenchmarkRound& round = benchmark.rounds[index];
-    Json json = entry(benchmark, family);
+    Json json = make_benchmark_entry(benchmark, family);
     json["run_type"] = "iteration";
     json["repetitions"] = benchmark.rounds.size();
     json["repetition_index"] = index;
     json["threads"] = 1;
     json["iterations"] = round.iterations;
-    json["real_time"] = number(round.real_ms);
-    json["cpu_time"] = number(round.cpu_ms);
+    json["real_time"] = number_json(round.real_ms);
+    json["cpu_time"] = number_json(round.cpu_ms);
     json["time_unit"] = "ms";
-    if (round.cycles) json["cycles"] = number(*round.cycles);
-    if (round.instructions) json["instructions"] = number(*round.instructions);
-    for (const auto& [name, value] : round.counters) json[name] = number(value);
+    if (round.cycles) json["cycles"] = number_json(*round.cycles);
+    if (round.instructions) json["instructions"] = number_json(*round.instructions);
+    for (const auto& [name, value] : round.counters) json[name] = number_json(value);
     return json;
 }
 
-void put_median(Json& json, const char* name, const std::vector<double>& values) {
-    json[name] = number(measure::percentile(values, .5));
+void add_median_field(Json& json, const char* name, const std::vector<double>& values) {
+    json[name] = number_json(measure::compute_percentile(values, .5));
     json[std::string(name) + "_ci95"] = interval_json(measure::median_interval(values));
 }
 
-Json median_json(const Benchmark& benchmark, std::size_t family) {
-    Json json = entry(benchmark, family);
+Json make_median_json(const Benchmark& benchmark, std::size_t family) {
+    Json json = make_benchmark_entry(benchmark, family);
     json["name"] = benchmark.name + "_median";
     json["run_type"] = "aggregate";
     json["repetitions"] = benchmark.rounds.size();
@@ -75,20 +75,20 @@ Json median_json(const Benchmark& benchmark, std::size_t family) {
     json["aggregate_name"] = "median";
     json["aggregate_unit"] = "time";
     json["iterations"] = benchmark.rounds.size();
-    put_median(json, "real_time", measure::costs_of(benchmark, Cost::real_time));
-    put_median(json, "cpu_time", measure::costs_of(benchmark, Cost::cpu_time));
+    add_median_field(json, "real_time", measure::list_round_costs(benchmark, CostKind::real_time));
+    add_median_field(json, "cpu_time", measure::list_round_costs(benchmark, CostKind::cpu_time));
     json["time_unit"] = "ms";
     if (benchmark.rounds.front().cycles)
-        put_median(json, "cycles", measure::costs_of(benchmark, Cost::cycles));
+        add_median_field(json, "cycles", measure::list_round_costs(benchmark, CostKind::cycles));
     return json;
 }
 
-Json ratio_json(const measure::Ratio& ratio) {
-    return {{"median", number(ratio.median)}, {"ci95", interval_json(ratio.ci95)}};
+Json make_ratio_json(const measure::CostRatio& ratio) {
+    return {{"median", number_json(ratio.median)}, {"ci95", interval_json(ratio.ci95)}};
 }
 
 /// One entry of the list and its place in the document.
-struct Entry {
+struct BenchmarkEntry {
     const Json& json;
     std::string place;
 
@@ -96,7 +96,7 @@ struct Entry {
     std::string text(const char* member) const {
         const Json value = at(member);
         check(value.is_string(), Failure::bad_data, place, ".", member, ": wanted text, found ",
-              shown(value));
+              describe_json_value(value));
         return value.get<std::string>();
     }
     /// Returns a member that must be a finite number of at least 0.
@@ -104,7 +104,7 @@ struct Entry {
         const Json value = at(member);
         const double found = value.is_number() ? value.get<double>() : NAN;
         check(std::isfinite(found) && found >= 0, Failure::bad_data, place, ".", member,
-              ": wanted a number of at least 0, found ", shown(value));
+              ": wanted a number of at least 0, found ", describe_json_value(value));
         return found;
     }
     std::optional<double> counted(const char* member) const {
@@ -117,7 +117,7 @@ struct Entry {
         for (const auto& [name, ms] : kUnits)
             if (unit == name) return ms;
         fail(Failure::bad_data, place, ".time_unit: wanted ns, us, ms or s, found ",
-             in_quotes(unit));
+             quote_printable(unit));
     }
     /// Returns whether the entry is a round: it is no aggregate and reports no error.
     bool is_round() const {
@@ -132,7 +132,7 @@ constexpr std::array kKnown{"family_index", "per_family_instance_index",
                             "real_time",    "cpu_time",
                             "cycles",       "instructions"};
 
-BenchmarkRound round_of(const Entry& entry) {
+BenchmarkRound read_round(const BenchmarkEntry& entry) {
     const double unit = entry.milliseconds_a_unit();
     BenchmarkRound round{.iterations = 1,
                          .real_ms = unit * entry.measured("real_time"),
@@ -148,26 +148,26 @@ BenchmarkRound round_of(const Entry& entry) {
     return round;
 }
 
-std::string text_or_none(const Json& object, const char* member) {
+std::string read_optional_text(const Json& object, const char* member) {
     const Json value = object.is_object() ? object.value(member, Json()) : Json();
     return value.is_string() ? value.get<std::string>() : "";
 }
 
 void read_context(const Json& document, BenchmarkRun& run) {
     const Json context = document.value("context", Json::object());
-    run.date = text_or_none(context, "date");
-    run.version = text_or_none(context, "version");
-    run.commit = text_or_none(context, "commit");
+    run.date = read_optional_text(context, "date");
+    run.version = read_optional_text(context, "version");
+    run.commit = read_optional_text(context, "commit");
     if (!context.is_object()) return;
     const Json device = context.value("device", Json());
-    run.device.name = text_or_none(device, "name");
-    run.device.driver = text_or_none(device, "driver");
-    run.device.type = text_or_none(device, "type");
+    run.device.name = read_optional_text(device, "name");
+    run.device.driver = read_optional_text(device, "driver");
+    run.device.type = read_optional_text(device, "type");
     if (const Json noisy = context.value("noisy", Json()); noisy.is_boolean())
         run.noisy = noisy.get<bool>();
 }
 
-Benchmark& named(std::vector<Benchmark>& list, const std::string& name) {
+Benchmark& find_or_add_benchmark(std::vector<Benchmark>& list, const std::string& name) {
     const auto found = std::ranges::find(list, name, &Benchmark::name);
     return found == list.end() ? list.emplace_back(Benchmark{name, {}}) : *found;
 }
@@ -175,31 +175,31 @@ Benchmark& named(std::vector<Benchmark>& list, const std::string& name) {
 } // namespace
 
 std::string to_json(const BenchmarkRun& run) {
-    Json document{{"context", context_json(run)}};
+    Json document{{"context", make_context_json(run)}};
     Json& list = document["benchmarks"] = Json::array();
     for (std::size_t i = 0; i < run.benchmarks.size(); ++i) {
         const Benchmark& benchmark = run.benchmarks[i];
         for (std::size_t k = 0; k < benchmark.rounds.size(); ++k)
-            list.push_back(round_json(benchmark, i, k));
-        if (!benchmark.rounds.empty()) list.push_back(median_json(benchmark, i));
+            list.push_back(make_round_json(benchmark, i, k));
+        if (!benchmark.rounds.empty()) list.push_back(make_median_json(benchmark, i));
     }
-    return written(document);
+    return serialise_json(document);
 }
 
-std::string to_json(const measure::Changes& changes) {
+std::string to_json(const measure::BenchmarkChanges& changes) {
     Json document{{"schema", "catoptric/bench-compare/1"}};
-    document["benchmarks"] = list_json(changes.list, [](const measure::Change& change) {
+    document["benchmarks"] = list_json(changes.list, [](const measure::BenchmarkChange& change) {
         return Json{{"name", change.name},
                     {"cost", name_of(change.cost)},
-                    {"before", number(change.medians[0])},
-                    {"after", number(change.medians[1])},
-                    {"ratio", ratio_json(change.ratio)},
-                    {"real_time_ratio", ratio_json(change.real_ratio)},
+                    {"before", number_json(change.medians[0])},
+                    {"after", number_json(change.medians[1])},
+                    {"ratio", make_ratio_json(change.ratio)},
+                    {"real_time_ratio", make_ratio_json(change.real_ratio)},
                     {"outcome", name_of(change.outcome())}};
     });
     document["only_before"] = changes.only_before;
     document["only_after"] = changes.only_after;
-    return written(document);
+    return serialise_json(document);
 }
 
 BenchmarkRun read_benchmarks(const std::string& text, const std::string& file) {
@@ -208,16 +208,17 @@ BenchmarkRun read_benchmarks(const std::string& text, const std::string& file) {
     check(list.is_array(), Failure::bad_data, file,
           ": wanted an object with a list 'benchmarks', as 'catoptric bench --json' writes it, "
           "found ",
-          document.is_object() ? "benchmarks: " + shown(list) : shown(document));
+          document.is_object() ? "benchmarks: " + describe_json_value(list)
+                               : describe_json_value(document));
     BenchmarkRun run;
     read_context(document, run);
     for (std::size_t i = 0; i < list.size(); ++i) {
-        const Entry entry{list[i], file + ": benchmarks[" + std::to_string(i) + "]"};
+        const BenchmarkEntry entry{list[i], file + ": benchmarks[" + std::to_string(i) + "]"};
         check(list[i].is_object(), Failure::bad_data, entry.place, ": wanted an object, found ",
-              shown(list[i]));
+              describe_json_value(list[i]));
         if (!entry.is_round()) continue;
         const std::string name = entry.text(list[i].contains("run_name") ? "run_name" : "name");
-        named(run.benchmarks, name).rounds.push_back(round_of(entry));
+        find_or_add_benchmark(run.benchmarks, name).rounds.push_back(read_round(entry));
     }
     check(!run.benchmarks.empty(), Failure::bad_data, file,
           ": benchmarks: wanted at least one that was measured, found none among ", list.size(),

@@ -17,6 +17,6 @@ std::string to_json(const measure::BenchmarkRun& run);
 measure::BenchmarkRun read_benchmarks(const std::string& text, const std::string& file);
 
 /// Returns a comparison as JSON, schema "catoptric/bench-compare/1".
-std::string to_json(const measure::Changes& changes);
+std::string to_json(const measure::BenchmarkChanges& changes);
 
 } // namespace catoptric::report

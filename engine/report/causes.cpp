@@ -14,44 +14,46 @@ namespace catoptric::report {
 
 namespace {
 
-constexpr vec3 bytes(int red, int green, int blue) { return vec3(red, green, blue) / 255.0F; }
+constexpr vec3 rgb_from_bytes(int red, int green, int blue) {
+    return vec3(red, green, blue) / 255.0F;
+}
 
-const CauseColour kColours[] = {{"storage format", "sky blue", bytes(86, 180, 233)},
-                                {"last frame", "orange", bytes(230, 159, 0)},
-                                {"direction", "blue", bytes(0, 114, 178)},
-                                {"hidden target", "vermilion", bytes(213, 94, 0)},
-                                {"texels", "yellow", bytes(240, 228, 66)},
-                                {"mirror in mirror", "green", bytes(0, 158, 115)},
-                                {"shadow map", "pink", bytes(204, 121, 167)},
+const CauseColour kColours[] = {{"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
+                                {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
+                                {"direction", "blue", rgb_from_bytes(0, 114, 178)},
+                                {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
+                                {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
+                                {"mirror in mirror", "green", rgb_from_bytes(0, 158, 115)},
+                                {"shadow map", "pink", rgb_from_bytes(204, 121, 167)},
                                 {"silhouettes", "white", vec3(1)},
-                                {"rest", "light grey", bytes(190, 190, 190)}};
+                                {"rest", "light grey", rgb_from_bytes(190, 190, 190)}};
 
 /// Kind of line in the table: its name, and the function that computes its cells as shares of the
 /// row's error.
-struct CauseLine {
+struct CauseTableLine {
     const char* name;
     double (*part)(const Cause& cause, double squared_error);
     bool adds_up;
 };
 
-constexpr CauseLine kLines[] = {
+constexpr CauseTableLine kLines[] = {
     {"all", [](const Cause& cause, double) { return cause.share; }, true},
     {"first order", [](const Cause& cause, double) { return cause.share_first_order; }, true},
     {"mirror in mirror", [](const Cause& cause, double) { return cause.share_mirror_in_mirror; },
      true},
     {"bound", [](const Cause& cause, double whole) { return cause.alone / whole; }, false}};
 
-std::vector<std::string> cells_of(const CauseLine& line, const Causes& causes) {
+std::vector<std::string> format_cause_cells(const CauseTableLine& line, const Causes& causes) {
     std::vector<std::string> cells{line.name};
     double sum = 0;
-    for (const CauseColour& colour : cause_colours()) {
+    for (const CauseColour& colour : list_cause_colours()) {
         const auto cause = std::ranges::find(causes.list, colour.cause, &Cause::name);
         const bool is_there = cause != causes.list.end();
         const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
         if (is_there) sum += part;
-        cells.push_back(fixed(100 * part, 1));
+        cells.push_back(format_fixed(100 * part, 1));
     }
-    cells.push_back(line.adds_up ? fixed(100 * sum, 1) : std::string());
+    cells.push_back(line.adds_up ? format_fixed(100 * sum, 1) : std::string());
     cells.emplace_back();
     return cells;
 }
@@ -59,14 +61,15 @@ std::vector<std::string> cells_of(const CauseLine& line, const Causes& causes) {
 const RegisteredPart kCausesPart{
     {.name = "causes",
      .order = 400,
-     .tables = [](const Comparison& comparison) { return std::vector{cause_table(comparison)}; },
+     .tables =
+         [](const Comparison& comparison) { return std::vector{make_cause_table(comparison)}; },
      .look = "causes"}};
 
 } // namespace
 
-std::span<const CauseColour> cause_colours() { return kColours; }
+std::span<const CauseColour> list_cause_colours() { return kColours; }
 
-measure::Picture cause_picture(const Row& row) {
+measure::Picture make_cause_picture(const Row& row) {
     constexpr float kDim = .35F;
     measure::Picture picture = row.display;
     check(row.causes != nullptr, Failure::internal, "row '", row.label, "' has no causes");
@@ -76,40 +79,42 @@ measure::Picture cause_picture(const Row& row) {
           largest.size());
     for (std::size_t i = 0; i < largest.size(); ++i) {
         vec3& pixel = picture.pixels[i];
-        pixel = largest[i] > 0 ? cause_colours()[largest[i] - 1U].colour
+        pixel = largest[i] > 0 ? list_cause_colours()[largest[i] - 1U].colour
                                : vec3(kDim * glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
     }
     return picture;
 }
 
-Table cause_table(const Comparison& comparison) {
-    Table table{"Error by cause",
-                {text_column("Row"), text_column("Over")},
-                "Share of a row's squared error over the mirrors, in %, over all of their pixels, "
-                "and what of it lies in those whose reflected ray meets no second mirror and in "
-                "the others. First goes what distances lose in storage (storage format), then what "
-                "is a frame late (last frame); the next five share by Shapley what is left, from "
-                "every set of them replaced by the reference's own. direction: where the ray "
-                "really ends, and exact distances; hidden target: what the capture's centre does "
-                "not see; texels: the captured surface at the very point; mirror in mirror: what "
-                "mirrors show there; shadow map: shadow rays. Then silhouettes: pixels where "
-                "rasteriser and ray see different mirrors; rest: no cause is missing where it is "
-                "0. A negative share uncovers another's error. bound: what goes when one alone is "
-                "replaced, first of all; these do not add up. In brackets: the colour, in "
-                "images/causes-ROW.png, of pixels in which the cause has the largest part. At "
-                "light edges: share of the squared error in pixels that looked within a texel of a "
-                "light's outline."};
-    for (const CauseColour& colour : cause_colours())
+ReportTable make_cause_table(const Comparison& comparison) {
+    ReportTable table{
+        "Error by cause",
+        {make_text_column("Row"), make_text_column("Over")},
+        "Share of a row's squared error over the mirrors, in %, over all of their pixels, "
+        "and what of it lies in those whose reflected ray meets no second mirror and in "
+        "the others. First goes what distances lose in storage (storage format), then what "
+        "is a frame late (last frame); the next five share by Shapley what is left, from "
+        "every set of them replaced by the reference's own. direction: where the ray "
+        "really ends, and exact distances; hidden target: what the capture's centre does "
+        "not see; texels: the captured surface at the very point; mirror in mirror: what "
+        "mirrors show there; shadow map: shadow rays. Then silhouettes: pixels where "
+        "rasteriser and ray see different mirrors; rest: no cause is missing where it is "
+        "0. A negative share uncovers another's error. bound: what goes when one alone is "
+        "replaced, first of all; these do not add up. In brackets: the colour, in "
+        "images/causes-ROW.png, of pixels in which the cause has the largest part. At "
+        "light edges: share of the squared error in pixels that looked within a texel of a "
+        "light's outline."};
+    for (const CauseColour& colour : list_cause_colours())
         table.columns.emplace_back(fmt::format("{} ({})", colour.cause, colour.name));
     table.columns.emplace_back("Sum");
     table.columns.emplace_back("At light edges");
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
-        for (const CauseLine& line : kLines) {
-            std::vector<std::string> cells = cells_of(line, *row.causes);
+        for (const CauseTableLine& line : kLines) {
+            std::vector<std::string> cells = format_cause_cells(line, *row.causes);
             cells.insert(cells.begin(), &line == kLines ? row.label : std::string());
             if (&line == kLines)
-                cells.back() = fixed(row.light_edges ? 100 * row.light_edges->share : NAN, 1);
+                cells.back() = format_fixed(row.light_edges ? 100 * row.light_edges->share : NAN,
+                                            1);
             table.rows.push_back(std::move(cells));
         }
     }

@@ -19,16 +19,16 @@ namespace {
 
 /// Returns whether a cell is a formula. Spreadsheet programs execute a cell that begins with one of
 /// these characters. Numbers may begin with them.
-bool is_formula(const std::string& text) {
+bool is_spreadsheet_formula(const std::string& text) {
     constexpr std::string_view kNumbers = "0123456789.eE+- ";
     return text.find_first_of("=+-@") == 0 && text.find_first_not_of(kNumbers) != text.npos;
 }
 
 /// Returns a cell with escaped text from any source. All text enters the table through this
 /// function.
-std::string csv_field(const std::string& field) {
-    std::string shown = printable(field, "\n");
-    if (is_formula(shown)) shown.insert(0, "'");
+std::string escape_csv_field(const std::string& field) {
+    std::string shown = escape_control_characters(field, "\n");
+    if (is_spreadsheet_formula(shown)) shown.insert(0, "'");
     if (shown.find_first_of("\",\n") == std::string::npos) return shown;
     std::string result = "\"";
     for (const char c : shown) result += c == '"' ? "\"\"" : std::string(1, c);
@@ -36,12 +36,12 @@ std::string csv_field(const std::string& field) {
 }
 
 /// Returns the shortest text that reads back as the same number.
-std::string text_of(double value) {
+std::string shortest_number_text(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
 /// Field of a row and the name of its column.
-struct Field {
+struct CsvField {
     std::string name, text;
     bool in_table = true; ///< whether CsvColumns::table has the column, too
 };
@@ -53,26 +53,26 @@ public:
         fields.push_back({std::move(name), std::move(text), in_table});
     }
     void add(std::string name, double value, bool in_table = true) {
-        add(std::move(name), text_of(value), in_table);
+        add(std::move(name), shortest_number_text(value), in_table);
     }
-    void add(const std::string& name, const measure::Value& value, bool in_table);
+    void add(const std::string& name, const measure::MetricValue& value, bool in_table);
     /// Adds one field for each axis.
     void add(const std::string& name, std::string_view axes, const dvec3& values, bool in_table) {
         for (int i = 0; i < 3; ++i) add(name + "_" + axes[i], values[i], in_table);
     }
 
-    std::vector<Field> fields;
+    std::vector<CsvField> fields;
 };
 
 /// Returns a list of numbers as one field, separated by spaces.
-std::string list_text(const std::vector<double>& list) {
+std::string format_number_list(const std::vector<double>& list) {
     std::vector<std::string> texts;
-    for (const double value : list) texts.push_back(text_of(value));
-    return joined(texts, " ");
+    for (const double value : list) texts.push_back(shortest_number_text(value));
+    return join_texts(texts, " ");
 }
 
 /// Adds the fields of a value: one column for each of its parts.
-struct Adds {
+struct CsvFieldAdder {
     CsvLine& line;
     const std::string& name;
     bool in_table;
@@ -85,7 +85,7 @@ struct Adds {
         line.add(name + "_x", place.x < 0 ? kNone : place.x, in_table);
         line.add(name + "_y", place.x < 0 ? kNone : place.y, in_table);
     }
-    void operator()(const measure::Summary& times) const {
+    void operator()(const measure::SampleSummary& times) const {
         line.add(name + "_median", times.median, in_table);
         line.add(name + "_ci95_low", times.ci95.low, in_table);
         line.add(name + "_ci95_high", times.ci95.high, in_table);
@@ -93,21 +93,21 @@ struct Adds {
         line.add(name + "_p95", times.p95, false);
         line.add(name + "_mad", times.mad, false);
         line.add(name + "_n", static_cast<double>(times.n), false);
-        line.add(name + "_rounds", list_text(times.rounds), false);
-        line.add(name + "_samples", list_text(times.samples), false);
+        line.add(name + "_rounds", format_number_list(times.rounds), false);
+        line.add(name + "_samples", format_number_list(times.samples), false);
     }
     void operator()(const std::vector<double>& list) const {
-        line.add(name, list_text(list), in_table);
+        line.add(name, format_number_list(list), in_table);
     }
-    void operator()(const std::vector<measure::Parts>& list) const {
-        for (const measure::Parts& parts : list)
+    void operator()(const std::vector<measure::ValueParts>& list) const {
+        for (const measure::ValueParts& parts : list)
             for (const auto& [what, value] : parts.values)
                 line.add(name + "_" + parts.name + "_" + std::string(what), value, false);
     }
 };
 
-void CsvLine::add(const std::string& name, const measure::Value& value, bool in_table) {
-    std::visit(Adds{*this, name, in_table}, value);
+void CsvLine::add(const std::string& name, const measure::MetricValue& value, bool in_table) {
+    std::visit(CsvFieldAdder{*this, name, in_table}, value);
 }
 
 /// Returns whether the report's table of rows has a column of this metric.
@@ -120,49 +120,53 @@ bool is_in_rows_table(const measure::Metric& quantity) {
 /// Adds the metrics of a difference over one mask. Those that `is_in_table` accepts are columns of
 /// the table.
 template <class Predicate>
-void add(CsvLine& line, const std::string& mask, const measure::Difference& error,
-         Predicate is_in_table) {
-    for (const measure::Metric& quantity : measure::difference_metrics())
-        line.add(mask + "_" + std::string(quantity.name), measure::value_of(quantity, error),
+void add_difference_metrics(CsvLine& line, const std::string& mask,
+                            const measure::Difference& error, Predicate is_in_table) {
+    for (const measure::Metric& quantity : measure::list_difference_metrics())
+        line.add(mask + "_" + std::string(quantity.name), measure::metric_value(quantity, error),
                  is_in_table(quantity));
 }
 
 /// Adds the errors over all masks and over single mirrors. Each line has columns of `mirrors`
 /// mirrors, even if its row has fewer.
-void add_errors(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
-    for (const measure::RowMask& mask : measure::masks())
+void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& row,
+                      std::size_t mirrors) {
+    for (const measure::RowMask& mask : measure::list_row_masks())
         if (measure::has_columns(mask, comparison))
-            add(line, std::string(mask.name), row.*mask.error, [&](const measure::Metric& metric) {
-                return is_in_rows_table(metric) &&
-                       (mask.title.empty() || metric.each_mask_in_table);
-            });
+            add_difference_metrics(line, std::string(mask.name), row.*mask.error,
+                                   [&](const measure::Metric& metric) {
+                                       return is_in_rows_table(metric) &&
+                                              (mask.title.empty() || metric.each_mask_in_table);
+                                   });
     for (std::size_t i = 0; i < mirrors; ++i)
-        add(line, "mirror_" + std::to_string(MirrorId::at(i).number()),
-            i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{},
-            [](const measure::Metric&) { return false; });
+        add_difference_metrics(line, "mirror_" + std::to_string(MirrorId::at(i).number()),
+                               i < row.error_per_mirror.size() ? row.error_per_mirror[i]
+                                                               : measure::Difference{},
+                               [](const measure::Metric&) { return false; });
 }
 
-void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
+void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& row,
+                       std::size_t mirrors) {
     bool has_errors = false;
-    for (const measure::Metric& quantity : measure::metrics()) {
+    for (const measure::Metric& quantity : measure::list_metrics()) {
         if (!measure::is_shown(quantity, comparison)) continue;
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
-            line.add(name, measure::value_of(quantity, row), is_in_rows_table(quantity));
+            line.add(name, measure::metric_value(quantity, row), is_in_rows_table(quantity));
         } else if (!std::exchange(has_errors, true)) {
-            add_errors(line, comparison, row, mirrors);
+            add_error_fields(line, comparison, row, mirrors);
         }
     }
 }
 
 /// Adds the errors over the mirrors in the drawn views. Adds no columns if no views were drawn.
-void add_views(CsvLine& line, const Comparison& comparison, const Row& row) {
+void add_view_fields(CsvLine& line, const Comparison& comparison, const Row& row) {
     if (comparison.views.empty()) return;
-    for (const measure::Metric& quantity : measure::difference_metrics()) {
-        if (!measure::is_number(quantity)) continue;
-        const measure::OverViews over = measure::over_views(row, measure::masks().front(),
-                                                            quantity);
+    for (const measure::Metric& quantity : measure::list_difference_metrics()) {
+        if (!measure::is_single_number(quantity)) continue;
+        const measure::MetricOverViews over = measure::metric_over_views(
+            row, measure::list_row_masks().front(), quantity);
         const std::string name = "views_" + std::string(quantity.name);
         line.add(name + "_median", over.median);
         line.add(name + "_low", over.ci95.low);
@@ -176,7 +180,7 @@ void add_views(CsvLine& line, const Comparison& comparison, const Row& row) {
 }
 
 /// Adds the fields that distinguish the rows of this run from those of other runs.
-void add_identity(CsvLine& line, const Comparison& comparison, const Row& row) {
+void add_identity_fields(CsvLine& line, const Comparison& comparison, const Row& row) {
     line.add("scene", comparison.scene.name);
     line.add("device", comparison.device.name);
     line.add("driver", comparison.device.driver);
@@ -212,48 +216,48 @@ void add_identity(CsvLine& line, const Comparison& comparison, const Row& row) {
     add("commit", comparison.commit);
 }
 
-CsvLine line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) {
+CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t mirrors) {
     CsvLine line;
     line.add("technique", row.technique);
     line.add("label", row.label);
-    line.add("settings", settings_text(row));
+    line.add("settings", format_settings(row));
     line.add("model", row.model);
-    const measure::PlaceRange places = measure::places_in_time(comparison, row);
+    const measure::RankRange places = measure::find_time_places(comparison, row);
     line.add("place_first", static_cast<double>(places.first));
     line.add("place_last", static_cast<double>(places.last));
-    add_figures(line, comparison, row, mirrors);
-    add_views(line, comparison, row);
-    line.add("image", image_path(comparison, row.image + ".png"));
-    line.add("on_front", measure::on_front(comparison, row));
+    add_metric_fields(line, comparison, row, mirrors);
+    add_view_fields(line, comparison, row);
+    line.add("image", report_image_path(comparison, row.image + ".png"));
+    line.add("on_front", measure::is_on_front(comparison, row));
     line.add("is_reference", row.is_reference);
-    add_identity(line, comparison, row);
-    line.add("incomplete", incomplete_text(comparison));
+    add_identity_fields(line, comparison, row);
+    line.add("incomplete", describe_incomplete_run(comparison));
     return line;
 }
 
 /// Adds the columns of a line. A column that only some lines have comes after the column that
 /// precedes it there.
-void add_columns(std::vector<std::string>& columns, const CsvLine& line, CsvColumns which) {
+void add_column_names(std::vector<std::string>& columns, const CsvLine& line, CsvColumns which) {
     auto at = columns.begin();
-    for (const Field& field : line.fields) {
+    for (const CsvField& field : line.fields) {
         if (which == CsvColumns::table && !field.in_table) continue;
         const auto found = std::ranges::find(columns, field.name);
         at = (found != columns.end() ? found : columns.insert(at, field.name)) + 1;
     }
 }
 
-std::string text_of(const std::vector<std::string>& cells) {
+std::string shortest_number_text(const std::vector<std::string>& cells) {
     std::vector<std::string> escaped;
-    for (const std::string& cell : cells) escaped.push_back(csv_field(cell));
-    return joined(escaped, ",") + "\r\n";
+    for (const std::string& cell : cells) escaped.push_back(escape_csv_field(cell));
+    return join_texts(escaped, ",") + "\r\n";
 }
 
-std::string text_of(const CsvLine& line, const std::vector<std::string>& columns) {
+std::string shortest_number_text(const CsvLine& line, const std::vector<std::string>& columns) {
     std::unordered_map<std::string, std::string> fields;
-    for (const Field& field : line.fields) fields.emplace(field.name, field.text);
+    for (const CsvField& field : line.fields) fields.emplace(field.name, field.text);
     std::vector<std::string> cells;
     for (const std::string& name : columns) cells.push_back(fields[name]);
-    return text_of(cells);
+    return shortest_number_text(cells);
 }
 
 } // namespace
@@ -273,15 +277,16 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
     std::vector<std::string> columns;
     for (const Comparison* comparison : comparisons) {
         // An empty row gives all columns of values without parts.
-        add_columns(columns, line_of(*comparison, Row{}, mirrors), which);
-        for (const Row& row : comparison->rows) lines.push_back(line_of(*comparison, row, mirrors));
+        add_column_names(columns, make_csv_line(*comparison, Row{}, mirrors), which);
+        for (const Row& row : comparison->rows)
+            lines.push_back(make_csv_line(*comparison, row, mirrors));
         if (comparison->complete || !comparison->rows.empty()) continue;
         lines.emplace_back(); // a line with only this field
-        lines.back().add("incomplete", incomplete_text(*comparison));
+        lines.back().add("incomplete", describe_incomplete_run(*comparison));
     }
-    for (const CsvLine& line : lines) add_columns(columns, line, which);
-    std::string csv = text_of(columns);
-    for (const CsvLine& line : lines) csv += text_of(line, columns);
+    for (const CsvLine& line : lines) add_column_names(columns, line, which);
+    std::string csv = shortest_number_text(columns);
+    for (const CsvLine& line : lines) csv += shortest_number_text(line, columns);
     return csv;
 }
 

@@ -9,7 +9,7 @@ namespace catoptric::report {
 
 namespace {
 
-std::string device_text(const DeviceFacts& device) {
+std::string describe_device(const DeviceFacts& device) {
     std::string threads;
     if (device.threads > 0) threads = fmt::format(", {} threads", device.threads);
     if (device.lanes > 0) threads += fmt::format(", {} lanes", device.lanes);
@@ -19,13 +19,13 @@ std::string device_text(const DeviceFacts& device) {
     return fmt::format("{} ({}{}{})", device.name, device.type, threads, profile);
 }
 
-std::string settings_of(const Comparison& comparison) {
+std::string describe_settings(const Comparison& comparison) {
     return fmt::format("t = {} s, ambient {}, exposure {} stops, model {}", comparison.time,
                        comparison.ambient, comparison.exposure, comparison.model);
 }
 
 /// Returns "3 lights, environment studio", for example, with the ids of unsupported features.
-std::string light_text(const SceneFacts& scene) {
+std::string describe_lights(const SceneFacts& scene) {
     std::string text = fmt::format("{} light{}", scene.lights.size(),
                                    scene.lights.size() == 1 ? "" : "s");
     if (!scene.environment) return text + ", no environment";
@@ -37,65 +37,68 @@ std::string light_text(const SceneFacts& scene) {
     return text;
 }
 
-std::string cache_text(const std::string& cache) {
+std::string describe_pipeline_cache(const std::string& cache) {
     if (cache == "used") return "with the cache on disk";
     return cache == "made" ? "the cache on disk was empty" : "no cache on disk";
 }
 
 } // namespace
 
-std::string setup_text(const SetupFacts& setup) {
+std::string describe_setup_times(const SetupFacts& setup) {
     std::vector<std::string> parts;
-    if (setup.load_ms) parts.push_back("load " + ms_text(*setup.load_ms) + " ms");
-    parts.push_back("upload " + ms_text(setup.upload_ms) + " ms");
-    parts.push_back(setup.hierarchy_ms > 0 ? "hierarchy " + ms_text(setup.hierarchy_ms) + " ms"
+    if (setup.load_ms) parts.push_back("load " + format_ms(*setup.load_ms) + " ms");
+    parts.push_back("upload " + format_ms(setup.upload_ms) + " ms");
+    parts.push_back(setup.hierarchy_ms > 0 ? "hierarchy " + format_ms(setup.hierarchy_ms) + " ms"
                                            : "no hierarchy");
     parts.push_back(fmt::format("{} pipelines {} ms, {}", setup.pipelines,
-                                ms_text(setup.compile_ms), cache_text(setup.pipeline_cache)));
-    return joined(parts, "; ");
+                                format_ms(setup.compile_ms),
+                                describe_pipeline_cache(setup.pipeline_cache)));
+    return join_texts(parts, "; ");
 }
 
-std::vector<Fact> facts(const Comparison& comparison) {
+std::vector<ReportFact> list_report_facts(const Comparison& comparison) {
     return {
         {"Scene",
          fmt::format("{}, {} triangles, {} mirrors, hash {}", comparison.scene.name,
                      comparison.scene.triangles, comparison.scene.mirrors, comparison.scene.hash)},
-        {"Light", light_text(comparison.scene)},
-        {"Picture",
-         fmt::format("{}x{}, {}", comparison.width, comparison.height, settings_of(comparison))},
-        {"Device", device_text(comparison.device)},
+        {"Light", describe_lights(comparison.scene)},
+        {"Picture", fmt::format("{}x{}, {}", comparison.width, comparison.height,
+                                describe_settings(comparison))},
+        {"Device", describe_device(comparison.device)},
         {"Driver", comparison.device.driver + ", " + comparison.device.api},
         {"Timing",
          fmt::format("{}{}, {} frames in {} rounds, one row after another, after {} of warm-up",
                      comparison.timing,
                      comparison.together ? ", all rows in one command buffer" : "",
                      comparison.frames, comparison.rounds, comparison.warmup)},
-        {"Load", fmt::format("{} runnable threads at the start, {} at the end",
-                             fixed(comparison.load_start, 2), fixed(comparison.load_end, 2))},
+        {"Load",
+         fmt::format("{} runnable threads at the start, {} at the end",
+                     format_fixed(comparison.load_start, 2), format_fixed(comparison.load_end, 2))},
         {"Reference",
-         comparison.reference_label + ", " + ms_text(comparison.reference_gpu_ms.median) + " ms"},
+         comparison.reference_label + ", " + format_ms(comparison.reference_gpu_ms.median) + " ms"},
         {"Program", fmt::format("catoptric {}, commit {}", comparison.version, comparison.commit)},
         {"Date", comparison.date},
-        {"Command", joined(comparison.command, " ")},
+        {"Command", join_texts(comparison.command, " ")},
     };
 }
 
-std::vector<std::string> cautions(const Comparison& comparison) {
+std::vector<std::string> list_cautions(const Comparison& comparison) {
     std::vector<std::string> list;
-    if (!comparison.complete) list.push_back("Incomplete, " + incomplete_text(comparison) + ".");
+    if (!comparison.complete)
+        list.push_back("Incomplete, " + describe_incomplete_run(comparison) + ".");
     if (comparison.device.type == "cpu")
         list.push_back(
             "This device is a processor: \"GPU time\" here is processor time of its software "
             "driver, and what it says of speed holds for such a device, not for a graphics card.");
-    if (const std::vector<const Row*> noisy = measure::noisy_rows(comparison); !noisy.empty())
+    if (const std::vector<const Row*> noisy = measure::find_noisy_rows(comparison); !noisy.empty())
         list.push_back(
             fmt::format("Noisy: {} of {} rows had to wait for a processor, others were at work "
                         "beside, and these times are not to be trusted: {}.",
-                        noisy.size(), comparison.rows.size(), labels_of(noisy)));
+                        noisy.size(), comparison.rows.size(), join_row_labels(noisy)));
     if (comparison.together)
         list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
     for (const Row& row : comparison.rows)
-        if (measure::failed(row))
+        if (measure::has_nonfinite_pixels(row))
             list.push_back(
                 fmt::format("{} failed: {} pixels are no finite numbers, and its figures "
                             "leave them out.",

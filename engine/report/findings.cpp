@@ -15,55 +15,57 @@ namespace catoptric::report {
 
 namespace {
 
-using Sentence = std::optional<std::string>;
+using OptionalSentence = std::optional<std::string>;
 
-std::string percent(double share) { return fixed(100 * share, share < 0.1 ? 1 : 0) + " %"; }
+std::string format_percent(double share) {
+    return format_fixed(100 * share, share < 0.1 ? 1 : 0) + " %";
+}
 
-std::string rmse_text(const Row& row) { return error_text(row.error.rmse); }
+std::string format_rmse(const Row& row) { return format_error(row.error.rmse); }
 
-std::string both_times(const Row& a, const Row& b) {
-    return ms_text(a.time_ms().median) + " against " + ms_text(b.time_ms().median) + " ms";
+std::string format_both_times(const Row& a, const Row& b) {
+    return format_ms(a.time_ms().median) + " against " + format_ms(b.time_ms().median) + " ms";
 }
 /// Text for rows whose times cannot be told apart.
 constexpr const char* kTie = ": round by round neither is the faster, they are not told apart";
 
 /// Returns " (95 %: 1.10 to 1.25)", for example, or an empty text if the interval is not known.
-std::string interval_text(const measure::Interval& ratio) {
+std::string format_ratio_interval(const measure::Interval& ratio) {
     if (!ratio.is_known()) return "";
     return fmt::format(" (95 %: {:.3g} to {:.3g})", ratio.low, ratio.high);
 }
 
-Sentence not_drawn(const Comparison& comparison) {
-    const auto finding = measure::find_not_drawn(comparison);
+OptionalSentence describe_undrawn_dielectrics(const Comparison& comparison) {
+    const auto finding = measure::find_undrawn_dielectrics(comparison);
     if (!finding) return {};
-    const std::string tracing = labels_of(finding->tracing);
+    const std::string tracing = join_row_labels(finding->tracing);
     return fmt::format(
         "Not drawn: {} of the pixels show smooth surfaces that are no mirrors, and no row{} draws "
         "what they reflect. Over these pixels the other rows' FLIP is {} at best ({}). "
         "--dielectric-mirrors makes mirrors of such surfaces.",
-        percent(finding->share), tracing.empty() ? "" : " but " + tracing,
-        error_text(finding->best->error_dielectrics.flip), finding->best->label);
+        format_percent(finding->share), tracing.empty() ? "" : " but " + tracing,
+        format_error(finding->best->error_dielectrics.flip), finding->best->label);
 }
 
-std::string clear_verdict(const measure::ClearFinding& finding) {
+std::string describe_clear_verdict(const measure::ClearCostFinding& finding) {
     switch (finding.verdict) {
-    case measure::ClearFinding::ClearVerdict::slower_without:
+    case measure::ClearCostFinding::ClearVerdict::slower_without:
         return "part one is slower without any clear, so clearing alone does not explain the order "
                "on this device";
-    case measure::ClearFinding::ClearVerdict::too_little:
+    case measure::ClearCostFinding::ClearVerdict::too_little:
         return "added to part one that still leaves it no slower than part two, so clearing alone "
                "does not explain the report's order on this device";
-    case measure::ClearFinding::ClearVerdict::explains: break;
+    case measure::ClearCostFinding::ClearVerdict::explains: break;
     }
     return fmt::format(
         "added to part one that would put it {} behind part two (the report: {}), so "
         "clearing alone does explain the order on this device",
-        percent(finding.gap), percent(measure::kSeedClearGap));
+        format_percent(finding.gap), format_percent(measure::kSeedClearGap));
 }
 
-Sentence clears(const Comparison& comparison) {
+OptionalSentence describe_clear_cost(const Comparison& comparison) {
     using measure::kSeedPartOne, measure::kSeedPartTwo;
-    const auto finding = measure::find_clears(comparison);
+    const auto finding = measure::find_clear_cost(comparison);
     if (!finding) return {};
     const char* order = finding->one_is_slower ? "slower than" : "not slower than";
     std::string text = fmt::format("Clears: the report's part one without inter-reflections took "
@@ -72,22 +74,23 @@ Sentence clears(const Comparison& comparison) {
                                    "{}, is {} part two ({})",
                                    measure::kSeedClearMs, kSeedPartOne.ms, kSeedPartTwo.ms,
                                    finding->one->label, order,
-                                   both_times(*finding->one, *finding->two));
+                                   format_both_times(*finding->one, *finding->two));
     if (!finding->clear_ms) return text + "; what a clear costs was not measured.";
-    return text + ". Clearing the cubes of all mirrors costs " + ms_text(*finding->clear_ms) +
-           " ms: " + clear_verdict(*finding) + ".";
+    return text + ". Clearing the cubes of all mirrors costs " + format_ms(*finding->clear_ms) +
+           " ms: " + describe_clear_verdict(*finding) + ".";
 }
 
-Sentence stored_distance(const Comparison& comparison) {
+OptionalSentence describe_stored_distance(const Comparison& comparison) {
     const auto finding = measure::find_stored_distance(comparison);
     if (!finding) return {};
-    std::string text = "Stored distance: rmse over the mirrors is " + rmse_text(*finding->plain) +
-                       " without correction, " + rmse_text(*finding->full) +
+    std::string text = "Stored distance: rmse over the mirrors is " + format_rmse(*finding->plain) +
+                       " without correction, " + format_rmse(*finding->full) +
                        " corrected with 32-bit distances";
     if (finding->near != nullptr)
-        text += ", " + rmse_text(*finding->near) + " with 8 bits up to 200 units as in the report";
+        text += ", " + format_rmse(*finding->near) +
+                " with 8 bits up to 200 units as in the report";
     if (finding->far != nullptr)
-        text += ", " + rmse_text(*finding->far) + " with 8 bits up to 1000 units";
+        text += ", " + format_rmse(*finding->far) + " with 8 bits up to 1000 units";
     if (finding->near == nullptr) return text + ".";
     if (finding->near_is_worse)
         return text +
@@ -98,150 +101,152 @@ Sentence stored_distance(const Comparison& comparison) {
            "made that way.";
 }
 
-Sentence inter_reflections(const Comparison& comparison) {
+OptionalSentence describe_bounces(const Comparison& comparison) {
     const auto finding = measure::find_bounces(comparison);
     if (!finding) return {};
     std::vector<std::string> figures;
-    for (const Row* row : finding->steps) figures.push_back(rmse_text(*row));
+    for (const Row* row : finding->steps) figures.push_back(format_rmse(*row));
     std::string text = fmt::format(
         "Inter-reflections: with i = 1 to {} the rmse of part one over the mirrors is {}. ",
-        finding->steps.size(), joined(figures, ", "));
+        finding->steps.size(), join_texts(figures, ", "));
     if (finding->helps)
         return text + "More inter-reflections bring it closer to the reference, by " +
-               error_text(finding->fall) + " in all.";
+               format_error(finding->fall) + " in all.";
     text +=
         "From i = 1 on, more of them bring it no closer to the reference by as much as one 8-bit "
         "step (1/255)";
     if (finding->dominated_by != nullptr)
         text +=
             ": parallax dominates what is left, and no number of inter-reflections repairs it (" +
-            rmse_text(*finding->dominated_by) + " once corrected)";
+            format_rmse(*finding->dominated_by) + " once corrected)";
     return text + ".";
 }
 
-Sentence price_of_correction(const Comparison& comparison) {
-    const auto finding = measure::find_price(comparison);
+OptionalSentence describe_correction_price(const Comparison& comparison) {
+    const auto finding = measure::find_correction_price(comparison);
     if (!finding) return {};
     std::string text = fmt::format(
         "Price of the correction: the report calls the code's complexity its only drawback ({:.1f} "
         "against {:.1f} ms). Here part three takes ",
         measure::kSeedPartThree.ms, measure::kSeedPartTwo.ms);
-    const std::string times = both_times(*finding->three, *finding->two);
+    const std::string times = format_both_times(*finding->three, *finding->two);
     if (finding->tie)
         text += "as long as part two (" + times + kTie + ")";
     else
-        text += percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
-                " time than part two (" + times + "), " + ms_text(1 + finding->more) +
-                " times as much" + interval_text(finding->ratio_ci95);
+        text += format_percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
+                " time than part two (" + times + "), " + format_ms(1 + finding->more) +
+                " times as much" + format_ratio_interval(finding->ratio_ci95);
     if (finding->more_bytes > 0)
         text += fmt::format(" and {} MiB more memory for the distances",
-                            mebibytes(finding->more_bytes));
+                            format_mebibytes(finding->more_bytes));
     return text + ".";
 }
 
-Sentence ray_tracing(const Comparison& comparison) {
+OptionalSentence describe_ray_tracing_time(const Comparison& comparison) {
     using measure::kSeedPartThree, measure::kSeedRayTrace;
-    const auto finding = measure::find_tracing(comparison);
+    const auto finding = measure::find_tracing_time(comparison);
     if (!finding) return {};
     const Row &three = *finding->three, &traced = *finding->traced;
     std::string text = fmt::format("Ray tracing: in the report it takes {:.1f} times as long as "
                                    "part three ({:.1f} against {:.1f} ms); here {} takes ",
                                    measure::kSeedRayTraceRatio, kSeedRayTrace.ms, kSeedPartThree.ms,
                                    traced.label);
-    const std::string times = both_times(traced, three);
+    const std::string times = format_both_times(traced, three);
     if (finding->tie)
         text += "as long as " + three.label + " (" + times + kTie + ")";
     else
-        text += ms_text(finding->ratio) + " times as long" + interval_text(finding->ratio_ci95) +
-                " as " + three.label + " (" + times + ")";
+        text += format_ms(finding->ratio) + " times as long" +
+                format_ratio_interval(finding->ratio_ci95) + " as " + three.label + " (" + times +
+                ")";
     return text + ".";
 }
 
-std::string figures(const Row& row) {
-    return fmt::format("{} ({} ms, FLIP {})", row.label, ms_text(row.time_ms().median),
-                       error_text(row.error.flip));
+std::string format_row_metrics(const Row& row) {
+    return fmt::format("{} ({} ms, FLIP {})", row.label, format_ms(row.time_ms().median),
+                       format_error(row.error.flip));
 }
 
-std::string figures_of(const std::vector<const Row*>& rows) {
+std::string format_metrics_of_rows(const std::vector<const Row*>& rows) {
     std::vector<std::string> texts;
-    for (const Row* row : rows) texts.push_back(figures(*row));
-    return joined(texts, "; ");
+    for (const Row* row : rows) texts.push_back(format_row_metrics(*row));
+    return join_texts(texts, "; ");
 }
 
 /// Returns whether ray tracing beats the other rows. Empty if only one of the two kinds is there.
-std::string tracing_in_words(const measure::TracingVerdict& verdict) {
+std::string describe_ray_tracing_verdict(const measure::RayTracingVerdict& verdict) {
     if (verdict.others == 0 || !verdict.any_traced) return "";
     if (verdict.unbeaten.size() == verdict.others) return "no ray-traced row beats any other row";
     if (!verdict.unbeaten.empty())
         return fmt::format("ray tracing beats {} of the {} other rows: all but {}",
                            verdict.others - verdict.unbeaten.size(), verdict.others,
-                           labels_of(verdict.unbeaten, ", "));
+                           join_row_labels(verdict.unbeaten, ", "));
     return fmt::format("ray tracing beats every other row, {} of {}", verdict.others,
                        verdict.others);
 }
 
 /// Returns the fastest and the closest rows in words.
-std::string ends_in_words(const Comparison& comparison) {
-    const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
+std::string describe_fastest_and_closest(const Comparison& comparison) {
+    const std::vector<const Row*> fastest = measure::find_fastest_rows(comparison);
     if (fastest.empty()) return "no row could be judged";
-    std::string text = "fastest is " + labels_of(fastest, " or ");
-    if (const Row* closest = measure::closest_row(comparison))
-        text += ", closest is " + figures(*closest);
+    std::string text = "fastest is " + join_row_labels(fastest, " or ");
+    if (const Row* closest = measure::find_closest_row(comparison))
+        text += ", closest is " + format_row_metrics(*closest);
     return text;
 }
 
 } // namespace
 
-std::string findings_title(const Comparison& comparison) {
+std::string make_findings_title(const Comparison& comparison) {
     return comparison.scene.is_seed ? "What this says of the seed report" : "What this says";
 }
 
-std::vector<std::string> findings(const Comparison& comparison) {
+std::vector<std::string> list_findings(const Comparison& comparison) {
     struct Finding {
-        Sentence (*say)(const Comparison&);
+        OptionalSentence (*say)(const Comparison&);
         /// Compares with the seed report's numbers, so it applies to that report's scene only.
         bool beside_the_report;
     };
     std::vector<std::string> list;
-    for (const auto& [say, beside_the_report] : {Finding{not_drawn, false},
-                                                 {clears, true},
-                                                 {inter_reflections, false},
-                                                 {stored_distance, true},
-                                                 {price_of_correction, true},
-                                                 {ray_tracing, true},
-                                                 {lag_in_words, false}}) {
+    for (const auto& [say, beside_the_report] : {Finding{describe_undrawn_dielectrics, false},
+                                                 {describe_clear_cost, true},
+                                                 {describe_bounces, false},
+                                                 {describe_stored_distance, true},
+                                                 {describe_correction_price, true},
+                                                 {describe_ray_tracing_time, true},
+                                                 {describe_lag, false}}) {
         if (beside_the_report && !comparison.scene.is_seed) continue;
-        if (const Sentence sentence = say(comparison)) list.push_back(*sentence);
+        if (const OptionalSentence sentence = say(comparison)) list.push_back(*sentence);
     }
     return list;
 }
 
-std::string verdict_in_words(const Comparison& comparison) {
-    const std::string tracing = tracing_in_words(measure::tracing_verdict(comparison));
+std::string summarise_verdict(const Comparison& comparison) {
+    const std::string tracing = describe_ray_tracing_verdict(
+        measure::judge_ray_tracing(comparison));
     return "On this device, " + comparison.device.name + ", " +
-           (tracing.empty() ? ends_in_words(comparison) : tracing) + ".";
+           (tracing.empty() ? describe_fastest_and_closest(comparison) : tracing) + ".";
 }
 
-std::vector<std::string> front_in_words(const Comparison& comparison) {
-    const measure::Ranking standing = measure::ranking_of(comparison);
+std::vector<std::string> describe_front(const Comparison& comparison) {
+    const measure::Ranking standing = measure::rank_rows(comparison);
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
-        "On the front, by median time: " + figures_of(standing.front) +
+        "On the front, by median time: " + format_metrics_of_rows(standing.front) +
         ". A row beats another where it is faster (the ratio of their times, round by round, is "
         "below 1 with 95 % confidence) and no farther off, or closer and not slower. Where that "
         "interval holds 1, or is not known, times are a tie."};
     for (const auto& [winner, losers] : standing.wins)
-        words.push_back(winner->label + " beats " + figures_of(losers) + ".");
+        words.push_back(winner->label + " beats " + format_metrics_of_rows(losers) + ".");
     if (!standing.beaten_by_beaten.empty())
         words.push_back("Beaten only by rows that are beaten themselves: " +
-                        figures_of(standing.beaten_by_beaten) + ".");
+                        format_metrics_of_rows(standing.beaten_by_beaten) + ".");
     if (!standing.black.empty())
         words.push_back(
             "Not on the front and not beaten, since their mirrors are black: " +
-            figures_of(standing.black) +
+            format_metrics_of_rows(standing.black) +
             ". Their time is a lower bound for any technique that draws the same scene.");
     if (!standing.not_judged.empty())
-        words.push_back("Not judged: " + labels_of(standing.not_judged, "; ") + ".");
+        words.push_back("Not judged: " + join_row_labels(standing.not_judged, "; ") + ".");
     return words;
 }
 

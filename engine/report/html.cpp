@@ -17,130 +17,135 @@ namespace catoptric::report {
 
 namespace {
 
-std::string cell(const Column& column, const char* tag, const char* scope,
-                 const std::string& content) {
+std::string html_cell(const TableColumn& column, const char* tag, const char* scope,
+                      const std::string& content) {
     return fmt::format("<{}{}{}>{}</{}>", tag, scope, column.is_number ? "" : " class=\"text\"",
                        content, tag);
 }
 
 /// Returns the anchor in the page at which the pictures of a row stand.
-std::string anchor_of(const Comparison& comparison, std::size_t row) {
-    return fmt::format("{}row-{}", section_of(comparison), row);
+std::string html_anchor_of_row(const Comparison& comparison, std::size_t row) {
+    return fmt::format("{}row-{}", html_id_prefix(comparison), row);
 }
 
 /// Returns a table as HTML. If `linked` is given, the first cell of row i links to the pictures of
 /// its row i.
-std::string to_html(const Table& table, const std::string& look,
+std::string to_html(const ReportTable& table, const std::string& look,
                     const Comparison* linked = nullptr) {
     if (table.rows.empty()) return "";
-    const std::string title = html_escaped(table.title);
+    const std::string title = escape_html(table.title);
     std::string html = fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
                                    "aria-label=\"{}\"><table class=\"{}\"><thead><tr>",
                                    title, look);
-    for (const Column& column : table.columns)
-        html += cell(column, "th", " scope=\"col\"", html_escaped(column.name));
+    for (const TableColumn& column : table.columns)
+        html += html_cell(column, "th", " scope=\"col\"", escape_html(column.name));
     html += "</tr></thead><tbody>";
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const bool marked = r < table.marked.size() && table.marked[r];
         html += marked ? "\n<tr class=\"front\">" : "\n<tr>";
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
-            std::string content = html_escaped(table.rows[r][i]);
+            std::string content = escape_html(table.rows[r][i]);
             if (i == 0 && linked != nullptr)
-                content = fmt::format("<a href=\"#{}\">{}</a>", anchor_of(*linked, r), content);
-            html += cell(table.columns[i], i == 0 ? "th" : "td", i == 0 ? " scope=\"row\"" : "",
-                         content);
+                content = fmt::format("<a href=\"#{}\">{}</a>", html_anchor_of_row(*linked, r),
+                                      content);
+            html += html_cell(table.columns[i], i == 0 ? "th" : "td",
+                              i == 0 ? " scope=\"row\"" : "", content);
         }
         html += "</tr>";
     }
-    return section(title, html + "</tbody></table></div><p class=\"note\">" +
-                              html_escaped(table.note) + "</p>");
+    return html_titled_section(title, html + "</tbody></table></div><p class=\"note\">" +
+                                          escape_html(table.note) + "</p>");
 }
 
 std::string html_list(const std::vector<std::string>& sentences) {
     std::string html = "<ul>";
-    for (const std::string& sentence : sentences) html += "<li>" + html_escaped(sentence) + "</li>";
+    for (const std::string& sentence : sentences) html += "<li>" + escape_html(sentence) + "</li>";
     return html + "</ul>";
 }
 
-std::string headline(const std::string& name, const std::string& figure, const std::string& of) {
+std::string html_headline(const std::string& name, const std::string& figure,
+                          const std::string& of) {
     return fmt::format("<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>", name, figure,
-                       html_escaped(of));
+                       escape_html(of));
 }
 
 /// Returns the headlines: the fastest row, the closest row other than the reference, the front, and
 /// the reference.
-std::string headlines(const Comparison& comparison) {
+std::string html_headlines(const Comparison& comparison) {
     std::string html = "<dl class=\"headline\">";
-    if (const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
+    if (const std::vector<const Row*> fastest = measure::find_fastest_rows(comparison);
         fastest.size() == 1)
-        html += headline("Fastest", ms_text(fastest.front()->time_ms().median) + " ms",
-                         fastest.front()->label);
+        html += html_headline("Fastest", format_ms(fastest.front()->time_ms().median) + " ms",
+                              fastest.front()->label);
     else if (!fastest.empty())
-        html += headline("Fastest", std::to_string(fastest.size()) + " rows", "not told apart");
-    if (const Row* closest = measure::closest_row(comparison); closest != nullptr)
-        html += headline("Closest", "FLIP " + error_text(closest->error.flip), closest->label);
-    html += headline("On the front", std::to_string(comparison.pareto.size()),
-                     fmt::format("of {} rows", comparison.rows.size()));
-    html += headline("Reference", ms_text(comparison.reference_gpu_ms.median) + " ms",
-                     comparison.reference_label);
+        html += html_headline("Fastest", std::to_string(fastest.size()) + " rows",
+                              "not told apart");
+    if (const Row* closest = measure::find_closest_row(comparison); closest != nullptr)
+        html += html_headline("Closest", "FLIP " + format_error(closest->error.flip),
+                              closest->label);
+    html += html_headline("On the front", std::to_string(comparison.pareto.size()),
+                          fmt::format("of {} rows", comparison.rows.size()));
+    html += html_headline("Reference", format_ms(comparison.reference_gpu_ms.median) + " ms",
+                          comparison.reference_label);
     return html + "</dl>";
 }
 
-std::string numbers(const Row& row) {
+std::string html_row_numbers(const Row& row) {
     const double ms = row.time_ms().median;
     std::string html = "<dl class=\"numbers\">";
     for (const auto& [name, value] :
-         {std::pair("ms", ms_text(ms)), std::pair("FPS", fps_text(ms)),
-          std::pair("FLIP", error_text(row.error.flip)),
-          std::pair("off, %", fixed(100 * row.error.off, 2)),
-          std::pair("MAE", error_text(row.error.mae)),
-          std::pair("rmse", error_text(row.error.rmse)),
-          std::pair("FLIP, 1st order", error_text(row.error_first_order.flip)),
-          std::pair("PSNR dB", fixed(row.error.psnr.value_or(NAN), 1)),
+         {std::pair("ms", format_ms(ms)), std::pair("FPS", format_fps(ms)),
+          std::pair("FLIP", format_error(row.error.flip)),
+          std::pair("off, %", format_fixed(100 * row.error.off, 2)),
+          std::pair("MAE", format_error(row.error.mae)),
+          std::pair("rmse", format_error(row.error.rmse)),
+          std::pair("FLIP, 1st order", format_error(row.error_first_order.flip)),
+          std::pair("PSNR dB", format_fixed(row.error.psnr.value_or(NAN), 1)),
           std::pair("Scene passes", std::to_string(row.scene_passes)),
-          std::pair("MiB", mebibytes(row.memory_bytes))})
+          std::pair("MiB", format_mebibytes(row.memory_bytes))})
         html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
     return html + "</dl>";
 }
 
-std::string details(const Row& row) {
+std::string html_row_details(const Row& row) {
     std::string html = "<details><summary>Knobs and passes</summary><p><code>" +
-                       html_escaped(settings_text(row)) + "</code></p>";
+                       escape_html(format_settings(row)) + "</code></p>";
     if (row.rays)
         html += fmt::format("<p>Rays: {} primary, {} mirror, {} shadow.</p>", row.rays->primary,
                             row.rays->mirror, row.rays->shadow);
     if (row.traced_fraction)
-        html += "<p>Traced: " + fixed(100 * *row.traced_fraction, 1) + " % of mirror pixels.</p>";
+        html += "<p>Traced: " + format_fixed(100 * *row.traced_fraction, 1) +
+                " % of mirror pixels.</p>";
     if (row.passes.empty()) return html + "</details>";
     html += "<table><thead><tr><th class=\"text\" scope=\"col\">Pass</th><th "
             "scope=\"col\">ms</th></tr></thead><tbody>";
     for (const PassFacts& pass : row.passes)
         html += fmt::format("<tr><th class=\"text\" scope=\"row\">{}</th><td>{}</td></tr>",
-                            html_escaped(pass.name), fixed(pass.gpu_ms.median, 4));
+                            escape_html(pass.name), format_fixed(pass.gpu_ms.median, 4));
     return html + "</tbody></table></details>";
 }
 
-std::string article(const Comparison& comparison, const EncodedPictures& encoded,
-                    std::size_t index) {
+std::string html_row_article(const Comparison& comparison, const EncodedPictures& encoded,
+                             std::size_t index) {
     const Row& row = comparison.rows[index];
     std::string html = fmt::format("<article id=\"{}\"><div class=\"title\"><h3>{}</h3>",
-                                   anchor_of(comparison, index), html_escaped(row.label));
+                                   html_anchor_of_row(comparison, index), escape_html(row.label));
     for (const auto& [holds, name] :
-         {std::pair(measure::on_front(comparison, row), "on the front"),
-          std::pair(row.is_reference, "the reference"), std::pair(measure::failed(row), "failed"),
-          std::pair(row.noisy, "noisy")})
+         {std::pair(measure::is_on_front(comparison, row), "on the front"),
+          std::pair(row.is_reference, "the reference"),
+          std::pair(measure::has_nonfinite_pixels(row), "failed"), std::pair(row.noisy, "noisy")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
-            figure(row.display.width, row.display.height, encoded.rows[index].picture,
-                   "Picture by " + row.label, "Picture") +
-            figure(row.display.width, row.display.height, encoded.rows[index].error,
-                   "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
-                       error_text(row.error.flip),
-                   "FLIP error") +
-            figure(row.display.width, row.display.height, encoded.rows[index].causes,
-                   "Pixels of " + row.label + " that are off, painted by their largest cause",
-                   "Largest cause where it is off");
-    return html + "</div>" + numbers(row) + details(row) + "</article>\n";
+            html_figure(row.display.width, row.display.height, encoded.rows[index].picture,
+                        "Picture by " + row.label, "Picture") +
+            html_figure(row.display.width, row.display.height, encoded.rows[index].error,
+                        "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
+                            format_error(row.error.flip),
+                        "FLIP error") +
+            html_figure(row.display.width, row.display.height, encoded.rows[index].causes,
+                        "Pixels of " + row.label + " that are off, painted by their largest cause",
+                        "Largest cause where it is off");
+    return html + "</div>" + html_row_numbers(row) + html_row_details(row) + "</article>\n";
 }
 
 std::string css_colour(const vec3& colour) {
@@ -148,7 +153,7 @@ std::string css_colour(const vec3& colour) {
 }
 
 /// Returns the colour scale of the heat maps from 0 to 1.
-std::string heat_scale() {
+std::string html_heat_scale() {
     std::string stops;
     for (int i = 0; i <= 8; ++i)
         stops += "," + css_colour(measure::heat_colour(static_cast<float>(i) / 8));
@@ -157,46 +162,46 @@ std::string heat_scale() {
 }
 
 /// Returns the legend of the pictures by cause, or nothing if there are none.
-std::string cause_legend(const Comparison& comparison) {
+std::string html_cause_legend(const Comparison& comparison) {
     if (std::ranges::none_of(comparison.rows, [](const Row& row) { return row.causes != nullptr; }))
         return "";
     std::string html = "<ul class=\"legend\">";
-    for (const CauseColour& one : cause_colours())
+    for (const CauseColour& one : list_cause_colours())
         html += "<li><span style=\"background:" + css_colour(one.colour) + "\"></span>" +
                 std::string(one.cause) + "</li>";
     return html + "</ul>";
 }
 
-std::string pictures(const Comparison& comparison, const EncodedPictures& encoded) {
+std::string html_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html =
         "<div class=\"reference\">" +
-        figure(comparison.reference_display.width, comparison.reference_display.height,
-               encoded.reference, "Reference picture by " + comparison.reference_label,
-               "Reference: " + comparison.reference_label) +
+        html_figure(comparison.reference_display.width, comparison.reference_display.height,
+                    encoded.reference, "Reference picture by " + comparison.reference_label,
+                    "Reference: " + comparison.reference_label) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
-        heat_scale() + cause_legend(comparison) + "</div></div><div class=\"rows\">";
+        html_heat_scale() + html_cause_legend(comparison) + "</div></div><div class=\"rows\">";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i)
-        html += article(comparison, encoded, i);
-    return section("Pictures", html + "</div>");
+        html += html_row_article(comparison, encoded, i);
+    return html_titled_section("Pictures", html + "</div>");
 }
 
 /// Returns the tables, sentences and pictures of a part.
 std::string part_of(const Comparison& comparison, const EncodedPictures& encoded,
                     const Part& part) {
     std::string html;
-    for (const Table& table : part.tables(comparison))
+    for (const ReportTable& table : part.tables(comparison))
         html += to_html(table, std::string(part.look), part.links_rows ? &comparison : nullptr);
     const bool has_rows = !html.empty();
     if (part.plots != nullptr) html.insert(0, part.plots(comparison));
     if (has_rows && part.sentences != nullptr)
-        html += section(std::string(part.title), html_list(part.sentences(comparison)));
+        html += html_titled_section(std::string(part.title), html_list(part.sentences(comparison)));
     if (has_rows && part.pictures != nullptr) html += part.pictures(comparison, encoded);
     return html;
 }
 
-std::string front(const Comparison& comparison) {
+std::string html_front(const Comparison& comparison) {
     std::string html;
-    if (const std::string drawing = plot(comparison); !drawing.empty())
+    if (const std::string drawing = make_comparison_plot(comparison); !drawing.empty())
         html =
             "<figure class=\"plot\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
             "aria-label=\"Plot\">" +
@@ -204,24 +209,24 @@ std::string front(const Comparison& comparison) {
             "</div><figcaption>Lower left is better. Filled: on the Pareto front (dashed). "
             "Squares: ray traced. Bars: 95 % intervals of times; which rows tie, the places in the "
             "tables say. The lane below is error 0.</figcaption></figure>";
-    return section("Time against error", html + html_list(front_in_words(comparison)));
+    return html_titled_section("Time against error", html + html_list(describe_front(comparison)));
 }
 
-std::string circumstances(const Comparison& comparison) {
+std::string html_circumstances(const Comparison& comparison) {
     std::string html = "<dl class=\"facts\">";
-    for (const Fact& fact : facts(comparison))
+    for (const ReportFact& fact : list_report_facts(comparison))
         html += fmt::format("<dt>{0}</dt><dd><{1}>{2}</{1}></dd>", fact.name,
-                            fact.name == "Command" ? "code" : "span", html_escaped(fact.value));
-    return section("What was measured where", html + "</dl>");
+                            fact.name == "Command" ? "code" : "span", escape_html(fact.value));
+    return html_titled_section("What was measured where", html + "</dl>");
 }
 
 } // namespace
 
-std::string section(const std::string& title, const std::string& content) {
+std::string html_titled_section(const std::string& title, const std::string& content) {
     return "<section><h2>" + title + "</h2>" + content + "</section>\n";
 }
 
-std::string section_of(const Comparison& comparison) {
+std::string html_id_prefix(const Comparison& comparison) {
     std::string name = comparison.images;
     std::ranges::replace(name, '/', '-');
     return name;
@@ -229,49 +234,53 @@ std::string section_of(const Comparison& comparison) {
 
 std::string to_html(const Comparison& comparison) {
     EncodedPictures pictures;
-    encode_new(pictures, comparison);
+    encode_new_pictures(pictures, comparison);
     return to_html(comparison, pictures);
 }
 
-std::string figure(int width, int height, const std::string& png, const std::string& alt,
-                   const std::string& caption) {
+std::string html_figure(int width, int height, const std::string& png, const std::string& alt,
+                        const std::string& caption) {
     if (png.empty()) return "";
     return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
                        "<figcaption>{}</figcaption></figure>",
-                       width, height, html_escaped(alt), data_uri(png), html_escaped(caption));
+                       width, height, escape_html(alt), png_data_uri(png), escape_html(caption));
 }
 
-std::string html_page(const std::string& title, const std::string& content) {
+std::string make_html_page(const std::string& title, const std::string& content) {
     return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
            "<title>Reflections compared: " +
-           html_escaped(title) + "</title><style>" + kStyle + "</style></head>\n<body>" + content +
+           escape_html(title) + "</title><style>" + kStyle + "</style></head>\n<body>" + content +
            "</body></html>\n";
 }
 
-std::string html_section(const Comparison& comparison, const EncodedPictures& encoded) {
+std::string make_html_section(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html = "<header><p class=\"kicker\">Reflections compared</p><h1>" +
-                       html_escaped(comparison.scene.name) + "</h1><p class=\"lede\">" +
-                       html_escaped(verdict_in_words(comparison)) + "</p>";
-    const std::vector<std::string> notes = cautions(comparison);
+                       escape_html(comparison.scene.name) + "</h1><p class=\"lede\">" +
+                       escape_html(summarise_verdict(comparison)) + "</p>";
+    const std::vector<std::string> notes = list_cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + html_list(notes) + "</aside>";
-    const bool is_page = section_of(comparison).empty(); // a page has exactly one <main>
-    html += headlines(comparison) + "</header>\n" + (is_page ? "<main>" : "<div class=\"main\">") +
-            front(comparison) +
-            (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed") : "");
-    const std::vector<std::string> sentences = findings(comparison);
-    if (!sentences.empty()) html += section(findings_title(comparison), html_list(sentences));
-    html += section("Set-up, once", "<p>" + html_escaped(setup_text(comparison.setup)) + "</p>") +
-            to_html(rows_table(comparison), "all", &comparison) +
-            to_html(plan_table(comparison), "plans", &comparison);
+    const bool is_page = html_id_prefix(comparison).empty(); // a page has exactly one <main>
+    html += html_headlines(comparison) + "</header>\n" +
+            (is_page ? "<main>" : "<div class=\"main\">") + html_front(comparison) +
+            (comparison.scene.is_seed ? to_html(make_seed_table(comparison), "seed") : "");
+    const std::vector<std::string> sentences = list_findings(comparison);
+    if (!sentences.empty())
+        html += html_titled_section(make_findings_title(comparison), html_list(sentences));
+    html += html_titled_section("Set-up, once",
+                                "<p>" + escape_html(describe_setup_times(comparison.setup)) +
+                                    "</p>") +
+            to_html(make_rows_table(comparison), "all", &comparison) +
+            to_html(make_plan_table(comparison), "plans", &comparison);
     for (const Part& part : parts()) html += part_of(comparison, encoded, part);
-    html += pictures(comparison, encoded) + to_html(unsupported_table(comparison.scene), "gaps") +
-            circumstances(comparison);
+    html += html_pictures(comparison, encoded) +
+            to_html(make_unsupported_table(comparison.scene), "gaps") +
+            html_circumstances(comparison);
     return html + (is_page ? "</main>\n" : "</div>\n");
 }
 
 std::string to_html(const Comparison& comparison, const EncodedPictures& encoded) {
-    return html_page(comparison.scene.name, html_section(comparison, encoded));
+    return make_html_page(comparison.scene.name, make_html_section(comparison, encoded));
 }
 
 } // namespace catoptric::report

@@ -9,7 +9,7 @@ namespace catoptric::report {
 
 namespace {
 
-std::string base64(std::string_view bytes) {
+std::string encode_base64(std::string_view bytes) {
     constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
@@ -26,9 +26,9 @@ std::string base64(std::string_view bytes) {
 
 } // namespace
 
-std::string html_escaped(std::string_view text) {
+std::string escape_html(std::string_view text) {
     std::string result;
-    for (const char c : printable(text, "\n")) {
+    for (const char c : escape_control_characters(text, "\n")) {
         switch (c) {
         case '&': result += "&amp;"; break;
         case '<': result += "&lt;"; break;
@@ -42,7 +42,9 @@ std::string html_escaped(std::string_view text) {
     return result;
 }
 
-std::string data_uri(std::string_view png) { return "data:image/png;base64," + base64(png); }
+std::string png_data_uri(std::string_view png) {
+    return "data:image/png;base64," + encode_base64(png);
+}
 
 const char* const kStyle = R"(
 :root { color-scheme: light dark; --paper: #fbfaf8; --card: #fff; --ink: #1c1b1a; --soft: #5d5954;

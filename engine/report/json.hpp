@@ -14,14 +14,14 @@ namespace catoptric::report {
 using Json = nlohmann::ordered_json;
 
 /// Returns report.json of one scene.
-Json document_of(const Comparison& comparison);
+Json make_report_json(const Comparison& comparison);
 /// Returns the document as ASCII text that ends with a newline.
-std::string written(const Json& document);
+std::string serialise_json(const Json& document);
 
 /// Return a number: integers without a fraction, and null if JSON cannot hold the value or if there
 /// is none.
-Json number(double value);
-Json number(const std::optional<double>& value);
+Json number_json(double value);
+Json number_json(const std::optional<double>& value);
 /// Returns a list with `entry` of each item.
 template <class List, class Entry>
 Json list_json(const List& list, Entry entry) {
@@ -33,15 +33,15 @@ Json numbers_json(const std::vector<double>& values);
 /// Returns the list [low, high], or null if the interval is not known.
 Json interval_json(const measure::Interval& interval);
 /// Describes a value for a message: "nothing", "a list", or its JSON in quotes.
-std::string shown(const Json& value);
+std::string describe_json_value(const Json& value);
 /// Returns the field "device".
-Json device_json(const DeviceFacts& device);
+Json make_device_json(const DeviceFacts& device);
 /// Returns all fields of a row with the unit milliseconds, as in report.json.
 Json times_json(const Row& row);
 /// Returns the value of a metric as JSON, or null if the metric has no value.
-Json value_json(const measure::Value& value);
+Json value_json(const measure::MetricValue& value);
 /// Returns the field "lag".
-Json to_json(const Lag& lag);
+Json to_json(const LagResults& lag);
 
 /// Return the field "views": a list for a comparison; for a row, null if no views were drawn.
 Json views_json(const Comparison& comparison);

@@ -9,8 +9,8 @@ Json camera_json(const measure::CameraFacts& camera) {
             {"eye", point_json(camera.eye)},
             {"target", point_json(camera.target)},
             {"up", point_json(camera.up)},
-            {"vertical_fov_degrees", is_flat ? Json() : number(camera.vertical_fov_degrees)},
-            {"orthographic_height", is_flat ? number(camera.orthographic_height) : Json()}};
+            {"vertical_fov_degrees", is_flat ? Json() : number_json(camera.vertical_fov_degrees)},
+            {"orthographic_height", is_flat ? number_json(camera.orthographic_height) : Json()}};
 }
 
 Json lights_json(const std::vector<LightFacts>& lights) {
@@ -22,15 +22,15 @@ Json lights_json(const std::vector<LightFacts>& lights) {
             {"position", light.is_parallel ? Json() : point_json(light.position)},
             {"direction", light.direction == dvec3(0) ? Json() : point_json(light.direction)},
             {"emission", point_json(light.emission)},
-            {"area", is_mesh ? number(light.area) : Json()}};
+            {"area", is_mesh ? number_json(light.area) : Json()}};
     });
 }
 
 Json environment_json(const std::optional<EnvironmentFacts>& environment) {
     if (!environment) return nullptr;
     return {{"name", environment->name},
-            {"scale", number(environment->scale)},
-            {"rotation_degrees", number(environment->rotation_degrees)}};
+            {"scale", number_json(environment->scale)},
+            {"rotation_degrees", number_json(environment->rotation_degrees)}};
 }
 
 Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported) {
@@ -38,7 +38,7 @@ Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported) {
         return Json{{"id", gap.id},
                     {"count", gap.count},
                     {"first", gap.first},
-                    {"pixel_share", number(gap.pixel_share)}};
+                    {"pixel_share", number_json(gap.pixel_share)}};
     });
 }
 

@@ -18,37 +18,37 @@ namespace catoptric::report {
 namespace {
 
 using measure::Difference;
-using measure::percentile_of;
+using measure::metric_percentile;
 
 constexpr auto kFlip = &Difference::flip;
 
-Json to_json(const Settling& settling) {
-    return {{"rmse_settled", number(settling.rmse_settled)},
-            {"max_settled", number(settling.max_settled)},
+Json to_json(const SettlingAfterCut& settling) {
+    return {{"rmse_settled", number_json(settling.rmse_settled)},
+            {"max_settled", number_json(settling.max_settled)},
             {"rmse", numbers_json(settling.rmse)},
             {"max", numbers_json(settling.max)}};
 }
 
 /// Adds each headline metric of each instant, and its mean. Names begin with `prefix`.
-void add_figures(Json& json, const std::string& prefix, const std::vector<Difference>& errors) {
+void add_lag_metrics(Json& json, const std::string& prefix, const std::vector<Difference>& errors) {
     for (const auto& [name, figure] :
          {std::pair("flip", &Difference::flip), std::pair("off", &Difference::off),
           std::pair("mae", &Difference::mae), std::pair("rmse", &Difference::rmse)}) {
-        json[prefix + name + "_mean"] = number(measure::mean_of(errors, figure));
-        json[prefix + name] = numbers_json(measure::figures_of(errors, figure));
+        json[prefix + name + "_mean"] = number_json(measure::mean_of(errors, figure));
+        json[prefix + name] = numbers_json(measure::list_metric_values(errors, figure));
     }
 }
 
 Json to_json(const LagAtSpeed& at) {
-    Json json{{"speed", number(at.speed)}};
-    add_figures(json, "", at.errors);
+    Json json{{"speed", number_json(at.speed)}};
+    add_lag_metrics(json, "", at.errors);
     for (const auto& [name, figure] :
          {std::pair("flip", &Difference::flip), std::pair("rmse", &Difference::rmse)}) {
         const std::string prefix(name);
-        json[prefix + "_median"] = number(measure::percentile_of(at.errors, figure, .5));
-        json[prefix + "_max"] = number(measure::percentile_of(at.errors, figure, 1));
+        json[prefix + "_median"] = number_json(measure::metric_percentile(at.errors, figure, .5));
+        json[prefix + "_max"] = number_json(measure::metric_percentile(at.errors, figure, 1));
     }
-    add_figures(json, "reference_", at.reference_errors);
+    add_lag_metrics(json, "reference_", at.reference_errors);
     return json;
 }
 
@@ -58,18 +58,18 @@ Json to_json(const LagRow& row) {
               {"restless_stills", row.restless_stills},
               {"after_black", to_json(row.after_black)},
               {"after_jump", to_json(row.after_jump)}};
-    add_figures(json, "still_reference_", row.still_reference_errors);
+    add_lag_metrics(json, "still_reference_", row.still_reference_errors);
     json["speeds"] = list_json(row.speeds, [](const LagAtSpeed& at) { return to_json(at); });
     return json;
 }
 
-std::string speed_text(double speed) { return fmt::format("{:g}x", speed); }
+std::string format_speed(double speed) { return fmt::format("{:g}x", speed); }
 
-std::string count_text(const std::optional<int>& frames, int cap) {
+std::string format_frame_count(const std::optional<int>& frames, int cap) {
     return frames ? std::to_string(*frames) : fmt::format("over {}", cap);
 }
 
-std::string lag_note(const Lag& lag) {
+std::string describe_lag_limits(const LagResults& lag) {
     std::string note = fmt::format(
         "The scene's time runs at so many times the clock's, 60 frames a second, over a path of "
         "{:.3g} s. Errors over the mirrors between the moving picture and the still one of the "
@@ -84,54 +84,56 @@ std::string lag_note(const Lag& lag) {
 }
 
 /// Returns the FLIP of the instants: mean, median and largest.
-std::array<std::string, 3> flips(const LagAtSpeed& at) {
-    return {error_text(measure::mean_of(at.errors, kFlip)),
-            error_text(percentile_of(at.errors, kFlip, .5)),
-            error_text(percentile_of(at.errors, kFlip, 1))};
+std::array<std::string, 3> format_flip_values(const LagAtSpeed& at) {
+    return {format_error(measure::mean_of(at.errors, kFlip)),
+            format_error(metric_percentile(at.errors, kFlip, .5)),
+            format_error(metric_percentile(at.errors, kFlip, 1))};
 }
 
-std::vector<std::string> line_of(const Lag& lag, const LagRow& row, const LagAtSpeed& at) {
+std::vector<std::string> make_lag_line(const LagResults& lag, const LagRow& row,
+                                       const LagAtSpeed& at) {
     const auto mean = [&](double Difference::*figure) {
         return measure::mean_of(at.errors, figure);
     };
     const auto flip_to_reference = [](const std::vector<Difference>& errors) {
-        return error_text(measure::mean_of(errors, kFlip));
+        return format_error(measure::mean_of(errors, kFlip));
     };
-    const auto [flip, median, largest] = flips(at);
+    const auto [flip, median, largest] = format_flip_values(at);
     return {row.label,
-            speed_text(at.speed),
+            format_speed(at.speed),
             flip,
-            fixed(100 * mean(&Difference::off), 2),
-            error_text(mean(&Difference::mae)),
-            error_text(mean(&Difference::rmse)),
+            format_fixed(100 * mean(&Difference::off), 2),
+            format_error(mean(&Difference::mae)),
+            format_error(mean(&Difference::rmse)),
             median,
             largest,
-            fixed(measure::worst_instant(lag, at), 2),
+            format_fixed(measure::find_worst_instant(lag, at), 2),
             flip_to_reference(at.reference_errors),
             flip_to_reference(row.still_reference_errors)};
 }
 
-std::string behind(const LagRow& row) {
+std::string describe_row_lag(const LagRow& row) {
     std::vector<std::string> parts;
     for (const LagAtSpeed& at : row.speeds) {
-        const auto [flip, median, largest] = flips(at);
+        const auto [flip, median, largest] = format_flip_values(at);
         parts.push_back(fmt::format("{} (median {}, largest {}) at {}", flip, median, largest,
-                                    speed_text(at.speed)));
+                                    format_speed(at.speed)));
     }
-    return row.label + " is behind its own still picture by a FLIP of " + joined(parts, ", ");
+    return row.label + " is behind its own still picture by a FLIP of " + join_texts(parts, ", ");
 }
 
-std::string settles(const LagRow& row, int cap) {
-    const auto counts = [&](const Settling& settling) {
-        return fmt::format("{} by rmse, {} in every pixel", count_text(settling.rmse_settled, cap),
-                           count_text(settling.max_settled, cap));
+std::string describe_settling(const LagRow& row, int cap) {
+    const auto counts = [&](const SettlingAfterCut& settling) {
+        return fmt::format("{} by rmse, {} in every pixel",
+                           format_frame_count(settling.rmse_settled, cap),
+                           format_frame_count(settling.max_settled, cap));
     };
     return fmt::format("after a cut from black it is within 1/255 from frame {}; after a jump of "
                        "half the path from frame {}",
                        counts(row.after_black), counts(row.after_jump));
 }
 
-std::string along_path(const Lag& lag, const LagRow& row) {
+std::string html_lag_along_path(const LagResults& lag, const LagRow& row) {
     LinePlot plot{.x_name = "instant of the scene, s",
                   .y_name = "FLIP to the still picture",
                   .says = "Lag of " + row.label + " along the path, one line a speed",
@@ -140,11 +142,12 @@ std::string along_path(const Lag& lag, const LagRow& row) {
         plot.x_ticks.push_back(lag.seconds.front() + share * lag.path);
     std::erase_if(plot.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (const LagAtSpeed& at : row.speeds)
-        plot.lines.push_back({speed_text(at.speed), measure::figures_of(at.errors, kFlip)});
-    return line_plot(plot);
+        plot.lines.push_back(
+            {format_speed(at.speed), measure::list_metric_values(at.errors, kFlip)});
+    return make_line_plot(plot);
 }
 
-std::string against_speed(const Lag& lag) {
+std::string html_lag_against_speed(const LagResults& lag) {
     LinePlot plot{.x_name = "speed of the scene's time",
                   .y_name = "FLIP to the still picture, mean",
                   .says = "Mean lag against speed, one line a row",
@@ -156,10 +159,10 @@ std::string against_speed(const Lag& lag) {
         for (const LagAtSpeed& at : row.speeds)
             line.y.push_back(measure::mean_of(at.errors, kFlip));
     }
-    return line_plot(plot);
+    return make_line_plot(plot);
 }
 
-std::string after_jump(const Lag& lag) {
+std::string html_settling_curves(const LagResults& lag) {
     constexpr std::size_t kShown = 10; // number of frames shown
     LinePlot plot{.x_name = "frame after a jump of half the path",
                   .y_name = "rmse to the still picture",
@@ -171,85 +174,89 @@ std::string after_jump(const Lag& lag) {
             plot.x.push_back(static_cast<double>(i + 1));
     }
     plot.x_ticks = plot.x;
-    return line_plot(plot);
+    return make_line_plot(plot);
 }
 
-std::string figure(const std::string& drawing, const std::string& caption) {
+std::string html_lag_figure(const std::string& drawing, const std::string& caption) {
     if (drawing.empty()) return "";
-    return "<figure>" + drawing + "<figcaption>" + html_escaped(caption) + "</figcaption></figure>";
+    return "<figure>" + drawing + "<figcaption>" + escape_html(caption) + "</figcaption></figure>";
 }
 
 } // namespace
 
-Json to_json(const Lag& lag) {
+Json to_json(const LagResults& lag) {
     return {{"mask", "mirrors"},
             {"complete", lag.complete},
-            {"path_seconds", number(lag.path)},
-            {"jump_from", number(lag.jump_from)},
+            {"path_seconds", number_json(lag.path)},
+            {"jump_from", number_json(lag.jump_from)},
             {"frame_cap", lag.frame_cap},
             {"seconds", numbers_json(lag.seconds)},
             {"without_history", lag.without_history},
             {"rows", list_json(lag.rows, [](const LagRow& row) { return to_json(row); })}};
 }
 
-Table lag_table(const Comparison& comparison) {
-    Table table{"Lag: the moving scene",
-                {text_column("Row"), "Speed", "FLIP", "off, %", "MAE", "rmse", "FLIP, median",
-                 "FLIP, largest", "s", "to reference, moving", "to reference, still"},
-                ""};
+ReportTable make_lag_table(const Comparison& comparison) {
+    ReportTable table{"Lag: the moving scene",
+                      {make_text_column("Row"), "Speed", "FLIP", "off, %", "MAE", "rmse",
+                       "FLIP, median", "FLIP, largest", "s", "to reference, moving",
+                       "to reference, still"},
+                      ""};
     if (!comparison.lag) return table;
-    table.note = lag_note(*comparison.lag);
+    table.note = describe_lag_limits(*comparison.lag);
     for (const LagRow& row : comparison.lag->rows)
         for (const LagAtSpeed& at : row.speeds)
-            table.rows.push_back(line_of(*comparison.lag, row, at));
+            table.rows.push_back(make_lag_line(*comparison.lag, row, at));
     return table;
 }
 
-Table settling_table(const Comparison& comparison) {
-    Table table{"Lag: frames after a cut",
-                {text_column("Row"), "from black, rmse", "from black, every pixel",
-                 "after a jump, rmse", "after a jump, every pixel"},
-                ""};
+ReportTable make_settling_table(const Comparison& comparison) {
+    ReportTable table{"Lag: frames after a cut",
+                      {make_text_column("Row"), "from black, rmse", "from black, every pixel",
+                       "after a jump, rmse", "after a jump, every pixel"},
+                      ""};
     if (!comparison.lag) return table;
-    const Lag& lag = *comparison.lag;
+    const LagResults& lag = *comparison.lag;
     table.note = fmt::format(
         "The first frame, from 1, from which on the picture is within 1/255 of the still one: by "
         "the rmse over the mirrors, and in the largest channel difference of any mirror pixel. A "
         "jump: from t = {:.3g} s to {:.3g} s. Given {} frames.",
         lag.jump_from, lag.seconds.empty() ? 0 : lag.seconds.front(), lag.frame_cap);
     for (const LagRow& row : lag.rows)
-        table.rows.push_back({row.label, count_text(row.after_black.rmse_settled, lag.frame_cap),
-                              count_text(row.after_black.max_settled, lag.frame_cap),
-                              count_text(row.after_jump.rmse_settled, lag.frame_cap),
-                              count_text(row.after_jump.max_settled, lag.frame_cap)});
+        table.rows.push_back({row.label,
+                              format_frame_count(row.after_black.rmse_settled, lag.frame_cap),
+                              format_frame_count(row.after_black.max_settled, lag.frame_cap),
+                              format_frame_count(row.after_jump.rmse_settled, lag.frame_cap),
+                              format_frame_count(row.after_jump.max_settled, lag.frame_cap)});
     return table;
 }
 
-std::optional<std::string> lag_in_words(const Comparison& comparison) {
+std::optional<std::string> describe_lag(const Comparison& comparison) {
     if (!comparison.lag) return {};
-    const Lag& lag = *comparison.lag;
+    const LagResults& lag = *comparison.lag;
     std::vector<std::string> sentences;
     for (const LagRow& row : lag.rows)
         if (!row.speeds.empty())
-            sentences.push_back(behind(row) + "; " + settles(row, lag.frame_cap));
+            sentences.push_back(describe_row_lag(row) + "; " +
+                                describe_settling(row, lag.frame_cap));
     if (!lag.without_history.empty())
         sentences.push_back("Left out, since their frames read nothing of the frame before and "
                             "have no lag: " +
-                            joined(lag.without_history, ", "));
+                            join_texts(lag.without_history, ", "));
     if (sentences.empty()) return {};
     return "Lag: the report sees no difference between parts one and two; that holds while the "
            "scene stands. " +
-           joined(sentences, ". ") + ".";
+           join_texts(sentences, ". ") + ".";
 }
 
-std::string lag_plots(const Comparison& comparison) {
+std::string make_lag_plots(const Comparison& comparison) {
     if (!comparison.lag || comparison.lag->rows.empty()) return "";
-    const Lag& lag = *comparison.lag;
+    const LagResults& lag = *comparison.lag;
     std::string html = "<section><h2>Lag</h2><div class=\"panels\">";
     for (const LagRow& row : lag.rows)
-        html += figure(along_path(lag, row), row.label + " along the path, one line a speed");
-    html += figure(against_speed(lag), "Mean over the path against speed");
-    html += figure(after_jump(lag), "Frames after a cut");
+        html += html_lag_figure(html_lag_along_path(lag, row),
+                                row.label + " along the path, one line a speed");
+    html += html_lag_figure(html_lag_against_speed(lag), "Mean over the path against speed");
+    html += html_lag_figure(html_settling_curves(lag), "Frames after a cut");
     return html + "</div><p class=\"note\">All against the still picture of the same row and "
                   "instant, over the mirrors. The lane below is 0.</p></section>\n";
 }
@@ -259,9 +266,9 @@ const RegisteredPart kLagPart{
      .order = 500,
      .tables =
          [](const Comparison& comparison) {
-             return std::vector{lag_table(comparison), settling_table(comparison)};
+             return std::vector{make_lag_table(comparison), make_settling_table(comparison)};
          },
      .look = "lag",
-     .plots = lag_plots}};
+     .plots = make_lag_plots}};
 
 } // namespace catoptric::report

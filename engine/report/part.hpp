@@ -17,7 +17,7 @@ struct Part {
     int order = 1000; ///< place in the report; equal orders are sorted by name
     /// Returns the part's tables. Reports leave out tables without rows, and leave out the
     /// sentences and pictures if all tables have no rows.
-    std::vector<Table> (*tables)(const Comparison&) = nullptr;
+    std::vector<ReportTable> (*tables)(const Comparison&) = nullptr;
     std::string_view look = {}; ///< class of the tables in HTML
     bool links_rows = false;    ///< whether line i of a table belongs to row i, and links to it
     /// Returns sentences that follow the tables. `title` heads them in HTML. May be null.

@@ -19,7 +19,7 @@ namespace {
 constexpr double kLetter = 6.6, kLine = 13;
 
 /// Mapping from the logarithm of a value to pixels.
-struct Scale {
+struct LogScale {
     double low, high; ///< logarithms to base 10
     double from, to;  ///< pixels
     double operator()(double value) const {
@@ -27,25 +27,25 @@ struct Scale {
     }
 };
 
-struct Tick {
+struct AxisTick {
     double value, at; ///< `at`: place in pixels
 };
 
 /// Edges of a chart with room for its axes, in pixels. Values of 0 lie in a lane from `lane` to
 /// `bottom`, below the other values.
-struct Frame {
+struct ChartFrame {
     double width, height, left, right, top, lane, bottom;
     double tick_gap;  ///< between a number of the y axis and the axis
     double y_name_at; ///< x of the y axis's name
     double zero() const { return (lane + bottom) / 2; }
     /// Returns the lane and the axes with grid, numbers and names.
-    std::string axes(const std::vector<Tick>& x_ticks, const std::vector<Tick>& y_ticks,
+    std::string axes(const std::vector<AxisTick>& x_ticks, const std::vector<AxisTick>& y_ticks,
                      const std::string& x_name, const std::string& y_name) const;
 };
 
 /// Returns a scale that covers all values, which are positive, with a margin. A single value gets
 /// one decade.
-Scale log_scale(const std::vector<double>& values, double from, double to) {
+LogScale make_log_scale(const std::vector<double>& values, double from, double to) {
     if (values.empty()) return {-3, 0, from, to};
     const auto [least, most] = std::ranges::minmax(values);
     const double low = std::log10(least), high = std::log10(most);
@@ -54,7 +54,7 @@ Scale log_scale(const std::vector<double>& values, double from, double to) {
 }
 
 /// Returns 1, 2 and 5 times the powers of ten inside the scale.
-std::vector<double> ticks(const Scale& scale) {
+std::vector<double> list_ticks(const LogScale& scale) {
     std::vector<double> values;
     for (int decade = static_cast<int>(std::floor(scale.low)); decade <= scale.high; ++decade)
         for (const double step : {1.0, 2.0, 5.0}) {
@@ -66,13 +66,13 @@ std::vector<double> ticks(const Scale& scale) {
 }
 
 /// Returns the ticks of a scale with their places.
-std::vector<Tick> placed(const Scale& scale, const std::vector<double>& values) {
-    std::vector<Tick> list;
+std::vector<AxisTick> place_ticks(const LogScale& scale, const std::vector<double>& values) {
+    std::vector<AxisTick> list;
     for (const double value : values) list.push_back({value, scale(value)});
     return list;
 }
 
-std::string grid_line(double x0, double y0, double x1, double y1) {
+std::string svg_grid_line(double x0, double y0, double x1, double y1) {
     return fmt::format(R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
                        x0, y0, x1, y1);
 }
@@ -83,28 +83,29 @@ std::string svg_text(double x, double y, const char* anchor, std::string_view co
                        content);
 }
 
-std::string Frame::axes(const std::vector<Tick>& x_ticks, const std::vector<Tick>& y_ticks,
-                        const std::string& x_name, const std::string& y_name) const {
+std::string ChartFrame::axes(const std::vector<AxisTick>& x_ticks,
+                             const std::vector<AxisTick>& y_ticks, const std::string& x_name,
+                             const std::string& y_name) const {
     std::string svg = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
                                   left, lane, right - left, bottom - lane);
     for (const auto& [value, x] : x_ticks)
-        svg += grid_line(x, top, x, bottom) +
+        svg += svg_grid_line(x, top, x, bottom) +
                svg_text(x, bottom + 16, "middle", fmt::format("{:g}", value));
     for (const auto& [value, y] : y_ticks)
-        svg += grid_line(left, y, right, y) +
+        svg += svg_grid_line(left, y, right, y) +
                svg_text(left - tick_gap, y + 4, "end", fmt::format("{:g}", value));
     return svg + svg_text(left - tick_gap, zero() + 4, "end", "0") +
-           svg_text((left + right) / 2, bottom + 38, "middle", html_escaped(x_name)) +
+           svg_text((left + right) / 2, bottom + 38, "middle", escape_html(x_name)) +
            fmt::format("<g transform=\"translate({} {}) rotate(-90)\">", y_name_at,
                        (top + lane) / 2) +
-           svg_text(0, 0, "middle", html_escaped(y_name)) + "</g>";
+           svg_text(0, 0, "middle", escape_html(y_name)) + "</g>";
 }
 
 // width, height, left, right, top, lane, bottom, tick_gap, y_name_at
-constexpr Frame kChart{500, 300, 66, 340, 12, 226, 250, 6, 12};
+constexpr ChartFrame kChart{500, 300, 66, 340, 12, 226, 250, 6, 12};
 constexpr std::size_t kMostTicks = 8;
 
-double x_place(const LinePlot& plot, double x) {
+double x_pixel(const LinePlot& plot, double x) {
     const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
     const double first = along(plot.x.front()), last = along(plot.x.back());
     return last > first
@@ -112,10 +113,10 @@ double x_place(const LinePlot& plot, double x) {
                : kChart.left;
 }
 
-double y_place(const Scale& scale, double y) { return y > 0 ? scale(y) : kChart.zero(); }
+double y_pixel(const LogScale& scale, double y) { return y > 0 ? scale(y) : kChart.zero(); }
 
-std::vector<double> y_ticks(const Scale& scale) {
-    std::vector<double> values = ticks(scale);
+std::vector<double> list_y_ticks(const LogScale& scale) {
+    std::vector<double> values = list_ticks(scale);
     if (values.size() > kMostTicks) // too many ticks: keep only powers of ten
         std::erase_if(values, [](double value) {
             const double place = std::log10(value);
@@ -124,65 +125,67 @@ std::vector<double> y_ticks(const Scale& scale) {
     return values;
 }
 
-std::string path_of(const LinePlot& plot, const PlotLine& line, const Scale& y, double opacity) {
+std::string svg_path_of_line(const LinePlot& plot, const PlotLine& line, const LogScale& y,
+                             double opacity) {
     std::string path;
     for (std::size_t i = 0; i < line.y.size(); ++i)
         if (std::isfinite(line.y[i]))
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L",
-                                x_place(plot, plot.x[i]), y_place(y, line.y[i]));
+                                x_pixel(plot, plot.x[i]), y_pixel(y, line.y[i]));
     return fmt::format(R"(<path class="line" style="opacity:{:.2f}" d="{}"/>)", opacity, path);
 }
 
 /// Returns the names at the right ends of the lines. A name moves up if it would overlap another.
-std::string names(const LinePlot& plot, const Scale& y) {
+std::string svg_line_names(const LinePlot& plot, const LogScale& y) {
     std::vector<std::pair<double, std::string>> places;
     for (const PlotLine& line : plot.lines)
         if (!line.y.empty() && std::isfinite(line.y.back()))
-            places.emplace_back(y_place(y, line.y.back()), line.name);
+            places.emplace_back(y_pixel(y, line.y.back()), line.name);
     std::ranges::stable_sort(places, std::greater(), &std::pair<double, std::string>::first);
     std::string drawn;
     double free = kChart.bottom + kLine;
     for (const auto& [place, name] : places) {
         free = std::min(place, free - kLine);
-        drawn += svg_text(kChart.right + 6, free + 4, "start", html_escaped(name));
+        drawn += svg_text(kChart.right + 6, free + 4, "start", escape_html(name));
     }
     return drawn;
 }
 
 // width, height, left, right, top, lane, bottom, tick_gap, y_name_at
-constexpr Frame kFrame{860, 470, 64, 836, 16, 380, 424, 8, 14};
+constexpr ChartFrame kFrame{860, 470, 64, 836, 16, 380, 424, 8, 14};
 
-struct Point {
+struct PlotPoint {
     double x, y;
     double low, high; ///< ends of the time's interval, clamped to the axes
     const Row* row;
     bool front;
 };
 
-struct Box {
+struct LabelBox {
     double x0, y0, x1, y1;
-    bool meets(const Box& other) const {
+    bool meets(const LabelBox& other) const {
         return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
     }
 };
 
-bool can_be_placed(const Row& row) {
+bool can_be_plotted(const Row& row) {
     return row.time_ms().median > 0 && std::isfinite(row.error.flip);
 }
 
 /// Returns the front as a staircase: the least error for each time.
-std::string stairs(std::vector<Point> points) {
-    std::erase_if(points, [](const Point& point) { return !point.front; });
-    std::ranges::sort(
-        points, [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y > b.y; });
+std::string svg_front_staircase(std::vector<PlotPoint> points) {
+    std::erase_if(points, [](const PlotPoint& point) { return !point.front; });
+    std::ranges::sort(points, [](const PlotPoint& a, const PlotPoint& b) {
+        return a.x != b.x ? a.x < b.x : a.y > b.y;
+    });
     if (points.empty()) return "";
     std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kFrame.top);
-    for (const Point& point : points) path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
+    for (const PlotPoint& point : points) path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
     return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kFrame.right) + "\"/>";
 }
 
 /// Returns the interval of a row's time as a line.
-std::string interval(const Point& point) {
+std::string svg_time_interval(const PlotPoint& point) {
     if (!point.row->time_ms().ci95.is_known()) return "";
     return fmt::format(R"(<path class="interval" d="M{:.1f} {:.1f}H{:.1f}"/>)", point.low, point.y,
                        point.high);
@@ -190,12 +193,12 @@ std::string interval(const Point& point) {
 
 /// Returns a row's mark: a square for ray tracing, otherwise a disc. Hovering shows the row's
 /// values.
-std::string mark(const Point& point) {
+std::string svg_row_mark(const PlotPoint& point) {
     const char* kind = point.front ? "mark front" : "mark";
     const std::string title = fmt::format(
-        "<title>{}: {} ms, FLIP {}</title>", html_escaped(point.row->label),
-        ms_text(point.row->time_ms().median), error_text(point.row->error.flip));
-    if (measure::is_ray_traced(*point.row))
+        "<title>{}: {} ms, FLIP {}</title>", escape_html(point.row->label),
+        format_ms(point.row->time_ms().median), format_error(point.row->error.flip));
+    if (measure::is_ray_traced_row(*point.row))
         return fmt::format(
             R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
             point.x - 4.5, point.y - 4.5, title);
@@ -205,9 +208,9 @@ std::string mark(const Point& point) {
 
 /// Returns the first of several places around the point where the label overlaps no earlier label,
 /// or the last place. Points on the front try the left side first, because no stairs lie there.
-Box place_label(const Point& point, const std::vector<Box>& taken) {
+LabelBox place_label(const PlotPoint& point, const std::vector<LabelBox>& taken) {
     const double width = kLetter * static_cast<double>(point.row->label.size());
-    Box box{};
+    LabelBox box{};
     for (const double rise : {0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0})
         for (const bool first : {true, false}) {
             const double x = first != point.front ? point.x + 9 : point.x - 9 - width;
@@ -215,30 +218,30 @@ Box place_label(const Point& point, const std::vector<Box>& taken) {
             box = {x, y - kLine / 2, x + width, y + kLine / 2};
             const bool inside = box.x0 >= kFrame.left && box.x1 <= kFrame.right &&
                                 box.y0 >= kFrame.top && box.y1 <= kFrame.bottom;
-            if (inside &&
-                std::ranges::none_of(taken, [&](const Box& other) { return box.meets(other); }))
+            if (inside && std::ranges::none_of(
+                              taken, [&](const LabelBox& other) { return box.meets(other); }))
                 return box;
         }
     return box;
 }
 
-std::string labels(const std::vector<Point>& points) {
-    std::vector<Box> taken;
-    for (const Point& point : points)
+std::string svg_labels(const std::vector<PlotPoint>& points) {
+    std::vector<LabelBox> taken;
+    for (const PlotPoint& point : points)
         taken.push_back({point.x - 6, point.y - 6, point.x + 6, point.y + 6});
     std::string svg;
-    for (const Point& point : points) {
-        const Box box = place_label(point, taken);
+    for (const PlotPoint& point : points) {
+        const LabelBox box = place_label(point, taken);
         taken.push_back(box);
         svg += fmt::format(R"(<text class="label" x="{:.1f}" y="{:.1f}">{}</text>)", box.x0,
-                           box.y1 - 3, html_escaped(point.row->label));
+                           box.y1 - 3, escape_html(point.row->label));
     }
     return svg;
 }
 
 } // namespace
 
-std::string line_plot(const LinePlot& plot) {
+std::string make_line_plot(const LinePlot& plot) {
     std::vector<double> positive;
     bool any = false;
     for (const PlotLine& line : plot.lines)
@@ -247,50 +250,51 @@ std::string line_plot(const LinePlot& plot) {
             if (std::isfinite(y) && y > 0) positive.push_back(y);
         }
     if (!any) return "";
-    const Scale y = log_scale(positive, kChart.lane - 6, kChart.top);
+    const LogScale y = make_log_scale(positive, kChart.lane - 6, kChart.top);
     std::string drawn = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)",
-                                    kChart.width, kChart.height, html_escaped(plot.says));
-    std::vector<Tick> x_ticks;
-    for (const double value : plot.x_ticks) x_ticks.push_back({value, x_place(plot, value)});
-    drawn += kChart.axes(x_ticks, placed(y, y_ticks(y)), plot.x_name, plot.y_name);
+                                    kChart.width, kChart.height, escape_html(plot.says));
+    std::vector<AxisTick> x_ticks;
+    for (const double value : plot.x_ticks) x_ticks.push_back({value, x_pixel(plot, value)});
+    drawn += kChart.axes(x_ticks, place_ticks(y, list_y_ticks(y)), plot.x_name, plot.y_name);
     const double count = static_cast<double>(plot.lines.size());
     for (std::size_t k = 0; k < plot.lines.size(); ++k)
-        drawn += path_of(plot, plot.lines[k], y, 0.3 + 0.7 * static_cast<double>(k + 1) / count);
-    return drawn + names(plot, y) + "</svg>";
+        drawn += svg_path_of_line(plot, plot.lines[k], y,
+                                  0.3 + 0.7 * static_cast<double>(k + 1) / count);
+    return drawn + svg_line_names(plot, y) + "</svg>";
 }
 
-std::string plot(const Comparison& comparison) {
+std::string make_comparison_plot(const Comparison& comparison) {
     std::vector<double> times, errors;
     for (const Row& row : comparison.rows) {
-        if (!can_be_placed(row)) continue;
+        if (!can_be_plotted(row)) continue;
         times.push_back(row.time_ms().median);
         if (row.error.flip > 0) errors.push_back(row.error.flip);
     }
     if (times.empty()) return "";
-    const Scale x = log_scale(times, kFrame.left, kFrame.right);
-    const Scale y = log_scale(errors, kFrame.lane - 8, kFrame.top);
-    std::vector<Point> points;
+    const LogScale x = make_log_scale(times, kFrame.left, kFrame.right);
+    const LogScale y = make_log_scale(errors, kFrame.lane - 8, kFrame.top);
+    std::vector<PlotPoint> points;
     for (const Row& row : comparison.rows) {
-        if (!can_be_placed(row)) continue;
+        if (!can_be_plotted(row)) continue;
         const measure::Interval& ci95 = row.time_ms().ci95;
         points.push_back({x(row.time_ms().median),
                           row.error.flip > 0 ? y(row.error.flip) : kFrame.zero(),
                           std::max(x(ci95.low), kFrame.left), std::min(x(ci95.high), kFrame.right),
-                          &row, measure::on_front(comparison, row)});
+                          &row, measure::is_on_front(comparison, row)});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"
         R"(against FLIP; the figures are in the table of every row">)",
         kFrame.width, kFrame.height);
-    svg += kFrame.axes(placed(x, ticks(x)),
-                       placed(y, errors.empty() ? std::vector<double>() : ticks(y)),
+    svg += kFrame.axes(place_ticks(x, list_ticks(x)),
+                       place_ticks(y, errors.empty() ? std::vector<double>() : list_ticks(y)),
                        points.front().row->moves ? "Time of a frame, host and GPU, median, ms"
                                                  : "GPU time of a frame, median, ms",
                        "FLIP over the mirrors") +
-           stairs(points);
-    for (const Point& point : points) svg += interval(point);
-    for (const Point& point : points) svg += mark(point);
-    return svg + labels(points) + "</svg>";
+           svg_front_staircase(points);
+    for (const PlotPoint& point : points) svg += svg_time_interval(point);
+    for (const PlotPoint& point : points) svg += svg_row_mark(point);
+    return svg + svg_labels(points) + "</svg>";
 }
 
 } // namespace catoptric::report

@@ -25,13 +25,13 @@ struct LinePlot {
 
 /// Returns an SVG to embed in a page. The y axis is logarithmic and values of 0 lie in a separate
 /// lane. Returns an empty text if the plot has no point.
-std::string line_plot(const LinePlot& plot);
+std::string make_line_plot(const LinePlot& plot);
 
 /// Returns the rows as an SVG: median ms against FLIP, both logarithmic. Error 0
 /// has a separate lane and the Pareto front is drawn. Empty if no row can be placed.
-std::string plot(const Comparison& comparison);
+std::string make_comparison_plot(const Comparison& comparison);
 
 /// Returns the curves of the lag as a section of a page, or an empty string without curves.
-std::string lag_plots(const Comparison& comparison);
+std::string make_lag_plots(const Comparison& comparison);
 
 } // namespace catoptric::report

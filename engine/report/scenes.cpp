@@ -9,11 +9,11 @@
 
 namespace catoptric::report {
 
-bool Scenes::is_complete() const {
+bool SceneReports::is_complete() const {
     return list.size() == asked.size() && std::ranges::all_of(list, &Comparison::complete);
 }
 
-std::string images_folder(std::size_t index, const std::string& scene) {
+std::string scene_images_folder(std::size_t index, const std::string& scene) {
     constexpr std::size_t kLongest = 40;
     std::string name;
     for (const char c : scene.substr(0, kLongest)) {
@@ -39,7 +39,7 @@ Comparison without_pictures(const Comparison& comparison) {
     return bare;
 }
 
-std::string to_json(const Scenes& scenes) {
+std::string to_json(const SceneReports& scenes) {
     Json json{{"schema", "catoptric/compare-scenes/1"}};
     if (!scenes.list.empty()) {
         const Comparison& first = scenes.list.front();
@@ -51,31 +51,31 @@ std::string to_json(const Scenes& scenes) {
     json["asked"] = scenes.asked;
     json["scenes"] = Json::array();
     for (const Comparison& comparison : scenes.list)
-        json["scenes"].push_back(document_of(comparison));
-    return written(json);
+        json["scenes"].push_back(make_report_json(comparison));
+    return serialise_json(json);
 }
 
-std::string to_csv(const Scenes& scenes, CsvColumns which) {
+std::string to_csv(const SceneReports& scenes, CsvColumns which) {
     std::vector<const Comparison*> all;
     for (const Comparison& comparison : scenes.list) all.push_back(&comparison);
     return to_csv(all, which);
 }
 
-std::string to_markdown(const Scenes& scenes) {
+std::string to_markdown(const SceneReports& scenes) {
     std::string text;
     for (const Comparison& comparison : scenes.list) text += to_markdown(comparison);
     return text;
 }
 
-std::string to_html(const Scenes& scenes, const std::vector<std::string>& sections) {
+std::string to_html(const SceneReports& scenes, const std::vector<std::string>& sections) {
     std::string content = "<nav><ul>";
     for (const Comparison& comparison : scenes.list)
-        content += "<li><a href=\"#" + section_of(comparison) + "\">" +
-                   html_escaped(comparison.scene.name) + "</a></li>";
+        content += "<li><a href=\"#" + html_id_prefix(comparison) + "\">" +
+                   escape_html(comparison.scene.name) + "</a></li>";
     content += "</ul></nav>\n";
     for (std::size_t i = 0; i < sections.size(); ++i)
-        content += "<div id=\"" + section_of(scenes.list[i]) + "\">" + sections[i] + "</div>\n";
-    return html_page(joined(scenes.asked, ", "), content);
+        content += "<div id=\"" + html_id_prefix(scenes.list[i]) + "\">" + sections[i] + "</div>\n";
+    return make_html_page(join_texts(scenes.asked, ", "), content);
 }
 
 } // namespace catoptric::report

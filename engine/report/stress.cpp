@@ -20,63 +20,64 @@ Json to_json(const StressRow& row) {
               {"verdict", name_of(row.verdict)},
               {"remark", row.remark}};
     const StressCase* worst = row.worst();
-    json["measured"] = worst ? number(worst->measured) : Json();
-    json["threshold"] = worst ? number(worst->limit) : Json();
+    json["measured"] = worst ? number_json(worst->measured) : Json();
+    json["threshold"] = worst ? number_json(worst->limit) : Json();
     json["cases"] = list_json(row.cases, [](const StressCase& one) {
         return Json{{"what", one.what},
-                    {"measured", number(one.measured)},
-                    {"threshold", number(one.limit)},
+                    {"measured", number_json(one.measured)},
+                    {"threshold", number_json(one.limit)},
                     {"holds", one.holds()},
                     {"quality", one.is_quality}};
     });
     json["pictures"] = list_json(row.pictures, [](const StressPicture& picture) {
         return "images/" + picture.name + ".png";
     });
-    json["seconds"] = number(row.seconds);
-    json["not_run"] = list_json(row.not_run, [](const NotRun& part) {
+    json["seconds"] = number_json(row.seconds);
+    json["not_run"] = list_json(row.not_run, [](const SkippedStressPart& part) {
         return Json{{"what", part.what}, {"why", part.why}};
     });
     json["turned_red_by"] = row.turned_red_by;
     return json;
 }
 
-std::string short_text(double value) { return fmt::format("{:.3g}", value); }
+std::string format_short_number(double value) { return fmt::format("{:.3g}", value); }
 
 /// Returns the worst case, the parts that are not covered and those that could not be run. If
 /// nothing was run, returns the reason.
-std::string words_of(const StressRow& row) {
+std::string describe_stress_row(const StressRow& row) {
     const StressCase* worst = row.worst();
     std::string words = worst ? worst->what : "";
     const auto add = [&](const std::string& more) {
         if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
     };
     add(row.remark);
-    for (const NotRun& part : row.not_run) add("not run: " + part.what + ": " + part.why);
+    for (const SkippedStressPart& part : row.not_run)
+        add("not run: " + part.what + ": " + part.why);
     return words;
 }
 
 /// Returns the table with one line a property: its worst case and the threshold.
-Table table_of(const Stress& stress) {
-    Table table{"Properties",
-                {text_column("Id"), text_column("Verdict"), "Measured", "Threshold",
-                 text_column("Stimulus"), text_column("Property"), text_column("Worst case"),
-                 text_column("Turned red by")},
-                ""};
+ReportTable make_stress_table(const StressResults& stress) {
+    ReportTable table{"Properties",
+                      {make_text_column("Id"), make_text_column("Verdict"), "Measured", "Threshold",
+                       make_text_column("Stimulus"), make_text_column("Property"),
+                       make_text_column("Worst case"), make_text_column("Turned red by")},
+                      ""};
     for (const StressRow& row : stress.rows) {
         const StressCase* worst = row.worst();
         table.rows.push_back({row.id, name_of(row.verdict),
-                              worst ? short_text(worst->measured) : "–",
-                              worst ? short_text(worst->limit) : "–", row.stimulus, row.property,
-                              words_of(row), row.turned_red_by});
+                              worst ? format_short_number(worst->measured) : "–",
+                              worst ? format_short_number(worst->limit) : "–", row.stimulus,
+                              row.property, describe_stress_row(row), row.turned_red_by});
     }
     return table;
 }
 
-std::string caution_of(const Stress& stress) {
-    return stress.complete ? "" : "Incomplete, " + incomplete_text(stress) + ".";
+std::string describe_stress_cautions(const StressResults& stress) {
+    return stress.complete ? "" : "Incomplete, " + describe_incomplete_run(stress) + ".";
 }
 
-std::string lead_of(const Stress& stress) {
+std::string describe_stress_result(const StressResults& stress) {
     return fmt::format(
         "{}, {}x{}, seed {}. Each row: its worst case beside the threshold, and the wrong "
         "code of tests/mutations that turns it red.",
@@ -85,28 +86,30 @@ std::string lead_of(const Stress& stress) {
 
 } // namespace
 
-std::string incomplete_text(const Stress& stress) {
-    return stress.complete ? "" : incomplete_text(stress.rows.size(), stress.asked, stress.stopped);
+std::string describe_incomplete_run(const StressResults& stress) {
+    return stress.complete
+               ? ""
+               : describe_incomplete_run(stress.rows.size(), stress.asked, stress.stopped);
 }
 
-std::string to_json(const Stress& stress) {
+std::string to_json(const StressResults& stress) {
     Json json{{"schema", "catoptric/stress/1"},
               {"version", stress.version},
               {"commit", stress.commit},
               {"command", stress.command},
               {"complete", stress.complete}};
     if (!stress.complete) {
-        json["incomplete"] = incomplete_text(stress);
+        json["incomplete"] = describe_incomplete_run(stress);
         json["rows_asked"] = stress.asked;
     }
-    json["device"] = device_json(stress.device);
+    json["device"] = make_device_json(stress.device);
     json["size"] = Json::array({stress.width, stress.height});
     json["seed"] = stress.seed;
     json["rows"] = list_json(stress.rows, [](const StressRow& row) { return to_json(row); });
-    return written(json);
+    return serialise_json(json);
 }
 
-std::string to_html(const Stress& stress) {
+std::string to_html(const StressResults& stress) {
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Rendering at the "
@@ -114,39 +117,41 @@ std::string to_html(const Stress& stress) {
         std::string(kStyle) +
         "</style></head>\n<body><header><p class=\"kicker\">Rendering at the "
         "extremes</p><h1>Stress</h1>" +
-        "<p class=\"lede\">" + html_escaped(lead_of(stress)) + "</p>" +
-        (stress.complete ? ""
-                         : "<aside class=\"caution\"><ul><li>" + html_escaped(caution_of(stress)) +
-                               "</li></ul></aside>") +
+        "<p class=\"lede\">" + escape_html(describe_stress_result(stress)) + "</p>" +
+        (stress.complete
+             ? ""
+             : "<aside class=\"caution\"><ul><li>" + escape_html(describe_stress_cautions(stress)) +
+                   "</li></ul></aside>") +
         "</header><main><section><div class=\"scroll\"><table class=\"words\"><thead><tr>";
-    const Table table = table_of(stress);
-    for (const Column& column : table.columns)
+    const ReportTable table = make_stress_table(stress);
+    for (const TableColumn& column : table.columns)
         html += fmt::format("<th{} scope=\"col\">{}</th>",
-                            column.is_number ? "" : " class=\"text\"", html_escaped(column.name));
+                            column.is_number ? "" : " class=\"text\"", escape_html(column.name));
     html += "</tr></thead><tbody>\n";
     for (const std::vector<std::string>& row : table.rows) {
         html += "<tr>";
         for (std::size_t i = 0; i < row.size(); ++i)
             html += fmt::format("<td{}>{}</td>",
                                 table.columns[i].is_number ? "" : " class=\"text\"",
-                                html_escaped(row[i]));
+                                escape_html(row[i]));
         html += "</tr>\n";
     }
     html += "</tbody></table></div></section>\n";
     for (const StressRow& row : stress.rows)
         for (const StressPicture& picture : row.pictures)
-            html += figure(picture.width, picture.height, picture.png, picture.name, picture.name) +
+            html += html_figure(picture.width, picture.height, picture.png, picture.name,
+                                picture.name) +
                     "\n";
     return html + "</main></body></html>\n";
 }
 
-std::string to_markdown(const Stress& stress) {
-    return "# Rendering at the extremes\n\n" + lead_of(stress) + "\n\n" +
-           (stress.complete ? "" : "> " + caution_of(stress) + "\n\n") +
-           to_markdown(table_of(stress));
+std::string to_markdown(const StressResults& stress) {
+    return "# Rendering at the extremes\n\n" + describe_stress_result(stress) + "\n\n" +
+           (stress.complete ? "" : "> " + describe_stress_cautions(stress) + "\n\n") +
+           to_markdown(make_stress_table(stress));
 }
 
-void StressWriter::write(const Stress& stress) {
+void StressWriter::write(const StressResults& stress) {
     create_folder(folder_ / "images");
     for (; rows_ < stress.rows.size(); ++rows_)
         for (const StressPicture& picture : stress.rows[rows_].pictures)

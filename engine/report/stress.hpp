@@ -10,22 +10,22 @@
 namespace catoptric::report {
 
 using measure::name_of;
-using measure::NotRun;
-using measure::Stress;
+using measure::SkippedStressPart;
 using measure::StressCase;
 using measure::StressPicture;
+using measure::StressResults;
 using measure::StressRow;
-using measure::Verdict;
+using measure::StressVerdict;
 
 /// Returns the results as JSON, schema "catoptric/stress/1".
-std::string to_json(const Stress& stress);
+std::string to_json(const StressResults& stress);
 /// Returns the results as one self-contained HTML page.
-std::string to_html(const Stress& stress);
+std::string to_html(const StressResults& stress);
 /// Returns the same table as Markdown.
-std::string to_markdown(const Stress& stress);
+std::string to_markdown(const StressResults& stress);
 /// Returns "2 of 27 rows: ..." for a run that goes on or was stopped, or an empty text if it is
 /// complete.
-std::string incomplete_text(const Stress& stress);
+std::string describe_incomplete_run(const StressResults& stress);
 
 /// Writes the results of the finished rows into a folder, which is made as for a comparison. Files:
 /// stress.json, stress.html, stress.md and images/ID-*.png. `write` is called again as rows are
@@ -34,7 +34,7 @@ class StressWriter {
 public:
     explicit StressWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
     /// Writes all files. Throws `cannot_create`, `io`.
-    void write(const Stress& stress);
+    void write(const StressResults& stress);
 
 private:
     std::filesystem::path folder_;

@@ -13,56 +13,57 @@
 // left out if the comparison lacks the rows it needs.
 namespace catoptric::report {
 
-struct Column {
-    Column(std::string title) : name(std::move(title)) {}
-    Column(const char* title) : name(title) {}
+struct TableColumn {
+    TableColumn(std::string title) : name(std::move(title)) {}
+    TableColumn(const char* title) : name(title) {}
     std::string name;
     bool is_number = true; ///< right-aligned
 };
 /// Returns a column of text.
-Column text_column(const char* title);
+TableColumn make_text_column(const char* title);
 
-struct Table {
+struct ReportTable {
     std::string title;
-    std::vector<Column> columns;
+    std::vector<TableColumn> columns;
     std::string note; ///< meaning of the columns; may be empty
     std::vector<std::vector<std::string>> rows = {};
     std::vector<bool> marked = {}; ///< rows to highlight; empty or one entry a row
 };
 
 /// Returns the text of a number in a metric's column. `decimals` is that of times in the table.
-std::string number_text(double value, const measure::MetricColumn& column, int decimals = 0);
+std::string format_metric_number(double value, const measure::MetricColumn& column,
+                                 int decimals = 0);
 /// Returns a pipe table under its title. Its columns also line up as plain text. Empty if the table
 /// has no rows.
-std::string to_markdown(const Table& table);
+std::string to_markdown(const ReportTable& table);
 
-/// Returns the seed report's Table 1 beside our measurements.
-Table seed_table(const Comparison& comparison);
+/// Returns the seed report's ReportTable 1 beside our measurements.
+ReportTable make_seed_table(const Comparison& comparison);
 /// Returns the table of all rows with all its metrics. Rows on the Pareto front are marked.
-Table rows_table(const Comparison& comparison);
+ReportTable make_rows_table(const Comparison& comparison);
 /// Returns the technique of each mirror, for rows that are plans. Without such rows the table is
 /// empty.
-Table plan_table(const Comparison& comparison);
+ReportTable make_plan_table(const Comparison& comparison);
 /// Returns FLIP of each mirror.
-Table mirror_table(const Comparison& comparison);
+ReportTable make_mirror_table(const Comparison& comparison);
 /// Returns the errors of looked-up directions, for rows that search. Without such rows the table is
 /// empty.
-Table lookup_table(const Comparison& comparison);
+ReportTable make_lookup_table(const Comparison& comparison);
 /// Returns the unsupported features of the scene. The table is empty if the scene file has none.
-Table unsupported_table(const SceneFacts& scene);
+ReportTable make_unsupported_table(const SceneFacts& scene);
 /// Returns a text that says how an unsupported feature is left out, approximated or replaced. Empty
 /// for an unknown id.
-std::string gap_in_words(const std::string& id);
+std::string describe_unsupported_feature(const std::string& id);
 /// Returns the error by cause with four lines a row. Empty if no row has causes.
-Table cause_table(const Comparison& comparison);
+ReportTable make_cause_table(const Comparison& comparison);
 /// Returns each row's metrics over the mirrors in drawn views, as median and interval, and its
 /// worst view. Empty if no views were drawn.
-Table views_table(const Comparison& comparison);
+ReportTable make_views_table(const Comparison& comparison);
 /// Returns the lag of each row at each speed. Empty if no lag was measured.
-Table lag_table(const Comparison& comparison);
+ReportTable make_lag_table(const Comparison& comparison);
 /// Returns the table of how many frames after a cut pass until the picture equals the still
 /// picture. Empty if no lag was measured.
-Table settling_table(const Comparison& comparison);
+ReportTable make_settling_table(const Comparison& comparison);
 
 /// Colour in which pictures show a cause.
 struct CauseColour {
@@ -72,40 +73,40 @@ struct CauseColour {
 
 /// Returns the colours of all causes, in the order of Causes::list. Colour-blind readers can tell
 /// them apart, too (Okabe, Ito).
-std::span<const CauseColour> cause_colours();
+std::span<const CauseColour> list_cause_colours();
 
 /// Returns the row's picture, dark and grey. Each mirror pixel that is off has the colour of the
 /// cause with the largest part of its squared error. The row must have `causes`.
-measure::Picture cause_picture(const Row& row);
+measure::Picture make_cause_picture(const Row& row);
 
 /// A line at the head of a report, such as "Device": name and value.
-struct Fact {
+struct ReportFact {
     std::string name;
     std::string value;
 };
-std::vector<Fact> facts(const Comparison& comparison);
+std::vector<ReportFact> list_report_facts(const Comparison& comparison);
 /// Returns the set-up costs in one line, which stands above the rows.
-std::string setup_text(const SetupFacts& setup);
+std::string describe_setup_times(const SetupFacts& setup);
 /// Returns cautions for the reader: a processor as device, a run cut short, rows measured together,
 /// warnings.
-std::vector<std::string> cautions(const Comparison& comparison);
+std::vector<std::string> list_cautions(const Comparison& comparison);
 
 /// Returns the findings of a run. For the seed report's scene they include its statements about its
 /// Table 1 and figures 5 and 7.
-std::vector<std::string> findings(const Comparison& comparison);
-std::string findings_title(const Comparison& comparison);
+std::vector<std::string> list_findings(const Comparison& comparison);
+std::string make_findings_title(const Comparison& comparison);
 
 /// Returns one sentence that names the device and says whether ray tracing beats the other rows on
 /// it. If all rows are of one kind, it names the fastest and the closest row.
-std::string verdict_in_words(const Comparison& comparison);
+std::string summarise_verdict(const Comparison& comparison);
 
 /// Returns sentences that compare the measured lag with the seed report's statement that parts one
 /// and two show no difference, and which rows have no lag.
-std::optional<std::string> lag_in_words(const Comparison& comparison);
+std::optional<std::string> describe_lag(const Comparison& comparison);
 /// Returns the order of the rows over drawn views by each headline metric, and which of them tie.
-std::vector<std::string> views_in_words(const Comparison& comparison);
+std::vector<std::string> describe_views(const Comparison& comparison);
 
 /// Returns the Pareto front in words: the rows on it, and which row beats each of the others.
-std::vector<std::string> front_in_words(const Comparison& comparison);
+std::vector<std::string> describe_front(const Comparison& comparison);
 
 } // namespace catoptric::report

@@ -12,32 +12,32 @@ namespace catoptric::report {
 inline constexpr std::string_view kNothing = "–";
 
 /// Returns the value with this many decimals, or "–" for NaN and infinities.
-std::string fixed(double value, int decimals);
+std::string format_fixed(double value, int decimals);
 /// Returns an error in 0..1 with four decimals, "0" for exactly 0, or a power of ten below 0.0001.
-std::string error_text(double error);
+std::string format_error(double error);
 /// Returns milliseconds with three significant digits.
-std::string ms_text(double ms);
+std::string format_ms(double ms);
 /// Returns the decimals with which the fastest row still has three significant digits. A table uses
 /// one number of decimals so that its columns line up.
-int ms_decimals(const Comparison& comparison);
+int choose_ms_decimals(const Comparison& comparison);
 /// Returns 1000 / ms with three significant digits, or "–" if no time passed.
-std::string fps_text(double ms);
-std::string mebibytes(std::uint64_t bytes);
+std::string format_fps(double ms);
+std::string format_mebibytes(std::uint64_t bytes);
 /// Returns the path of a picture of the comparison, relative to the report's folder.
-std::string image_path(const Comparison& comparison, const std::string& file);
+std::string report_image_path(const Comparison& comparison, const std::string& file);
 /// Returns the settings as text: "bounces=3, face=256".
-std::string settings_text(const Row& row);
+std::string format_settings(const Row& row);
 /// Returns how many of the requested rows a run has, and why it has no more: "4 of 8 rows: ...".
-std::string incomplete_text(std::size_t rows, std::size_t asked,
-                            const std::optional<Error>& stopped);
+std::string describe_incomplete_run(std::size_t rows, std::size_t asked,
+                                    const std::optional<Error>& stopped);
 /// Returns the same for a comparison, its lag included. Empty if it is complete.
-std::string incomplete_text(const Comparison& comparison);
-std::string joined(const std::vector<std::string>& parts, std::string_view between);
-std::string labels_of(const std::vector<const Row*>& rows, std::string_view between = ", ");
+std::string describe_incomplete_run(const Comparison& comparison);
+std::string join_texts(const std::vector<std::string>& parts, std::string_view between);
+std::string join_row_labels(const std::vector<const Row*>& rows, std::string_view between = ", ");
 /// Returns "view 3 of 30: --camera ... --time ...", the options with which `render` shows the view
 /// again.
-std::string view_text(const Comparison& comparison, const measure::WorstView& worst);
+std::string describe_worst_view(const Comparison& comparison, const measure::WorstView& worst);
 /// Returns the file name of a row's picture at its worst view, from its Row::image.
-std::string worst_image(const std::string& image);
+std::string worst_view_image_name(const std::string& image);
 
 } // namespace catoptric::report

@@ -13,59 +13,60 @@ namespace catoptric::report {
 
 namespace {
 
-struct Figure {
+struct ViewMetric {
     const measure::Metric* quantity;
     const measure::MetricColumn* column;
 };
 
 /// Returns the metrics of differences that the table of rows shows, too.
-std::vector<Figure> figures() {
-    std::vector<Figure> list;
-    for (const measure::Metric& quantity : measure::difference_metrics())
+std::vector<ViewMetric> list_view_metrics() {
+    std::vector<ViewMetric> list;
+    for (const measure::Metric& quantity : measure::list_difference_metrics())
         for (const measure::MetricColumn& column : quantity.columns)
-            if (measure::is_number(quantity)) list.push_back({&quantity, &column});
+            if (measure::is_single_number(quantity)) list.push_back({&quantity, &column});
     return list;
 }
 
-std::string cell(const Row& row, const Figure& figure) {
-    const measure::OverViews over = measure::over_views(row, measure::masks().front(),
-                                                        *figure.quantity);
+std::string format_view_cell(const Row& row, const ViewMetric& figure) {
+    const measure::MetricOverViews over = measure::metric_over_views(
+        row, measure::list_row_masks().front(), *figure.quantity);
     const measure::MetricColumn& column = *figure.column;
-    const std::string median = number_text(over.median, column);
+    const std::string median = format_metric_number(over.median, column);
     if (!over.ci95.is_known()) return median;
-    return fmt::format("{} [{}–{}]", median, number_text(over.ci95.low, column),
-                       number_text(over.ci95.high, column));
+    return fmt::format("{} [{}–{}]", median, format_metric_number(over.ci95.low, column),
+                       format_metric_number(over.ci95.high, column));
 }
 
 /// Returns the title of the metric's column without the unit.
-std::string_view title_of(const measure::Metric& quantity) {
+std::string_view metric_title(const measure::Metric& quantity) {
     const std::string_view title = quantity.columns.front().title;
     return title.substr(0, title.find(','));
 }
 
-std::string pairs_of(const measure::Order::Pairs& list) {
+std::string format_row_pairs(const measure::RowOrder::RowPairs& list) {
     std::vector<std::string> pairs;
     for (const auto& [a, b] : list) pairs.push_back(a->label + " and " + b->label);
-    return joined(pairs, "; ");
+    return join_texts(pairs, "; ");
 }
 
-std::string ties_text(const measure::Order& order) {
+std::string format_ties(const measure::RowOrder& order) {
     const std::size_t pairs = order.rows.size() * (order.rows.size() - 1) / 2;
     if (order.ties.size() == pairs) return "No two of them are apart.";
-    std::string text = order.ties.empty()
-                           ? "Every two of them are apart."
-                           : "Ties: " + pairs_of(order.ties) + ". All other pairs are apart.";
-    if (!order.reversed.empty()) text += " The other way round: " + pairs_of(order.reversed) + ".";
+    std::string text = order.ties.empty() ? "Every two of them are apart."
+                                          : "Ties: " + format_row_pairs(order.ties) +
+                                                ". All other pairs are apart.";
+    if (!order.reversed.empty())
+        text += " The other way round: " + format_row_pairs(order.reversed) + ".";
     return text;
 }
 
 /// Returns all metrics that are one number, over one mask.
-Json figures_json(const Row& row, const measure::RowMask& mask) {
+Json make_view_metrics_json(const Row& row, const measure::RowMask& mask) {
     Json figures = Json::object();
-    for (const measure::Metric& quantity : measure::difference_metrics()) {
-        if (!measure::is_number(quantity)) continue;
-        const measure::OverViews over = measure::over_views(row, mask, quantity);
-        figures[std::string(quantity.name)] = {{"median", number(over.median)},
+    for (const measure::Metric& quantity : measure::list_difference_metrics()) {
+        if (!measure::is_single_number(quantity)) continue;
+        const measure::MetricOverViews over = measure::metric_over_views(row, mask, quantity);
+        figures[std::string(quantity.name)] = {{"median", number_json(over.median)},
                                                {"ci95", interval_json(over.ci95)},
                                                {"values", value_json(over.values)}};
     }
@@ -78,20 +79,21 @@ std::string worst_pictures(const Comparison& comparison, const EncodedPictures& 
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
         if (!row.worst) continue;
-        const std::string where = view_text(comparison, *row.worst);
-        html += figure(row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
-                       row.label + ", to its right the reference, at " + where,
-                       row.label + ": " + where);
+        const std::string where = describe_worst_view(comparison, *row.worst);
+        html += html_figure(
+            row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
+            row.label + ", to its right the reference, at " + where, row.label + ": " + where);
     }
-    return section("Worst views", html);
+    return html_titled_section("Worst views", html);
 }
 
 const RegisteredPart kViewsPart{
     {.name = "views",
      .order = 100,
-     .tables = [](const Comparison& comparison) { return std::vector{views_table(comparison)}; },
+     .tables =
+         [](const Comparison& comparison) { return std::vector{make_views_table(comparison)}; },
      .look = "views",
-     .sentences = views_in_words,
+     .sentences = describe_views,
      .title = "Apart and ties",
      .pictures = worst_pictures}};
 
@@ -99,55 +101,58 @@ const RegisteredPart kViewsPart{
 
 Json views_json(const Comparison& comparison) {
     return list_json(comparison.views, [](const measure::View& view) {
-        return Json{
-            {"camera", camera_json(view.camera)}, {"time", number(view.time)}, {"seed", view.seed}};
+        return Json{{"camera", camera_json(view.camera)},
+                    {"time", number_json(view.time)},
+                    {"seed", view.seed}};
     });
 }
 
 Json views_json(const Comparison& comparison, const Row& row) {
     if (row.views.empty()) return nullptr;
     Json json = Json::object();
-    for (const measure::RowMask& mask : measure::masks())
-        json[std::string(mask.field)] = figures_json(row, mask);
+    for (const measure::RowMask& mask : measure::list_row_masks())
+        json[std::string(mask.field)] = make_view_metrics_json(row, mask);
     json["worst"] = nullptr;
     if (row.worst)
-        json["worst"] = {{"view", row.worst->view},
-                         {"flip", number(row.views[row.worst->view].error.flip)},
-                         {"image", image_path(comparison, worst_image(row.image))}};
+        json["worst"] = {
+            {"view", row.worst->view},
+            {"flip", number_json(row.views[row.worst->view].error.flip)},
+            {"image", report_image_path(comparison, worst_view_image_name(row.image))}};
     return json;
 }
 
-Table views_table(const Comparison& comparison) {
-    Table table{
+ReportTable make_views_table(const Comparison& comparison) {
+    ReportTable table{
         fmt::format("Over {} views", comparison.views.size()),
-        {text_column("Row")},
+        {make_text_column("Row")},
         "Cameras drawn from the seed that see a mirror, at drawn instants where the scene "
         "moves; each row's picture as render takes it. Over the pixels whose first hit is "
         "a mirror: median over the views, and its 95 % interval by order statistics. Worst: "
         "the largest FLIP, and the options that render it again."};
     if (comparison.views.empty()) return table;
-    const std::vector<Figure> columns = figures();
-    for (const Figure& figure : columns)
+    const std::vector<ViewMetric> columns = list_view_metrics();
+    for (const ViewMetric& figure : columns)
         table.columns.emplace_back(std::string(figure.column->title));
     table.columns.emplace_back("Worst FLIP");
-    table.columns.push_back(text_column("Worst view"));
+    table.columns.push_back(make_text_column("Worst view"));
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
-        for (const Figure& figure : columns) cells.push_back(cell(row, figure));
-        cells.push_back(row.worst ? error_text(row.views[row.worst->view].error.flip)
+        for (const ViewMetric& figure : columns) cells.push_back(format_view_cell(row, figure));
+        cells.push_back(row.worst ? format_error(row.views[row.worst->view].error.flip)
                                   : std::string(kNothing));
-        cells.push_back(row.worst ? view_text(comparison, *row.worst) : std::string(kNothing));
+        cells.push_back(row.worst ? describe_worst_view(comparison, *row.worst)
+                                  : std::string(kNothing));
         table.rows.push_back(std::move(cells));
     }
     return table;
 }
 
-std::vector<std::string> views_in_words(const Comparison& comparison) {
+std::vector<std::string> describe_views(const Comparison& comparison) {
     std::vector<std::string> sentences;
-    for (const measure::Order& order : measure::orders_over_views(comparison))
+    for (const measure::RowOrder& order : measure::order_rows_over_views(comparison))
         sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
-                                        title_of(*order.figure), labels_of(order.rows),
-                                        ties_text(order)));
+                                        metric_title(*order.figure), join_row_labels(order.rows),
+                                        format_ties(order)));
     if (!sentences.empty())
         sentences.emplace_back(
             "Two rows are apart where the 95 % interval of their difference, view by view, "

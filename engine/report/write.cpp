@@ -33,7 +33,7 @@ void create_folder(const fs::path& folder) {
 namespace {
 
 /// Returns the folder of a comparison's pictures, which is made.
-fs::path make_images(const fs::path& folder, const Comparison& comparison) {
+fs::path make_images_folder(const fs::path& folder, const Comparison& comparison) {
     fs::path images = folder / "images";
     if (!comparison.images.empty()) images /= comparison.images;
     create_folder(images);
@@ -42,8 +42,8 @@ fs::path make_images(const fs::path& folder, const Comparison& comparison) {
 
 /// Writes the report on `shown`, one comparison or several scenes.
 template <class Shown>
-void write_texts(const fs::path& folder, const Shown& shown, CsvColumns csv,
-                 const std::string& html) {
+void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumns csv,
+                        const std::string& html) {
     write_file(folder / "rows.csv", report::to_csv(shown, csv));
     write_file(folder / "report.md", report::to_markdown(shown));
     write_file(folder / "report.html", html);
@@ -53,10 +53,11 @@ void write_texts(const fs::path& folder, const Shown& shown, CsvColumns csv,
 
 } // namespace
 
-void encode_new(EncodedPictures& pictures, const Comparison& comparison, const fs::path& images) {
+void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison,
+                         const fs::path& images) {
     const auto encode = [&](std::string& png, const measure::Picture& picture,
                             const std::string& file) {
-        std::string bytes = picture.pixels.empty() ? "" : measure::png_bytes(picture);
+        std::string bytes = picture.pixels.empty() ? "" : measure::encode_picture_png(picture);
         if (!images.empty() && !bytes.empty()) write_file(images / file, bytes);
         png = std::move(bytes); // a picture that could not be written stays new
     };
@@ -65,64 +66,67 @@ void encode_new(EncodedPictures& pictures, const Comparison& comparison, const f
     pictures.rows.resize(comparison.rows.size());
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
-        EncodedPictures::OfRow& encoded = pictures.rows[i];
+        EncodedPictures::RowPictures& encoded = pictures.rows[i];
         if (encoded.pictured != row.pictured) {
             if (!images.empty() && !row.hdr.pixels.empty())
                 measure::write_exr(row.hdr, images / (row.image + ".exr"));
             encode(encoded.picture, row.display, row.image + ".png");
             const bool has_map = !row.flip_map.empty();
             encode(encoded.error,
-                   has_map ? measure::heat(row.flip_map, row.display.width, row.display.height)
-                           : measure::Picture(),
+                   has_map
+                       ? measure::make_heat_map(row.flip_map, row.display.width, row.display.height)
+                       : measure::Picture(),
                    row.image + "-error.png");
             encoded.pictured = row.pictured;
         }
         if (row.causes && encoded.causes.empty())
-            encode(encoded.causes, cause_picture(row), "causes-" + row.image + ".png");
+            encode(encoded.causes, make_cause_picture(row), "causes-" + row.image + ".png");
         if (row.worst && encoded.worst_view != row.worst->view) {
-            encode(encoded.worst, row.worst->display, worst_image(row.image));
+            encode(encoded.worst, row.worst->display, worst_view_image_name(row.image));
             encoded.worst_view = row.worst->view;
         }
     }
 }
 
-void Writer::write(const Comparison& comparison) {
-    encode_new(pictures_, comparison, make_images(folder_, comparison));
-    write_texts(folder_, comparison, csv_, to_html(comparison, pictures_));
+void ReportWriter::write(const Comparison& comparison) {
+    encode_new_pictures(pictures_, comparison, make_images_folder(folder_, comparison));
+    write_report_texts(folder_, comparison, csv_, to_html(comparison, pictures_));
 }
 
-std::vector<fs::path> files_of(const std::vector<std::string>& images, const std::string& folder) {
+std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
+                                        const std::string& folder) {
     const fs::path there = fs::path("images") / folder;
     std::vector<fs::path> files{"report.json", "report.html", "report.md", "rows.csv",
                                 there / "reference.png"};
     for (const std::string& image : images) {
         for (const char* ending : {".exr", ".png", "-error.png"})
             files.push_back(there / (image + ending));
-        for (const std::string& more : {"causes-" + image + ".png", worst_image(image)})
+        for (const std::string& more : {"causes-" + image + ".png", worst_view_image_name(image)})
             files.push_back(there / more);
     }
     return files;
 }
 
-ScenesWriter::ScenesWriter(fs::path folder, const std::vector<std::string>& scenes, CsvColumns csv)
+MultiSceneWriter::MultiSceneWriter(fs::path folder, const std::vector<std::string>& scenes,
+                                   CsvColumns csv)
     : folder_(std::move(folder)), csv_(csv) {
     scenes_.asked = scenes;
 }
 
-void ScenesWriter::write(std::size_t index, const Comparison& comparison) {
+void MultiSceneWriter::write(std::size_t index, const Comparison& comparison) {
     if (scenes_.list.size() == index) {
         scenes_.list.emplace_back();
         pictures_.emplace_back();
         sections_.emplace_back();
     }
-    encode_new(pictures_.at(index), comparison, make_images(folder_, comparison));
-    sections_[index] = html_section(comparison, pictures_[index]);
+    encode_new_pictures(pictures_.at(index), comparison, make_images_folder(folder_, comparison));
+    sections_[index] = make_html_section(comparison, pictures_[index]);
     scenes_.list[index] = without_pictures(comparison);
-    write_texts(folder_, scenes_, csv_, to_html(scenes_, sections_));
+    write_report_texts(folder_, scenes_, csv_, to_html(scenes_, sections_));
 }
 
 void write(const Comparison& comparison, const fs::path& folder) {
-    Writer(folder).write(comparison);
+    ReportWriter(folder).write(comparison);
 }
 
 } // namespace catoptric::report

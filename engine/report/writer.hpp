@@ -18,7 +18,7 @@ enum class CsvColumns : std::uint8_t {
 };
 /// Pictures of a comparison as PNG. Each is encoded once, however often the page is written.
 struct EncodedPictures {
-    struct OfRow {
+    struct RowPictures {
         int pictured = -1;   ///< Row::pictured at the time of encoding
         std::string picture; ///< picture as displayed
         /// Heat map of the row's FLIP error; empty if the row has no such picture.
@@ -30,14 +30,14 @@ struct EncodedPictures {
         std::optional<std::size_t> worst_view;
     };
     std::string reference; ///< empty if the reference was not rendered
-    std::vector<OfRow> rows;
+    std::vector<RowPictures> rows;
 };
 
 /// Encodes pictures that are new since the last call. Rows are added, show a later frame or get
 /// causes, and their worst views may change. Writes the new pictures into the folder `images`,
 /// unless it is empty.
-void encode_new(EncodedPictures& pictures, const Comparison& comparison,
-                const std::filesystem::path& images = {});
+void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison,
+                         const std::filesystem::path& images = {});
 
 /// Returns rows.csv with these columns.
 std::string to_csv(const Comparison& comparison, CsvColumns which);
@@ -48,9 +48,9 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
 /// images/<row>-error.png and images/reference.png. Rows with causes add images/causes-<row>.png,
 /// and drawn views add images/worst-<row>.png. `write` is called again as rows are added. It
 /// replaces only pictures that changed and all other files, each as a whole.
-class Writer {
+class ReportWriter {
 public:
-    explicit Writer(std::filesystem::path folder, CsvColumns csv = CsvColumns::table)
+    explicit ReportWriter(std::filesystem::path folder, CsvColumns csv = CsvColumns::table)
         : folder_(std::move(folder)), csv_(csv) {}
     /// Writes the comparison. Rows that an earlier call wrote must be unchanged. Throws
     /// `cannot_create`, `io`.
@@ -63,7 +63,7 @@ private:
 };
 
 /// Data of one report on several scenes.
-struct Scenes {
+struct SceneReports {
     std::vector<std::string> asked; ///< scenes as the user named them
     std::vector<Comparison> list;   ///< finished comparisons, each with its own `images`
     /// Returns whether the list has a complete comparison of every requested scene.
@@ -71,36 +71,37 @@ struct Scenes {
 };
 /// Returns JSON of schema "catoptric/compare-scenes/1": version, commit, command, complete, asked,
 /// and in "scenes" the document of each scene.
-std::string to_json(const Scenes& scenes);
-std::string to_csv(const Scenes& scenes, CsvColumns which = CsvColumns::table);
-std::string to_markdown(const Scenes& scenes);
+std::string to_json(const SceneReports& scenes);
+std::string to_csv(const SceneReports& scenes, CsvColumns which = CsvColumns::table);
+std::string to_markdown(const SceneReports& scenes);
 /// Returns the page of all scenes. `sections` holds html_section of each.
-std::string to_html(const Scenes& scenes, const std::vector<std::string>& sections);
+std::string to_html(const SceneReports& scenes, const std::vector<std::string>& sections);
 /// Returns the folder below images/ of the scene at `index`, from 0, such as "1-room/".
-std::string images_folder(std::size_t index, const std::string& scene);
+std::string scene_images_folder(std::size_t index, const std::string& scene);
 /// Returns a copy without pictures, because they take most of the memory.
 Comparison without_pictures(const Comparison& comparison);
 
-/// Writes several scenes one after the other as Writer does, with pictures in images/N-SCENE/.
-class ScenesWriter {
+/// Writes several scenes one after the other as ReportWriter does, with pictures in
+/// images/N-SCENE/.
+class MultiSceneWriter {
 public:
-    ScenesWriter(std::filesystem::path folder, const std::vector<std::string>& scenes,
-                 CsvColumns csv = CsvColumns::table);
+    MultiSceneWriter(std::filesystem::path folder, const std::vector<std::string>& scenes,
+                     CsvColumns csv = CsvColumns::table);
     /// Writes the scene at `index`, from 0. Scenes before it stay unchanged.
     void write(std::size_t index, const Comparison& comparison);
-    const Scenes& scenes() const { return scenes_; }
+    const SceneReports& scenes() const { return scenes_; }
 
 private:
     std::filesystem::path folder_;
     CsvColumns csv_;
-    Scenes scenes_;
+    SceneReports scenes_;
     std::vector<EncodedPictures> pictures_; ///< encoded pictures of each scene
     std::vector<std::string> sections_;     ///< html_section of each scene
 };
 
 /// Returns the files that a writer may put into its folder, relative to it, for rows with these
 /// `Row::image`s. `folder` is Comparison::images.
-std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images,
-                                            const std::string& folder = {});
+std::vector<std::filesystem::path> list_report_files(const std::vector<std::string>& images,
+                                                     const std::string& folder = {});
 
 } // namespace catoptric::report

@@ -10,12 +10,12 @@ namespace catoptric::require {
 
 namespace {
 
-Bounds<double> seen_from(const dvec3& centre, const Bounds<double>& box) {
+Bounds<double> bounds_relative_to(const dvec3& centre, const Bounds<double>& box) {
     return {box.lo - centre, box.hi - centre};
 }
 
-bool may_be_small(const World& world, const WorldObject& thing) {
-    Bounds<double> around = world.still();
+bool may_look_small(const VisibilityWorld& world, const WorldObject& thing) {
+    Bounds<double> around = world.static_bounds();
     around.add(thing.box);
     const auto largest = [](const dvec3& v) { return std::max({v.x, v.y, v.z}); };
     return largest(thing.tight.extent()) < kSmall * largest(around.extent());
@@ -23,7 +23,7 @@ bool may_be_small(const World& world, const WorldObject& thing) {
 
 } // namespace
 
-void ContentHashes::follow(const World& world, std::uint32_t shadow_edge) {
+void ContentHashes::move_to_instant(const VisibilityWorld& world, std::uint32_t shadow_edge) {
     const bool is_anew = layout_ != world.layouts();
     if (!world.has_changed() && !is_anew && shadow_edge_ == shadow_edge) return;
     if (is_anew) mirrors_.assign(world.mirrors().size(), {});
@@ -37,12 +37,13 @@ void ContentHashes::follow(const World& world, std::uint32_t shadow_edge) {
                movers * mirrors > kMostPairs;
     landings_.clear();
     if (is_much_) return;
-    find_landings(world, shadow_edge, landings_);
+    find_shadow_receivers(world, shadow_edge, landings_);
     is_much_ = landings_.size() * mirrors > kMostLandings;
 }
 
-const ContentHashes::Faces6& ContentHashes::of_faces(const World& world, std::size_t mirror) {
-    Faces6& faces = mirrors_[mirror];
+const ContentHashes::FaceHashes& ContentHashes::face_hashes_of_mirror(const VisibilityWorld& world,
+                                                                      std::size_t mirror) {
+    FaceHashes& faces = mirrors_[mirror];
     const std::size_t object = world.mirrors()[mirror];
     const WorldObject& own = world.things()[object];
     if (faces.made_at == changes_) return faces;
@@ -51,19 +52,20 @@ const ContentHashes::Faces6& ContentHashes::of_faces(const World& world, std::si
     if (is_much_ || own.has_moved || own.box.empty())
         faces.content_hashes.fill(ContentHash(all_).add(mirror).value());
     else
-        add_up(world, faces, mirror);
+        combine_face_hashes(world, faces, mirror);
     return faces;
 }
 
-void ContentHashes::add_up(const World& world, Faces6& faces, std::size_t mirror) const {
+void ContentHashes::combine_face_hashes(const VisibilityWorld& world, FaceHashes& faces,
+                                        std::size_t mirror) const {
     const std::size_t object = world.mirrors()[mirror];
     const WorldObject& own = world.things()[object];
     const dvec3 centre = own.tight.centre();
     // Hashes are summed, because the order of the movers has no meaning.
     std::array<std::uint64_t, 6> sums{};
-    const auto pieces = std::make_shared<Pieces>();
+    const auto pieces = std::make_shared<FacePieces>();
     bool are_many = false;
-    const auto add = [&](Faces which, std::uint64_t content_hash, auto&& part_of) {
+    const auto add = [&](FaceBits which, std::uint64_t content_hash, auto&& part_of) {
         for (int face = 0; face < 6; ++face) {
             if ((which >> face & 1) == 0) continue;
             sums[face] += content_hash;
@@ -74,21 +76,25 @@ void ContentHashes::add_up(const World& world, Faces6& faces, std::size_t mirror
     for (const std::size_t mover : world.movers()) {
         const WorldObject& thing = world.things()[mover];
         if (mover == object || thing.box.empty()) continue;
-        const Bounds<double> box = seen_from(centre, thing.box);
-        if (may_be_small(world, thing))
+        const Bounds<double> box = bounds_relative_to(centre, thing.box);
+        if (may_look_small(world, thing))
             add(kAllFaces, thing.content_hash, [](int) { return FacePart(); });
         else
-            add(faces_with(box) & faces_with(thing.middle - centre, thing.radius),
-                thing.content_hash, [&](int face) { return part_with(face, box); });
+            add(faces_that_may_show_box(box) &
+                    faces_that_may_show_box(thing.middle - centre, thing.radius),
+                thing.content_hash, [&](int face) { return face_part_containing(face, box); });
     }
-    for (const Landing& landing : landings_) {
+    for (const ShadowReceiver& landing : landings_) {
         if (landing.receiver == object) continue;
-        const Bounds<double> box = seen_from(centre, landing.box),
-                             from = seen_from(centre, landing.shade.from),
-                             to = seen_from(centre, landing.shade.to);
-        add(faces_with(box) & faces_with(from, to),
+        const Bounds<double> box = bounds_relative_to(centre, landing.box),
+                             from = bounds_relative_to(centre, landing.shade.from),
+                             to = bounds_relative_to(centre, landing.shade.to);
+        add(faces_that_may_show_box(box) & faces_that_may_show_box(from, to),
             ContentHash(world.things()[landing.caster].content_hash).add(landing.receiver).value(),
-            [&](int face) { return common(part_with(face, box), part_with(face, from, to)); });
+            [&](int face) {
+                return intersect_face_parts(face_part_containing(face, box),
+                                            face_part_containing(face, from, to));
+            });
     }
     for (std::size_t face = 0; face < 6; ++face) {
         faces.settings[face] =
@@ -100,8 +106,8 @@ void ContentHashes::add_up(const World& world, Faces6& faces, std::size_t mirror
     faces.pieces = pieces;
 }
 
-std::vector<Caster> ContentHashes::casters(const World& world) const {
-    std::vector<Caster> casters;
+std::vector<ShadowCaster> ContentHashes::casters(const VisibilityWorld& world) const {
+    std::vector<ShadowCaster> casters;
     for (const std::size_t mover : world.movers())
         if (const WorldObject& thing = world.things()[mover]; thing.casts_shadow)
             casters.push_back({static_cast<std::uint32_t>(mover), thing.content_hash});

@@ -32,25 +32,27 @@ inline constexpr std::size_t kMostLandings = 1 << 17;
 /// faces. All captures do if more than kMostPairs pairs of objects would have to be tested.
 class ContentHashes {
 public:
-    /// Takes over an instant, after World::follow. O(movers * (lights * objects + walls)).
-    void follow(const World& world, std::uint32_t shadow_edge);
+    /// Takes over an instant, after VisibilityWorld::move_to_instant. O(movers * (lights * objects
+    /// + walls)).
+    void move_to_instant(const VisibilityWorld& world, std::uint32_t shadow_edge);
     /// Content hashes of the six faces of a mirror's capture.
-    struct Faces6 {
+    struct FaceHashes {
         std::uint64_t made_at = 0; ///< value of `changes_` for which the hashes were computed
         std::array<std::uint64_t, 6> content_hashes{}, settings{};
-        std::shared_ptr<const Pieces> pieces;
+        std::shared_ptr<const FacePieces> pieces;
     };
     /// Returns the content hashes of a mirror's faces (MirrorNeeds). O(movers + landings); O(1) if
     /// nothing has changed since the last call.
-    const Faces6& of_faces(const World& world, std::size_t mirror);
+    const FaceHashes& face_hashes_of_mirror(const VisibilityWorld& world, std::size_t mirror);
     /// Returns the movers that cast shadows.
-    std::vector<Caster> casters(const World& world) const;
+    std::vector<ShadowCaster> casters(const VisibilityWorld& world) const;
 
 private:
-    void add_up(const World& world, Faces6& faces, std::size_t mirror) const;
+    void combine_face_hashes(const VisibilityWorld& world, FaceHashes& faces,
+                             std::size_t mirror) const;
 
-    std::vector<Faces6> mirrors_;
-    std::vector<Landing> landings_;
+    std::vector<FaceHashes> mirrors_;
+    std::vector<ShadowReceiver> landings_;
     std::uint64_t changes_ = 1; ///< counts instants at which something changed
     std::uint64_t all_ = 0;     ///< content hash of the whole scene
     std::uint64_t epoch_ = 0, layout_ = 0;

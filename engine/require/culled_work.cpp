@@ -14,28 +14,33 @@ namespace {
 using NumberList = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
 
 /// Returns `one` with its number and name, or the plural with several numbers.
-std::string called(const std::string& one, const NumberList& numbers, const std::string& name) {
-    if (numbers.size() == 1) return one + " " + ranges(numbers) + (name.empty() ? "" : " " + name);
-    return one + "s " + ranges(numbers);
+std::string name_numbered_items(const std::string& one, const NumberList& numbers,
+                                const std::string& name) {
+    if (numbers.size() == 1)
+        return one + " " + format_number_ranges(numbers) + (name.empty() ? "" : " " + name);
+    return one + "s " + format_number_ranges(numbers);
 }
 
-std::string name_of(const scene::Scene& scene, std::size_t object) {
-    return in_quotes(scene.objects[object].name);
+std::string quote_object_name(const scene::Scene& scene, std::size_t object) {
+    return quote_printable(scene.objects[object].name);
 }
 
 /// Returns why the mirrors are invisible. `seen`: number of visible mirrors.
-std::string why_unseen(const Unseen& unseen, std::size_t seen, bool is_one,
-                       const scene::Scene& scene) {
+std::string describe_why_unseen(const UnseenReason& unseen, std::size_t seen, bool is_one,
+                                const scene::Scene& scene) {
     const std::string they = is_one ? "it" : "they", them = is_one ? "it" : "them";
     std::string why;
     switch (unseen.why) {
-    case Unseen::Why::empty: return they + (is_one ? " has" : " have") + " no triangle";
-    case Unseen::Why::outside:
+    case UnseenReason::UnseenCause::empty:
+        return they + (is_one ? " has" : " have") + " no triangle";
+    case UnseenReason::UnseenCause::outside:
         why = they + (is_one ? " is" : " are") + " not in the camera's picture";
         break;
-    case Unseen::Why::hidden_from_camera: why = "the camera passes " + them + " by"; break;
-    case Unseen::Why::hidden:
-        why = name_of(scene, unseen.wall) + " hides " + them + " from the camera";
+    case UnseenReason::UnseenCause::hidden_from_camera:
+        why = "the camera passes " + them + " by";
+        break;
+    case UnseenReason::UnseenCause::hidden:
+        why = quote_object_name(scene, unseen.wall) + " hides " + them + " from the camera";
         break;
     }
     if (seen == 0) return why + ", and no mirror is seen in which " + they + " could show";
@@ -43,11 +48,12 @@ std::string why_unseen(const Unseen& unseen, std::size_t seen, bool is_one,
     return why + ", and walls from each of the " + std::to_string(seen) + " mirrors that are seen";
 }
 
-void add_unseen(std::vector<CulledWork>& all, const Model& model, const Findings& findings,
-                const scene::Scene& scene, const std::vector<std::size_t>& mirrors) {
+void add_unseen_mirrors(std::vector<CulledWork>& all, const Model& model,
+                        const VisibilityFindings& findings, const scene::Scene& scene,
+                        const std::vector<std::size_t>& mirrors) {
     const auto seen = static_cast<std::size_t>(
         std::ranges::count_if(model.mirrors, &MirrorNeeds::is_seen));
-    std::map<std::pair<Unseen::Why, std::size_t>, NumberList> alike;
+    std::map<std::pair<UnseenReason::UnseenCause, std::size_t>, NumberList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         if (!model.mirrors[i].is_captured && findings.camera[i])
             alike[{findings.camera[i]->why, findings.camera[i]->wall}].push_back(i + 1);
@@ -56,49 +62,54 @@ void add_unseen(std::vector<CulledWork>& all, const Model& model, const Findings
         const std::string count = std::to_string(numbers.size());
         all.push_back(
             {.what = (is_one ? "the capture of " : "the captures of ") +
-                     called("mirror", numbers, name_of(scene, mirrors[numbers[0] - 1])),
-             .why = why_unseen({reason.first, reason.second}, seen, is_one, scene),
+                     name_numbered_items("mirror", numbers,
+                                         quote_object_name(scene, mirrors[numbers[0] - 1])),
+             .why = describe_why_unseen({reason.first, reason.second}, seen, is_one, scene),
              .saves = is_one ? "the six faces of a capture, each time that it would be drawn again"
                              : "the six faces of each of " + count +
                                    " captures, each time that they would be drawn again"});
     }
 }
 
-void add_faces(std::vector<CulledWork>& all, const Model& model, const scene::Scene& scene,
-               const std::vector<std::size_t>& mirrors) {
-    std::map<Faces, NumberList> alike;
+void add_culled_faces(std::vector<CulledWork>& all, const Model& model, const scene::Scene& scene,
+                      const std::vector<std::size_t>& mirrors) {
+    std::map<FaceBits, NumberList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllFaces)
             alike[model.mirrors[i].faces].push_back(i + 1);
     for (const auto& [faces, numbers] : alike) {
-        const auto without = static_cast<Faces>(kAllFaces & ~faces);
+        const auto without = static_cast<FaceBits>(kAllFaces & ~faces);
         const int count = std::popcount(without);
         const bool is_one = numbers.size() == 1;
-        all.push_back({.what = std::string(count == 1 ? "face " : "faces ") + names_of(without) +
-                               (is_one ? " of the capture of " : " of the captures of ") +
-                               called("mirror", numbers, name_of(scene, mirrors[numbers[0] - 1])),
-                       .why = is_one ? "it is flat, all who look at it stand on one side, and what "
-                                       "they see in it lies on that side, too"
-                                     : "they are flat, all who look at each stand on one side, and "
-                                       "what they see in it lies on that side, too",
-                       .saves = std::to_string(count) + " of " + (is_one ? "six" : "each six") +
-                                " faces, each time that they would be drawn again"});
+        all.push_back(
+            {.what = std::string(count == 1 ? "face " : "faces ") + list_face_names(without) +
+                     (is_one ? " of the capture of " : " of the captures of ") +
+                     name_numbered_items("mirror", numbers,
+                                         quote_object_name(scene, mirrors[numbers[0] - 1])),
+             .why = is_one ? "it is flat, all who look at it stand on one side, and what "
+                             "they see in it lies on that side, too"
+                           : "they are flat, all who look at each stand on one side, and "
+                             "what they see in it lies on that side, too",
+             .saves = std::to_string(count) + " of " + (is_one ? "six" : "each six") +
+                      " faces, each time that they would be drawn again"});
     }
 }
 
-void add_maps(std::vector<CulledWork>& all, const Model& model, const scene::Scene& scene) {
+void add_culled_shadow_maps(std::vector<CulledWork>& all, const Model& model,
+                            const scene::Scene& scene) {
     for (std::size_t i = 0; i < model.lights.size(); ++i)
         if (!model.lights[i].has_map)
             all.push_back(
                 {.what = "the shadow map of " +
-                         called("light", {i + 1}, name_of_light(scene, i, model.lights.size())),
+                         name_numbered_items("light", {i + 1},
+                                             quote_light_name(scene, i, model.lights.size())),
                  .why = "nothing that is seen lies within its range and in front of it",
                  .saves = "its map, each time that it would be drawn again"});
 }
 
 } // namespace
 
-void fill_key(Findings& findings, const Model& model) {
+void fill_findings_hash(VisibilityFindings& findings, const Model& model) {
     findings.key.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
         const MirrorNeeds& needs = model.mirrors[i];
@@ -111,7 +122,7 @@ void fill_key(Findings& findings, const Model& model) {
     for (const LightNeeds& needs : model.lights) findings.key.push_back(needs.has_map ? 1 : 0);
 }
 
-std::string ranges(const std::vector<std::size_t>& numbers) {
+std::string format_number_ranges(const std::vector<std::size_t>& numbers) {
     std::string text;
     for (std::size_t i = 0; i < numbers.size();) {
         std::size_t last = i;
@@ -123,27 +134,27 @@ std::string ranges(const std::vector<std::size_t>& numbers) {
     return text;
 }
 
-std::vector<CulledWork> left_out(const Model& model, const Findings& findings,
-                                 const scene::Scene& scene) {
+std::vector<CulledWork> list_culled_work(const Model& model, const VisibilityFindings& findings,
+                                         const scene::Scene& scene) {
     std::vector<CulledWork> all;
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
-    add_unseen(all, model, findings, scene, mirrors);
-    add_faces(all, model, scene, mirrors);
-    add_maps(all, model, scene);
+    add_unseen_mirrors(all, model, findings, scene, mirrors);
+    add_culled_faces(all, model, scene, mirrors);
+    add_culled_shadow_maps(all, model, scene);
     return all;
 }
 
-std::string name_of_light(const scene::Scene& scene, std::size_t light, std::size_t count) {
+std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::size_t count) {
     std::vector<std::string> names;
     for (const scene::Object& object : scene.objects)
-        if (scene::light_of(scene.materials[object.material]) != vec3(0))
-            names.push_back(in_quotes(object.name));
-    for (const scene::Punctual& punctual : scene.punctual)
-        names.push_back(in_quotes(punctual.name));
+        if (scene::emitted_radiance(scene.materials[object.material]) != vec3(0))
+            names.push_back(quote_printable(object.name));
+    for (const scene::PunctualLight& punctual : scene.punctual)
+        names.push_back(quote_printable(punctual.name));
     return names.size() == count ? names[light] : "";
 }
 
-std::string names_of(Faces faces) {
+std::string list_face_names(FaceBits faces) {
     constexpr const char* kNames[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
     std::string text;
     for (std::size_t face = 0; face < 6; ++face)

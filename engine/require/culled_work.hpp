@@ -9,28 +9,28 @@
 namespace catoptric::require {
 
 /// Results of the rules that are not part of the model.
-struct Findings {
+struct VisibilityFindings {
     /// For each mirror: the reason why the camera does not see the mirror; empty if the camera sees
     /// the mirror.
-    std::vector<std::optional<Unseen>> camera;
+    std::vector<std::optional<UnseenReason>> camera;
     /// All values that the explaining sentences of `graph --why` depend on. The sentences are built
     /// again only if the key changes.
     std::vector<std::uint64_t> key;
 };
-void fill_key(Findings& findings, const Model& model);
+void fill_findings_hash(VisibilityFindings& findings, const Model& model);
 
 /// Returns numbers in ascending order as text: "1", "2-5", "1-3, 7".
-std::string ranges(const std::vector<std::size_t>& numbers);
+std::string format_number_ranges(const std::vector<std::size_t>& numbers);
 
 /// Returns the captures, faces and shadow maps that the model culls. Mirrors with the same reason
 /// share one entry.
-std::vector<CulledWork> left_out(const Model& model, const Findings& findings,
-                                 const scene::Scene& scene);
+std::vector<CulledWork> list_culled_work(const Model& model, const VisibilityFindings& findings,
+                                         const scene::Scene& scene);
 
 /// Returns a light's name in quotes. Empty if a lamp's mesh makes several lights, because then no
 /// light has a name.
-std::string name_of_light(const scene::Scene& scene, std::size_t light, std::size_t count);
+std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::size_t count);
 /// Returns the names of the faces, such as "+X -Y".
-std::string names_of(Faces faces);
+std::string list_face_names(FaceBits faces);
 
 } // namespace catoptric::require

@@ -8,7 +8,7 @@ namespace catoptric::require {
 namespace {
 
 /// Returns the corner of the box that lies furthest along the normal.
-dvec3 furthest(const Bounds<double>& box, const dvec3& normal) {
+dvec3 farthest_box_corner(const Bounds<double>& box, const dvec3& normal) {
     return {normal.x > 0 ? box.hi.x : box.lo.x, normal.y > 0 ? box.hi.y : box.lo.y,
             normal.z > 0 ? box.hi.z : box.lo.z};
 }
@@ -36,7 +36,7 @@ PictureFrustum::PictureFrustum(const scene::Camera& camera, uvec2 size) : eye_(c
 
 bool PictureFrustum::may_hold(const Bounds<double>& box) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
-        return dot(plane.first, furthest(box, plane.first) - eye_) < -plane.second;
+        return dot(plane.first, farthest_box_corner(box, plane.first) - eye_) < -plane.second;
     });
 }
 
@@ -72,8 +72,8 @@ double PictureFrustum::pixel_angle(double distance) const {
     return is_parallel_ ? pixel_ / distance : pixel_;
 }
 
-Faces faces_with(const Bounds<double>& box) {
-    Faces faces = 0;
+FaceBits faces_that_may_show_box(const Bounds<double>& box) {
+    FaceBits faces = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         // For the face towards +a, some of the box needs a >= |u| and a >= |v|. Each of these
@@ -83,25 +83,25 @@ Faces faces_with(const Bounds<double>& box) {
             return furthest >= 0 && furthest + box.hi[u] >= 0 && furthest - box.lo[u] >= 0 &&
                    furthest + box.hi[v] >= 0 && furthest - box.lo[v] >= 0;
         };
-        if (reaches(hi)) faces |= static_cast<Faces>(1 << (2 * axis));
-        if (reaches(lo)) faces |= static_cast<Faces>(2 << (2 * axis));
+        if (reaches(hi)) faces |= static_cast<FaceBits>(1 << (2 * axis));
+        if (reaches(lo)) faces |= static_cast<FaceBits>(2 << (2 * axis));
     }
     return faces;
 }
 
-Faces faces_with(const dvec3& centre, double radius) {
-    Faces faces = 0;
+FaceBits faces_that_may_show_box(const dvec3& centre, double radius) {
+    FaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         const double ahead = face % 2 == 0 ? centre[face / 2] : -centre[face / 2];
         const double aside = std::max(std::abs(centre[(face / 2 + 1) % 3]),
                                       std::abs(centre[(face / 2 + 2) % 3]));
-        if (ahead - aside >= -std::sqrt(2.0) * radius) faces |= static_cast<Faces>(1 << face);
+        if (ahead - aside >= -std::sqrt(2.0) * radius) faces |= static_cast<FaceBits>(1 << face);
     }
     return faces;
 }
 
-Faces faces_with(const Bounds<double>& a, const Bounds<double>& b) {
-    Faces faces = 0;
+FaceBits faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b) {
+    FaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         dvec3 forward(0);
         forward[face / 2] = face % 2 == 0 ? 1 : -1;
@@ -109,15 +109,16 @@ Faces faces_with(const Bounds<double>& a, const Bounds<double>& b) {
         for (int side = 0; side < 4 && meets; ++side) {
             dvec3 normal = forward;
             normal[(face / 2 + 1 + side / 2) % 3] = side % 2 == 0 ? 1 : -1;
-            meets = dot(normal, furthest(a, normal)) >= 0 || dot(normal, furthest(b, normal)) >= 0;
+            meets = dot(normal, farthest_box_corner(a, normal)) >= 0 ||
+                    dot(normal, farthest_box_corner(b, normal)) >= 0;
         }
-        if (meets) faces |= static_cast<Faces>(1 << face);
+        if (meets) faces |= static_cast<FaceBits>(1 << face);
     }
     return faces;
 }
 
-Faces faces_before(const dvec3& normal, double sine) {
-    Faces faces = 0;
+FaceBits faces_in_front_of_plane(const dvec3& normal, double sine) {
+    FaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double ahead = face % 2 == 0 ? normal[axis] : -normal[axis];
@@ -125,7 +126,7 @@ Faces faces_before(const dvec3& normal, double sine) {
         // axes permuted.
         const double most = ahead + std::abs(normal[(axis + 1) % 3]) +
                             std::abs(normal[(axis + 2) % 3]);
-        if (most > -sine * std::sqrt(3.0)) faces |= static_cast<Faces>(1 << face);
+        if (most > -sine * std::sqrt(3.0)) faces |= static_cast<FaceBits>(1 << face);
     }
     return faces;
 }

@@ -40,16 +40,16 @@ private:
 
 /// Returns the faces of a capture at the origin that may show some of the box. Each face tests the
 /// four planes between it and its neighbours. An empty box meets no face.
-Faces faces_with(const Bounds<double>& box);
+FaceBits faces_that_may_show_box(const Bounds<double>& box);
 
 /// Returns the faces that may show some of a ball.
-Faces faces_with(const dvec3& centre, double radius);
+FaceBits faces_that_may_show_box(const dvec3& centre, double radius);
 
 /// Returns the faces that may show some of the hull of a and b.
-Faces faces_with(const Bounds<double>& a, const Bounds<double>& b);
+FaceBits faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b);
 
 /// Returns the faces with at least one direction whose product with the normal is above -`sine`.
 /// These faces may show what a viewer in front of the plane sees mirrored in it.
-Faces faces_before(const dvec3& normal, double sine);
+FaceBits faces_in_front_of_plane(const dvec3& normal, double sine);
 
 } // namespace catoptric::require

@@ -3,10 +3,10 @@
 
 namespace catoptric::require {
 
-Model everything(const Question& question) {
+Model make_everything_model(const ModelInput& question) {
     return {.is_everything = true,
             .mirrors = std::vector<MirrorNeeds>(scene::mirrors(question.now).size()),
-            .lights = std::vector<LightNeeds>(scene::lights(question.now).size()),
+            .lights = std::vector<LightNeeds>(scene::list_lights(question.now).size()),
             .left_out = {}};
 }
 

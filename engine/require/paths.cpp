@@ -15,9 +15,10 @@ namespace catoptric::require {
 namespace {
 
 /// The scene's triangles relative to the eye, with the normals of their corners.
-class EyeTriangles {
+class MirrorPathTracer {
 public:
-    explicit EyeTriangles(const Question& question) : number_(question.now.objects.size(), 0) {
+    explicit MirrorPathTracer(const ModelInput& question)
+        : number_(question.now.objects.size(), 0) {
         const scene::Scene& now = question.now;
         std::uint32_t mirrors = 0;
         for (const std::size_t object : scene::mirrors(now)) {
@@ -27,7 +28,7 @@ public:
         }
         std::vector<bvh::Triangle> triangles;
         for (std::size_t i = 0; i < now.objects.size(); ++i) add(question, i, triangles);
-        tree_ = bvh::build(triangles);
+        tree_ = bvh::build_bvh(triangles);
     }
 
     struct MirrorPath {
@@ -37,21 +38,21 @@ public:
             /// next.
             is_hidden;
     };
-    MirrorPath follow(f32::Ray ray) const {
+    MirrorPath follow_ray(f32::Ray ray) const {
         MirrorPath path;
-        auto hit = bvh::closest_hit<float>(tree_, ray, kFar, bvh::kHidden | bvh::kOneSided);
+        auto hit = bvh::find_closest_hit<float>(tree_, ray, kFar, bvh::kHidden | bvh::kOneSided);
         while (hit && number_[hit->object] > 0 && path.mirrors.size() < kLongestPath) {
             const std::uint32_t mirror = number_[hit->object] - 1;
             path.mirrors.push_back(mirror);
             ray = reflected(ray, *hit);
-            hit = bvh::closest_hit<float>(tree_, ray, kFar, bvh::kOneSided);
-            path.is_hidden.push_back(!shows(mirror, ray, hit));
+            hit = bvh::find_closest_hit<float>(tree_, ray, kFar, bvh::kOneSided);
+            path.is_hidden.push_back(!capture_shows_hit(mirror, ray, hit));
         }
         return path;
     }
 
 private:
-    void add(const Question& question, std::size_t index, std::vector<bvh::Triangle>& triangles) {
+    void add(const ModelInput& question, std::size_t index, std::vector<bvh::Triangle>& triangles) {
         const scene::Object& object = question.now.objects[index];
         const scene::Mesh& mesh = question.now.meshes[object.mesh];
         const scene::Material& material = question.now.materials[object.material];
@@ -89,8 +90,8 @@ private:
 
     /// Returns whether the mirror's capture shows what the ray met, or that the ray met nothing.
     /// The capture does not contain the mirror itself.
-    bool shows(std::uint32_t mirror, const f32::Ray& ray,
-               const std::optional<bvh::RayHit<float>>& met) const {
+    bool capture_shows_hit(std::uint32_t mirror, const f32::Ray& ray,
+                           const std::optional<bvh::RayHit<float>>& met) const {
         constexpr int kMostOwn = 64; // most of the mirror's own triangles that the ray passes
         constexpr float kBefore = 1 - 0x1p-10f;
         if (met && number_[met->object] == mirror + 1) return false;
@@ -99,7 +100,7 @@ private:
         float left = met ? length(way) * kBefore : kFar;
         f32::Ray from{centre, normalize(way), 0};
         for (int i = 0; i < kMostOwn; ++i) {
-            const auto hit = bvh::closest_hit<float>(tree_, from, left, bvh::kOneSided);
+            const auto hit = bvh::find_closest_hit<float>(tree_, from, left, bvh::kOneSided);
             if (!hit) return true;
             if (number_[hit->object] != mirror + 1) return false;
             from.origin += hit->t * from.direction;
@@ -117,7 +118,7 @@ private:
 };
 
 /// Returns the size of the picture, or of a grid of the same shape with at most kMostPaths cells.
-uvec2 grid_of(uvec2 size) {
+uvec2 choose_path_grid(uvec2 size) {
     const double pixels = 1.0 * size.x * size.y,
                  scale = std::min(1.0, std::sqrt(static_cast<double>(kMostPaths) / pixels));
     return max(uvec2(1), uvec2(dvec2(size) * scale));
@@ -125,24 +126,24 @@ uvec2 grid_of(uvec2 size) {
 
 } // namespace
 
-std::size_t Paths::on_mirrors() const {
+std::size_t MirrorPathCounts::count_paths_on_mirrors() const {
     return std::accumulate(first.begin(), first.end(), std::size_t{0});
 }
 
-Paths paths_of(const Question& question) {
+MirrorPathCounts trace_mirror_paths(const ModelInput& question) {
     const scene::Camera& camera = question.camera;
     const std::size_t mirrors = scene::mirrors(question.now).size();
-    const EyeTriangles stage(question);
-    const uvec2 grid = grid_of(question.size);
+    const MirrorPathTracer stage(question);
+    const uvec2 grid = choose_path_grid(question.size);
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
     const bool is_parallel = camera.orthographic_height > 0;
     const double half = is_parallel ? camera.orthographic_height / 2
                                     : std::tan(glm::radians(camera.vertical_fov_degrees) / 2),
                  aspect = 1.0 * question.size.x / question.size.y;
-    Paths paths{.first = std::vector<std::size_t>(mirrors),
-                .reached = std::vector<std::size_t>(mirrors),
-                .hidden = std::vector<std::size_t>(mirrors)};
+    MirrorPathCounts paths{.first = std::vector<std::size_t>(mirrors),
+                           .reached = std::vector<std::size_t>(mirrors),
+                           .hidden = std::vector<std::size_t>(mirrors)};
     for (std::uint32_t y = 0; y < grid.y; ++y)
         for (std::uint32_t x = 0; x < grid.x; ++x, ++paths.count) {
             const dvec2 at = (dvec2(x, y) + .5) / dvec2(grid) * 2.0 - 1.0;
@@ -150,7 +151,7 @@ Paths paths_of(const Question& question) {
             const f32::Ray ray = is_parallel
                                      ? f32::Ray{vec3(aside), vec3(forward), 0}
                                      : f32::Ray{vec3(0), vec3(normalize(forward + aside)), 0};
-            auto [met, is_hidden] = stage.follow(ray);
+            auto [met, is_hidden] = stage.follow_ray(ray);
             if (met.empty()) continue;
             ++paths.first[met.front()];
             paths.hidden[met.front()] += std::ranges::find(is_hidden, true) != is_hidden.end();

@@ -16,7 +16,7 @@ inline constexpr std::size_t kLongestPath = 8;
 
 /// Statistics of rays from the eye through the centre of each pixel (or each cell of a grid),
 /// followed from mirror to mirror. Entry n-1 of a list belongs to mirror n.
-struct Paths {
+struct MirrorPathCounts {
     std::size_t count = 0; ///< number of rays
     /// Number of camera rays for each sequence of mirrors that rays meet, before they meet another
     /// surface. Mirrors are numbered from 0.
@@ -30,11 +30,12 @@ struct Paths {
     /// hidden from the capture of the last mirror.
     std::map<std::vector<std::uint32_t>, std::size_t> hidden_after;
 
-    std::size_t on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.
+    std::size_t
+    count_paths_on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.
 };
 
-/// Builds a BVH over all triangles (bvh::build) and follows at most kMostPaths rays, in floats
+/// Builds a BVH over all triangles (bvh::build_bvh) and follows at most kMostPaths rays, in floats
 /// relative to the eye. Each reflection costs one more ray, from a capture's centre.
-Paths paths_of(const Question& question);
+MirrorPathCounts trace_mirror_paths(const ModelInput& question);
 
 } // namespace catoptric::require

@@ -14,7 +14,7 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// The least s in [-1, 1] with aside <= s * ahead for all points. It is 1 if no such s exists.
-class Slope {
+class HullSlope {
 public:
     void add(double aside, double ahead) {
         if (ahead > 0)
@@ -32,61 +32,65 @@ private:
     double least_ = -kUnbounded, most_ = kUnbounded;
 };
 
-auto order(const Piece& piece) {
+auto sort_key_of_piece(const FacePiece& piece) {
     const FacePart& part = piece.part;
     return std::tuple(piece.content_hash, part.low.x, part.low.y, part.high.x, part.high.y);
 }
 
 } // namespace
 
-FacePart common(const FacePart& a, const FacePart& b) {
+FacePart intersect_face_parts(const FacePart& a, const FacePart& b) {
     return {max(a.low, b.low), min(a.high, b.high)};
 }
 
-FacePart united(const FacePart& a, const FacePart& b) {
+FacePart unite_face_parts(const FacePart& a, const FacePart& b) {
     if (a.empty()) return b;
     if (b.empty()) return a;
     return {min(a.low, b.low), max(a.high, b.high)};
 }
 
-FacePart part_with(int face, std::span<const dvec3> places) {
+FacePart face_part_containing(int face, std::span<const dvec3> places) {
     const dvec3 right = f64::cube_direction(face, dvec3(1, 0, 0)),
                 down = f64::cube_direction(face, dvec3(0, 1, 0)),
                 forward = f64::cube_direction(face, dvec3(0, 0, 1));
-    std::array<Slope, 4> slopes; // right, left, down, up
+    std::array<HullSlope, 4> slopes; // right, left, down, up
     for (const dvec3& place : places) {
         const double ahead = dot(forward, place), x = dot(right, place), y = dot(down, place);
         slopes[0].add(x, ahead), slopes[1].add(-x, ahead);
         slopes[2].add(y, ahead), slopes[3].add(-y, ahead);
     }
-    if (std::ranges::any_of(slopes, &Slope::is_outside)) return kNoPart;
+    if (std::ranges::any_of(slopes, &HullSlope::is_outside)) return kNoPart;
     return {dvec2(-slopes[1].value(), -slopes[3].value()),
             dvec2(slopes[0].value(), slopes[2].value())};
 }
 
-FacePart part_with(int face, const Bounds<double>& box) { return part_with(face, corners_of(box)); }
+FacePart face_part_containing(int face, const Bounds<double>& box) {
+    return face_part_containing(face, list_box_corners(box));
+}
 
-FacePart part_with(int face, const Bounds<double>& a, const Bounds<double>& b) {
+FacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b) {
     std::array<dvec3, 16> corners;
-    std::ranges::copy(corners_of(b), std::ranges::copy(corners_of(a), corners.begin()).out);
-    return part_with(face, corners);
+    std::ranges::copy(list_box_corners(b),
+                      std::ranges::copy(list_box_corners(a), corners.begin()).out);
+    return face_part_containing(face, corners);
 }
 
-void Pieces::sort() {
-    for (std::vector<Piece>& pieces : faces) std::ranges::sort(pieces, {}, order);
+void FacePieces::sort() {
+    for (std::vector<FacePiece>& pieces : faces) std::ranges::sort(pieces, {}, sort_key_of_piece);
 }
 
-FacePart differing(std::span<const Piece> before, std::span<const Piece> after) {
+FacePart find_differing_part(std::span<const FacePiece> before, std::span<const FacePiece> after) {
     FacePart part = kNoPart;
     for (std::size_t i = 0, k = 0; i < before.size() || k < after.size();) {
         const bool ends = i == before.size() || k == after.size();
-        if (!ends && order(before[i]) == order(after[k])) {
+        if (!ends && sort_key_of_piece(before[i]) == sort_key_of_piece(after[k])) {
             ++i, ++k;
             continue;
         }
         const bool is_before = k == after.size() ||
-                               (i < before.size() && order(before[i]) < order(after[k]));
-        part = united(part, (is_before ? before[i++] : after[k++]).part);
+                               (i < before.size() &&
+                                sort_key_of_piece(before[i]) < sort_key_of_piece(after[k]));
+        part = unite_face_parts(part, (is_before ? before[i++] : after[k++]).part);
     }
     return part;
 }

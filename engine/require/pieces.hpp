@@ -21,9 +21,9 @@ struct FacePart {
 inline constexpr FacePart kNoPart{dvec2(1), dvec2(-1)};
 
 /// Returns the intersection.
-FacePart common(const FacePart& a, const FacePart& b);
+FacePart intersect_face_parts(const FacePart& a, const FacePart& b);
 /// Returns the smallest rectangle that holds both.
-FacePart united(const FacePart& a, const FacePart& b);
+FacePart unite_face_parts(const FacePart& a, const FacePart& b);
 
 /// Returns a rectangle of the capture's face that contains the projection of the convex hull of the
 /// points. Points are relative to the capture's centre. O(points).
@@ -31,13 +31,13 @@ FacePart united(const FacePart& a, const FacePart& b);
 /// Consider a line through the centre. If no point lies to its left, nothing of the hull lies
 /// there. The smallest slopes with this property bound the hull. Points ahead of the centre
 /// determine these slopes. If points behind it rule out any such slope, the side is unbounded.
-FacePart part_with(int face, std::span<const dvec3> places);
+FacePart face_part_containing(int face, std::span<const dvec3> places);
 /// Returns the same for a box, and for the hull of two boxes.
-FacePart part_with(int face, const Bounds<double>& box);
-FacePart part_with(int face, const Bounds<double>& a, const Bounds<double>& b);
+FacePart face_part_containing(int face, const Bounds<double>& box);
+FacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b);
 
 /// A mover, or the shadow of a mover on an object, that a face may show.
-struct Piece {
+struct FacePiece {
     std::uint64_t content_hash = 0; ///< equal hashes stand for equal looks
     FacePart part;
 };
@@ -47,14 +47,14 @@ struct Piece {
 inline constexpr std::size_t kMostPieces = 64;
 
 /// The pieces in each face of a capture.
-struct Pieces {
-    std::array<std::vector<Piece>, 6> faces;
-    void sort(); ///< sorts the pieces in the order that `differing` needs
+struct FacePieces {
+    std::array<std::vector<FacePiece>, 6> faces;
+    void sort(); ///< sorts the pieces in the order that `find_differing_part` needs
 };
 
 /// Compares the moving objects and shadows (pieces) that a face shows in two frames. Returns a
 /// rectangle that contains all pieces that only one of the two lists has. Both lists must be
 /// sorted. O(pieces).
-FacePart differing(std::span<const Piece> before, std::span<const Piece> after);
+FacePart find_differing_part(std::span<const FacePiece> before, std::span<const FacePiece> after);
 
 } // namespace catoptric::require

@@ -10,11 +10,11 @@
 
 namespace catoptric::require {
 
-struct Requirements::Impl {
-    World world;
-    Sight sight;
+struct ModelBuilder::Impl {
+    VisibilityWorld world;
+    MirrorVisibility sight;
     ContentHashes content_hashes;
-    Findings findings;
+    VisibilityFindings findings;
     Model model;
     /// Visible mirrors whose view of other mirrors has not been tested yet.
     std::vector<std::size_t> waiting;
@@ -26,20 +26,20 @@ struct Requirements::Impl {
 
     void find_seen(const PictureFrustum& picture, const scene::Scene& now);
     void find_captured(std::size_t mirror, bool asks_all);
-    Faces faces_of(const PictureFrustum& picture, std::size_t mirror);
+    FaceBits faces_of(const PictureFrustum& picture, std::size_t mirror);
     void find_lights(const PictureFrustum& picture);
 };
 
 /// Finds the mirrors that the camera sees, the mirrors that these can see, and so on.
-void Requirements::Impl::find_seen(const PictureFrustum& picture, const scene::Scene& now) {
+void ModelBuilder::Impl::find_seen(const PictureFrustum& picture, const scene::Scene& now) {
     const std::size_t count = world.mirrors().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
     waiting.clear();
     for (std::size_t i = 0; i < count; ++i) {
         MirrorNeeds& needs = model.mirrors[i];
-        findings.camera[i] = hidden_from_camera(world, picture, i);
-        if (!findings.camera[i] && !is_surface_in(picture, world, i, now))
-            findings.camera[i] = Unseen{Unseen::Why::outside, 0};
+        findings.camera[i] = why_hidden_from_camera(world, picture, i);
+        if (!findings.camera[i] && !may_picture_show_mirror(picture, world, i, now))
+            findings.camera[i] = UnseenReason{UnseenReason::UnseenCause::outside, 0};
         needs.seen_in = {};
         needs.is_seen = !findings.camera[i];
         if (needs.is_seen) waiting.push_back(i);
@@ -55,7 +55,7 @@ void Requirements::Impl::find_seen(const PictureFrustum& picture, const scene::S
 }
 
 /// Finds what a mirror's capture shows, after find_seen.
-void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
+void ModelBuilder::Impl::find_captured(std::size_t mirror, bool asks_all) {
     MirrorNeeds& needs = model.mirrors[mirror];
     needs.is_captured = needs.is_seen || asks_all;
     if (!needs.is_captured) {
@@ -65,7 +65,7 @@ void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
         needs.pieces = nullptr;
         return;
     }
-    const ContentHashes::Faces6& faces = content_hashes.of_faces(world, mirror);
+    const ContentHashes::FaceHashes& faces = content_hashes.face_hashes_of_mirror(world, mirror);
     needs.content_hashes = faces.content_hashes, needs.settings = faces.settings,
     needs.pieces = faces.pieces;
     if (listed[mirror] && !sight.has_changed(mirror)) return;
@@ -75,7 +75,7 @@ void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
         if (sight.shows(world, mirror, i)) needs.sees.push_back(static_cast<std::uint32_t>(i));
 }
 
-Faces Requirements::Impl::faces_of(const PictureFrustum& picture, std::size_t mirror) {
+FaceBits ModelBuilder::Impl::faces_of(const PictureFrustum& picture, std::size_t mirror) {
     const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     const dvec3 flat = world.meshes()[thing.mesh].flat_normal;
     if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaces;
@@ -87,12 +87,12 @@ Faces Requirements::Impl::faces_of(const PictureFrustum& picture, std::size_t mi
         if (model.mirrors[i].is_captured && sight.reaches(world, i, mirror))
             viewers.push_back(world.things()[world.mirrors()[i]].box);
     const dvec3 normal = scene::world_normal(scene::normal_matrix(thing.place), flat);
-    return faces_of_flat(thing.box, normal, 4 * world.rounding(), viewers);
+    return needed_faces_of_flat_mirror(thing.box, normal, 4 * world.rounding(), viewers);
 }
 
 /// Finds whether each light may shine on something that is seen. If any capture is made, all
 /// objects count as seen; else only those that the camera may see.
-void Requirements::Impl::find_lights(const PictureFrustum& picture) {
+void ModelBuilder::Impl::find_lights(const PictureFrustum& picture) {
     model.lights.resize(world.lights().size());
     model.casters = content_hashes.casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorNeeds::is_captured);
@@ -101,23 +101,23 @@ void Requirements::Impl::find_lights(const PictureFrustum& picture) {
         model.lights[i].has_map = std::ranges::any_of(
             world.things(), [&](const WorldObject& thing) {
                 return !thing.box.empty() &&
-                       may_light(world.lights()[i], thing.box, world.rounding()) &&
+                       may_light_box(world.lights()[i], thing.box, world.rounding()) &&
                        (all_around || (thing.seen_by_camera && picture.may_hold(thing.box)));
             });
     }
 }
 
-Requirements::Requirements(const scene::Scene& rest) : impl_(std::make_unique<Impl>(rest)) {}
-Requirements::~Requirements() = default;
-Requirements::Requirements(Requirements&&) noexcept = default;
-Requirements& Requirements::operator=(Requirements&&) noexcept = default;
+ModelBuilder::ModelBuilder(const scene::Scene& rest) : impl_(std::make_unique<Impl>(rest)) {}
+ModelBuilder::~ModelBuilder() = default;
+ModelBuilder::ModelBuilder(ModelBuilder&&) noexcept = default;
+ModelBuilder& ModelBuilder::operator=(ModelBuilder&&) noexcept = default;
 
-const Model& Requirements::of(const Question& question) {
+const Model& ModelBuilder::model_for(const ModelInput& question) {
     Impl& impl = *impl_;
     const PictureFrustum picture(question.camera, question.size);
-    impl.world.follow(question.now);
-    impl.sight.follow(impl.world);
-    impl.content_hashes.follow(impl.world, question.shadow_edge);
+    impl.world.move_to_instant(question.now);
+    impl.sight.move_to_instant(impl.world);
+    impl.content_hashes.move_to_instant(impl.world, question.shadow_edge);
     impl.find_seen(picture, question.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.find_captured(i, question.asks_all);
@@ -126,14 +126,16 @@ const Model& Requirements::of(const Question& question) {
                                           ? kAllFaces
                                           : impl.faces_of(picture, i);
     impl.find_lights(picture);
-    fill_key(impl.findings, impl.model);
+    fill_findings_hash(impl.findings, impl.model);
     if (impl.findings.key != impl.known_key) {
         impl.known_key = impl.findings.key;
-        impl.model.left_out = left_out(impl.model, impl.findings, question.now);
+        impl.model.left_out = list_culled_work(impl.model, impl.findings, question.now);
     }
     return impl.model;
 }
 
-Model required(const Question& question) { return Requirements(question.now).of(question); }
+Model make_required_model(const ModelInput& question) {
+    return ModelBuilder(question.now).model_for(question);
+}
 
 } // namespace catoptric::require

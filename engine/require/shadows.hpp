@@ -20,22 +20,23 @@ inline constexpr double kShadowTexels = 5;
 /// light along a, they are b + t a, t >= 0. While they are in E, t is at most T. T follows from the
 /// axes along which B lies wholly to one side of L. The points lie in the hull of B and a second
 /// box: B scaled T times away from L, or moved by T a. If B lies around L, both boxes are E.
-struct Shade {
+struct ShadeVolume {
     Bounds<double> from, to;
 };
-Shade shade_of(const scene::PointLight& light, const Bounds<double>& caster,
-               const Bounds<double>& everything);
+ShadeVolume compute_shade_volume(const scene::PointLight& light, const Bounds<double>& caster,
+                                 const Bounds<double>& everything);
 
 /// A part of a receiver that a mover may shade, with the shade around this part.
-struct Landing {
+struct ShadowReceiver {
     std::size_t caster = 0, receiver = 0; ///< objects
     Bounds<double> box;
-    Shade shade;
+    ShadeVolume shade;
 };
 
 /// Finds, for each light and each mover that casts a shadow, the receivers that the shadow may
 /// meet. The result is the receiver's box cut by the box of the shade. The shade is enlarged by
 /// kShadowTexels of a map whose faces have `edge` texels. O(movers * lights * objects).
-void find_landings(const World& world, std::uint32_t edge, std::vector<Landing>& landings);
+void find_shadow_receivers(const VisibilityWorld& world, std::uint32_t edge,
+                           std::vector<ShadowReceiver>& landings);
 
 } // namespace catoptric::require

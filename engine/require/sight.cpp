@@ -9,40 +9,44 @@ namespace catoptric::require {
 
 namespace {
 
-/// Returns the margin to the edges and planes of walls: four times World::rounding, in world units.
-double margin_of(const World& world) { return 4 * world.rounding(); }
+/// Returns the margin to the edges and planes of walls: four times VisibilityWorld::rounding, in
+/// world units.
+double wall_margin(const VisibilityWorld& world) { return 4 * world.rounding(); }
 
 } // namespace
 
-std::optional<Unseen> hidden_from_camera(const World& world, const PictureFrustum& picture,
-                                         std::size_t mirror) {
+std::optional<UnseenReason> why_hidden_from_camera(const VisibilityWorld& world,
+                                                   const PictureFrustum& picture,
+                                                   std::size_t mirror) {
     const std::size_t object = world.mirrors()[mirror];
     const WorldObject& thing = world.things()[object];
-    if (thing.box.empty()) return Unseen{Unseen::Why::empty, 0};
-    if (!thing.seen_by_camera) return Unseen{Unseen::Why::hidden_from_camera, 0};
-    if (!picture.may_hold(thing.box)) return Unseen{Unseen::Why::outside, 0};
-    const double margin = margin_of(world);
+    if (thing.box.empty()) return UnseenReason{UnseenReason::UnseenCause::empty, 0};
+    if (!thing.seen_by_camera)
+        return UnseenReason{UnseenReason::UnseenCause::hidden_from_camera, 0};
+    if (!picture.may_hold(thing.box)) return UnseenReason{UnseenReason::UnseenCause::outside, 0};
+    const double margin = wall_margin(world);
     for (const Wall& wall : world.walls()) {
         if (wall.object == object || !wall.seen_by_camera) continue;
         const bool is_hidden = picture.is_parallel()
-                                   ? hides_along(wall, picture.eye(), picture.forward(), thing.box,
-                                                 margin)
-                                   : hides(wall, {picture.eye(), picture.eye()}, thing.box, margin);
-        if (is_hidden) return Unseen{Unseen::Why::hidden, wall.object};
+                                   ? wall_hides_from_orthographic(
+                                         wall, picture.eye(), picture.forward(), thing.box, margin)
+                                   : wall_hides_box(wall, {picture.eye(), picture.eye()}, thing.box,
+                                                    margin);
+        if (is_hidden) return UnseenReason{UnseenReason::UnseenCause::hidden, wall.object};
     }
     return std::nullopt;
 }
 
-bool is_tested(const scene::Mesh& mesh) { return mesh.triangles.size() <= kMostPairs; }
+bool has_few_triangles(const scene::Mesh& mesh) { return mesh.triangles.size() <= kMostPairs; }
 
-bool is_surface_in(const PictureFrustum& picture, const World& world, std::size_t mirror,
-                   const scene::Scene& now) {
+bool may_picture_show_mirror(const PictureFrustum& picture, const VisibilityWorld& world,
+                             std::size_t mirror, const scene::Scene& now) {
     const WorldObject& thing = world.things()[world.mirrors()[mirror]];
-    const double margin = margin_of(world);
+    const double margin = wall_margin(world);
     if (thing.sphere)
         return picture.may_hold_ball(thing.sphere->centre, thing.sphere->radius + margin);
     const scene::Mesh& mesh = now.meshes[thing.mesh];
-    return !is_tested(mesh) || std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
+    return !has_few_triangles(mesh) || std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
         const auto corner = [&](std::uint32_t i) {
             return scene::transform_point(thing.place, mesh.positions[i]);
         };
@@ -50,12 +54,13 @@ bool is_surface_in(const PictureFrustum& picture, const World& world, std::size_
     });
 }
 
-std::uint8_t Sight::look_at(const World& world, std::size_t viewer, std::size_t target) const {
+std::uint8_t MirrorVisibility::classify_visibility(const VisibilityWorld& world, std::size_t viewer,
+                                                   std::size_t target) const {
     const std::size_t from = world.mirrors()[viewer], to = world.mirrors()[target];
     const Bounds<double>&here = world.things()[from].box, &there = world.things()[to].box;
     if (viewer == target || here.empty() || there.empty()) return 0;
     const dvec3 centre = world.things()[from].tight.centre();
-    const double margin = margin_of(world);
+    const double margin = wall_margin(world);
     const auto [front, back] = places_[viewer].centre;
     const auto [far_front, far_back] = places_[target].box;
     std::uint8_t seen = kReaches | kShows;
@@ -64,19 +69,20 @@ std::uint8_t Sight::look_at(const World& world, std::size_t viewer, std::size_t 
         const Wall& wall = world.walls()[static_cast<std::size_t>(std::countr_zero(between))];
         if (wall.object == from || wall.object == to) continue;
         // If the wall does not hide the target from the centre, it cannot hide it from all points.
-        if (!hides(wall, {centre, centre}, there, margin)) continue;
+        if (!wall_hides_box(wall, {centre, centre}, there, margin)) continue;
         seen &= static_cast<std::uint8_t>(~kShows);
-        if (hides(wall, here, there, margin)) return 0;
+        if (wall_hides_box(wall, here, there, margin)) return 0;
     }
     return seen;
 }
 
-Sight::Sides Sight::sides_of(const World& world, const Bounds<double>& box) const {
+MirrorVisibility::WallSideBits MirrorVisibility::sides_of(const VisibilityWorld& world,
+                                                          const Bounds<double>& box) const {
     static_assert(kMostWalls <= 32);
-    Sides sides;
+    WallSideBits sides;
     for (std::size_t i = 0; i < world.walls().size(); ++i) {
         const Wall& wall = world.walls()[i];
-        const auto [low, high] = along(wall.normal, box);
+        const auto [low, high] = project_box_on_axis(wall.normal, box);
         const double plane = dot(wall.normal, wall.corners[0]);
         if (low > plane) sides.front |= 1u << i;
         if (high < plane) sides.back |= 1u << i;
@@ -84,28 +90,29 @@ Sight::Sides Sight::sides_of(const World& world, const Bounds<double>& box) cons
     return sides;
 }
 
-Sight::MirrorSides Sight::place_of(const World& world, std::size_t mirror) const {
+MirrorVisibility::MirrorSides MirrorVisibility::mirror_sides_of(const VisibilityWorld& world,
+                                                                std::size_t mirror) const {
     const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     if (thing.box.empty()) return {};
     const dvec3 centre = thing.tight.centre();
     return {sides_of(world, thing.box), sides_of(world, {centre, centre})};
 }
 
-void Sight::look(const World& world, std::size_t viewer) {
+void MirrorVisibility::update_visibility_from(const VisibilityWorld& world, std::size_t viewer) {
     std::vector<std::uint8_t>& row = rows_[viewer];
     row.resize(count_);
     for (std::size_t target = 0; target < count_; ++target)
-        row[target] = look_at(world, viewer, target);
+        row[target] = classify_visibility(world, viewer, target);
 }
 
-void Sight::follow(const World& world) {
+void MirrorVisibility::move_to_instant(const VisibilityWorld& world) {
     count_ = world.mirrors().size();
     if (layout_ != world.layouts()) {
         layout_ = world.layouts();
         rows_.assign(count_, {});
         changed_.assign(count_, true);
         places_.clear(), two_sided_ = 0;
-        for (std::size_t i = 0; i < count_; ++i) places_.push_back(place_of(world, i));
+        for (std::size_t i = 0; i < count_; ++i) places_.push_back(mirror_sides_of(world, i));
         for (std::size_t i = 0; i < world.walls().size(); ++i)
             if (!world.walls()[i].front_only) two_sided_ |= 1u << i;
         return;
@@ -115,7 +122,7 @@ void Sight::follow(const World& world) {
     for (std::size_t i = 0; i < count_; ++i)
         if (world.things()[world.mirrors()[i]].has_moved) {
             moved.push_back(i);
-            places_[i] = place_of(world, i);
+            places_[i] = mirror_sides_of(world, i);
         }
     const bool is_much = moved.size() * count_ > kMostPairs;
     for (std::size_t viewer = 0; viewer < count_ && !moved.empty(); ++viewer) {
@@ -127,7 +134,7 @@ void Sight::follow(const World& world) {
         };
         const auto answer = [&](std::size_t target) -> std::uint8_t {
             if (is_much) return viewer == target ? 0 : kReaches | kShows;
-            return look_at(world, viewer, target);
+            return classify_visibility(world, viewer, target);
         };
         if (world.things()[world.mirrors()[viewer]].has_moved)
             for (std::size_t target = 0; target < count_; ++target) put(target, answer(target));
@@ -136,13 +143,14 @@ void Sight::follow(const World& world) {
     }
 }
 
-bool Sight::reaches(const World& world, std::size_t viewer, std::size_t target) {
-    if (rows_[viewer].empty()) look(world, viewer);
+bool MirrorVisibility::reaches(const VisibilityWorld& world, std::size_t viewer,
+                               std::size_t target) {
+    if (rows_[viewer].empty()) update_visibility_from(world, viewer);
     return (rows_[viewer][target] & kReaches) != 0;
 }
 
-bool Sight::shows(const World& world, std::size_t viewer, std::size_t target) {
-    if (rows_[viewer].empty()) look(world, viewer);
+bool MirrorVisibility::shows(const VisibilityWorld& world, std::size_t viewer, std::size_t target) {
+    if (rows_[viewer].empty()) update_visibility_from(world, viewer);
     return (rows_[viewer][target] & kShows) != 0;
 }
 

@@ -13,54 +13,56 @@ namespace catoptric::require {
 inline constexpr std::size_t kMostPairs = 1 << 14;
 
 /// Reason why the camera does not see a mirror.
-struct Unseen {
-    enum class Why { outside, hidden_from_camera, hidden, empty };
-    Why why = Why::outside;
+struct UnseenReason {
+    enum class UnseenCause { outside, hidden_from_camera, hidden, empty };
+    UnseenCause why = UnseenCause::outside;
     std::size_t wall = 0; ///< index of the wall object that hides the mirror
 };
 
 /// Returns why the camera does not see a mirror. The result is none if its bounds are in the
 /// picture and no wall stands in front of them.
-std::optional<Unseen> hidden_from_camera(const World& world, const PictureFrustum& picture,
-                                         std::size_t mirror);
+std::optional<UnseenReason> why_hidden_from_camera(const VisibilityWorld& world,
+                                                   const PictureFrustum& picture,
+                                                   std::size_t mirror);
 
 /// Returns whether a mirror's mesh has few enough triangles to be tested one by one in each frame.
-bool is_tested(const scene::Mesh& mesh);
+bool has_few_triangles(const scene::Mesh& mesh);
 /// Returns false if no triangle of the mirror is in the picture, though its bounds may be. Returns
 /// true for a mesh that is not tested. An exact sphere is tested as a ball.
-bool is_surface_in(const PictureFrustum& picture, const World& world, std::size_t mirror,
-                   const scene::Scene& now);
+bool may_picture_show_mirror(const PictureFrustum& picture, const VisibilityWorld& world,
+                             std::size_t mirror, const scene::Scene& now);
 
 /// Finds which mirrors can see each other. The results for objects that did not move are kept from
 /// one instant to the next.
-class Sight {
+class MirrorVisibility {
 public:
-    /// Takes over an instant, after World::follow. O(1) if no mirror has moved; O(mirrors * walls)
-    /// for each mirror that has. With more than kMostPairs pairs, moved mirrors are assumed to see
-    /// all mirrors and to be seen by all.
-    void follow(const World& world);
+    /// Takes over an instant, after VisibilityWorld::move_to_instant. O(1) if no mirror has moved;
+    /// O(mirrors * walls) for each mirror that has. With more than kMostPairs pairs, moved mirrors
+    /// are assumed to see all mirrors and to be seen by all.
+    void move_to_instant(const VisibilityWorld& world);
 
     /// Returns whether a ray from some point of mirror `viewer` may reach `target`.
-    bool reaches(const World& world, std::size_t viewer, std::size_t target);
+    bool reaches(const VisibilityWorld& world, std::size_t viewer, std::size_t target);
     /// Returns whether the capture of `viewer`, made at the centre of its bounds, may show
     /// `target`.
-    bool shows(const World& world, std::size_t viewer, std::size_t target);
+    bool shows(const VisibilityWorld& world, std::size_t viewer, std::size_t target);
     /// Returns whether any answer about `viewer` may differ from the previous instant.
     bool has_changed(std::size_t viewer) const { return changed_[viewer]; }
 
 private:
     enum : std::uint8_t { kReaches = 1, kShows = 2 };
     /// One bit per wall: whether a box lies wholly in front of the wall, or wholly behind it.
-    struct Sides {
+    struct WallSideBits {
         std::uint32_t front = 0, back = 0;
     };
     struct MirrorSides {
-        Sides box, centre;
+        WallSideBits box, centre;
     };
-    Sides sides_of(const World& world, const Bounds<double>& box) const;
-    MirrorSides place_of(const World& world, std::size_t mirror) const;
-    void look(const World& world, std::size_t viewer);
-    std::uint8_t look_at(const World& world, std::size_t viewer, std::size_t target) const;
+    WallSideBits sides_of(const VisibilityWorld& world, const Bounds<double>& box) const;
+    MirrorSides mirror_sides_of(const VisibilityWorld& world, std::size_t mirror) const;
+    void update_visibility_from(const VisibilityWorld& world, std::size_t viewer);
+    std::uint8_t classify_visibility(const VisibilityWorld& world, std::size_t viewer,
+                                     std::size_t target) const;
 
     std::uint64_t layout_ = 0;
     std::size_t count_ = 0;

@@ -14,16 +14,16 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr CostTable kCosts;
-constexpr ErrorTable kErrors;
+constexpr PictureCostTable kCosts;
+constexpr TechniqueErrorTable kErrors;
 constexpr double kAsGood = 1.1;    // errors within this factor count as equal
 constexpr int kFewestBounces = 2;  // smallest `bounces` of `planar`
 constexpr int kMostBounces = 6;    // largest `bounces` that is suggested
 constexpr double kLeftBlack = .01; // share of mirror pixels that may need more bounces
 
 /// Facts about a picture's mirrors that the choice depends on.
-struct Known {
-    Paths paths;
+struct MirrorFacts {
+    MirrorPathCounts paths;
     std::vector<bool> is_flat, is_seen; ///< one entry per mirror
     double triangles = 0;               ///< number of triangles in the scene
     double pixels = 0;                  ///< number of pixels in the picture
@@ -32,54 +32,57 @@ struct Known {
 
     std::size_t count() const { return is_flat.size(); }
     /// Returns how many pixels of the picture this number of paths stands for.
-    double pixels_of(std::size_t paths_through) const {
+    double pixels_for_paths(std::size_t paths_through) const {
         return pixels * static_cast<double>(paths_through) / static_cast<double>(paths.count);
     }
 };
 
-bool is_flat(const Question& question, const scene::Object& object) {
-    const scene::FlatFaces flats = scene::flat_faces(question.now.meshes[object.mesh],
-                                                     object.world_from_object);
-    return flats.share(scene::flat_tolerance(question.camera, question.size)) >= 1 - kMostBent;
+bool is_flat_mirror(const ModelInput& question, const scene::Object& object) {
+    const scene::FlatFaces flats = scene::find_flat_faces(question.now.meshes[object.mesh],
+                                                          object.world_from_object);
+    return flats.share(scene::compute_flat_tolerance(question.camera, question.size)) >=
+           1 - kMostBent;
 }
 
 /// Returns how many mirrors with `of` the path meets before another mirror.
-std::size_t length_of_run(const std::vector<std::uint32_t>& path, const std::vector<bool>& of) {
+std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
+                                  const std::vector<bool>& of) {
     return static_cast<std::size_t>(
         std::ranges::find_if(path, [&](std::uint32_t mirror) { return !of[mirror]; }) -
         path.begin());
 }
 
 /// Returns how many flat mirrors one behind the other the picture shows, ignoring few pixels.
-int bounces_of(const Known& known) {
+int count_flat_bounces(const MirrorFacts& known) {
     for (int bounces = kFewestBounces; bounces < kMostBounces; ++bounces) {
         double more = 0;
         for (const auto& [path, count] : known.paths.through)
             if (path.size() == static_cast<std::size_t>(bounces) + 1 &&
-                length_of_run(path, known.is_flat) == path.size())
+                count_leading_mirrors(path, known.is_flat) == path.size())
                 more += static_cast<double>(count);
         if (more <= kLeftBlack * known.on_mirrors) return bounces;
     }
     return kMostBounces;
 }
 
-Known known_of(const Question& question) {
-    Known known{.paths = paths_of(question)};
+MirrorFacts gather_mirror_facts(const ModelInput& question) {
+    MirrorFacts known{.paths = trace_mirror_paths(question)};
     for (const std::size_t object : scene::mirrors(question.now))
-        known.is_flat.push_back(is_flat(question, question.now.objects[object]));
+        known.is_flat.push_back(is_flat_mirror(question, question.now.objects[object]));
     known.triangles = static_cast<double>(scene::triangle_count(question.now));
     known.pixels = 1.0 * question.size.x * question.size.y;
-    known.on_mirrors = static_cast<double>(std::max<std::size_t>(1, known.paths.on_mirrors()));
+    known.on_mirrors = static_cast<double>(
+        std::max<std::size_t>(1, known.paths.count_paths_on_mirrors()));
     for (const std::size_t reached : known.paths.reached)
         known.is_seen.push_back(static_cast<double>(reached) > kHardlySeen * known.on_mirrors);
     // Without any visible mirror, treat all as visible.
     if (std::ranges::none_of(known.is_seen, std::identity()))
         known.is_seen.assign(known.count(), true);
-    known.bounces = bounces_of(known);
+    known.bounces = count_flat_bounces(known);
     return known;
 }
 
-double pass_of(const Known& known, double pixels) {
+double cost_of_pass(const MirrorFacts& known, double pixels) {
     return kCosts.pass + kCosts.triangle * known.triangles + kCosts.pixel * pixels;
 }
 
@@ -88,7 +91,7 @@ enum class DrawingMethod { planes, hybrid, march, small };
 
 /// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
 /// more than a tenth.
-bool is_traced(const Known& known, std::size_t mirror) {
+bool should_trace(const MirrorFacts& known, std::size_t mirror) {
     const auto first = static_cast<double>(known.paths.first[mirror]),
                hidden = static_cast<double>(known.paths.hidden[mirror]);
     return hidden * (kErrors.unknown - kErrors.search) > (kAsGood - 1) * kErrors.search * first;
@@ -97,10 +100,11 @@ bool is_traced(const Known& known, std::size_t mirror) {
 /// Adds cost and error of a mirror that is seen in flat mirrors with mirrored views. `path` lists
 /// the mirrors that `count` rays meet; this mirror is the last. A mirrored view looks into the
 /// mirror's capture but traces nothing, so it can only guess what the capture does not show.
-void weigh_in_planes(Candidate& candidate, const Known& known,
-                     const std::vector<std::uint32_t>& path, std::size_t count, DrawingMethod way) {
+void add_cost_in_flat_mirrors(PlanCandidate& candidate, const MirrorFacts& known,
+                              const std::vector<std::uint32_t>& path, std::size_t count,
+                              DrawingMethod way) {
     const bool is_searched = way != DrawingMethod::small;
-    if (is_searched) candidate.cost += kCosts.searched * known.pixels_of(count);
+    if (is_searched) candidate.cost += kCosts.searched * known.pixels_for_paths(count);
     const double error = is_searched ? kErrors.search : kErrors.reuse;
     candidate.error += static_cast<double>(count) * (error - kErrors.planar);
     const auto found = known.paths.hidden_after.find(path);
@@ -110,26 +114,27 @@ void weigh_in_planes(Candidate& candidate, const Known& known,
 
 /// Adds cost and error of the candidate's techniques. `face` is the edge in texels of the captures
 /// of mirrors drawn by `planar`; 0: no captures.
-void weigh(Candidate& candidate, const Known& known, const std::vector<DrawingMethod>& ways,
-           std::uint32_t face) {
+void add_cost_and_error(PlanCandidate& candidate, const MirrorFacts& known,
+                        const std::vector<DrawingMethod>& ways, std::uint32_t face) {
     std::vector<bool> by_planes;
     for (const DrawingMethod way : ways) by_planes.push_back(way == DrawingMethod::planes);
-    candidate.cost = pass_of(known, known.pixels);
+    candidate.cost = cost_of_pass(known, known.pixels);
     for (std::size_t i = 0; i < known.count() && face > 0; ++i) {
         const double edge = by_planes[i]                      ? face
                             : ways[i] == DrawingMethod::small ? kSmallFace
                                                               : kUsualFace,
                      pixels = 6 * edge * edge;
-        candidate.cost += pass_of(known, pixels);
+        candidate.cost += cost_of_pass(known, pixels);
         if (ways[i] == DrawingMethod::hybrid) candidate.cost += kCosts.bounds * pixels;
     }
     for (std::size_t i = 0; i < known.count(); ++i) {
         const auto first = static_cast<double>(known.paths.first[i]);
         const bool is_searched = ways[i] == DrawingMethod::hybrid ||
                                  ways[i] == DrawingMethod::march;
-        if (is_searched) candidate.cost += kCosts.searched * known.pixels_of(known.paths.first[i]);
+        if (is_searched)
+            candidate.cost += kCosts.searched * known.pixels_for_paths(known.paths.first[i]);
         if (ways[i] == DrawingMethod::hybrid)
-            candidate.cost += kCosts.traced * known.pixels_of(known.paths.hidden[i]);
+            candidate.cost += kCosts.traced * known.pixels_for_paths(known.paths.hidden[i]);
         if (ways[i] == DrawingMethod::march)
             candidate.error += static_cast<double>(known.paths.hidden[i]) *
                                (kErrors.unknown - kErrors.search);
@@ -139,11 +144,12 @@ void weigh(Candidate& candidate, const Known& known, const std::vector<DrawingMe
     }
     for (const auto& [path, count] : known.paths.through) {
         const auto bounces = static_cast<std::size_t>(known.bounces);
-        const std::size_t planes = length_of_run(path, by_planes);
+        const std::size_t planes = count_leading_mirrors(path, by_planes);
         if (planes > 0 && planes + 1 == path.size() && planes <= bounces)
-            weigh_in_planes(candidate, known, path, count, ways[path.back()]);
+            add_cost_in_flat_mirrors(candidate, known, path, count, ways[path.back()]);
         if (planes != path.size()) continue;
-        if (path.size() <= bounces) candidate.cost += pass_of(known, known.pixels_of(count));
+        if (path.size() <= bounces)
+            candidate.cost += cost_of_pass(known, known.pixels_for_paths(count));
         if (path.size() == bounces + 1)
             candidate.error += static_cast<double>(count) * (kErrors.black - kErrors.planar);
     }
@@ -152,7 +158,7 @@ void weigh(Candidate& candidate, const Known& known, const std::vector<DrawingMe
 
 /// Returns the techniques of a candidate, each once, without those of hardly seen mirrors: "planar,
 /// hybrid".
-std::string name_of(const std::vector<DrawingMethod>& ways) {
+std::string name_candidate(const std::vector<DrawingMethod>& ways) {
     std::string name;
     for (const auto& [way, word] :
          {std::pair(DrawingMethod::planes, "planar"), std::pair(DrawingMethod::hybrid, "hybrid"),
@@ -164,12 +170,12 @@ std::string name_of(const std::vector<DrawingMethod>& ways) {
 
 /// Returns a candidate. Flat mirrors get `planar` if `planes` is set. Hardly seen mirrors get small
 /// captures, and all others get searches.
-Candidate candidate_of(const Known& known, bool planes) {
+PlanCandidate make_candidate(const MirrorFacts& known, bool planes) {
     std::vector<DrawingMethod> ways(known.count(), DrawingMethod::small);
     bool is_searched = false; // whether any mirror's capture is searched
     for (std::size_t i = 0; i < known.count(); ++i) {
         if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
-        ways[i] = is_traced(known, i) ? DrawingMethod::hybrid : DrawingMethod::march;
+        ways[i] = should_trace(known, i) ? DrawingMethod::hybrid : DrawingMethod::march;
         is_searched = true;
     }
     bool has_captures = false;
@@ -186,40 +192,43 @@ Candidate candidate_of(const Known& known, bool planes) {
     };
     if (known.bounces != kFewestBounces) add("bounces=" + std::to_string(known.bounces));
     if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallFace));
-    Candidate candidate{.name = name_of(ways)};
+    PlanCandidate candidate{.name = name_candidate(ways)};
     for (const DrawingMethod way : ways)
         candidate.techniques.push_back(way == DrawingMethod::planes   ? planar
                                        : way == DrawingMethod::hybrid ? "hybrid"
                                        : way == DrawingMethod::march
                                            ? "march"
                                            : "reuse:face=" + std::to_string(kSmallFace));
-    weigh(candidate, known, ways, !has_captures ? 0 : is_searched ? kUsualFace : kSmallFace);
+    add_cost_and_error(candidate, known, ways,
+                       !has_captures ? 0
+                       : is_searched ? kUsualFace
+                                     : kSmallFace);
     return candidate;
 }
 
-std::string percent(double share) {
+std::string format_percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
     return text;
 }
 
 /// Returns the reason that follows the mirror's technique.
-std::string reason_of(const Question& question, const Known& known, std::size_t mirror,
-                      const scene::Object& object, const std::string& technique) {
+std::string explain_choice(const ModelInput& question, const MirrorFacts& known, std::size_t mirror,
+                           const scene::Object& object, const std::string& technique) {
     const auto share = [&](std::size_t paths) {
-        return percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
+        return format_percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
     };
     const std::size_t first = known.paths.first[mirror], reached = known.paths.reached[mirror];
     std::string seen = reached == 0 ? "no pixel shows it"
                                     : share(first) + " of the picture, " + share(reached) +
                                           " with what other mirrors show of it";
     if (reached == first && first > 0) seen = share(first) + " of the picture";
-    const scene::Shape::Kind kind = scene::shape_of(question.now, object).kind;
+    const scene::MirrorShape::Kind kind = scene::classify_mirror_shape(question.now, object).kind;
     const char* shape = known.is_flat[mirror]
-                            ? kind == scene::Shape::Kind::flat ? "flat" : "flat faces"
-                        : kind == scene::Shape::Kind::flat   ? "not quite flat"
-                        : kind == scene::Shape::Kind::sphere ? "a sphere"
-                                                             : "curved";
+                            ? kind == scene::MirrorShape::Kind::flat ? "flat" : "flat faces"
+                        : kind == scene::MirrorShape::Kind::flat   ? "not quite flat"
+                        : kind == scene::MirrorShape::Kind::sphere ? "a sphere"
+                                                                   : "curved";
     std::string reason = std::string(shape) + ", " + seen;
     const std::size_t hidden = known.paths.hidden[mirror];
     if (technique == "march" && hidden == 0)
@@ -232,8 +241,8 @@ std::string reason_of(const Question& question, const Known& known, std::size_t 
 
 /// Returns a plan such as "1,3=planar *=hybrid". All techniques other than `rest` list their
 /// mirrors by number.
-std::string plan_of(const std::map<std::string, std::vector<std::size_t>>& mirrors,
-                    const std::string& rest) {
+std::string write_plan_text(const std::map<std::string, std::vector<std::size_t>>& mirrors,
+                            const std::string& rest) {
     if (mirrors.empty()) return rest;
     if (mirrors.size() == 1) return mirrors.begin()->first;
     std::string plan;
@@ -250,18 +259,18 @@ std::string plan_of(const std::map<std::string, std::vector<std::size_t>>& mirro
 
 } // namespace
 
-Suggestion suggest(const Question& question) {
+PlanSuggestion suggest_plan(const ModelInput& question) {
     const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
-    Suggestion suggestion;
+    PlanSuggestion suggestion;
     if (mirrors.empty()) {
         suggestion.plan = "hybrid";
         return suggestion;
     }
-    const Known known = known_of(question);
-    suggestion.candidates.push_back(candidate_of(known, true));
-    if (Candidate searched = candidate_of(known, false);
+    const MirrorFacts known = gather_mirror_facts(question);
+    suggestion.candidates.push_back(make_candidate(known, true));
+    if (PlanCandidate searched = make_candidate(known, false);
         searched.techniques != suggestion.candidates.front().techniques) {
-        const Candidate& planes = suggestion.candidates.front();
+        const PlanCandidate& planes = suggestion.candidates.front();
         const bool is_cheaper = searched.cost < planes.cost,
                    is_better = searched.error *
                                kAsGood<planes.error, is_worse = searched.error> planes.error *
@@ -277,15 +286,15 @@ Suggestion suggest(const Question& question) {
         of_technique[technique].push_back(i + 1);
         suggestion.reasons.push_back(
             technique + ": " +
-            reason_of(question, known, i, question.now.objects[mirrors[i]], technique));
+            explain_choice(question, known, i, question.now.objects[mirrors[i]], technique));
     }
-    suggestion.plan = plan_of(of_technique, "hybrid");
+    suggestion.plan = write_plan_text(of_technique, "hybrid");
     return suggestion;
 }
 
-std::string to_text(const std::vector<Candidate>& candidates) {
+std::string to_text(const std::vector<PlanCandidate>& candidates) {
     std::string text;
-    for (const Candidate& candidate : candidates) {
+    for (const PlanCandidate& candidate : candidates) {
         char figures[160];
         std::snprintf(figures, sizeof figures,
                       ": estimated cost %.3g million drawn pixels a frame, FLIP %.2g%s\n",

@@ -18,7 +18,7 @@ inline constexpr double kMostBent = .1;
 
 /// Cost model of a picture, in drawn pixels: weights of passes and pixels. Measured on llvmpipe;
 /// docs/require.md has the figures.
-struct CostTable {
+struct PictureCostTable {
     double pass = 2000;   ///< per pass, whatever its size
     double triangle = 1;  ///< per triangle of the scene, in each pass
     double pixel = 1;     ///< per pixel drawn in a capture or view
@@ -28,27 +28,27 @@ struct CostTable {
     double traced = 40;
 };
 /// Mean FLIP of a mirror pixel by technique. Rounded averages over the scenes of docs/require.md.
-struct ErrorTable {
+struct TechniqueErrorTable {
     double planar = .003, search = .03, reuse = .3;
     double unknown = .5; ///< surface outside the mirror's capture, if nothing is traced
     double black = .5;   ///< flat mirrors seen through more mirrors than are drawn
 };
 
 /// One assignment of techniques to all mirrors.
-struct Candidate {
+struct PlanCandidate {
     std::string name;                    ///< the techniques in use: "planar, hybrid"
     std::vector<std::string> techniques; ///< entry n-1 belongs to mirror n
     double cost = 0;                     ///< drawn pixels per frame
     double error = 0;                    ///< estimated FLIP, mean over all mirror pixels
 };
 
-struct Suggestion {
-    std::string plan;                  ///< plan text for reflect::parse_plan: "1=planar 2-3 ..."
-    std::vector<std::string> reasons;  ///< reason for mirror n in entry n-1: "planar: flat, ..."
-    std::vector<Candidate> candidates; ///< all that were compared, the chosen one first
+struct PlanSuggestion {
+    std::string plan;                 ///< plan text for reflect::parse_plan: "1=planar 2-3 ..."
+    std::vector<std::string> reasons; ///< reason for mirror n in entry n-1: "planar: flat, ..."
+    std::vector<PlanCandidate> candidates; ///< all that were compared, the chosen one first
 };
 
-/// Suggests a plan from what the pixels show (paths_of) and from shapes (scene::flat_faces).
+/// Suggests a plan from what the pixels show (paths_of) and from shapes (scene::find_flat_faces).
 /// Mirrors that are hardly seen get `reuse` with small faces.
 ///
 /// Two candidates are compared for the other mirrors: `planar` for flat mirrors with a search for
@@ -58,9 +58,9 @@ struct Suggestion {
 ///
 /// The candidate with the smaller estimated error wins. If the errors differ by less than a tenth,
 /// the cheaper candidate wins.
-Suggestion suggest(const Question& question);
+PlanSuggestion suggest_plan(const ModelInput& question);
 
 /// Returns the candidates with cost and error, one line each, for the user.
-std::string to_text(const std::vector<Candidate>& candidates);
+std::string to_text(const std::vector<PlanCandidate>& candidates);
 
 } // namespace catoptric::require

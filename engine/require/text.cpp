@@ -10,27 +10,27 @@ namespace catoptric::require {
 
 namespace {
 
-std::string numbers_of(const std::vector<std::uint32_t>& mirrors) {
+std::string format_mirror_numbers(const std::vector<std::uint32_t>& mirrors) {
     std::vector<std::size_t> numbers(mirrors.begin(), mirrors.end());
     for (std::size_t& number : numbers) ++number;
-    return ranges(numbers);
+    return format_number_ranges(numbers);
 }
 
-std::string needs_text(const MirrorNeeds& needs, const scene::Mesh& mesh) {
+std::string describe_capture_needs(const MirrorNeeds& needs, const scene::Mesh& mesh) {
     if (!needs.is_captured) return "not seen";
     std::string text = needs.seen_in
                            ? "in the view of mirror " + std::to_string(needs.seen_in.number())
-                       : !is_tested(mesh) ? "its bounds are in the camera's view"
-                                          : "in the camera's view";
+                       : !has_few_triangles(mesh) ? "its bounds are in the camera's view"
+                                                  : "in the camera's view";
     text += "; captured, ";
-    text += needs.faces == kAllFaces ? "six faces" : "faces " + names_of(needs.faces);
+    text += needs.faces == kAllFaces ? "six faces" : "faces " + list_face_names(needs.faces);
     if (needs.edge > 0) text += " of " + std::to_string(needs.edge) + " texels an edge";
     text += needs.sees.empty() ? ", no other mirror in it"
-                               : ", mirrors " + numbers_of(needs.sees) + " in it";
+                               : ", mirrors " + format_mirror_numbers(needs.sees) + " in it";
     return text;
 }
 
-std::string error_text(double error) {
+std::string format_estimated_error(double error) {
     if (error == 0) return "no pixel";
     std::ostringstream text;
     text << "pixels by at most " << error << " of 1";
@@ -38,7 +38,7 @@ std::string error_text(double error) {
 }
 
 /// Returns the text about captures and maps that are kept over frames; empty if there are none.
-std::string kept_text(const Model& model) {
+std::string describe_kept_captures(const Model& model) {
     std::size_t faces = 0;
     for (const MirrorNeeds& needs : model.mirrors)
         faces += needs.is_captured ? static_cast<std::size_t>(std::popcount(needs.faces)) : 0;
@@ -64,7 +64,8 @@ std::string to_text(const Model& model, const scene::Scene& scene) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     text << (model.is_everything ? "everything is required\n" : "required\n");
     const auto text_of = [&](std::size_t i) {
-        return needs_text(model.mirrors[i], scene.meshes[scene.objects[mirrors[i]].mesh]);
+        return describe_capture_needs(model.mirrors[i],
+                                      scene.meshes[scene.objects[mirrors[i]].mesh]);
     };
     // Consecutive mirrors with the same text share a line.
     for (std::size_t i = 0; i < model.mirrors.size();) {
@@ -72,22 +73,22 @@ std::string to_text(const Model& model, const scene::Scene& scene) {
         std::size_t end = i + 1;
         while (end < model.mirrors.size() && text_of(end) == needs) ++end;
         if (end == i + 1)
-            text << "  mirror " << end << " " << in_quotes(scene.objects[mirrors[i]].name);
+            text << "  mirror " << end << " " << quote_printable(scene.objects[mirrors[i]].name);
         else
             text << "  mirrors " << i + 1 << "-" << end;
         text << ": " << needs << "\n";
         i = end;
     }
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        const std::string name = name_of_light(scene, i, model.lights.size());
+        const std::string name = quote_light_name(scene, i, model.lights.size());
         text << "  light " << i + 1 << (name.empty() ? "" : " " + name) << ": "
              << (model.lights[i].has_map ? "a shadow map" : "no shadow map") << "\n";
     }
-    text << kept_text(model);
+    text << describe_kept_captures(model);
     text << (model.left_out.empty() ? "nothing is left out\n" : "left out\n");
     for (const CulledWork& thing : model.left_out)
         text << "  " << thing.what << "\n    why: " << thing.why << "\n    saves: " << thing.saves
-             << "\n    changes: " << error_text(thing.error) << "\n";
+             << "\n    changes: " << format_estimated_error(thing.error) << "\n";
     return text.str();
 }
 

@@ -8,7 +8,7 @@ namespace catoptric::require {
 namespace {
 
 /// Returns whether all corners turn the same way and the four lie in one plane.
-bool is_convex(const Quad& quad) {
+bool is_convex_quad(const Quad& quad) {
     const dvec3 normal = cross(quad[2] - quad[0], quad[3] - quad[1]);
     const double size = length(normal);
     if (!(size > 0)) return false;
@@ -21,7 +21,8 @@ bool is_convex(const Quad& quad) {
 }
 
 /// Returns the convex quadrilateral that the two triangles form, or none.
-std::optional<Quad> joined(const scene::Mesh& mesh, const uvec3& one, const uvec3& other) {
+std::optional<Quad> join_triangles_to_quad(const scene::Mesh& mesh, const uvec3& one,
+                                           const uvec3& other) {
     const auto at = [&](const uvec3& triangle, int i) { return mesh.positions[triangle[i % 3]]; };
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
@@ -29,7 +30,7 @@ std::optional<Quad> joined(const scene::Mesh& mesh, const uvec3& one, const uvec
             // directions.
             if (at(one, i) != at(other, j + 1) || at(one, i + 1) != at(other, j)) continue;
             const Quad quad{at(one, i), at(other, j + 2), at(one, i + 1), at(one, i + 2)};
-            if (is_convex(quad)) return quad;
+            if (is_convex_quad(quad)) return quad;
         }
     return std::nullopt;
 }
@@ -38,7 +39,7 @@ std::optional<Quad> joined(const scene::Mesh& mesh, const uvec3& one, const uvec
 struct BoxCorners {
     std::array<dvec3, 8> at;
     std::size_t count = 8;
-    explicit BoxCorners(const Bounds<double>& box) : at(corners_of(box)) {
+    explicit BoxCorners(const Bounds<double>& box) : at(list_box_corners(box)) {
         if (box.lo == box.hi) count = 1;
     }
 };
@@ -47,7 +48,7 @@ struct WallDistances {
     double height;                ///< distance from the plane, positive
     std::array<double, 4> inside; ///< distance inside each edge
 };
-WallDistances side_of(const Wall& wall, const dvec3& place) {
+WallDistances distances_to_wall(const Wall& wall, const dvec3& place) {
     WallDistances side{std::abs(wall.height(place)), {}};
     for (std::size_t edge = 0; edge < 4; ++edge) side.inside[edge] = wall.inside(edge, place);
     return side;
@@ -55,7 +56,7 @@ WallDistances side_of(const Wall& wall, const dvec3& place) {
 
 } // namespace
 
-std::array<dvec3, 8> corners_of(const Bounds<double>& box) {
+std::array<dvec3, 8> list_box_corners(const Bounds<double>& box) {
     std::array<dvec3, 8> corners;
     for (unsigned i = 0; i < 8; ++i)
         corners[i] = {i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y,
@@ -63,12 +64,12 @@ std::array<dvec3, 8> corners_of(const Bounds<double>& box) {
     return corners;
 }
 
-std::array<double, 2> along(const dvec3& axis, const Bounds<double>& box) {
+std::array<double, 2> project_box_on_axis(const dvec3& axis, const Bounds<double>& box) {
     const double middle = dot(axis, box.centre()), reach = dot(abs(axis), box.extent()) / 2;
     return {middle - reach, middle + reach};
 }
 
-std::vector<Quad> quads_of(const scene::Mesh& mesh) {
+std::vector<Quad> find_convex_quads(const scene::Mesh& mesh) {
     std::vector<Quad> quads;
     const std::size_t count = mesh.triangles.size();
     if (count > kMostTriangles) return quads;
@@ -76,7 +77,8 @@ std::vector<Quad> quads_of(const scene::Mesh& mesh) {
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = i + 1; j < count && !is_used[i]; ++j) {
             if (is_used[j]) continue;
-            const std::optional<Quad> quad = joined(mesh, mesh.triangles[i], mesh.triangles[j]);
+            const std::optional<Quad> quad = join_triangles_to_quad(mesh, mesh.triangles[i],
+                                                                    mesh.triangles[j]);
             if (!quad) continue;
             quads.push_back(*quad);
             is_used[i] = is_used[j] = true;
@@ -84,7 +86,7 @@ std::vector<Quad> quads_of(const scene::Mesh& mesh) {
     return quads;
 }
 
-Wall wall_of(const Quad& corners, std::size_t object) {
+Wall make_wall(const Quad& corners, std::size_t object) {
     Wall wall{.corners = corners, .object = object};
     const dvec3 twice = cross(corners[2] - corners[0], corners[3] - corners[1]);
     wall.area = length(twice) / 2;
@@ -95,10 +97,10 @@ Wall wall_of(const Quad& corners, std::size_t object) {
     return wall;
 }
 
-bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
-           double margin) {
-    const auto [viewer_low, viewer_high] = along(wall.normal, viewer);
-    const auto [target_low, target_high] = along(wall.normal, target);
+bool wall_hides_box(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
+                    double margin) {
+    const auto [viewer_low, viewer_high] = project_box_on_axis(wall.normal, viewer);
+    const auto [target_low, target_high] = project_box_on_axis(wall.normal, target);
     const double plane = dot(wall.normal, wall.corners[0]), above = plane + margin,
                  below = plane - margin;
     const bool from_front = viewer_low > above && target_high < below;
@@ -106,9 +108,9 @@ bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>&
     if (!(from_front || from_behind)) return false;
     const BoxCorners from(viewer), to(target);
     std::array<WallDistances, 8> there;
-    for (std::size_t j = 0; j < to.count; ++j) there[j] = side_of(wall, to.at[j]);
+    for (std::size_t j = 0; j < to.count; ++j) there[j] = distances_to_wall(wall, to.at[j]);
     for (std::size_t i = 0; i < from.count; ++i) {
-        const WallDistances here = side_of(wall, from.at[i]);
+        const WallDistances here = distances_to_wall(wall, from.at[i]);
         for (std::size_t j = 0; j < to.count; ++j)
             for (std::size_t edge = 0; edge < 4; ++edge)
                 if (!(here.inside[edge] * there[j].height + there[j].inside[edge] * here.height >=
@@ -118,11 +120,11 @@ bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>&
     return true;
 }
 
-bool hides_along(const Wall& wall, const dvec3& eye, const dvec3& direction,
-                 const Bounds<double>& target, double margin) {
+bool wall_hides_from_orthographic(const Wall& wall, const dvec3& eye, const dvec3& direction,
+                                  const Bounds<double>& target, double margin) {
     const double slant = dot(wall.normal, direction);
     if (wall.front_only && slant >= 0) return false;
-    for (const dvec3& corner : corners_of(target)) {
+    for (const dvec3& corner : list_box_corners(target)) {
         const double depth = dot(corner - eye, direction), height = wall.height(corner);
         const double back = height / slant; // distance back to the wall, against the direction
         if (!(back > margin && depth - back > margin)) return false;

@@ -13,16 +13,16 @@ namespace catoptric::require {
 using Quad = std::array<dvec3, 4>;
 
 /// Returns the eight corners of a box.
-std::array<dvec3, 8> corners_of(const Bounds<double>& box);
+std::array<dvec3, 8> list_box_corners(const Bounds<double>& box);
 
 /// Returns the least and the largest product of the axis with points of the box.
-std::array<double, 2> along(const dvec3& axis, const Bounds<double>& box);
+std::array<double, 2> project_box_on_axis(const dvec3& axis, const Bounds<double>& box);
 
 /// Returns the pairs of triangles that form convex quadrilaterals, in the mesh's own space. The two
 /// triangles share an edge, lie in one plane (within kFlat of their extent) and have one
 /// orientation, and every corner is convex. Each triangle is in at most one pair. Returns none for
 /// a mesh with more than kMostTriangles. O(triangles^2).
-std::vector<Quad> quads_of(const scene::Mesh& mesh);
+std::vector<Quad> find_convex_quads(const scene::Mesh& mesh);
 inline constexpr double kFlat = 1e-9;
 inline constexpr std::size_t kMostTriangles = 64;
 
@@ -43,7 +43,7 @@ struct Wall {
     }
 };
 /// Returns the wall of a quadrilateral of an object. A wall of zero area hides nothing.
-Wall wall_of(const Quad& corners, std::size_t object);
+Wall make_wall(const Quad& corners, std::size_t object);
 
 /// Returns whether each segment from a point of `viewer` to a point of `target` crosses the wall.
 /// Crossings must lie at least `margin` inside the wall's edges. The ends must lie on different
@@ -56,13 +56,13 @@ Wall wall_of(const Quad& corners, std::size_t object);
 /// these (at most 64) crossings lie in the wall, which is convex, all crossings do. Let h be the
 /// height over the plane and e the distance inside an edge's line, both linear. The crossing of v
 /// and t has e = (e(v) |h(t)| + e(t) |h(v)|) / (|h(v)| + |h(t)|).
-bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
-           double margin);
+bool wall_hides_box(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
+                    double margin);
 
 /// Returns whether the wall hides the box `target` from an orthographic camera. All rays to
 /// `target` run along the unit `direction`, from the plane through `eye` across it. A corner's
 /// crossing is linear in the corner, so eight segments suffice.
-bool hides_along(const Wall& wall, const dvec3& eye, const dvec3& direction,
-                 const Bounds<double>& target, double margin);
+bool wall_hides_from_orthographic(const Wall& wall, const dvec3& eye, const dvec3& direction,
+                                  const Bounds<double>& target, double margin);
 
 } // namespace catoptric::require

@@ -14,7 +14,7 @@ namespace catoptric::require {
 
 namespace {
 
-MeshFacts facts_of(const scene::Mesh& mesh) {
+MeshFacts compute_mesh_facts(const scene::Mesh& mesh) {
     MeshFacts facts;
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
@@ -22,24 +22,24 @@ MeshFacts facts_of(const scene::Mesh& mesh) {
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i)
             facts.radius = std::max(facts.radius, length(mesh.positions[triangle[i]] - middle));
-    facts.content_hash = content_hash_of(mesh);
-    facts.quads = quads_of(mesh);
-    facts.flat_normal = flat_normal(mesh);
+    facts.content_hash = hash_mesh(mesh);
+    facts.quads = find_convex_quads(mesh);
+    facts.flat_normal = normal_of_flat_mesh(mesh);
     return facts;
 }
 
 /// Returns the bounds of the transformed box.
-Bounds<double> moved(const Bounds<double>& box, const dmat4& place) {
+Bounds<double> transform_bounds(const Bounds<double>& box, const dmat4& place) {
     Bounds<double> result;
     if (!box.empty())
-        for (const dvec3& corner : corners_of(box))
+        for (const dvec3& corner : list_box_corners(box))
             result.add(scene::transform_point(place, corner));
     return result;
 }
 
 /// Returns a bound on how much the matrix stretches lengths. The spectral norm is at most the root
 /// of the largest row sum of M^T M.
-double stretch_at_most(const dmat3& m) {
+double bound_matrix_stretch(const dmat3& m) {
     const dmat3 square = transpose(m) * m;
     double most = 0;
     for (int i = 0; i < 3; ++i)
@@ -48,37 +48,37 @@ double stretch_at_most(const dmat3& m) {
     return std::sqrt(most);
 }
 
-Bounds<double> shifted(const Bounds<double>& box, const dvec3& offset) {
+Bounds<double> shift_bounds(const Bounds<double>& box, const dvec3& offset) {
     return {box.lo + offset, box.hi + offset};
 }
 
-bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
+bool is_equal(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
     if (a.has_value() != b.has_value()) return false;
     return !a || (a->centre == b->centre && a->radius == b->radius);
 }
 
-bool is_wall(const scene::Material& material, bool is_mirror) {
+bool can_be_wall(const scene::Material& material, bool is_mirror) {
     // A lamp is invisible from behind, and the order of its corners does not tell where behind is.
-    return !scene::is_masked(material) &&
+    return !scene::has_alpha_mask(material) &&
            (is_mirror || material.front_only || !scene::is_one_sided(material)) &&
-           scene::light_of(material) == vec3(0);
+           scene::emitted_radiance(material) == vec3(0);
 }
 
 } // namespace
 
-World::World(const scene::Scene& rest) {
-    for (const scene::Mesh& mesh : rest.meshes) meshes_.push_back(facts_of(mesh));
+VisibilityWorld::VisibilityWorld(const scene::Scene& rest) {
+    for (const scene::Mesh& mesh : rest.meshes) meshes_.push_back(compute_mesh_facts(mesh));
     things_.resize(rest.objects.size());
     for (std::size_t i = 0; i < things_.size(); ++i)
         things_[i].is_mover = !std::holds_alternative<std::monostate>(rest.objects[i].motion);
     lay_out(rest);
 }
 
-void World::lay_out(const scene::Scene& now) {
+void VisibilityWorld::lay_out(const scene::Scene& now) {
     ++layouts_;
     materials_ = now.materials, environment_ = now.environment, punctual_ = now.punctual;
-    materials_stamp_ = content_hash_of(now.materials);
-    environment_stamp_ = content_hash_of(now.environment.get());
+    materials_stamp_ = hash_mesh(now.materials);
+    environment_stamp_ = hash_mesh(now.environment.get());
     things_.resize(now.objects.size());
     mirrors_ = scene::mirrors(now), movers_.clear(), still_ = {};
     for (std::size_t i = 0; i < things_.size(); ++i) {
@@ -88,7 +88,7 @@ void World::lay_out(const scene::Scene& now) {
         thing.rest = object.world_from_object;
         thing.seen_by_camera = object.seen_by_camera;
         thing.is_mirror = scene::is_mirror(now, object);
-        thing.casts_shadow = scene::light_of(now.materials[object.material]) == vec3(0);
+        thing.casts_shadow = scene::emitted_radiance(now.materials[object.material]) == vec3(0);
         thing.tight_rest = scene::bounds(now, object);
         if (thing.is_mover)
             movers_.push_back(i);
@@ -100,13 +100,13 @@ void World::lay_out(const scene::Scene& now) {
     middle_ = around.empty() ? dvec3(0) : around.centre();
     rounding_ = kRounding * std::max({extent.x, extent.y, extent.z});
     for (std::size_t i = 0; i < things_.size(); ++i) move(now, i);
-    lights_ = scene::lights(now);
+    lights_ = scene::list_lights(now);
     find_walls();
     find_epoch();
 }
 
 /// Returns whether the scene is the one that was laid out, except for where movers are.
-bool World::fits(const scene::Scene& now) const {
+bool VisibilityWorld::has_same_layout(const scene::Scene& now) const {
     if (now.objects.size() != things_.size() || now.environment != environment_ ||
         now.materials != materials_ || now.punctual.size() != punctual_.size())
         return false;
@@ -123,24 +123,24 @@ bool World::fits(const scene::Scene& now) const {
 }
 
 /// Moves an object to its current place.
-void World::move(const scene::Scene& now, std::size_t index) {
+void VisibilityWorld::move(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
     WorldObject& thing = things_[index];
     thing.place = object.world_from_object, thing.sphere = object.sphere;
     const bool is_shifted = dmat3(thing.place) == dmat3(thing.rest);
     thing.tight = is_shifted
-                      ? shifted(thing.tight_rest, dvec3(thing.place[3]) - dvec3(thing.rest[3]))
+                      ? shift_bounds(thing.tight_rest, dvec3(thing.place[3]) - dvec3(thing.rest[3]))
                   : thing.is_mirror
                       ? scene::bounds(
                             now, object) // the centre of its bounds is the centre of its capture
-                      : moved(meshes_[thing.mesh].box, thing.place);
+                      : transform_bounds(meshes_[thing.mesh].box, thing.place);
     // The device stores positions as floats relative to the middle of the scene.
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kRounding * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
     const MeshFacts& mesh = meshes_[thing.mesh];
     if (!mesh.box.empty()) thing.middle = scene::transform_point(thing.place, mesh.box.centre());
-    thing.radius = mesh.radius * stretch_at_most(dmat3(thing.place)) + 2 * room;
+    thing.radius = mesh.radius * bound_matrix_stretch(dmat3(thing.place)) + 2 * room;
     ContentHash content_hash;
     content_hash.add(index)
         .add(meshes_[thing.mesh].content_hash)
@@ -150,9 +150,9 @@ void World::move(const scene::Scene& now, std::size_t index) {
     thing.content_hash = content_hash.value();
 }
 
-void World::follow(const scene::Scene& now) {
+void VisibilityWorld::move_to_instant(const scene::Scene& now) {
     has_changed_ = false;
-    if (!fits(now)) {
+    if (!has_same_layout(now)) {
         for (std::size_t i = 0; i < std::min(things_.size(), now.objects.size()); ++i)
             if (now.objects[i].world_from_object != things_[i].rest) things_[i].is_mover = true;
         lay_out(now);
@@ -165,7 +165,7 @@ void World::follow(const scene::Scene& now) {
         WorldObject& thing = things_[mover];
         const scene::Object& object = now.objects[mover];
         thing.has_moved = object.world_from_object != thing.place ||
-                          !same(object.sphere, thing.sphere);
+                          !is_equal(object.sphere, thing.sphere);
         if (!thing.has_moved) continue;
         move(now, mover);
         has_changed_ = true;
@@ -173,12 +173,12 @@ void World::follow(const scene::Scene& now) {
     }
     if (!lights_moved) return;
     punctual_ = now.punctual;
-    lights_ = scene::lights(now);
+    lights_ = scene::list_lights(now);
     find_epoch();
     has_changed_ = true;
 }
 
-void World::find_walls() {
+void VisibilityWorld::find_walls() {
     walls_.clear();
     const auto keep_largest = [&] { // keeps the first of equal walls
         std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
@@ -188,10 +188,10 @@ void World::find_walls() {
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const WorldObject& thing = things_[i];
         const scene::Material& material = materials_[thing.material];
-        if (thing.is_mover || !is_wall(material, thing.is_mirror)) continue;
+        if (thing.is_mover || !can_be_wall(material, thing.is_mirror)) continue;
         for (Quad quad : meshes_[thing.mesh].quads) {
             for (dvec3& corner : quad) corner = scene::transform_point(thing.rest, corner);
-            Wall wall = wall_of(quad, i);
+            Wall wall = make_wall(quad, i);
             wall.front_only = material.front_only && !thing.is_mirror;
             wall.seen_by_camera = thing.seen_by_camera;
             if (wall.area > 0 && wall.area >= least) walls_.push_back(wall);
@@ -201,12 +201,12 @@ void World::find_walls() {
     keep_largest();
 }
 
-void World::find_epoch() {
+void VisibilityWorld::find_epoch() {
     ContentHash content_hash;
     content_hash.add(materials_stamp_).add(environment_stamp_).add(things_.size());
     for (const WorldObject& thing : things_)
         content_hash.add(thing.is_mover ? 0 : thing.content_hash);
-    for (const scene::PointLight& light : lights_) content_hash.add(content_hash_of(light));
+    for (const scene::PointLight& light : lights_) content_hash.add(hash_mesh(light));
     epoch_ = content_hash.value();
 }
 

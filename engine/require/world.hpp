@@ -50,17 +50,17 @@ struct WorldObject {
 /// A scene as the rules see it, from instant to instant. Objects that never moved are kept apart
 /// from movers. Objects that never moved cannot change a capture, so one number (the epoch) covers
 /// all of them in content hashes.
-class World {
+class VisibilityWorld {
 public:
     /// Takes the scene at rest. O(vertices + texels of images), for the bounds and content hashes
     /// of meshes and the content hashes of materials.
-    explicit World(const scene::Scene& rest);
+    explicit VisibilityWorld(const scene::Scene& rest);
 
     /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
     /// move. An object that stood still and has moved (an edit) is a mover from then on. Such an
     /// edit begins a new `epoch`. A changed number of objects, material, light or environment also
     /// begins a new `epoch`.
-    void follow(const scene::Scene& now);
+    void move_to_instant(const scene::Scene& now);
 
     const std::vector<WorldObject>& things() const { return things_; }
     const std::vector<std::size_t>& mirrors() const { return mirrors_; } ///< indices of objects
@@ -68,7 +68,9 @@ public:
     const std::vector<Wall>& walls() const { return walls_; }            ///< the largest first
     const std::vector<scene::PointLight>& lights() const { return lights_; }
     const std::vector<MeshFacts>& meshes() const { return meshes_; }
-    const Bounds<double>& still() const { return still_; } ///< bounds of all that never moved
+    const Bounds<double>& static_bounds() const {
+        return still_;
+    } ///< bounds of all that never moved
     /// Largest rounding error of a position, in world units.
     double rounding() const { return rounding_; }
     std::uint64_t epoch() const {
@@ -83,14 +85,14 @@ public:
 
 private:
     void lay_out(const scene::Scene& now);
-    bool fits(const scene::Scene& now) const;
+    bool has_same_layout(const scene::Scene& now) const;
     void move(const scene::Scene& now, std::size_t object);
     void find_walls();
     void find_epoch();
 
     std::vector<MeshFacts> meshes_;
     std::vector<scene::Material> materials_;
-    std::vector<scene::Punctual> punctual_;
+    std::vector<scene::PunctualLight> punctual_;
     std::shared_ptr<const scene::Environment> environment_;
     std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, epoch_ = 0, layouts_ = 0;
     std::vector<WorldObject> things_;

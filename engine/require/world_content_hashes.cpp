@@ -12,19 +12,19 @@ namespace catoptric::require {
 namespace {
 
 template <typename Value>
-void add(ContentHash& content_hash, const std::vector<Value>& values) {
+void hash_values(ContentHash& content_hash, const std::vector<Value>& values) {
     content_hash.add_all(std::span<const Value>(values));
 }
 
 /// Content hashes of images. Each image is hashed once, even if several materials use it.
-class Images {
+class ImageHashes {
 public:
     std::uint64_t operator[](const std::shared_ptr<const scene::Image>& image) {
         const auto [entry, is_new] = known_.try_emplace(image.get(), 0);
         if (!is_new || !image) return entry->second;
         ContentHash content_hash;
         content_hash.add(image->size);
-        add(content_hash, image->texels);
+        hash_values(content_hash, image->texels);
         return entry->second = content_hash.value();
     }
 
@@ -32,8 +32,8 @@ private:
     std::map<const scene::Image*, std::uint64_t> known_;
 };
 
-void add_texture(ContentHash& content_hash, const std::optional<scene::Texture>& texture,
-                 Images& images) {
+void hash_texture(ContentHash& content_hash, const std::optional<scene::Texture>& texture,
+                  ImageHashes& images) {
     content_hash.add(texture.has_value());
     if (!texture) return;
     content_hash.add(images[texture->image]).add(texture->wrap_u).add(texture->wrap_v);
@@ -43,21 +43,22 @@ void add_texture(ContentHash& content_hash, const std::optional<scene::Texture>&
 
 } // namespace
 
-std::uint64_t content_hash_of(const scene::Mesh& mesh) {
+std::uint64_t hash_mesh(const scene::Mesh& mesh) {
     ContentHash content_hash;
-    add(content_hash, mesh.positions), add(content_hash, mesh.normals),
-        add(content_hash, mesh.triangles);
-    add(content_hash, mesh.uv[0]), add(content_hash, mesh.uv[1]), add(content_hash, mesh.colours);
+    hash_values(content_hash, mesh.positions), hash_values(content_hash, mesh.normals),
+        hash_values(content_hash, mesh.triangles);
+    hash_values(content_hash, mesh.uv[0]), hash_values(content_hash, mesh.uv[1]),
+        hash_values(content_hash, mesh.colours);
     return content_hash.value();
 }
 
-std::uint64_t content_hash_of(const std::vector<scene::Material>& materials) {
+std::uint64_t hash_mesh(const std::vector<scene::Material>& materials) {
     ContentHash content_hash;
-    Images images;
+    ImageHashes images;
     const auto add_member = [&](const auto& member) {
         using Member = std::remove_cvref_t<decltype(member)>;
         if constexpr (std::is_same_v<Member, std::optional<scene::Texture>>)
-            add_texture(content_hash, member, images);
+            hash_texture(content_hash, member, images);
         else if constexpr (std::is_same_v<Member, std::optional<vec3>>)
             content_hash.add(member.has_value()).add(member.value_or(vec3(0)));
         else if constexpr (!std::is_same_v<Member, std::string>) // no picture shows a name
@@ -67,16 +68,16 @@ std::uint64_t content_hash_of(const std::vector<scene::Material>& materials) {
     return content_hash.value();
 }
 
-std::uint64_t content_hash_of(const scene::Environment* environment) {
+std::uint64_t hash_mesh(const scene::Environment* environment) {
     if (environment == nullptr) return 0;
     ContentHash content_hash(1);
     content_hash.add(environment->studio).add(environment->size);
-    add(content_hash, environment->texels);
+    hash_values(content_hash, environment->texels);
     content_hash.add(environment->scale).add(environment->rotation_degrees);
     return content_hash.value();
 }
 
-std::uint64_t content_hash_of(const scene::PointLight& light) {
+std::uint64_t hash_mesh(const scene::PointLight& light) {
     ContentHash content_hash;
     scene::visit_members(light, [&](const auto& member) { content_hash.add(member); });
     return content_hash.value();

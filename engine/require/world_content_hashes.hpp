@@ -7,11 +7,11 @@
 /// Content hashes of parts of a scene. Equal hashes stand for parts that look the same.
 namespace catoptric::require {
 
-std::uint64_t content_hash_of(const scene::Mesh& mesh);
+std::uint64_t hash_mesh(const scene::Mesh& mesh);
 /// Returns the content hash of all materials, including the texels of their images. O(texels).
-std::uint64_t content_hash_of(const std::vector<scene::Material>& materials);
+std::uint64_t hash_mesh(const std::vector<scene::Material>& materials);
 /// Returns the content hash of the environment. Null is a black environment.
-std::uint64_t content_hash_of(const scene::Environment* environment);
-std::uint64_t content_hash_of(const scene::PointLight& light);
+std::uint64_t hash_mesh(const scene::Environment* environment);
+std::uint64_t hash_mesh(const scene::PointLight& light);
 
 } // namespace catoptric::require

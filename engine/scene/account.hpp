@@ -7,15 +7,15 @@
 #include <string_view>
 
 /// Totals of the memory and work that a scene file asks for, each checked against its limit in
-/// `Budget`.
+/// `LoadBudget`.
 namespace catoptric::scene {
 
 /// Running sum of one quantity while a scene is loaded, and the largest sum that is allowed.
-class Total {
+class LimitedSum {
 public:
     /// `what`: the quantity that error messages name. `remedy`: end of the message, which names the
     /// option that raises the limit; may be empty.
-    Total(std::string_view what, std::uint64_t budget, std::string_view remedy = {})
+    LimitedSum(std::string_view what, std::uint64_t budget, std::string_view remedy = {})
         : what_(what), remedy_(remedy), budget_(budget) {}
 
     /// Adds `amount`. Throws `bad_data`, with the parts of `place` first in the message, if the sum
@@ -42,38 +42,38 @@ private:
 };
 
 /// The running sums of all quantities of one scene file that the budget limits.
-struct Account {
-    explicit Account(const Budget& of) : budget(of) {}
+struct BudgetAccount {
+    explicit BudgetAccount(const LoadBudget& of) : budget(of) {}
 
-    const Budget budget;
+    const LoadBudget budget;
     static constexpr std::string_view kMoreBytes = "; --max-bytes allows more",
                                       kMoreTriangles = "; --max-triangles allows more";
-    Total file_bytes{"bytes in its files", budget.file_bytes, kMoreBytes};
-    Total files{"names of files", budget.files};
-    Total json_bytes{"bytes of JSON", budget.json_bytes};
-    Total json_memory{"bytes of memory for its JSON", budget.json_memory};
-    Total positions{"positions", budget.vertices, kMoreTriangles};
-    Total normals{"normals", budget.vertices, kMoreTriangles};
-    Total attributes{"texture coordinates, colours and weights", 4 * budget.vertices};
-    Total mesh_vertices{"vertices in meshes", budget.vertices, kMoreTriangles};
-    Total shown_vertices{"vertices shown by objects", budget.shown};
-    Total mesh_triangles{"triangles in meshes", budget.triangles, kMoreTriangles};
-    Total shown_triangles{"triangles shown by objects", budget.shown};
-    Total nodes{"nodes", budget.objects};
-    Total meshes{"meshes", budget.objects};
-    Total primitives{"primitives", budget.objects};
-    Total materials{"materials", budget.objects};
-    Total remarks{"objects named by comments", budget.objects};
-    Total cameras{"cameras", budget.objects};
-    Total channels{"animation channels", budget.objects};
-    Total objects{"objects", budget.objects};
-    Total keys{"keys of animations", budget.keys};
-    Total key_times{"times of keys", budget.keys};
-    Total key_values{"values of keys", 3 * budget.keys};
-    Total name_bytes{"bytes of names", budget.name_bytes};
-    Total texels{"texels in pictures", budget.texels};
-    Total made_bytes{"bytes of sparse accessors", budget.made_bytes};
-    Total cuts{"comparisons to cut concave polygons", budget.cuts};
+    LimitedSum file_bytes{"bytes in its files", budget.file_bytes, kMoreBytes};
+    LimitedSum files{"names of files", budget.files};
+    LimitedSum json_bytes{"bytes of JSON", budget.json_bytes};
+    LimitedSum json_memory{"bytes of memory for its JSON", budget.json_memory};
+    LimitedSum positions{"positions", budget.vertices, kMoreTriangles};
+    LimitedSum normals{"normals", budget.vertices, kMoreTriangles};
+    LimitedSum attributes{"texture coordinates, colours and weights", 4 * budget.vertices};
+    LimitedSum mesh_vertices{"vertices in meshes", budget.vertices, kMoreTriangles};
+    LimitedSum shown_vertices{"vertices shown by objects", budget.shown};
+    LimitedSum mesh_triangles{"triangles in meshes", budget.triangles, kMoreTriangles};
+    LimitedSum shown_triangles{"triangles shown by objects", budget.shown};
+    LimitedSum nodes{"nodes", budget.objects};
+    LimitedSum meshes{"meshes", budget.objects};
+    LimitedSum primitives{"primitives", budget.objects};
+    LimitedSum materials{"materials", budget.objects};
+    LimitedSum remarks{"objects named by comments", budget.objects};
+    LimitedSum cameras{"cameras", budget.objects};
+    LimitedSum channels{"animation channels", budget.objects};
+    LimitedSum objects{"objects", budget.objects};
+    LimitedSum keys{"keys of animations", budget.keys};
+    LimitedSum key_times{"times of keys", budget.keys};
+    LimitedSum key_values{"values of keys", 3 * budget.keys};
+    LimitedSum name_bytes{"bytes of names", budget.name_bytes};
+    LimitedSum texels{"texels in pictures", budget.texels};
+    LimitedSum made_bytes{"bytes of sparse accessors", budget.made_bytes};
+    LimitedSum cuts{"comparisons to cut concave polygons", budget.cuts};
 };
 
 } // namespace catoptric::scene

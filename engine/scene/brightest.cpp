@@ -16,14 +16,14 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns how strongly one light lights a surface at `point` that faces it, without shadows.
-double strength_at(const dvec3& point, const PointLight& light) {
-    const double emitted = luminance(dvec3(light.emission)) * light.area;
+double light_strength_at(const dvec3& point, const PointLight& light) {
+    const double emitted = compute_luminance(dvec3(light.emission)) * light.area;
     if (light.directional) return emitted;
     const dvec3 way = point - light.position;
     const double square = glm::dot(way, way), distance = std::sqrt(square);
     if (square == 0) return std::numeric_limits<double>::infinity();
     const dvec3 along = way / distance;
-    const double facing = share_towards(light, along);
+    const double facing = light_share_towards(light, along);
     const double part = std::isinf(light.range) ? 0 : std::pow(distance / light.range, 4);
     const double window = std::clamp(1 - part, 0.0, 1.0);
     double cone = 1;
@@ -33,21 +33,21 @@ double strength_at(const dvec3& point, const PointLight& light) {
 }
 
 /// One of the points from which an object, or a light without a surface, lights the scene.
-struct Source {
+struct LightSource {
     std::size_t index = 0; ///< of the object; lights without a surface follow the objects
     std::size_t point = 0; ///< number among the points of this index
     double strength = 0;
 };
 
-std::vector<Source> sources_of(const Scene& scene) {
+std::vector<LightSource> list_light_sources(const Scene& scene) {
     const dvec3 centre = bounds(scene).centre();
     Scene one; // scratch scene that holds one source at a time
     one.meshes = scene.meshes, one.materials = scene.materials;
-    std::vector<Source> sources;
+    std::vector<LightSource> sources;
     const auto add = [&](std::size_t index) {
         std::size_t point = 0;
-        for (const PointLight& light : lights(one))
-            sources.push_back({index, point++, strength_at(centre, light)});
+        for (const PointLight& light : list_lights(one))
+            sources.push_back({index, point++, light_strength_at(centre, light)});
     };
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         one.objects = {scene.objects[i]};
@@ -62,7 +62,7 @@ std::vector<Source> sources_of(const Scene& scene) {
 }
 
 /// Gives the object a material that lights nothing.
-void darken(Scene& scene, Object& object) {
+void make_object_emit_nothing(Scene& scene, Object& object) {
     Material dark = scene.materials[object.material];
     dark.light = vec3(0);
     const auto known = std::ranges::find(scene.materials, dark);
@@ -71,10 +71,11 @@ void darken(Scene& scene, Object& object) {
 }
 
 /// Moves the triangles of all points but the `kept` ones into a new object that lights nothing.
-void split_off(Scene& scene, std::size_t index, const std::vector<std::size_t>& kept) {
+void split_off_emitting_triangles(Scene& scene, std::size_t index,
+                                  const std::vector<std::size_t>& kept) {
     Object rest = scene.objects[index];
     Mesh bright = scene.meshes[rest.mesh], dark = bright;
-    const auto points = light_of_triangles(bright, rest.world_from_object);
+    const auto points = light_index_per_triangle(bright, rest.world_from_object);
     bright.triangles.clear(), dark.triangles.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const bool stays = points[i] && std::ranges::find(kept, *points[i]) != kept.end();
@@ -84,16 +85,16 @@ void split_off(Scene& scene, std::size_t index, const std::vector<std::size_t>& 
     scene.meshes.push_back(std::move(bright));
     rest.mesh = scene.meshes.size();
     scene.meshes.push_back(std::move(dark));
-    darken(scene, rest);
+    make_object_emit_nothing(scene, rest);
     scene.objects.push_back(std::move(rest));
 }
 
 } // namespace
 
-void leave_out_lights(Scene& scene, std::size_t most) {
-    if (lights(scene).size() <= most) return;
-    std::vector<Source> sources = sources_of(scene);
-    std::ranges::stable_sort(sources, std::ranges::greater(), &Source::strength);
+void drop_weakest_lights(Scene& scene, std::size_t most) {
+    if (list_lights(scene).size() <= most) return;
+    std::vector<LightSource> sources = list_light_sources(scene);
+    std::ranges::stable_sort(sources, std::ranges::greater(), &LightSource::strength);
     struct Thing {
         std::vector<std::size_t> kept;
         std::size_t points = 0;
@@ -105,23 +106,24 @@ void leave_out_lights(Scene& scene, std::size_t most) {
         if (i < most) thing.kept.push_back(sources[i].point);
     }
     const std::size_t objects = scene.objects.size();
-    std::vector<Punctual> punctual;
+    std::vector<PunctualLight> punctual;
     for (const auto& [index, thing] : things) {
         const bool is_object = index < objects;
         if (thing.kept.size() == thing.points) {
             if (!is_object) punctual.push_back(scene.punctual[index - objects]);
             continue;
         }
-        std::string place = is_object ? "object " + in_quotes(scene.objects[index].name)
-                                      : "light " + in_quotes(scene.punctual[index - objects].name);
+        std::string place = is_object
+                                ? "object " + quote_printable(scene.objects[index].name)
+                                : "light " + quote_printable(scene.punctual[index - objects].name);
         if (!thing.kept.empty())
             place += ", " + std::to_string(thing.points - thing.kept.size()) + " of its " +
                      std::to_string(thing.points) + " parts";
         add_unsupported(scene.unsupported, "lights-left-out", place);
         if (!thing.kept.empty())
-            split_off(scene, index, thing.kept);
+            split_off_emitting_triangles(scene, index, thing.kept);
         else if (is_object)
-            darken(scene, scene.objects[index]);
+            make_object_emit_nothing(scene, scene.objects[index]);
     }
     scene.punctual = std::move(punctual);
 }

@@ -9,10 +9,10 @@
 
 namespace catoptric::scene {
 
-Budget budget_for(const std::filesystem::path& scene, const BudgetOverride& wish,
-                  std::uint64_t free_bytes) {
+LoadBudget choose_load_budget(const std::filesystem::path& scene, const BudgetOverride& wish,
+                              std::uint64_t free_bytes) {
     constexpr std::uint64_t kShareOfFiles = 8, kStoredBytes = 6;
-    Budget budget;
+    LoadBudget budget;
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(scene, none);
     const std::uint64_t stored = none ? 0 : size / kStoredBytes;
@@ -28,7 +28,7 @@ Budget budget_for(const std::filesystem::path& scene, const BudgetOverride& wish
     return budget;
 }
 
-std::uint64_t free_memory() {
+std::uint64_t read_free_memory() {
     constexpr std::uint64_t kUnknown = std::uint64_t{1} << 32;
     std::uint64_t bytes = kUnknown;
     std::ifstream facts("/proc/meminfo");

@@ -18,14 +18,14 @@ struct BudgetOverride {
 };
 
 /// Returns the budget for loading the scene file `scene`. Files may take an eighth of `free_bytes`,
-/// triangles all of it. Computed limits are never below the defaults of `Budget`. A file may exceed
-/// `Budget::triangles` only if it stores at least 6 bytes per triangle. A small file that asks for
-/// many triangles is therefore refused, however much memory is free.
-Budget budget_for(const std::filesystem::path& scene, const BudgetOverride& wish,
-                  std::uint64_t free_bytes);
+/// triangles all of it. Computed limits are never below the defaults of `LoadBudget`. A file may
+/// exceed `LoadBudget::triangles` only if it stores at least 6 bytes per triangle. A small file
+/// that asks for many triangles is therefore refused, however much memory is free.
+LoadBudget choose_load_budget(const std::filesystem::path& scene, const BudgetOverride& wish,
+                              std::uint64_t free_bytes);
 
 /// Returns the memory that this process can still take without swapping, in bytes. The result is
 /// Linux's estimate, and at most the process's limit of the address space.
-std::uint64_t free_memory();
+std::uint64_t read_free_memory();
 
 } // namespace catoptric::scene

@@ -48,34 +48,36 @@ CATOPTRIC_API Mesh ball(std::string name, int levels);
 /// Edit that sets the transform of an object at rest. The object's motion continues from there. The
 /// object's exact sphere moves along if the change is a similarity. Otherwise the object loses the
 /// sphere and is drawn as its mesh.
-struct Placing {
+struct PlacementEdit {
     std::size_t object = 0;
     dmat4 world_from_object{1};
 };
 /// Edit that gives one object another material of the scene.
-struct Painting {
+struct ObjectMaterialEdit {
     std::size_t object = 0;
     std::size_t material = 0;
 };
 /// Edit that replaces a material of the scene, for all objects with this material. If the new
 /// material emits light, these objects become lamps.
-struct Mixing {
+struct MaterialEdit {
     std::size_t material = 0;
     Material value;
 };
 
-using Edit = std::variant<Placing, Painting, Mixing>;
+using Edit = std::variant<PlacementEdit, ObjectMaterialEdit, MaterialEdit>;
 
 inline Edit move(std::size_t object, const dmat4& world_from_object) {
-    return Placing{object, world_from_object};
+    return PlacementEdit{object, world_from_object};
 }
-inline Edit paint(std::size_t object, std::size_t material) { return Painting{object, material}; }
+inline Edit paint(std::size_t object, std::size_t material) {
+    return ObjectMaterialEdit{object, material};
+}
 inline Edit set_material(std::size_t material, Material value) {
-    return Mixing{material, std::move(value)};
+    return MaterialEdit{material, std::move(value)};
 }
 
 /// Applies an edit. Throws `Failure::usage` for an index out of range, or for a transform that is
 /// not finite, affine and invertible. The scene is then unchanged.
-CATOPTRIC_API void apply(Scene& scene, const Edit& edit);
+CATOPTRIC_API void apply_edit(Scene& scene, const Edit& edit);
 
 } // namespace catoptric::scene

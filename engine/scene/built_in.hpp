@@ -10,7 +10,7 @@ namespace catoptric::scene {
 
 /// Scene that needs no file. The .cpp file that builds the scene also registers it; nothing else
 /// lists it.
-struct BuiltIn {
+struct BuiltInScene {
     std::string name;
     std::string summary; ///< one line for `list`
     Scene (*make)();     ///< builds the scene; Scene::name equals `name`
@@ -19,23 +19,23 @@ struct BuiltIn {
 /// Registration of a built-in scene. A variable of this type at namespace scope adds the scene to
 /// the table while the program starts.
 struct RegisteredScene {
-    explicit RegisteredScene(BuiltIn scene);
+    explicit RegisteredScene(BuiltInScene scene);
 };
 /// Returns every built-in scene, sorted by `order`, then by name.
-const std::vector<BuiltIn>& built_in_scenes();
+const std::vector<BuiltInScene>& built_in_scenes();
 
 /// Builds the Cornell box with four mirror balls (contract: "The built-in scene").
-Scene cornell_mirrors();
+Scene make_cornell_mirrors();
 /// Builds the same box with a white front wall that camera rays ignore.
-Scene cornell_mirrors_closed();
+Scene make_closed_cornell_mirrors();
 /// Builds a closed room with one flat mirror.
-Scene flat();
+Scene make_flat_mirror_room();
 /// Builds a furnished room: textures, shared meshes, a wall mirror, a smooth floor, two lamps, a
 /// spot.
 Scene furnished_room();
 /// Builds a hall with sixteen mirrors through which the camera walks.
-Scene gallery();
+Scene make_gallery();
 /// Builds an open court under a sky, with a hollow dish.
-Scene courtyard();
+Scene make_courtyard();
 
 } // namespace catoptric::scene

@@ -11,38 +11,41 @@ namespace catoptric::scene {
 
 namespace {
 
-double number(const std::string& text, const SaidBy& by) {
+double parse_camera_number(const std::string& text, const SettingOrigin& by) {
     const std::optional<double> value = parse_number(text);
     check(value.has_value(), by.failure, by.where, ": wanted a finite number, found ",
-          in_quotes(text));
+          quote_printable(text));
     return *value;
 }
 
-double number_within(const std::string& text, double low, double high, const SaidBy& by) {
+double parse_number_within(const std::string& text, double low, double high,
+                           const SettingOrigin& by) {
     const std::optional<double> value = parse_number(text);
     check(value && *value >= low && *value <= high, by.failure, by.where,
-          ": wanted a finite number from ", low, " to ", high, ", found ", in_quotes(text));
+          ": wanted a finite number from ", low, " to ", high, ", found ", quote_printable(text));
     return *value;
 }
 
-dvec3 point(const std::string& text, const SaidBy& by) {
-    const std::vector<std::string> parts = split(text, ",");
+dvec3 parse_point(const std::string& text, const SettingOrigin& by) {
+    const std::vector<std::string> parts = split_text(text, ",");
     check(parts.size() == 3, by.failure, by.where, ": wanted a point X,Y,Z, found ",
-          in_quotes(text));
-    return {number(parts[0], by), number(parts[1], by), number(parts[2], by)};
+          quote_printable(text));
+    return {parse_camera_number(parts[0], by), parse_camera_number(parts[1], by),
+            parse_camera_number(parts[2], by)};
 }
 
-Camera placed(const std::string& text, const SaidBy& by) {
-    const std::vector<std::string> parts = split(text, ":");
+Camera parse_placed_camera(const std::string& text, const SettingOrigin& by) {
+    const std::vector<std::string> parts = split_text(text, ":");
     check(parts.size() == 3, by.failure, by.where,
           ": wanted EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees) or "
           "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), found ",
-          in_quotes(text));
-    Camera camera{.name = text, .eye = point(parts[0], by), .target = point(parts[1], by)};
+          quote_printable(text));
+    Camera camera{
+        .name = text, .eye = parse_point(parts[0], by), .target = parse_point(parts[1], by)};
     if (parts[2].starts_with("h="))
-        camera.orthographic_height = number_within(parts[2].substr(2), 1e-9, 1e18, by);
+        camera.orthographic_height = parse_number_within(parts[2].substr(2), 1e-9, 1e18, by);
     else
-        camera.vertical_fov_degrees = number_within(parts[2], 0.001, 179, by);
+        camera.vertical_fov_degrees = parse_number_within(parts[2], 0.001, 179, by);
     check(camera.eye != camera.target, by.failure, by.where,
           ": wanted a target away from the eye, found both at ", parts[0]);
     const dvec3 along = camera.target - camera.eye;
@@ -50,44 +53,46 @@ Camera placed(const std::string& text, const SaidBy& by) {
     return camera;
 }
 
-std::string list_of(const std::vector<Camera>& cameras) {
+std::string list_camera_names(const std::vector<Camera>& cameras) {
     constexpr std::size_t kMostListed = 20;
     std::string list;
     for (std::size_t i = 0; i < std::min(cameras.size(), kMostListed); ++i)
-        list += (i ? ", " : "") + std::to_string(i) + " " + in_quotes(cameras[i].name);
+        list += (i ? ", " : "") + std::to_string(i) + " " + quote_printable(cameras[i].name);
     if (cameras.size() > kMostListed)
         list += " and " + std::to_string(cameras.size() - kMostListed) + " more";
     return list.empty() ? "none" : list;
 }
 
-std::string text_of(const dvec3& v) {
-    return number_text(v.x) + "," + number_text(v.y) + "," + number_text(v.z);
+std::string format_point(const dvec3& v) {
+    return format_shortest_number(v.x) + "," + format_shortest_number(v.y) + "," +
+           format_shortest_number(v.z);
 }
 
 } // namespace
 
-Camera camera_named(const std::string& text, const Scene& scene, const SaidBy& by) {
+Camera find_camera_by_name(const std::string& text, const Scene& scene, const SettingOrigin& by) {
     std::vector<std::string> names;
     for (const Camera& camera : scene.cameras) {
         if (camera.name == text) return camera;
         names.push_back(camera.name);
     }
-    if (text.find(':') != std::string::npos) return placed(text, by);
+    if (text.find(':') != std::string::npos) return parse_placed_camera(text, by);
     const bool is_index = text.find_first_not_of("0123456789") == std::string::npos &&
                           text.size() < 10;
     if (is_index && !text.empty() && std::stoul(text) < scene.cameras.size())
         return scene.cameras[std::stoul(text)];
     names.emplace_back("seeded");
-    fail(by.failure, by.where, ": scene ", in_quotes(scene.name), " has no camera ",
-         in_quotes(text), "; it has: ", list_of(scene.cameras),
+    fail(by.failure, by.where, ": scene ", quote_printable(scene.name), " has no camera ",
+         quote_printable(text), "; it has: ", list_camera_names(scene.cameras),
          "; or seeded, EX,EY,EZ:TX,TY,TZ:FOV, or EX,EY,EZ:TX,TY,TZ:h=HEIGHT",
-         did_you_mean(text, names));
+         suggest_name(text, names));
 }
 
-std::string camera_text(const Camera& camera) {
-    return text_of(camera.eye) + ":" + text_of(camera.target) + ":" +
-           (camera.orthographic_height > 0 ? "h=" + number_text(camera.orthographic_height)
-                                           : number_text(camera.vertical_fov_degrees));
+std::string format_camera(const Camera& camera) {
+    return format_point(camera.eye) + ":" + format_point(camera.target) + ":" +
+           (camera.orthographic_height > 0
+                ? "h=" + format_shortest_number(camera.orthographic_height)
+                : format_shortest_number(camera.vertical_fov_degrees));
 }
 
 } // namespace catoptric::scene

@@ -11,11 +11,11 @@ namespace catoptric::scene {
 /// "EX,EY,EZ:TX,TY,TZ:FOV" is a perspective camera: eye, target and vertical field of view in
 /// degrees. "EX,EY,EZ:TX,TY,TZ:h=HEIGHT" is an orthographic camera whose picture is HEIGHT world
 /// units high. For any other text throws `by.failure`, with the names of the scene's cameras.
-Camera camera_named(const std::string& text, const Scene& scene,
-                    const SaidBy& by = {.where = "--camera"});
+Camera find_camera_by_name(const std::string& text, const Scene& scene,
+                           const SettingOrigin& by = {.where = "--camera"});
 
-/// Returns the camera as numbers that `camera_named` reads. The text holds no up vector: the camera
-/// read from it has +y up, or +z if it looks straight up or down.
-std::string camera_text(const Camera& camera);
+/// Returns the camera as numbers that `find_camera_by_name` reads. The text holds no up vector: the
+/// camera read from it has +y up, or +z if it looks straight up or down.
+std::string format_camera(const Camera& camera);
 
 } // namespace catoptric::scene

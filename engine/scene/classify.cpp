@@ -31,7 +31,7 @@ struct MaterialSample {
 };
 
 /// Sums over the spots of a surface, weighted by area.
-struct AreaSums {
+struct SurfaceAreaSums {
     double all = 0, mirror = 0, smooth_dielectric = 0, rough_metal = 0, rough_dielectric = 0;
     dvec3 mirror_f0{0};
     float smoothest = 1;
@@ -45,13 +45,13 @@ struct AreaSums {
             rough_dielectric += spot.metallic < 1;
             return;
         }
-        const vec3 f0 = f0_of(material, vec3(spot.colour), spot.metallic);
+        const vec3 f0 = compute_f0(material, vec3(spot.colour), spot.metallic);
         if (largest_channel(f0) >= kLeastMirrorF0)
             mirror += 1, mirror_f0 += dvec3(f0);
         else
             smooth_dielectric += f0 != vec3(0) || material.dielectric_f90 != vec3(0);
     }
-    Surface surface() const {
+    SurfaceShares surface() const {
         if (all == 0) return {};
         return {.mirror = mirror / all,
                 .smooth_dielectric = smooth_dielectric / all,
@@ -64,7 +64,7 @@ struct AreaSums {
 
 /// Returns whether the values that decide the kind of surface may differ between places. The base
 /// colour matters only for metals, because F0 of a dielectric has no colour.
-bool varies(const Scene& scene, const Material& material, const Mesh& mesh) {
+bool has_varying_kind(const Scene& scene, const Material& material, const Mesh& mesh) {
     if (material.roughness_texture) return true;
     const bool has_colour = material.roughness <= scene.mirror_max_roughness &&
                             material.metallic > 0;
@@ -72,23 +72,24 @@ bool varies(const Scene& scene, const Material& material, const Mesh& mesh) {
 }
 
 template <typename Value>
-Value between(const std::vector<Value>& at, const uvec3& t, const vec3& weights) {
+Value interpolate_corners(const std::vector<Value>& at, const uvec3& t, const vec3& weights) {
     return weights.x * at[t.x] + weights.y * at[t.y] + weights.z * at[t.z];
 }
 
-vec4 sampled(const Texture& texture, const Mesh& mesh, const uvec3& t, const vec3& weights) {
+vec4 sample_texture(const Texture& texture, const Mesh& mesh, const uvec3& t, const vec3& weights) {
     const std::vector<vec2>& uv = mesh.uv[std::min<std::uint32_t>(texture.uv_set, 1)];
-    return texel_at(texture, uv.empty() ? vec2(0) : between(uv, t, weights));
+    return read_texel(texture, uv.empty() ? vec2(0) : interpolate_corners(uv, t, weights));
 }
 
-MaterialSample spot_at(const Material& material, const Mesh& mesh, const uvec3& t,
-                       const vec3& weights) {
+MaterialSample sample_material(const Material& material, const Mesh& mesh, const uvec3& t,
+                               const vec3& weights) {
     MaterialSample spot{vec4(material.albedo, material.alpha), material.metallic,
                         material.roughness};
-    if (!mesh.colours.empty()) spot.colour *= between(mesh.colours, t, weights);
-    if (material.albedo_texture) spot.colour *= sampled(*material.albedo_texture, mesh, t, weights);
+    if (!mesh.colours.empty()) spot.colour *= interpolate_corners(mesh.colours, t, weights);
+    if (material.albedo_texture)
+        spot.colour *= sample_texture(*material.albedo_texture, mesh, t, weights);
     if (material.roughness_texture) {
-        const vec4 texel = sampled(*material.roughness_texture, mesh, t, weights);
+        const vec4 texel = sample_texture(*material.roughness_texture, mesh, t, weights);
         spot.roughness *= texel.y, spot.metallic *= texel.z;
     }
     return spot;
@@ -96,7 +97,7 @@ MaterialSample spot_at(const Material& material, const Mesh& mesh, const uvec3& 
 
 /// Returns barycentric weights of the sample, spread evenly over a triangle by the plastic number's
 /// sequence (Roberts 2018).
-vec3 weights_of(std::size_t sample) {
+vec3 sample_barycentrics(std::size_t sample) {
     constexpr double kX = .7548776662466927, kY = .5698402909980532;
     double x = .5 + kX * static_cast<double>(sample), y = .5 + kY * static_cast<double>(sample);
     x -= std::floor(x), y -= std::floor(y);
@@ -104,7 +105,7 @@ vec3 weights_of(std::size_t sample) {
     return {1 - root, root * (1 - y), root * y};
 }
 
-std::vector<double> areas_so_far(const Mesh& mesh, const dmat3& linear) {
+std::vector<double> cumulative_triangle_areas(const Mesh& mesh, const dmat3& linear) {
     std::vector<double> sums;
     sums.reserve(mesh.triangles.size());
     double sum = 0;
@@ -117,16 +118,17 @@ std::vector<double> areas_so_far(const Mesh& mesh, const dmat3& linear) {
 }
 
 /// Sums samples of the surface in equal steps of area, so that each triangle has its share.
-AreaSums sampled(const Scene& scene, const Object& object) {
+SurfaceAreaSums sample_texture(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
-    AreaSums sums;
-    if (!varies(scene, material, mesh)) {
+    SurfaceAreaSums sums;
+    if (!has_varying_kind(scene, material, mesh)) {
         sums.add(scene, material,
                  {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
         return sums;
     }
-    const std::vector<double> areas = areas_so_far(mesh, dmat3(object.world_from_object));
+    const std::vector<double> areas = cumulative_triangle_areas(mesh,
+                                                                dmat3(object.world_from_object));
     const double whole = areas.empty() ? 0 : areas.back();
     if (!(whole > 0) || !std::isfinite(whole)) return sums;
     auto triangle = areas.begin();
@@ -134,14 +136,15 @@ AreaSums sampled(const Scene& scene, const Object& object) {
         const double wanted = whole * (static_cast<double>(i) + .5) / kSamples;
         while (triangle + 1 != areas.end() && *triangle < wanted) ++triangle;
         const auto index = static_cast<std::size_t>(triangle - areas.begin());
-        sums.add(scene, material, spot_at(material, mesh, mesh.triangles[index], weights_of(i)));
+        sums.add(scene, material,
+                 sample_material(material, mesh, mesh.triangles[index], sample_barycentrics(i)));
     }
     return sums;
 }
 
 /// Returns whether the matrix scales all directions alike. Shares of areas are then those of the
 /// mesh itself.
-bool is_similarity(const dmat3& m) {
+bool scales_uniformly(const dmat3& m) {
     constexpr double kSimilar = 1e-9;
     const dmat3 square = glm::transpose(m) * m;
     const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;
@@ -156,12 +159,12 @@ void add_unsupported_materials(Scene& scene, const char* id,
                                const std::set<std::size_t>& materials) {
     for (const std::size_t i : materials)
         add_unsupported_material(scene.unsupported, id,
-                                 gltf::label_of("materials", i, scene.materials[i].name), i);
+                                 gltf::label_list_item("materials", i, scene.materials[i].name), i);
 }
 
 /// Returns whether part of the material reflects the light of surrounding surfaces in all
 /// directions.
-bool is_diffuse(const Scene& scene, const Material& material) {
+bool has_diffuse_part(const Scene& scene, const Material& material) {
     if (material.unlit || material.albedo == vec3(0)) return false;
     const bool is_sharp_metal = !material.mirror && material.metallic == 1 &&
                                 material.roughness <= scene.mirror_max_roughness &&
@@ -169,41 +172,41 @@ bool is_diffuse(const Scene& scene, const Material& material) {
     return !is_sharp_metal;
 }
 
-bool is_lit(const Scene& scene) {
+bool has_light(const Scene& scene) {
     return scene.environment || !scene.punctual.empty() ||
            std::ranges::any_of(scene.objects, [&](const Object& object) {
-               return glows(scene.materials[object.material]);
+               return is_visibly_emissive(scene.materials[object.material]);
            });
 }
 
 } // namespace
 
-vec3 f0_of(const Material& material, const vec3& colour, float metallic) {
+vec3 compute_f0(const Material& material, const vec3& colour, float metallic) {
     return glm::mix(material.dielectric_f0, colour, metallic);
 }
 
 float largest_channel(const vec3& colour) { return std::max({colour.x, colour.y, colour.z}); }
 
-Surface surface_of(const Scene& scene, const Object& object) {
-    return sampled(scene, object).surface();
+SurfaceShares measure_surface_kinds(const Scene& scene, const Object& object) {
+    return sample_texture(scene, object).surface();
 }
 
-void classify(Scene& scene, bool dielectric_mirrors) {
+void find_mirrors(Scene& scene, bool dielectric_mirrors) {
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
         return gap.id == "smooth-dielectric" || gap.id == "rough-metal";
     });
-    std::map<std::pair<std::size_t, std::size_t>, Surface> known; // by mesh and material
-    std::set<std::size_t> dielectrics, rough_metals;              // materials
+    std::map<std::pair<std::size_t, std::size_t>, SurfaceShares> known; // by mesh and material
+    std::set<std::size_t> dielectrics, rough_metals;                    // materials
     for (Object& object : scene.objects) {
         object.mirror = false;
         if (scene.materials[object.material].mirror) continue;
-        Surface surface;
-        if (is_similarity(dmat3(object.world_from_object))) {
+        SurfaceShares surface;
+        if (scales_uniformly(dmat3(object.world_from_object))) {
             const auto [entry, is_new] = known.try_emplace({object.mesh, object.material});
-            if (is_new) entry->second = surface_of(scene, object);
+            if (is_new) entry->second = measure_surface_kinds(scene, object);
             surface = entry->second;
         } else {
-            surface = surface_of(scene, object);
+            surface = measure_surface_kinds(scene, object);
         }
         object.mirror = surface.mirror >= kLeastMirrorShare;
         if (!object.mirror && surface.smooth_dielectric >= kLeastMirrorShare) {
@@ -214,10 +217,10 @@ void classify(Scene& scene, bool dielectric_mirrors) {
     }
     add_unsupported_materials(scene, "smooth-dielectric", dielectrics);
     add_unsupported_materials(scene, "rough-metal", rough_metals);
-    find_spheres(scene);
+    find_exact_spheres(scene);
 }
 
-void settle_unsupported(Scene& scene) {
+void sort_unsupported_features(Scene& scene) {
     std::set<std::size_t> glossy, diffuse; // materials
     for (const UnsupportedFeature& gap : scene.unsupported)
         if (gap.id == kSpecular) glossy.insert(gap.materials.begin(), gap.materials.end());
@@ -228,17 +231,17 @@ void settle_unsupported(Scene& scene) {
     std::set<std::pair<std::size_t, std::size_t>> known; // mesh and material
     for (const Object& object : scene.objects) {
         const Material& material = scene.materials[object.material];
-        if (is_diffuse(scene, material)) diffuse.insert(object.material);
+        if (has_diffuse_part(scene, material)) diffuse.insert(object.material);
         const bool may_lack = glossy.contains(object.material) && !material.mirror &&
                               !without_lobe.contains(object.material);
         if (may_lack && known.insert({object.mesh, object.material}).second &&
-            surface_of(scene, object).rough_dielectric > 0)
+            measure_surface_kinds(scene, object).rough_dielectric > 0)
             without_lobe.insert(object.material);
     }
     // Features with equal shares of the picture keep this order. These come first because they cost
     // most.
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
-    if (is_lit(scene)) add_unsupported_materials(scene, kIndirect, diffuse);
+    if (has_light(scene)) add_unsupported_materials(scene, kIndirect, diffuse);
     add_unsupported_materials(scene, kSpecular, without_lobe);
     if (scene.environment) add_unsupported_materials(scene, kUnshadowed, diffuse);
     scene.unsupported.insert(scene.unsupported.end(), others.begin(), others.end());

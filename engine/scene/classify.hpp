@@ -12,13 +12,13 @@ inline constexpr float kLeastMirrorF0 = .2f;
 inline constexpr double kLeastMirrorShare = .05;
 
 /// Returns F0, the reflectance seen head-on, by channel, for this base colour and metallic value.
-vec3 f0_of(const Material& material, const vec3& colour, float metallic);
+vec3 compute_f0(const Material& material, const vec3& colour, float metallic);
 /// Returns the largest channel, for comparisons that need one number.
 float largest_channel(const vec3& colour);
 
 /// Shares of an object's area by kind of surface, 0 to 1. Textures are sampled at about 4000
 /// places, the same ones each time. Area that an alpha mask cuts out does not count.
-struct Surface {
+struct SurfaceShares {
     double mirror = 0;            ///< sharp, F0 at least kLeastMirrorF0
     double smooth_dielectric = 0; ///< sharp, F0 below that
     double rough_metal = 0;       ///< not sharp, metallic above 0
@@ -26,13 +26,13 @@ struct Surface {
     vec3 mirror_f0{0};            ///< mean F0 of the `mirror` part
     float smoothest = 1;          ///< lowest roughness found
 };
-Surface surface_of(const Scene& scene, const Object& object);
+SurfaceShares measure_surface_kinds(const Scene& scene, const Object& object);
 
 /// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror).
 /// Adds the unsupported features "smooth-dielectric" and "rough-metal", counted once per material.
 /// With `dielectric_mirrors`, smooth dielectrics become mirrors and are not listed. Then finds
 /// which mirrors are spheres (find_spheres). May be called again.
-void classify(Scene& scene, bool dielectric_mirrors = false);
+void find_mirrors(Scene& scene, bool dielectric_mirrors = false);
 
 /// Puts first the unsupported features of light that no technique computes, counted once per
 /// material:
@@ -42,6 +42,6 @@ void classify(Scene& scene, bool dielectric_mirrors = false);
 /// A loader lists a material under "specular-left-out" if its file gives it a specular lobe. This
 /// function keeps only the rough ones of these materials. Scenes built in code list none: their
 /// rough surfaces are Lambertian. Call it after sharpness, lights and environment are settled.
-void settle_unsupported(Scene& scene);
+void sort_unsupported_features(Scene& scene);
 
 } // namespace catoptric::scene

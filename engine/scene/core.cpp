@@ -12,7 +12,7 @@ namespace {
 constexpr double kGap = 8; // factor between the core's reach and the nearest object outside
 constexpr std::size_t kMostTriangles = 20'000, kMostOfAnObject = 64;
 
-struct Corner {
+struct SampledCorner {
     dvec3 place{0};
     double weight = 0;
     std::size_t object = 0;
@@ -20,8 +20,8 @@ struct Corner {
 
 /// Returns corners of some triangles of every object, spread over its list. The weights of each
 /// object's corners add up to 1.
-std::vector<Corner> sample(const Scene& scene) {
-    std::vector<Corner> corners;
+std::vector<SampledCorner> sample_corners(const Scene& scene) {
+    std::vector<SampledCorner> corners;
     const std::size_t share = std::clamp(kMostTriangles /
                                              std::max<std::size_t>(scene.objects.size(), 1),
                                          std::size_t{1}, kMostOfAnObject);
@@ -43,11 +43,11 @@ std::vector<Corner> sample(const Scene& scene) {
 /// Sorts the corners by `number(corner)`. Returns the first index at which half of the weight is
 /// reached.
 template <typename Number>
-std::size_t sort_to_half(std::vector<Corner>& corners, Number&& number) {
+std::size_t partition_at_half(std::vector<SampledCorner>& corners, Number&& number) {
     std::ranges::sort(corners, {}, number);
     const double whole = std::accumulate(
         corners.begin(), corners.end(), 0.0,
-        [](double sum, const Corner& corner) { return sum + corner.weight; });
+        [](double sum, const SampledCorner& corner) { return sum + corner.weight; });
     double sum = 0;
     std::size_t i = 0;
     // The weights are rounded, so the limit is a millionth below one half.
@@ -55,43 +55,46 @@ std::size_t sort_to_half(std::vector<Corner>& corners, Number&& number) {
     return i;
 }
 
-dvec3 median_of(std::vector<Corner>& corners) {
+dvec3 median_corner(std::vector<SampledCorner>& corners) {
     dvec3 median;
     for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t half = sort_to_half(corners,
-                                              [axis](const Corner& c) { return c.place[axis]; });
+        const std::size_t half = partition_at_half(
+            corners, [axis](const SampledCorner& c) { return c.place[axis]; });
         median[axis] = corners[half].place[axis];
     }
     return median;
 }
 
-double reach(const dvec3& from, const dvec3& to) {
+double distance_to_farthest_point(const dvec3& from, const dvec3& to) {
     const dvec3 apart = glm::abs(to - from);
     return std::max({apart.x, apart.y, apart.z});
 }
 
-double reach(const dvec3& from, const Bounds<double>& box) {
-    return std::max(reach(from, box.lo), reach(from, box.hi));
+double distance_to_farthest_point(const dvec3& from, const Bounds<double>& box) {
+    return std::max(distance_to_farthest_point(from, box.lo),
+                    distance_to_farthest_point(from, box.hi));
 }
 
 } // namespace
 
-Bounds<double> core_bounds(const Scene& scene) {
+Bounds<double> compute_core_bounds(const Scene& scene) {
     const Bounds<double> everything = bounds(scene);
-    std::vector<Corner> corners = sample(scene);
+    std::vector<SampledCorner> corners = sample_corners(scene);
     if (corners.empty()) return everything;
-    const dvec3 middle = median_of(corners);
-    const auto far = [&](const Corner& corner) { return reach(middle, corner.place); };
-    std::size_t last = sort_to_half(corners, far);
+    const dvec3 middle = median_corner(corners);
+    const auto far = [&](const SampledCorner& corner) {
+        return distance_to_farthest_point(middle, corner.place);
+    };
+    std::size_t last = partition_at_half(corners, far);
     while (last + 1 < corners.size() && far(corners[last + 1]) <= kGap * far(corners[last])) ++last;
     const double limit = kGap * far(corners[last]);
-    if (!(limit > 0) || reach(middle, everything) <= limit) return everything;
+    if (!(limit > 0) || distance_to_farthest_point(middle, everything) <= limit) return everything;
 
     Bounds<double> core;
     std::vector<bool> whole(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Bounds<double> box = bounds(scene, scene.objects[i]);
-        whole[i] = box.empty() || reach(middle, box) <= limit;
+        whole[i] = box.empty() || distance_to_farthest_point(middle, box) <= limit;
         if (whole[i]) core.add(box);
     }
     for (std::size_t i = 0; i <= last; ++i)
@@ -99,15 +102,15 @@ Bounds<double> core_bounds(const Scene& scene) {
     return core;
 }
 
-std::vector<std::string> leave_out_unreachable(Scene& scene) {
-    const Bounds<double> core = core_bounds(scene);
+std::vector<std::string> drop_distant_objects(Scene& scene) {
+    const Bounds<double> core = compute_core_bounds(scene);
     const dvec3 extent = core.empty() ? dvec3(0) : core.extent();
     const double most = kFarthestReach * std::max({extent.x, extent.y, extent.z});
     std::vector<std::string> names;
     if (!(most > 0)) return names;
     std::erase_if(scene.objects, [&](const Object& object) {
         const Bounds<double> box = bounds(scene, object);
-        if (box.empty() || reach(core.centre(), box) <= most) return false;
+        if (box.empty() || distance_to_farthest_point(core.centre(), box) <= most) return false;
         names.push_back(object.name);
         return true;
     });

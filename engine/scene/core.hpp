@@ -12,13 +12,13 @@ namespace catoptric::scene {
 /// distance are left out. Each object has the same weight, however many triangles it has. Looks at
 /// about 60,000 corners at most; with more than 20,000 objects, at one triangle of each. Empty for
 /// a scene without triangles.
-Bounds<double> core_bounds(const Scene& scene);
+Bounds<double> compute_core_bounds(const Scene& scene);
 
 /// Largest distance from the core at which objects can be rendered, in sizes of the core. The
 /// square of a distance must stay a finite float.
 inline constexpr double kFarthestReach = 1e18;
 
 /// Removes the objects that reach farther from the core than kFarthestReach. Returns their names.
-std::vector<std::string> leave_out_unreachable(Scene& scene);
+std::vector<std::string> drop_distant_objects(Scene& scene);
 
 } // namespace catoptric::scene

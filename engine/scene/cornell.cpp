@@ -8,7 +8,7 @@ namespace {
 
 enum : std::size_t { kWhite, kGreen, kRed, kLight, kMirror };
 
-std::vector<Material> materials() {
+std::vector<Material> cornell_materials() {
     return {{.name = "white", .albedo = {0.725f, 0.71f, 0.68f}},
             {.name = "green", .albedo = {0.14f, 0.45f, 0.091f}},
             {.name = "red", .albedo = {0.63f, 0.065f, 0.05f}},
@@ -22,8 +22,8 @@ void add_wall(Scene& scene, const std::string& name, std::size_t material, dvec3
     scene.meshes.push_back(quad(name, a, b, c, d));
 }
 
-void add_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
-                   double radius) {
+void add_scaled_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
+                          double radius) {
     dmat4 world_from_object(radius);
     world_from_object[3] = dvec4(centre, 1);
     scene.objects.push_back({.name = name,
@@ -35,7 +35,7 @@ void add_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec
 
 /// Adds the walls of the measured box. The left wall is 3.2 units off the plane at the floor's back
 /// corner, as published.
-void add_walls(Scene& scene) {
+void add_cornell_walls(Scene& scene) {
     add_wall(scene, "floor", kWhite, //
              {552.8, 0, 0}, {0, 0, 0}, {0, 0, 559.2}, {549.6, 0, 559.2});
     add_wall(scene, "ceiling", kWhite, //
@@ -52,16 +52,16 @@ void add_walls(Scene& scene) {
 
 } // namespace
 
-Scene cornell_mirrors() {
-    Scene scene{.name = "cornell-mirrors", .materials = materials(), .exposure = 0};
-    add_walls(scene);
+Scene make_cornell_mirrors() {
+    Scene scene{.name = "cornell-mirrors", .materials = cornell_materials(), .exposure = 0};
+    add_cornell_walls(scene);
     const std::size_t unit_ball = scene.meshes.size();
     scene.meshes.push_back(ball("ball", 5));
-    add_unit_ball(scene, "ball1", unit_ball, {445, 73, 320}, 72);
-    add_unit_ball(scene, "ball2", unit_ball, {90, 100, 110}, 72);
-    add_unit_ball(scene, "ball3", unit_ball, {190, 113, 410}, 110);
-    add_unit_ball(scene, "ball4", unit_ball, {500, 80, 210}, 36);
-    scene.objects.back().motion = Harmonic{.amplitude = {0, 50, 0}, .period = 4};
+    add_scaled_unit_ball(scene, "ball1", unit_ball, {445, 73, 320}, 72);
+    add_scaled_unit_ball(scene, "ball2", unit_ball, {90, 100, 110}, 72);
+    add_scaled_unit_ball(scene, "ball3", unit_ball, {190, 113, 410}, 110);
+    add_scaled_unit_ball(scene, "ball4", unit_ball, {500, 80, 210}, 36);
+    scene.objects.back().motion = HarmonicMotion{.amplitude = {0, 50, 0}, .period = 4};
     scene.cameras.push_back({.name = "contract",
                              .eye = {278, 273, -800},
                              .target = {278, 273, 0},
@@ -69,8 +69,8 @@ Scene cornell_mirrors() {
     return scene;
 }
 
-Scene cornell_mirrors_closed() {
-    Scene scene = cornell_mirrors();
+Scene make_closed_cornell_mirrors() {
+    Scene scene = make_cornell_mirrors();
     scene.name = "cornell-mirrors-closed";
     add_wall(scene, "front", kWhite, {0, 0, 0}, {552.8, 0, 0}, {556, 548.8, 0}, {0, 548.8, 0});
     scene.objects.back().seen_by_camera = false;
@@ -81,11 +81,11 @@ namespace {
 
 const RegisteredScene kOpen{{"cornell-mirrors",
                              "Cornell box with four mirror balls, one of them moving; front open",
-                             cornell_mirrors, 0}};
+                             make_cornell_mirrors, 0}};
 const RegisteredScene kClosed{
     {"cornell-mirrors-closed",
      "Cornell box with four mirror balls, and a white front wall that camera rays ignore",
-     cornell_mirrors_closed, 1}};
+     make_closed_cornell_mirrors, 1}};
 
 } // namespace
 

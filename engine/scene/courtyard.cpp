@@ -16,7 +16,7 @@ namespace {
 const dvec3 kToSun = glm::normalize(dvec3(-.5, .75, .45));
 
 /// Returns the sky: blue above, haze at the horizon, ground below. The sun is a separate light.
-std::shared_ptr<const Environment> sky() {
+std::shared_ptr<const Environment> make_courtyard_sky() {
     auto sky = std::make_shared<Environment>();
     sky->name = "sky";
     sky->size = {64, 32};
@@ -37,7 +37,7 @@ std::shared_ptr<const Environment> sky() {
     return sky;
 }
 
-void add_columns(Scene& scene, std::size_t stone) {
+void add_courtyard_columns(Scene& scene, std::size_t stone) {
     const Mesh column = lathe("column",
                               {{.28, 0},
                                {.28, .12},
@@ -63,7 +63,7 @@ void add_columns(Scene& scene, std::size_t stone) {
 }
 
 /// Adds the dish. Its hollow side, up and to the front, is the mirror; its back is stone.
-void add_dish(Scene& scene, std::size_t mirror, std::size_t stone) {
+void add_mirror_dish(Scene& scene, std::size_t mirror, std::size_t stone) {
     std::vector<dvec2> hollow, back;
     for (int k = 16; k >= 0; --k) {
         const double r = k / 16.0;
@@ -82,12 +82,12 @@ void add_dish(Scene& scene, std::size_t mirror, std::size_t stone) {
 
 } // namespace
 
-Scene courtyard() {
+Scene make_courtyard() {
     Scene scene{.name = "courtyard"};
     const std::size_t paving = add_material(
         scene, {.name = "paving",
                 .albedo = vec3(1),
-                .albedo_texture = checker({128, 112, 96}, {176, 164, 148}, 8)});
+                .albedo_texture = make_checker_texture({128, 112, 96}, {176, 164, 148}, 8)});
     const std::size_t brick = add_material(scene, {.name = "brick", .albedo = {.5f, .26f, .18f}});
     const std::size_t stone = add_material(
         scene, {.name = "stone", .albedo = {.68f, .64f, .56f}, .two_sided = true});
@@ -99,19 +99,19 @@ Scene courtyard() {
     add_mesh(scene, std::move(ground), paving);
     add_mesh(scene, box("back wall", {-5, 0, -6.3}, {5, 1.6, -6}), brick);
     add_mesh(scene, box("side wall", {-5.3, 0, -6}, {-5, 1, 6}), brick);
-    add_columns(scene, stone);
-    add_dish(scene, mirror, stone);
+    add_courtyard_columns(scene, stone);
+    add_mirror_dish(scene, mirror, stone);
     add_ball(scene, "ball", mirror, {1.3, .7, .4}, .7, 5);
     add_mesh(scene, torus("brass ring", .5, .14, 48), brass);
     scene.objects.back().world_from_object[3] = dvec4(.2, .15, 1.7, 1);
     scene.objects.back().mirror = true;
-    Punctual sun{
-        .name = "sun", .kind = Punctual::Kind::directional, .intensity = {3.2f, 2.9f, 2.4f}};
+    PunctualLight sun{
+        .name = "sun", .kind = PunctualLight::Kind::directional, .intensity = {3.2f, 2.9f, 2.4f}};
     const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), kToSun));
     sun.world_from_light = dmat4(dvec4(right, 0), dvec4(glm::cross(kToSun, right), 0),
                                  dvec4(kToSun, 0), dvec4(0, 0, 0, 1));
     scene.punctual.push_back(sun);
-    scene.environment = sky();
+    scene.environment = make_courtyard_sky();
     scene.cameras.push_back(
         {.name = "gate", .eye = {.4, 1.7, 6}, .target = {-.1, .8, 0}, .vertical_fov_degrees = 48});
     scene.cameras.push_back({.name = "corner",
@@ -124,7 +124,7 @@ Scene courtyard() {
 namespace {
 
 const RegisteredScene kCourtyard{
-    {"courtyard", "open court under a sky: hollow dish, ball and ring, sun", courtyard, 5}};
+    {"courtyard", "open court under a sky: hollow dish, ball and ring, sun", make_courtyard, 5}};
 
 } // namespace
 

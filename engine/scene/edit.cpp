@@ -15,7 +15,7 @@ void check_index(const char* what, std::size_t index, std::size_t count) {
           ", from 0");
 }
 
-bool is_place(const dmat4& matrix) {
+bool is_valid_transform(const dmat4& matrix) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (!std::isfinite(matrix[column][row])) return false;
@@ -23,30 +23,30 @@ bool is_place(const dmat4& matrix) {
            glm::determinant(dmat3(matrix)) != 0;
 }
 
-void apply(Scene& scene, const Placing& edit) {
+void apply_edit(Scene& scene, const PlacementEdit& edit) {
     check_index("object", edit.object, scene.objects.size());
     Object& object = scene.objects[edit.object];
-    check(is_place(edit.world_from_object), Failure::usage, "object '", object.name,
+    check(is_valid_transform(edit.world_from_object), Failure::usage, "object '", object.name,
           "': wanted a finite affine transform with an inverse, found another matrix");
     object.sphere = moved_sphere(object, edit.world_from_object);
     object.world_from_object = edit.world_from_object;
 }
 
-void apply(Scene& scene, const Painting& edit) {
+void apply_edit(Scene& scene, const ObjectMaterialEdit& edit) {
     check_index("object", edit.object, scene.objects.size());
     check_index("material", edit.material, scene.materials.size());
     scene.objects[edit.object].material = edit.material;
 }
 
-void apply(Scene& scene, const Mixing& edit) {
+void apply_edit(Scene& scene, const MaterialEdit& edit) {
     check_index("material", edit.material, scene.materials.size());
     scene.materials[edit.material] = edit.value;
 }
 
 } // namespace
 
-void apply(Scene& scene, const Edit& edit) {
-    std::visit([&](const auto& one) { apply(scene, one); }, edit);
+void apply_edit(Scene& scene, const Edit& edit) {
+    std::visit([&](const auto& one) { apply_edit(scene, one); }, edit);
 }
 
 } // namespace catoptric::scene

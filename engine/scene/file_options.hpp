@@ -18,8 +18,8 @@ struct FileOptions {
     /// Name of the animation that moves the nodes of a glTF file, or "none". Empty: the first
     /// animation.
     std::string animation;
-    SaidBy animation_by{.where = "--animation"};
-    Budget budget;
+    SettingOrigin animation_by{.where = "--animation"};
+    LoadBudget budget;
 };
 
 /// Loads as `load` does.

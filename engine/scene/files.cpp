@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool lies_below(const fs::path& real, const fs::path& folder) {
+bool is_inside_folder(const fs::path& real, const fs::path& folder) {
     return !folder.empty() &&
            std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
                folder.end();
@@ -26,15 +26,15 @@ bool lies_below(const fs::path& real, const fs::path& folder) {
 
 /// Returns a path with all links resolved. Returns an empty path, and sets errno, if the path does
 /// not exist or cannot be reached.
-fs::path real_path(const fs::path& path) {
+fs::path resolve_links(const fs::path& path) {
     const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
                                                            std::free);
     return real ? fs::path(real.get()) : fs::path();
 }
 
 /// A file descriptor that its destructor closes.
-struct Descriptor {
-    ~Descriptor() {
+struct FileDescriptor {
+    ~FileDescriptor() {
         if (number >= 0) ::close(number);
     }
     const int number;
@@ -42,8 +42,8 @@ struct Descriptor {
 
 /// Reads a regular file. Opening a pipe does not block. A link as the last step is not followed, so
 /// the file opened is the file named. Throws `missing_input` or `io`.
-std::string read_regular(const fs::path& path, const std::string& place, Total& budget) {
-    const Descriptor file{
+std::string read_regular_file(const fs::path& path, const std::string& place, LimitedSum& budget) {
+    const FileDescriptor file{
         ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW)};
     const int error = errno;
     check(file.number >= 0, Failure::missing_input, place,
@@ -69,45 +69,46 @@ std::string read_regular(const fs::path& path, const std::string& place, Total& 
 
 } // namespace
 
-Files::Files(const fs::path& scene, const fs::path& root, Account& account)
+SceneFiles::SceneFiles(const fs::path& scene, const fs::path& root, BudgetAccount& account)
     : scene_(scene), account_(account) {
-    folder_ = real_path(scene.has_parent_path() ? scene.parent_path() : fs::path("."));
+    folder_ = resolve_links(scene.has_parent_path() ? scene.parent_path() : fs::path("."));
     if (root.empty()) return;
-    root_ = real_path(root);
+    root_ = resolve_links(root);
     std::error_code error;
     check(fs::is_directory(root_, error), Failure::missing_input,
           "--root: wanted a folder, found '", root.string(), "'");
 }
 
-void Files::add(const fs::path& real) {
+void SceneFiles::add(const fs::path& real) {
     if (known_.insert(real.string()).second) found_.push_back(real);
 }
 
-std::string Files::read_scene() {
-    const fs::path real = real_path(scene_);
-    std::string bytes = read_regular(real.empty() ? scene_ : real, scene_.string(),
-                                     account_.file_bytes);
+std::string SceneFiles::read_scene() {
+    const fs::path real = resolve_links(scene_);
+    std::string bytes = read_regular_file(real.empty() ? scene_ : real, scene_.string(),
+                                          account_.file_bytes);
     add(real);
     return bytes;
 }
 
-void Files::check_place(const fs::path& real, const std::string& name,
-                        const std::string& place) const {
-    check(lies_below(real, folder_) || lies_below(real, root_), Failure::bad_data, place,
-          ": wanted a file below '", folder_.string(), "' or a folder given with --root, found ",
-          in_quotes(name), ", which is '", real.string(), "'");
+void SceneFiles::check_place(const fs::path& real, const std::string& name,
+                             const std::string& place) const {
+    check(is_inside_folder(real, folder_) || is_inside_folder(real, root_), Failure::bad_data,
+          place, ": wanted a file below '", folder_.string(),
+          "' or a folder given with --root, found ", quote_printable(name), ", which is '",
+          real.string(), "'");
 }
 
-fs::path Files::find(const std::string& name, const std::string& place) {
+fs::path SceneFiles::find(const std::string& name, const std::string& place) {
     account_.files.add(1, place);
     check(!name.empty() && name.size() <= kLongestName && name.find('\0') == name.npos,
-          Failure::bad_data, place, ": wanted the name of a file, found ", in_quotes(name));
+          Failure::bad_data, place, ": wanted the name of a file, found ", quote_printable(name));
     const fs::path path = folder_ / name;
-    fs::path real = real_path(path);
+    fs::path real = resolve_links(path);
     const int why = errno;
     check_place(real.empty() ? path.lexically_normal() : real, name, place);
     if (real.empty()) {
-        const fs::path parent = real_path(path.parent_path());
+        const fs::path parent = resolve_links(path.parent_path());
         if (!parent.empty()) check_place(parent / path.filename(), name, place);
         errno = why;
         return {};
@@ -115,25 +116,25 @@ fs::path Files::find(const std::string& name, const std::string& place) {
     std::error_code error;
     const fs::file_status status = fs::status(real, error);
     check(fs::is_regular_file(status), Failure::bad_data, place, ": wanted a regular file, found ",
-          in_quotes(name), ", which is ",
+          quote_printable(name), ", which is ",
           fs::is_directory(status) ? "a folder" : "a device or a pipe");
     add(real);
     return real;
 }
 
-fs::path Files::get(const std::string& name, const std::string& place) {
+fs::path SceneFiles::find_required(const std::string& name, const std::string& place) {
     fs::path real = find(name, place);
     const int error = errno; // from realpath(3), if the path was not found
-    check(!real.empty(), Failure::missing_input, place, ": ", in_quotes(name),
+    check(!real.empty(), Failure::missing_input, place, ": ", quote_printable(name),
           error == ENOENT || error == ENOTDIR
               ? " is not there"
               : " cannot be reached: " + std::generic_category().message(error));
     return real;
 }
 
-std::string Files::read(const fs::path& real, const std::string& place) {
-    return read_regular(real, place + ": " + in_quotes(real.filename().string()),
-                        account_.file_bytes);
+std::string SceneFiles::read(const fs::path& real, const std::string& place) {
+    return read_regular_file(real, place + ": " + quote_printable(real.filename().string()),
+                             account_.file_bytes);
 }
 
 } // namespace catoptric::scene

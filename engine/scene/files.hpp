@@ -12,7 +12,7 @@ namespace catoptric::scene {
 /// Opens the files of one scene. A file that the scene names is opened by its real path, with links
 /// resolved. The real path must lie below the real folder of the scene's path, or below `root`.
 /// Hard links cannot be told from other files.
-class Files {
+class SceneFiles {
 public:
     /// Longest file name in bytes. Names are limited because each step of a path costs a system
     /// call.
@@ -20,7 +20,8 @@ public:
 
     /// Takes the path of the scene, and a second folder or an empty path. Throws `missing_input` if
     /// `root` is not a folder.
-    Files(const std::filesystem::path& scene, const std::filesystem::path& root, Account& account);
+    SceneFiles(const std::filesystem::path& scene, const std::filesystem::path& root,
+               BudgetAccount& account);
 
     /// Returns the bytes of the scene file, which may lie anywhere. Throws `missing_input`, or `io`
     /// if reading fails.
@@ -32,7 +33,7 @@ public:
     std::filesystem::path find(const std::string& name, const std::string& place);
 
     /// Does the same as `find`, but throws `missing_input` if the file does not exist.
-    std::filesystem::path get(const std::string& name, const std::string& place);
+    std::filesystem::path find_required(const std::string& name, const std::string& place);
 
     /// Returns the bytes of a file that `find` has found. Throws `missing_input` or `io`.
     std::string read(const std::filesystem::path& real, const std::string& place);
@@ -47,7 +48,7 @@ private:
                      const std::string& place) const;
 
     std::filesystem::path scene_, folder_, root_;
-    Account& account_;
+    BudgetAccount& account_;
     std::vector<std::filesystem::path> found_;
     std::unordered_set<std::string> known_; ///< the paths in `found_`, for lookup
 };

@@ -6,7 +6,7 @@
 
 namespace catoptric::scene {
 
-Scene flat() {
+Scene make_flat_mirror_room() {
     Scene scene{.name = "flat"};
     const auto paint = [&](const char* name, vec3 albedo) {
         return add_material(scene, {.name = name, .albedo = albedo});
@@ -46,7 +46,8 @@ Scene flat() {
 
 namespace {
 
-const RegisteredScene kFlat{{"flat", "closed room with one flat wall mirror", flat, 2}};
+const RegisteredScene kFlat{
+    {"flat", "closed room with one flat wall mirror", make_flat_mirror_room, 2}};
 
 } // namespace
 

@@ -15,7 +15,7 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns the unit normal of the largest triangle; zero if no triangle has an area.
-dvec3 largest_normal(const Mesh& mesh, const dmat4& world_from_object) {
+dvec3 normal_of_largest_triangle(const Mesh& mesh, const dmat4& world_from_object) {
     dvec3 largest(0);
     for (const uvec3& triangle : mesh.triangles) {
         const dvec3 a = transform_point(world_from_object, mesh.positions[triangle.x]),
@@ -29,10 +29,10 @@ dvec3 largest_normal(const Mesh& mesh, const dmat4& world_from_object) {
 }
 
 /// Returns the sine of the angle between two unit vectors. For small angles it is about the angle.
-double angle_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
+double sine_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
 
 /// Returns the corners of the convex hull of points in a plane (Andrew 1979).
-std::vector<dvec3> hull(std::vector<dvec3> points, const dvec3& normal) {
+std::vector<dvec3> convex_hull_in_plane(std::vector<dvec3> points, const dvec3& normal) {
     const dvec3 size = abs(normal), other = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
                                             : size.y <= size.z                   ? dvec3(0, 1, 0)
                                                                                  : dvec3(0, 0, 1);
@@ -81,7 +81,7 @@ struct MeshTriangles {
     double off(std::size_t i, const dvec3& normal) const {
         double most = 0;
         for (int corner = 0; corner < 3; ++corner)
-            most = std::max(most, angle_between(normals[mesh.triangles[i][corner]], normal));
+            most = std::max(most, sine_between(normals[mesh.triangles[i][corner]], normal));
         return most;
     }
 };
@@ -95,7 +95,8 @@ struct FacePlane {
 
 /// Returns the planes of the triangles whose normals agree; nothing if there are more than
 /// kMostPlanes.
-std::optional<std::vector<FacePlane>> planes_of(const MeshTriangles& triangles, double extent) {
+std::optional<std::vector<FacePlane>> group_triangles_by_plane(const MeshTriangles& triangles,
+                                                               double extent) {
     std::vector<FacePlane> planes;
     for (std::uint32_t i = 0; i < triangles.mesh.triangles.size(); ++i) {
         const dvec3 along = triangles.cross_of(i), normal = normalized_or_zero(along);
@@ -103,7 +104,7 @@ std::optional<std::vector<FacePlane>> planes_of(const MeshTriangles& triangles, 
         const uvec3& t = triangles.mesh.triangles[i];
         const auto holds = [&](const FacePlane& plane) {
             if (!(dot(plane.normal, normal) > 0 &&
-                  angle_between(plane.normal, normal) <= kSamePlane))
+                  sine_between(plane.normal, normal) <= kSamePlane))
                 return false;
             return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t corner) {
                 return std::abs(dot(triangles.places[corner] - plane.point, plane.normal)) <=
@@ -122,7 +123,7 @@ std::optional<std::vector<FacePlane>> planes_of(const MeshTriangles& triangles, 
     return planes;
 }
 
-std::vector<TriangleRun> runs_of(const std::vector<std::uint32_t>& ascending) {
+std::vector<TriangleRun> group_into_runs(const std::vector<std::uint32_t>& ascending) {
     std::vector<TriangleRun> runs;
     for (const std::uint32_t i : ascending) {
         if (!runs.empty() && runs.back().end == i)
@@ -134,31 +135,31 @@ std::vector<TriangleRun> runs_of(const std::vector<std::uint32_t>& ascending) {
 }
 
 /// Returns whether every edge has two triangles.
-bool is_closed(const Mesh& mesh) {
-    const std::vector<std::size_t> first = first_at_place(mesh.positions);
-    std::vector<Corners> triangles;
+bool is_closed_mesh(const Mesh& mesh) {
+    const std::vector<std::size_t> first = first_vertex_at_place(mesh.positions);
+    std::vector<TriangleCorners> triangles;
     for (const uvec3& t : mesh.triangles) triangles.push_back({first[t.x], first[t.y], first[t.z]});
     bool closed = true;
-    for_each_edge(sides_of(triangles),
+    for_each_edge(list_triangle_edges(triangles),
                   [&](std::span<const TriangleEdge> sides) { closed &= sides.size() == 2; });
     return closed;
 }
 
-Flat face_of(const MeshTriangles& triangles, const FacePlane& plane, double area,
-             bool is_one_sided) {
-    Flat face{.point = plane.point,
-              .normal = plane.normal,
-              .corners = {},
-              .share = plane.area / area,
-              .is_one_sided = is_one_sided,
-              .triangles = runs_of(plane.triangles)};
+FlatFace make_flat_face(const MeshTriangles& triangles, const FacePlane& plane, double area,
+                        bool is_one_sided) {
+    FlatFace face{.point = plane.point,
+                  .normal = plane.normal,
+                  .corners = {},
+                  .share = plane.area / area,
+                  .is_one_sided = is_one_sided,
+                  .triangles = group_into_runs(plane.triangles)};
     std::vector<dvec3> points;
     for (const std::uint32_t i : plane.triangles) {
         face.off = std::max(face.off, triangles.off(i, plane.normal));
         for (int corner = 0; corner < 3; ++corner)
             points.push_back(triangles.places[triangles.mesh.triangles[i][corner]]);
     }
-    face.corners = hull(points, plane.normal);
+    face.corners = convex_hull_in_plane(points, plane.normal);
     double size = 0, high = 0;
     for (const dvec3& corner : face.corners)
         size = std::max(size, distance(corner, face.corners.front()));
@@ -171,15 +172,15 @@ Flat face_of(const MeshTriangles& triangles, const FacePlane& plane, double area
 
 double FlatFaces::share(double tolerance) const {
     double sum = 0;
-    for (const Flat& face : faces)
+    for (const FlatFace& face : faces)
         if (face.off <= tolerance) sum += face.share;
     return sum;
 }
 
-FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
+FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
     FlatFaces found;
-    if (std::optional<Flat> whole = flat(mesh, world_from_object)) {
+    if (std::optional<FlatFace> whole = make_flat_mirror_room(mesh, world_from_object)) {
         whole->triangles = {{0, count}};
         found.faces.push_back(std::move(*whole));
         return found;
@@ -192,7 +193,8 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     double area = 0;
     for (std::uint32_t i = 0; i < count; ++i) area += length(triangles.cross_of(i));
     std::optional<std::vector<FacePlane>> planes;
-    if (!box.empty() && area > 0) planes = planes_of(triangles, length(box.extent()));
+    if (!box.empty() && area > 0)
+        planes = group_triangles_by_plane(triangles, length(box.extent()));
     if (!planes) return found;
     std::erase_if(*planes, [&](const FacePlane& plane) { return plane.area < kLeastFace * area; });
     std::ranges::stable_sort(*planes, std::ranges::greater(), &FacePlane::area);
@@ -201,7 +203,7 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     // The normals of a closed body with negative volume point inwards: it is inside out. They are
     // turned below.
     const dvec3 centre = box.centre();
-    const bool is_body = is_closed(mesh);
+    const bool is_body = is_closed_mesh(mesh);
     double volume = 0;
     for (std::uint32_t i = 0; i < count; ++i)
         volume += dot(triangles.cross_of(i), triangles.places[mesh.triangles[i].x] - centre);
@@ -209,37 +211,37 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     for (FacePlane& plane : *planes) {
         for (const std::uint32_t i : plane.triangles) in_face[i] = true;
         if (volume < 0) plane.normal = -plane.normal;
-        found.faces.push_back(face_of(triangles, plane, area, is_body && volume != 0));
+        found.faces.push_back(make_flat_face(triangles, plane, area, is_body && volume != 0));
     }
     std::vector<std::uint32_t> bent;
     for (std::uint32_t i = 0; i < count; ++i)
         if (!in_face[i]) bent.push_back(i);
-    found.bent = runs_of(bent);
+    found.bent = group_into_runs(bent);
     return found;
 }
 
-std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object) {
+std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& world_from_object) {
     // Most curved meshes are rejected by their first normals, before the whole mesh is tested.
     const dmat3 turns = normal_matrix(world_from_object);
     const auto normal_of = [&](std::size_t vertex) {
         return world_normal(turns, dvec3(mesh.normals[vertex]));
     };
     for (const uvec3& triangle : mesh.triangles)
-        if (angle_between(normal_of(triangle.x), normal_of(mesh.triangles.front().x)) >
+        if (sine_between(normal_of(triangle.x), normal_of(mesh.triangles.front().x)) >
             2 * kFarFromFlat)
             return {};
-    Flat found;
-    found.normal = largest_normal(mesh, world_from_object);
+    FlatFace found;
+    found.normal = normal_of_largest_triangle(mesh, world_from_object);
     if (found.normal == dvec3(0)) return {};
     std::vector<dvec3> points;
     for (const uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner) {
             points.push_back(transform_point(world_from_object, mesh.positions[triangle[corner]]));
             found.off = std::max(found.off,
-                                 angle_between(normal_of(triangle[corner]), found.normal));
+                                 sine_between(normal_of(triangle[corner]), found.normal));
         }
     found.point = points.front();
-    found.corners = hull(points, found.normal);
+    found.corners = convex_hull_in_plane(points, found.normal);
     double size = 0;
     for (const dvec3& corner : found.corners)
         size = std::max(size, distance(corner, found.corners.front()));
@@ -249,7 +251,7 @@ std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object) {
     return found.off <= kFarFromFlat ? std::optional(found) : std::nullopt;
 }
 
-double flat_tolerance(const Camera& camera, uvec2 size) {
+double compute_flat_tolerance(const Camera& camera, uvec2 size) {
     const double half = camera.orthographic_height > 0
                             ? 1
                             : std::tan(glm::radians(camera.vertical_fov_degrees) / 2);

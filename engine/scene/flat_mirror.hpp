@@ -16,7 +16,7 @@ struct TriangleRun {
 };
 
 /// Surface, or a face of a surface, that lies nearly in a plane; world units.
-struct Flat {
+struct FlatFace {
     dvec3 point{0};             ///< a point in the plane
     dvec3 normal{0};            ///< unit length; its sign means nothing unless `is_one_sided`
     std::vector<dvec3> corners; ///< corners of the surface's convex hull, in order
@@ -32,7 +32,7 @@ struct Flat {
 
 /// Flat faces of a surface.
 struct FlatFaces {
-    std::vector<Flat> faces;       ///< largest first, at most kMostFaces
+    std::vector<FlatFace> faces;   ///< largest first, at most kMostFaces
     std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
     /// Returns the share of the area in faces whose `off` is at most `tolerance`.
     double share(double tolerance) const;
@@ -46,27 +46,27 @@ inline constexpr double kLeastFace = 1e-3;
 /// Least share of a surface's area that must lie in flat faces before planes may draw the surface.
 inline constexpr double kFlatEnough = .5;
 
-/// Largest value of `Flat::off`. A surface that deviates more from a plane is not flat at any
+/// Largest value of `FlatFace::off`. A surface that deviates more from a plane is not flat at any
 /// picture size.
 inline constexpr double kFarFromFlat = .01;
 
 /// Returns the plane of a mesh. Returns nothing if a vertex is off by more than kFarFromFlat, or if
 /// no triangle has an area. O(vertices). O(1) for most curved meshes, because the test ends at the
 /// first vertex that is off.
-std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object);
+std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& world_from_object);
 
-/// Returns the flat faces of a mirror, each of which a plane can replace. If the mesh is `flat`,
-/// the whole mesh is one face. Otherwise a face is a set of triangles that lie in one plane within
-/// 1e-4 of the extent. The normals at their corners differ from the plane's by at most
-/// kFarFromFlat. A board modelled as a thin closed box has six faces.
-/// Returns no faces for more than 64 such planes or 65,536 triangles, because so many planes are
-/// never drawn one by one. O(triangles), plus O(n log n) for a surface that has faces.
-FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object);
+/// Returns the flat faces of a mirror, each of which a plane can replace. If the mesh is
+/// `make_flat_mirror_room`, the whole mesh is one face. Otherwise a face is a set of triangles that
+/// lie in one plane within 1e-4 of the extent. The normals at their corners differ from the plane's
+/// by at most kFarFromFlat. A board modelled as a thin closed box has six faces. Returns no faces
+/// for more than 64 such planes or 65,536 triangles, because so many planes are never drawn one by
+/// one. O(triangles), plus O(n log n) for a surface that has faces.
+FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object);
 
-/// Returns the largest `Flat::off` at which a mirror shows what a plane would, in a picture of
+/// Returns the largest `FlatFace::off` at which a mirror shows what a plane would, in a picture of
 /// `size` pixels. It is a sixteenth of the angle of a pixel in the picture's middle. A normal that
 /// is off by this angle turns a reflected ray by an eighth of a pixel. For an orthographic camera,
 /// a pixel counts as the angle whose tangent is 2 / height.
-double flat_tolerance(const Camera& camera, uvec2 size);
+double compute_flat_tolerance(const Camera& camera, uvec2 size);
 
 } // namespace catoptric::scene

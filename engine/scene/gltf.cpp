@@ -21,15 +21,15 @@ namespace {
 
 /// Returns whether the node's transform mirrors its mesh. The mirrored triangles are inside out,
 /// and glTF requires us to reverse their winding.
-bool turns_inside_out(const dmat4& world_from_node) {
+bool mirrors_its_mesh(const dmat4& world_from_node) {
     return glm::determinant(dmat3(world_from_node)) < 0;
 }
 
 /// Returns how a camera follows a single track of translations, as a rig of one node.
-Follows sliding(const Keyframes& frames) {
-    Rig rig{.nodes = {{.translations = frames.keys}}, .repeats = frames.repeats};
+RigAttachment make_translation_rig(const Keyframes& frames) {
+    NodeRig rig{.nodes = {{.translations = frames.keys}}, .repeats = frames.repeats};
     rig.nodes[0].parent_from_space = dmat4(frames.world_from_keys);
-    Follows follows{.rig = std::make_shared<const Rig>(std::move(rig))};
+    RigAttachment follows{.rig = std::make_shared<const NodeRig>(std::move(rig))};
     // world_from_keys * place at rest
     dmat4 rest = dmat4(frames.world_from_keys);
     rest[3] = dvec4(frames.world_from_keys * frames.rest, 1);
@@ -39,8 +39,8 @@ Follows sliding(const Keyframes& frames) {
 
 /// Returns the exact sphere in world space. Returns none unless the mesh's vertices lie on it and
 /// the node scales it uniformly.
-std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
-                                   const dmat4& world_from_node) {
+std::optional<Sphere> sphere_in_world_space(const Sphere& sphere, const Mesh& mesh,
+                                            const dmat4& world_from_node) {
     const dmat3 axes(world_from_node);
     const dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     // glTF stores floats. The tolerance is 4 ulp of the largest number in the computation.
@@ -59,7 +59,7 @@ std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
 
 /// Turns nodes into objects. Nodes that share a mesh share it in the scene, too.
 struct GltfBuilder {
-    gltf::Context context;
+    gltf::GltfContext context;
     Scene scene;
     std::vector<dmat4> at_rest;                     ///< transform from each node to world space
     std::vector<std::vector<gltf::MeshPart>> parts; ///< for each mesh
@@ -77,10 +77,10 @@ struct GltfBuilder {
     Mesh repaired(const MeshKey& key);
     std::size_t mesh_for(const MeshKey& key);
     std::string object_name(std::size_t node, std::size_t mesh, std::size_t part);
-    void add_node(std::size_t node, const gltf::Placed& placed);
-    void add_object(std::size_t node, const gltf::Placed& placed, std::size_t part);
-    void add_camera(std::size_t node, const gltf::Placed& placed);
-    void add_light(std::size_t node, const gltf::Placed& placed);
+    void add_node(std::size_t node, const gltf::PlacedNode& placed);
+    void add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part);
+    void add_camera(std::size_t node, const gltf::PlacedNode& placed);
+    void add_light(std::size_t node, const gltf::PlacedNode& placed);
     void check_unshown();
 };
 
@@ -90,14 +90,15 @@ std::string GltfBuilder::node_place(std::size_t node) const {
 
 Mesh GltfBuilder::repaired(const MeshKey& key) {
     std::vector<dmat4> joints;
-    if (key.skin >= 0) joints = joints_of(key.skin, at_rest, context);
-    Mesh mesh = mesh_of(key.mesh, parts[key.mesh][key.part], key.weights, context,
-                        key.skin >= 0 ? &joints : nullptr);
-    context.account.mesh_vertices.add(corners_without_normal(mesh),
-                                      mesh_place(context.document, key.mesh));
-    const std::size_t dropped = repair(mesh);
-    context.notes.add("triangles without area, left out", "in " + in_quotes(mesh.name), dropped);
-    // This follows `repair`, because normals that it adds are those of the file's winding.
+    if (key.skin >= 0) joints = compute_joint_transforms(key.skin, at_rest, context);
+    Mesh mesh = build_part_mesh(key.mesh, parts[key.mesh][key.part], key.weights, context,
+                                key.skin >= 0 ? &joints : nullptr);
+    context.account.mesh_vertices.add(count_corners_without_normal(mesh),
+                                      describe_mesh_place(context.document, key.mesh));
+    const std::size_t dropped = repair_mesh(mesh);
+    context.notes.add("triangles without area, left out", "in " + quote_printable(mesh.name),
+                      dropped);
+    // This follows `repair_mesh`, because normals that it adds are those of the file's winding.
     if (key.inside_out)
         for (uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
     return mesh;
@@ -122,9 +123,9 @@ std::string GltfBuilder::object_name(std::size_t node, std::size_t mesh, std::si
     return is_one ? own : own + "/" + material;
 }
 
-void GltfBuilder::add_object(std::size_t node, const gltf::Placed& placed, std::size_t part) {
+void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part) {
     const std::string place = node_place(node);
-    const gltf::Marks& marks = context.document.marks[node];
+    const gltf::NodeExtras& marks = context.document.marks[node];
     const auto its_mesh = std::size_t(context.document.model.nodes[node].mesh);
     context.account.objects.add(1, place);
     Object object{.name = object_name(node, its_mesh, part),
@@ -134,15 +135,15 @@ void GltfBuilder::add_object(std::size_t node, const gltf::Placed& placed, std::
     if (skin < 0) // joints place a skinned mesh, not its node
         object.world_from_object = placed.world_from_node, object.motion = placed.motion;
     const std::vector<double>& weights = context.document.node_weights[node];
-    object.mesh = mesh_for({its_mesh, part, skin, turns_inside_out(object.world_from_object),
+    object.mesh = mesh_for({its_mesh, part, skin, mirrors_its_mesh(object.world_from_object),
                             weights.empty() ? context.document.weights[its_mesh] : weights});
     const Mesh& mesh = scene.meshes[object.mesh];
     context.account.shown_vertices.add(mesh.positions.size(), place);
     context.account.shown_triangles.add(mesh.triangles.size(), place);
     if (marks.sphere) {
-        const Follows* follows = followed(object.motion);
+        const RigAttachment* follows = find_followed_node(object.motion);
         if (!follows || keeps_spheres(*follows))
-            object.sphere = world_sphere(*marks.sphere, mesh, placed.world_from_node);
+            object.sphere = sphere_in_world_space(*marks.sphere, mesh, placed.world_from_node);
         if (!object.sphere)
             context.notes.add("nodes marked as a sphere whose mesh or scale is not one",
                               context.document.label(node));
@@ -151,7 +152,7 @@ void GltfBuilder::add_object(std::size_t node, const gltf::Placed& placed, std::
 }
 
 /// Adds the camera of a node. A glTF camera looks along -z with +y up.
-void GltfBuilder::add_camera(std::size_t node, const gltf::Placed& placed) {
+void GltfBuilder::add_camera(std::size_t node, const gltf::PlacedNode& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::string place = node_place(node);
     Camera camera = cameras[std::size_t(from.camera)];
@@ -167,18 +168,18 @@ void GltfBuilder::add_camera(std::size_t node, const gltf::Placed& placed) {
     check(is_finite(camera.eye) && is_finite(camera.target), Failure::bad_data, place,
           ": wanted a camera at finite coordinates, found an overflow");
     camera.up = up;
-    if (const auto* follows = std::get_if<Follows>(&placed.motion)) {
+    if (const auto* follows = std::get_if<RigAttachment>(&placed.motion)) {
         camera.follows = *follows;
         camera.follows.node_from_object *= glm::inverse(world);
     } else if (const auto* frames = std::get_if<Keyframes>(&placed.motion)) {
-        camera.follows = sliding(*frames);
+        camera.follows = make_translation_rig(*frames);
     }
     scene.cameras.push_back(std::move(camera));
 }
 
-void GltfBuilder::add_light(std::size_t node, const gltf::Placed& placed) {
+void GltfBuilder::add_light(std::size_t node, const gltf::PlacedNode& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
-    Punctual light = context.document.lights.lights[*context.document.lights.of_node[node]];
+    PunctualLight light = context.document.lights.lights[*context.document.lights.of_node[node]];
     if (!from.name.empty()) light.name = from.name;
     context.account.name_bytes.add(light.name.size(), node_place(node));
     light.world_from_light = placed.world_from_node;
@@ -189,7 +190,7 @@ void GltfBuilder::add_light(std::size_t node, const gltf::Placed& placed) {
     scene.punctual.push_back(std::move(light));
 }
 
-void GltfBuilder::add_node(std::size_t node, const gltf::Placed& placed) {
+void GltfBuilder::add_node(std::size_t node, const gltf::PlacedNode& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::size_t count = from.mesh < 0 ? 0 : parts[std::size_t(from.mesh)].size();
     for (std::size_t part = 0; part < count; ++part) add_object(node, placed, part);
@@ -208,11 +209,11 @@ void GltfBuilder::check_unshown() {
     for (const auto& [key, mesh] : meshes) is_shown[key.mesh] = true;
     for (std::size_t mesh = 0; mesh < is_shown.size(); ++mesh)
         for (std::size_t part = 0; !is_shown[mesh] && part < parts[mesh].size(); ++part)
-            mesh_of(mesh, parts[mesh][part], context.document.weights[mesh], context);
+            build_part_mesh(mesh, parts[mesh][part], context.document.weights[mesh], context);
 }
 
 /// Returns whether glTF gives the material a specular lobe beside its diffuse part.
-bool has_lobe(const Material& material) {
+bool has_specular_lobe(const Material& material) {
     const bool is_metal = material.metallic == 1 && !material.roughness_texture;
     return !material.mirror && !material.unlit && !is_metal &&
            (material.dielectric_f0 != vec3(0) || material.dielectric_f90 != vec3(0));
@@ -222,12 +223,13 @@ bool has_lobe(const Material& material) {
 
 Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
     const std::string file = path.string();
-    Account account(options.budget);
-    Files files(path, options.root, account);
-    Notes notes;
+    BudgetAccount account(options.budget);
+    SceneFiles files(path, options.root, account);
+    LoaderNotes notes;
     std::vector<UnsupportedFeature> unsupported;
-    const gltf::Document document = gltf::read(file, files, account, notes, unsupported);
-    gltf::check_forest(document);
+    const gltf::GltfDocument document = gltf::read_gltf_document(file, files, account, notes,
+                                                                 unsupported);
+    gltf::check_nodes_form_forest(document);
     GltfBuilder builder{.context = {.document = document,
                                     .options = options,
                                     .account = account,
@@ -237,13 +239,15 @@ Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
                      .materials = document.materials,
                      .exposure = document.exposure};
     for (std::size_t i = 0; i < document.materials.size(); ++i)
-        if (has_lobe(document.materials[i]))
-            add_unsupported_material(unsupported, "specular-left-out",
-                                     gltf::label_of("materials", i, document.materials[i].name), i);
+        if (has_specular_lobe(document.materials[i]))
+            add_unsupported_material(
+                unsupported, "specular-left-out",
+                gltf::label_list_item("materials", i, document.materials[i].name), i);
     builder.cameras = read_cameras(document);
-    builder.parts = read_parts(builder.scene.materials, builder.context);
-    builder.at_rest = rest_of(document);
-    const std::vector<gltf::Placed> placed = place(document, read_animation(builder.context));
+    builder.parts = read_mesh_parts(builder.scene.materials, builder.context);
+    builder.at_rest = compute_rest_transforms(document);
+    const std::vector<gltf::PlacedNode> placed = place_nodes(document,
+                                                             read_animation(builder.context));
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const tinygltf::Node& node = document.model.nodes[i];
         if (placed[i].reached)
@@ -252,7 +256,7 @@ Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
             notes.add("nodes outside the scene that is shown, left out", document.label(i));
     }
     builder.check_unshown();
-    finish(builder.scene, file, notes, std::move(unsupported));
+    finish_loading(builder.scene, file, notes, std::move(unsupported));
     builder.scene.files = files.found();
     return std::move(builder.scene);
 }

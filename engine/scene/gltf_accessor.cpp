@@ -9,7 +9,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-std::string name_of(int type) {
+std::string accessor_type_name(int type) {
     if (type == TINYGLTF_TYPE_SCALAR) return "SCALAR";
     const int size = type & 15; // tinygltf: 2, 3 and 4 are vectors, 32 more are matrices
     return (type == size ? "VEC" : "MAT") + std::to_string(size);
@@ -17,7 +17,7 @@ std::string name_of(int type) {
 
 /// Reads one component as it is stored. glTF and all supported machines are little-endian.
 template <typename Stored>
-Stored stored_at(const Elements& elements, std::size_t index, int component) {
+Stored read_stored_component(const AccessorElements& elements, std::size_t index, int component) {
     Stored value;
     std::memcpy(&value,
                 elements.first + index * elements.stride + std::size_t(component) * sizeof value,
@@ -28,33 +28,34 @@ Stored stored_at(const Elements& elements, std::size_t index, int component) {
 /// Reads one integer component, normalised as glTF defines it. The two lowest signed integers both
 /// become -1.
 template <typename Stored>
-double whole_number_at(const Elements& elements, std::size_t index, int component) {
-    const double value = stored_at<Stored>(elements, index, component);
+double read_normalised_integer(const AccessorElements& elements, std::size_t index, int component) {
+    const double value = read_stored_component<Stored>(elements, index, component);
     return elements.normalised ? std::max(value / std::numeric_limits<Stored>::max(), -1.0) : value;
 }
 
-Elements typed(const tinygltf::Model& model, int index, int type, const std::string& place) {
+AccessorElements elements_of_type(const tinygltf::Model& model, int index, int type,
+                                  const std::string& place) {
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     check(accessor.type == type, Failure::bad_data, place, ": wanted an accessor of ",
-          name_of(type), ", found ", name_of(accessor.type));
-    return elements_of(model, index);
+          accessor_type_name(type), ", found ", accessor_type_name(accessor.type));
+    return read_accessor_elements(model, index);
 }
 
 /// Returns whether the components are integers of 8 or 16 bits.
-bool is_short(const Elements& elements) {
+bool has_short_integers(const AccessorElements& elements) {
     return elements.component >= TINYGLTF_COMPONENT_TYPE_BYTE &&
            elements.component <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
 }
 
-bool is_finite(const Elements& elements, std::size_t index) {
+bool is_finite_element(const AccessorElements& elements, std::size_t index) {
     for (int i = 0; i < elements.width; ++i)
-        if (!std::isfinite(number_at(elements, index, i))) return false;
+        if (!std::isfinite(read_number(elements, index, i))) return false;
     return true;
 }
 
 } // namespace
 
-Elements elements_of(const tinygltf::Model& model, int index) {
+AccessorElements read_accessor_elements(const tinygltf::Model& model, int index) {
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     const tinygltf::BufferView& view = model.bufferViews[std::size_t(accessor.bufferView)];
     const std::vector<unsigned char>& bytes = model.buffers[std::size_t(view.buffer)].data;
@@ -68,23 +69,24 @@ Elements elements_of(const tinygltf::Model& model, int index) {
             .normalised = accessor.normalized};
 }
 
-Elements Context::floats(int index, int type, Total& total, const std::string& place, Also also) {
-    const Elements elements = typed(document.model, index, type, place);
-    const bool is_whole = is_short(elements) &&
-                          ((also == Also::normalised && elements.normalised) ||
-                           (also == Also::quantised && document.is_quantised));
+AccessorElements GltfContext::floats(int index, int type, LimitedSum& total,
+                                     const std::string& place, AllowedIntegers also) {
+    const AccessorElements elements = elements_of_type(document.model, index, type, place);
+    const bool is_whole = has_short_integers(elements) &&
+                          ((also == AllowedIntegers::normalised && elements.normalised) ||
+                           (also == AllowedIntegers::quantised && document.is_quantised));
     check(elements.component == TINYGLTF_COMPONENT_TYPE_FLOAT || is_whole, Failure::bad_data, place,
           ": wanted floats, found component type ", elements.component);
     if (!finite.insert(index).second) return elements;
     total.add(elements.count, place);
     for (std::size_t i = 0; i < elements.count && !is_whole; ++i)
-        check(is_finite(elements, i), Failure::bad_data, place, ": element ", i,
+        check(is_finite_element(elements, i), Failure::bad_data, place, ": element ", i,
               ": wanted finite numbers, found NaN or infinity");
     return elements;
 }
 
-Elements Context::whole(int index, const std::string& place, int type) const {
-    const Elements elements = typed(document.model, index, type, place);
+AccessorElements GltfContext::whole(int index, const std::string& place, int type) const {
+    const AccessorElements elements = elements_of_type(document.model, index, type, place);
     const bool is_unsigned = elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
@@ -93,36 +95,36 @@ Elements Context::whole(int index, const std::string& place, int type) const {
     return elements;
 }
 
-double number_at(const Elements& elements, std::size_t index, int component) {
+double read_number(const AccessorElements& elements, std::size_t index, int component) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return whole_number_at<std::int8_t>(elements, index, component);
+        return read_normalised_integer<std::int8_t>(elements, index, component);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return whole_number_at<std::uint8_t>(elements, index, component);
+        return read_normalised_integer<std::uint8_t>(elements, index, component);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return whole_number_at<std::int16_t>(elements, index, component);
+        return read_normalised_integer<std::int16_t>(elements, index, component);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return whole_number_at<std::uint16_t>(elements, index, component);
-    default: return stored_at<float>(elements, index, component);
+        return read_normalised_integer<std::uint16_t>(elements, index, component);
+    default: return read_stored_component<float>(elements, index, component);
     }
 }
 
-dvec3 vector_at(const Elements& elements, std::size_t index) {
-    return {number_at(elements, index, 0), number_at(elements, index, 1),
-            number_at(elements, index, 2)};
+dvec3 read_vector(const AccessorElements& elements, std::size_t index) {
+    return {read_number(elements, index, 0), read_number(elements, index, 1),
+            read_number(elements, index, 2)};
 }
 
-std::uint32_t whole_at(const Elements& elements, std::size_t index, int component) {
+std::uint32_t read_integer(const AccessorElements& elements, std::size_t index, int component) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return stored_at<std::uint8_t>(elements, index, component);
+        return read_stored_component<std::uint8_t>(elements, index, component);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return stored_at<std::uint16_t>(elements, index, component);
-    default: return stored_at<std::uint32_t>(elements, index, component);
+        return read_stored_component<std::uint16_t>(elements, index, component);
+    default: return read_stored_component<std::uint32_t>(elements, index, component);
     }
 }
 
-std::uint32_t restart_of(const Elements& elements) {
+std::uint32_t primitive_restart_index(const AccessorElements& elements) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return std::numeric_limits<std::uint8_t>::max();
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return std::numeric_limits<std::uint16_t>::max();

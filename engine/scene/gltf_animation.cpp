@@ -10,56 +10,58 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-std::vector<double> times_of(const Elements& input, const std::string& place) {
+std::vector<double> read_key_times(const AccessorElements& input, const std::string& place) {
     std::vector<double> times(input.count);
     for (std::size_t i = 0; i < times.size(); ++i) {
-        times[i] = number_at(input, i, 0);
+        times[i] = read_number(input, i, 0);
         check(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]), Failure::bad_data, place,
               ": input: wanted increasing times from 0 on, found ", times[i]);
     }
     return times;
 }
 
-Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler,
-                               const std::string& place) {
+Interpolation read_interpolation(const tinygltf::AnimationSampler& sampler,
+                                 const std::string& place) {
     using enum Interpolation;
     const std::string& kind = sampler.interpolation; // tinygltf's default is "LINEAR"
     if (kind == "LINEAR") return linear;
     if (kind == "STEP") return step;
     check(kind == "CUBICSPLINE", Failure::bad_data, place,
-          ": interpolation: wanted LINEAR, STEP or CUBICSPLINE, found ", shown(Json(kind)));
+          ": interpolation: wanted LINEAR, STEP or CUBICSPLINE, found ",
+          describe_json_value(Json(kind)));
     return cubic;
 }
 
-dvec3 value_of(const Elements& output, std::size_t index, const dvec3&) {
-    return vector_at(output, index);
+dvec3 read_track_value(const AccessorElements& output, std::size_t index, const dvec3&) {
+    return read_vector(output, index);
 }
-dvec4 value_of(const Elements& output, std::size_t index, const dvec4&) {
-    return dvec4(vector_at(output, index), number_at(output, index, 3));
+dvec4 read_track_value(const AccessorElements& output, std::size_t index, const dvec4&) {
+    return dvec4(read_vector(output, index), read_number(output, index, 3));
 }
 
 /// Reads one track. A cubic track stores in-tangent, value and out-tangent for each key. Throws
 /// `bad_data`.
 template <typename Value>
-Track<Value> track_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
-                      Context& context) {
-    Track<Value> track{.interpolation = interpolation_of(sampler, place)};
+Track<Value> read_track(const tinygltf::AnimationSampler& sampler, const std::string& place,
+                        GltfContext& context) {
+    Track<Value> track{.interpolation = read_interpolation(sampler, place)};
     const bool is_cubic = track.interpolation == Interpolation::cubic;
     const std::size_t each = is_cubic ? 3 : 1;
     check(sampler.input >= 0, Failure::bad_data, place, ": input: wanted an index, found none");
     check(sampler.output >= 0, Failure::bad_data, place, ": output: wanted an index, found none");
-    Account& account = context.account;
+    BudgetAccount& account = context.account;
     constexpr bool kTurns = std::is_same_v<Value, dvec4>;
-    const Elements input = context.floats(sampler.input, TINYGLTF_TYPE_SCALAR, account.key_times,
-                                          place + ": input");
-    const Elements output = context.floats(
+    const AccessorElements input = context.floats(sampler.input, TINYGLTF_TYPE_SCALAR,
+                                                  account.key_times, place + ": input");
+    const AccessorElements output = context.floats(
         sampler.output, kTurns ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, account.key_values,
-        place + ": output", kTurns ? Context::Also::normalised : Context::Also::nothing);
+        place + ": output",
+        kTurns ? GltfContext::AllowedIntegers::normalised : GltfContext::AllowedIntegers::nothing);
     check(output.count == each * input.count, Failure::bad_data, place, ": output: wanted ", each,
           " values for each of ", input.count, " keys, found ", output.count);
     account.keys.add(input.count, place);
-    track.times = times_of(input, place);
-    const auto value = [&](std::size_t index) { return value_of(output, index, Value()); };
+    track.times = read_key_times(input, place);
+    const auto value = [&](std::size_t index) { return read_track_value(output, index, Value()); };
     for (std::size_t i = 0; i < input.count; ++i) {
         track.values.push_back(value(each * i + each / 2));
         if (!is_cubic) continue;
@@ -71,14 +73,14 @@ Track<Value> track_of(const tinygltf::AnimationSampler& sampler, const std::stri
 
 /// Reads a track of rotations. Quaternions of step and linear tracks are normalised, since files
 /// may be a little off unit length. Throws `bad_data` for zero or infinite length.
-Turns turns_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
-               Context& context) {
-    Turns turns = track_of<dvec4>(sampler, place, context);
+RotationTrack read_rotation_track(const tinygltf::AnimationSampler& sampler,
+                                  const std::string& place, GltfContext& context) {
+    RotationTrack turns = read_track<dvec4>(sampler, place, context);
     for (dvec4& turn : turns.values) {
         const double length = glm::length(turn);
         check(length > 0 && std::isfinite(length), Failure::bad_data, place,
               ": output: wanted quaternions with a length, found ", length);
-        if (turns.interpolation != Turns::Interpolation::cubic) turn /= length;
+        if (turns.interpolation != RotationTrack::Interpolation::cubic) turn /= length;
     }
     return turns;
 }
@@ -86,13 +88,13 @@ Turns turns_of(const tinygltf::AnimationSampler& sampler, const std::string& pla
 /// Reads the tracks of one animation. Reads each sampler once for vectors and once for rotations.
 class AnimationReader {
 public:
-    AnimationReader(const tinygltf::Animation& from, std::string place, Context& context)
+    AnimationReader(const tinygltf::Animation& from, std::string place, GltfContext& context)
         : from_(from), place_(std::move(place)), context_(context), keys_(from.samplers.size()),
           turns_(from.samplers.size()) {}
 
-    void add(const tinygltf::AnimationChannel& channel, std::vector<Tracks>& nodes) {
-        Tracks none;
-        Tracks& to = channel.target_node < 0 ? none : nodes[std::size_t(channel.target_node)];
+    void add(const tinygltf::AnimationChannel& channel, std::vector<NodeTracks>& nodes) {
+        NodeTracks none;
+        NodeTracks& to = channel.target_node < 0 ? none : nodes[std::size_t(channel.target_node)];
         const auto index = std::size_t(channel.sampler);
         if (channel.target_path == "translation") set(to.translations, keys(index));
         if (channel.target_path == "scale") set(to.scales, keys(index));
@@ -101,18 +103,18 @@ public:
 
 private:
     std::string place(std::size_t index) const {
-        return place_ + ": " + label_of("samplers", index);
+        return place_ + ": " + label_list_item("samplers", index);
     }
-    std::shared_ptr<const Keys> keys(std::size_t index) {
+    std::shared_ptr<const TranslationTrack> keys(std::size_t index) {
         if (!keys_[index])
-            keys_[index] = std::make_shared<const Keys>(
-                track_of<dvec3>(from_.samplers[index], place(index), context_));
+            keys_[index] = std::make_shared<const TranslationTrack>(
+                read_track<dvec3>(from_.samplers[index], place(index), context_));
         return keys_[index];
     }
-    std::shared_ptr<const Turns> turns(std::size_t index) {
+    std::shared_ptr<const RotationTrack> turns(std::size_t index) {
         if (!turns_[index])
-            turns_[index] = std::make_shared<const Turns>(
-                turns_of(from_.samplers[index], place(index), context_));
+            turns_[index] = std::make_shared<const RotationTrack>(
+                read_rotation_track(from_.samplers[index], place(index), context_));
         return turns_[index];
     }
     template <typename Kept>
@@ -125,14 +127,14 @@ private:
 
     const tinygltf::Animation& from_;
     std::string place_;
-    Context& context_;
-    std::vector<std::shared_ptr<const Keys>> keys_;
-    std::vector<std::shared_ptr<const Turns>> turns_;
+    GltfContext& context_;
+    std::vector<std::shared_ptr<const TranslationTrack>> keys_;
+    std::vector<std::shared_ptr<const RotationTrack>> turns_;
 };
 
 /// Returns the index of the animation that moves the nodes, or none. Throws the failure of
 /// `FileOptions::animation_by` for an unknown name.
-std::optional<std::size_t> chosen(const Context& context) {
+std::optional<std::size_t> choose_animation(const GltfContext& context) {
     const std::vector<tinygltf::Animation>& all = context.document.model.animations;
     const std::string& name = context.options.animation;
     if (name == "none") return std::nullopt;
@@ -142,24 +144,24 @@ std::optional<std::size_t> chosen(const Context& context) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].name == name) return i;
         names.push_back(all[i].name);
-        list += ", " + in_quotes(all[i].name);
+        list += ", " + quote_printable(all[i].name);
     }
-    const SaidBy& by = context.options.animation_by;
-    fail(by.failure, by.where, ": ", context.document.file, " has no animation ", in_quotes(name),
-         ": wanted one of none", list, did_you_mean(name, names));
+    const SettingOrigin& by = context.options.animation_by;
+    fail(by.failure, by.where, ": ", context.document.file, " has no animation ",
+         quote_printable(name), ": wanted one of none", list, suggest_name(name, names));
 }
 
 } // namespace
 
-Animation read_animation(Context& context) {
-    const Document& document = context.document;
+NodeAnimation read_animation(GltfContext& context) {
+    const GltfDocument& document = context.document;
     const std::vector<tinygltf::Animation>& all = document.model.animations;
-    Animation animation{.nodes = std::vector<Tracks>(document.model.nodes.size())};
-    const std::optional<std::size_t> shown = chosen(context);
+    NodeAnimation animation{.nodes = std::vector<NodeTracks>(document.model.nodes.size())};
+    const std::optional<std::size_t> shown = choose_animation(context);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const std::string label = label_of("animations", i, all[i].name);
+        const std::string label = label_list_item("animations", i, all[i].name);
         AnimationReader reader(all[i], document.file + ": " + label, context);
-        std::vector<Tracks> elsewhere(i == shown ? 0 : document.model.nodes.size());
+        std::vector<NodeTracks> elsewhere(i == shown ? 0 : document.model.nodes.size());
         // Other animations are read, too, so that an invalid file fails whichever one is shown.
         for (const tinygltf::AnimationChannel& channel : all[i].channels)
             reader.add(channel, i == shown ? animation.nodes : elsewhere);

@@ -15,7 +15,7 @@ struct StridedView {
     std::uint64_t length, stride; ///< bytes; a stride of 0 means tightly packed
 };
 
-std::size_t component_bytes(const Item& item) {
+std::size_t component_bytes(const JsonObject& item) {
     const std::uint64_t component = item.whole("componentType", 0);
     const bool is_known = component >= TINYGLTF_COMPONENT_TYPE_BYTE &&
                           component <= TINYGLTF_COMPONENT_TYPE_FLOAT &&
@@ -26,7 +26,7 @@ std::size_t component_bytes(const Item& item) {
         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component)));
 }
 
-StridedView view_of(const Item& item, const std::vector<GltfBuffer>& buffers) {
+StridedView make_strided_view(const JsonObject& item, const std::vector<GltfBuffer>& buffers) {
     const std::uint64_t size = buffers[item.needed_index("buffer", buffers.size())].length;
     const std::uint64_t offset = item.whole("byteOffset", 0), length = item.whole("byteLength", 0);
     item.require(length >= 1 && offset <= size && length <= size - offset, "wanted ", length,
@@ -38,8 +38,8 @@ StridedView view_of(const Item& item, const std::vector<GltfBuffer>& buffers) {
 }
 
 /// Checks that `count` elements, at least 1, of `size` bytes lie in the item's view.
-void check_elements(const Item& item, const std::vector<StridedView>& views, std::uint64_t count,
-                    std::size_t size) {
+void check_elements_in_view(const JsonObject& item, const std::vector<StridedView>& views,
+                            std::uint64_t count, std::size_t size) {
     const auto& [length, given_stride] = views[item.needed_index("bufferView", views.size())];
     const std::uint64_t stride = given_stride == 0 ? size : given_stride;
     const std::uint64_t room = length - std::min(item.whole("byteOffset", 0), length);
@@ -49,41 +49,43 @@ void check_elements(const Item& item, const std::vector<StridedView>& views, std
 }
 
 /// Checks that the values and the indices of a sparse accessor lie in their views.
-void check_sparse(const Item& sparse, const std::vector<StridedView>& views, std::uint64_t count,
-                  std::size_t element) {
+void check_sparse_accessor(const JsonObject& sparse, const std::vector<StridedView>& views,
+                           std::uint64_t count, std::size_t element) {
     const std::uint64_t changed = sparse.whole("count", 0);
     sparse.require(changed >= 1 && changed <= count, "count: wanted 1 to ", count, ", found ",
                    changed);
-    const std::optional<Item> indices = sparse.object("indices"), values = sparse.object("values");
+    const std::optional<JsonObject> indices = sparse.object("indices"),
+                                    values = sparse.object("values");
     sparse.require(indices && values, "wanted indices and values, found one of them or none");
-    check_elements(*indices, views, changed, component_bytes(*indices));
-    check_elements(*values, views, changed, element);
+    check_elements_in_view(*indices, views, changed, component_bytes(*indices));
+    check_elements_in_view(*values, views, changed, element);
 }
 
-void check_accessor(const Item& item, const std::vector<StridedView>& views) {
+void check_accessor(const JsonObject& item, const std::vector<StridedView>& views) {
     const auto* const type = std::ranges::find(kTypes, item.text("type"));
     item.require(type != std::end(kTypes),
                  "type: wanted SCALAR, VEC2 .. VEC4 or MAT2 .. MAT4, found ",
-                 item.has("type") ? shown(*item.find("type")) : "none");
+                 item.has("type") ? describe_json_value(*item.find("type")) : "none");
     const std::size_t size = kWidths[type - kTypes] * component_bytes(item);
     const std::uint64_t count = item.whole("count", 0);
     item.require(count >= 1, "count: wanted at least 1, found ", count);
-    if (item.has("bufferView")) check_elements(item, views, count, size);
-    if (const std::optional<Item> sparse = item.object("sparse"))
-        check_sparse(*sparse, views, count, size);
+    if (item.has("bufferView")) check_elements_in_view(item, views, count, size);
+    if (const std::optional<JsonObject> sparse = item.object("sparse"))
+        check_sparse_accessor(*sparse, views, count, size);
 }
 
 } // namespace
 
-std::size_t element_bytes(const Item& accessor) {
+std::size_t element_bytes(const JsonObject& accessor) {
     const auto* const type = std::ranges::find(kTypes, accessor.text("type"));
     return kWidths[type - kTypes] * component_bytes(accessor);
 }
 
-void check_bounds(const Item& root, const std::vector<GltfBuffer>& buffers) {
+void check_view_bounds(const JsonObject& root, const std::vector<GltfBuffer>& buffers) {
     std::vector<StridedView> views;
-    root.each("bufferViews", [&](const Item& item) { views.push_back(view_of(item, buffers)); });
-    root.each("accessors", [&](const Item& item) { check_accessor(item, views); });
+    root.each("bufferViews",
+              [&](const JsonObject& item) { views.push_back(make_strided_view(item, buffers)); });
+    root.each("accessors", [&](const JsonObject& item) { check_accessor(item, views); });
 }
 
 } // namespace catoptric::scene::gltf

@@ -24,10 +24,10 @@ constexpr std::string_view kWithout[] = {
     "KHR_xmp_json_ld",       "KHR_techniques_webgl", "KHR_technique_webgl"};
 /// Extensions that store geometry or images in a form that is not read. A file that requires one is
 /// refused, because its scene would be incomplete.
-struct Squeezed {
+struct UnreadCompression {
     std::string_view extension, sentence;
 };
-constexpr Squeezed kSqueezed[] = {
+constexpr UnreadCompression kSqueezed[] = {
     {"KHR_draco_mesh_compression", ": meshes compressed by Draco are not read: wanted a file "
                                    "without it (gltf-transform copy, or export without Draco)"},
     {"EXT_meshopt_compression", ": buffers compressed by meshopt are not read: wanted a file "
@@ -38,74 +38,78 @@ constexpr Squeezed kSqueezed[] = {
                          "(gltf-transform png)"},
     {"MSFT_texture_dds", ": DDS textures are not read: wanted PNG, JPEG or WebP"}};
 
-struct Chunks {
+struct GlbChunks {
     std::string_view json;
     std::string_view binary; ///< empty if there is none
 };
 
-std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+std::uint32_t read_word(std::string_view bytes, std::size_t offset) {
     std::uint32_t word = 0; // glTF and all supported machines are little-endian
     std::memcpy(&word, bytes.data() + offset, sizeof word);
     return word;
 }
 
 /// Returns the JSON and the first binary chunk of a GLB. Any other file is taken as JSON text.
-Chunks chunks_of(const std::string& file, std::string_view bytes, Notes& notes) {
+GlbChunks read_glb_chunks(const std::string& file, std::string_view bytes, LoaderNotes& notes) {
     if (!bytes.starts_with("glTF")) return {bytes, {}};
     check(bytes.size() >= 20, Failure::bad_data, file, ": header: wanted 20 bytes, found ",
           bytes.size());
-    check(word_at(bytes, 4) == 2, Failure::bad_data, file, ": header: wanted GLB version 2, found ",
-          word_at(bytes, 4));
-    const std::uint32_t said = word_at(bytes, 8);
+    check(read_word(bytes, 4) == 2, Failure::bad_data, file,
+          ": header: wanted GLB version 2, found ", read_word(bytes, 4));
+    const std::uint32_t said = read_word(bytes, 8);
     check(said >= 20 && said <= bytes.size(), Failure::bad_data, file, ": header: wanted ", said,
           " bytes, found ", bytes.size());
     notes.add("bytes after the end that the header gives, left out", std::to_string(said),
               bytes.size() - said);
     bytes = bytes.substr(0, said);
-    const std::uint32_t length = word_at(bytes, 12);
-    check(word_at(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data, file,
-          ": first chunk: wanted JSON of at most ", bytes.size() - 20, " bytes, found ", length);
+    const std::uint32_t length = read_word(bytes, 12);
+    check(read_word(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data,
+          file, ": first chunk: wanted JSON of at most ", bytes.size() - 20, " bytes, found ",
+          length);
     const std::string_view rest = bytes.substr(20 + length);
-    if (rest.size() < 8 || word_at(rest, 4) != kBinaryChunk) return {bytes.substr(20, length), {}};
-    const std::uint32_t binary = word_at(rest, 0);
+    if (rest.size() < 8 || read_word(rest, 4) != kBinaryChunk)
+        return {bytes.substr(20, length), {}};
+    const std::uint32_t binary = read_word(rest, 0);
     check(binary <= rest.size() - 8, Failure::bad_data, file, ": second chunk: wanted at most ",
           rest.size() - 8, " bytes, found ", binary);
     return {bytes.substr(20, length), rest.substr(8, binary)};
 }
 
-void check_version(const Item& root) {
-    const std::optional<Item> asset = root.object("asset");
+void check_gltf_version(const JsonObject& root) {
+    const std::optional<JsonObject> asset = root.object("asset");
     const Json* version = asset ? asset->find("version") : nullptr;
-    root.require(version && version->is_string() &&
-                     version->get_ref<const std::string&>().starts_with("2."),
-                 "asset.version: wanted \"2.0\", found ", version ? shown(*version) : "null");
+    root.require(
+        version && version->is_string() && version->get_ref<const std::string&>().starts_with("2."),
+        "asset.version: wanted \"2.0\", found ", version ? describe_json_value(*version) : "null");
 }
 
-void check_extensions(const Item& root) {
+void check_required_extensions(const JsonObject& root) {
     const Json* required = root.find("extensionsRequired");
     if (required == nullptr) return;
     root.require(required->is_array(), "extensionsRequired: wanted an array, found ",
-                 shown(*required));
+                 describe_json_value(*required));
     for (const Json& extension : *required) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "";
-        const auto* const squeezed = std::ranges::find(kSqueezed, name, &Squeezed::extension);
-        root.require(squeezed == std::end(kSqueezed), "extensionsRequired: ", shown(extension),
+        const auto* const squeezed = std::ranges::find(kSqueezed, name,
+                                                       &UnreadCompression::extension);
+        root.require(squeezed == std::end(kSqueezed),
+                     "extensionsRequired: ", describe_json_value(extension),
                      squeezed == std::end(kSqueezed) ? "" : squeezed->sentence);
         const bool is_drawn = name.starts_with("KHR_materials_") ||
                               std::ranges::find(kWithout, name) != std::end(kWithout);
         root.require(is_drawn,
                      "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
                      "KHR_mesh_quantization or KHR_lights_punctual, found ",
-                     shown(extension));
+                     describe_json_value(extension));
     }
 }
 
-class Buffers {
+class BufferCollector {
 public:
-    Buffers(Container& container, Files& files, std::string_view binary)
+    BufferCollector(GltfContainer& container, SceneFiles& files, std::string_view binary)
         : container_(container), files_(files), binary_(binary) {}
 
-    void add(const Item& buffer) {
+    void add(const JsonObject& buffer) {
         const std::size_t file = file_of(buffer);
         const std::uint64_t length = buffer.whole("byteLength", 0),
                             size = container_.files[file].size();
@@ -115,7 +119,7 @@ public:
     }
 
 private:
-    std::size_t file_of(const Item& buffer) {
+    std::size_t file_of(const JsonObject& buffer) {
         if (!buffer.has("uri")) {
             buffer.require(
                 buffer.number_in_list() == 0 && !binary_.empty(),
@@ -123,8 +127,9 @@ private:
             return keep({binary_.begin(), binary_.end()});
         }
         const std::string uri = buffer.text("uri");
-        if (is_data_uri(uri)) return keep(data_of(uri, buffer.place()));
-        const fs::path real = files_.get(file_name_of(uri, buffer.place()), buffer.place());
+        if (is_data_uri(uri)) return keep(decode_data_uri(uri, buffer.place()));
+        const fs::path real = files_.find_required(file_name_from_uri(uri, buffer.place()),
+                                                   buffer.place());
         const auto [entry, is_new] = read_.try_emplace(real, container_.files.size());
         if (is_new) {
             const std::string bytes = files_.read(real, buffer.place());
@@ -132,31 +137,32 @@ private:
         }
         return entry->second;
     }
-    std::size_t keep(Bytes bytes) {
+    std::size_t keep(ByteList bytes) {
         container_.files.push_back(std::move(bytes));
         return container_.files.size() - 1;
     }
 
-    Container& container_;
-    Files& files_;
+    GltfContainer& container_;
+    SceneFiles& files_;
     std::string_view binary_;
     std::map<fs::path, std::size_t> read_;
 };
 
 } // namespace
 
-Container read_container(const std::string& file, Files& files, Account& account, Notes& notes) {
-    Container container;
+GltfContainer read_container(const std::string& file, SceneFiles& files, BudgetAccount& account,
+                             LoaderNotes& notes) {
+    GltfContainer container;
     const std::string bytes = files.read_scene();
-    const Chunks chunks = chunks_of(file, bytes, notes);
+    const GlbChunks chunks = read_glb_chunks(file, bytes, notes);
     container.document = parse_json(file, chunks.json, account);
-    const Item root(container.document, file);
+    const JsonObject root(container.document, file);
     check(container.document.is_object(), Failure::bad_data, file,
-          ": JSON: wanted an object, found ", shown(container.document));
-    check_version(root);
-    check_extensions(root);
-    Buffers buffers(container, files, chunks.binary);
-    root.each("buffers", [&](const Item& buffer) { buffers.add(buffer); });
+          ": JSON: wanted an object, found ", describe_json_value(container.document));
+    check_gltf_version(root);
+    check_required_extensions(root);
+    BufferCollector buffers(container, files, chunks.binary);
+    root.each("buffers", [&](const JsonObject& buffer) { buffers.add(buffer); });
     return container;
 }
 

@@ -11,43 +11,44 @@
 
 namespace catoptric::scene::gltf {
 
-using Bytes = std::vector<unsigned char>;
+using ByteList = std::vector<unsigned char>;
 
 /// The first `length` bytes, at least 1, of one of the container's files.
 struct GltfBuffer {
-    std::size_t file = 0; ///< index into `Container::files`
+    std::size_t file = 0; ///< index into `GltfContainer::files`
     std::uint64_t length = 0;
 };
 
 /// The contents of a .gltf or .glb file: its JSON and the bytes of its buffers. The JSON has
 /// version 2 and requires no extension that we lack.
-struct Container {
+struct GltfContainer {
     Json document;
     std::vector<GltfBuffer> buffers;
     /// The bytes of buffer files, data URIs and a GLB's binary chunk. A file that several buffers
     /// use is stored once.
-    std::vector<Bytes> files;
+    std::vector<ByteList> files;
 };
 
 /// Reads a .gltf or .glb and the files of its buffers. Throws `bad_data`, or `missing_input` for a
 /// missing buffer file.
-Container read_container(const std::string& file, Files& files, Account& account, Notes& notes);
+GltfContainer read_container(const std::string& file, SceneFiles& files, BudgetAccount& account,
+                             LoaderNotes& notes);
 
 /// Gives each accessor that is sparse, or has no view, a new view with its dense elements. Other
 /// views and files of the container stay as they are. The document must have been checked. Throws
 /// `bad_data` for a sparse index beyond the accessor, or for more bytes than the budget. Defined in
 /// gltf_sparse.cpp.
-void expand_sparse(Container& container, const std::string& file, Account& account);
+void expand_sparse(GltfContainer& container, const std::string& file, BudgetAccount& account);
 /// Returns the size in bytes of one element of a checked accessor.
-std::size_t element_bytes(const Item& accessor);
+std::size_t element_bytes(const JsonObject& accessor);
 
 /// Returns the file name that a URI stands for, percent-decoded once. Throws `bad_data` beginning
 /// with `place` for a scheme, an absolute path, a backslash, a NUL or an empty name.
-std::string file_name_of(const std::string& uri, const std::string& place);
+std::string file_name_from_uri(const std::string& uri, const std::string& place);
 
 bool is_data_uri(std::string_view uri);
 /// Returns the bytes of a base64 `data:` URI. Throws `bad_data` beginning with `place` for any
 /// other URI.
-Bytes data_of(std::string_view uri, const std::string& place);
+ByteList decode_data_uri(std::string_view uri, const std::string& place);
 
 } // namespace catoptric::scene::gltf

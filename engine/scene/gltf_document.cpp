@@ -12,13 +12,13 @@ namespace {
 
 /// Returns the callbacks through which tinygltf gets all bytes. Files are named by
 /// their index, in decimal. tinygltf asks for each file once, so its bytes are moved out.
-tinygltf::FsCallbacks callbacks_of(std::vector<Bytes>& files) {
+tinygltf::FsCallbacks make_file_callbacks(std::vector<ByteList>& files) {
     return {.FileExists = [](const std::string&, void*) { return true; },
             .ExpandFilePath = [](const std::string& name, void*) { return name; },
             .ReadWholeFile =
-                [](Bytes* bytes, std::string*, const std::string& name, void* its_files) {
+                [](ByteList* bytes, std::string*, const std::string& name, void* its_files) {
                     *bytes = std::move(
-                        (*static_cast<std::vector<Bytes>*>(its_files))[std::stoul(name)]);
+                        (*static_cast<std::vector<ByteList>*>(its_files))[std::stoul(name)]);
                     return true;
                 },
             .WriteWholeFile = nullptr,
@@ -27,8 +27,8 @@ tinygltf::FsCallbacks callbacks_of(std::vector<Bytes>& files) {
 
 /// Returns the JSON text of the members that are read. Each file of the container becomes one
 /// buffer.
-std::string text_of(Container& container) {
-    Json document = what_is_read(std::move(container.document));
+std::string serialise_read_members(GltfContainer& container) {
+    Json document = keep_known_members(std::move(container.document));
     for (Json& view : document["bufferViews"])
         view["buffer"] = container.buffers[view["buffer"].get<std::size_t>()].file;
     Json& buffers = document["buffers"] = Json::array();
@@ -37,7 +37,7 @@ std::string text_of(Container& container) {
     return document.dump();
 }
 
-bool uses(const Item& root, std::string_view extension) {
+bool uses_extension(const JsonObject& root, std::string_view extension) {
     for (const char* key : {"extensionsUsed", "extensionsRequired"})
         if (const Json* list = root.find(key); list && list->is_array())
             for (const Json& name : *list)
@@ -46,9 +46,10 @@ bool uses(const Item& root, std::string_view extension) {
 }
 
 /// Reads the morph target weights of each object in the list `things`: "meshes" or "nodes".
-std::vector<std::vector<double>> read_weights(const Item& root, std::string_view things) {
+std::vector<std::vector<double>> read_morph_weights(const JsonObject& root,
+                                                    std::string_view things) {
     std::vector<std::vector<double>> weights;
-    root.each(things, [&](const Item& thing) {
+    root.each(things, [&](const JsonObject& thing) {
         const Json* list = thing.find("weights");
         weights.push_back(thing.numbers("weights", list && list->is_array() ? list->size() : 0));
     });
@@ -56,10 +57,10 @@ std::vector<std::vector<double>> read_weights(const Item& root, std::string_view
 }
 
 /// Reads the exposure of the scene that is shown, from its `extras`: {"exposure": stops}.
-std::optional<double> read_exposure(const Item& root) {
+std::optional<double> read_exposure(const JsonObject& root) {
     const std::size_t count = root.size("scenes");
     if (count == 0) return std::nullopt;
-    const std::optional<Item> ours = ours_of(
+    const std::optional<JsonObject> ours = find_catoptric_extras(
         root.at("scenes", root.index("scene", count).value_or(0)));
     if (!ours || !ours->has("exposure")) return std::nullopt;
     const double stops = ours->number("exposure", 0);
@@ -69,54 +70,54 @@ std::optional<double> read_exposure(const Item& root) {
 }
 
 /// Reads whether each animation repeats, from its `extras`: {"repeats": true}.
-std::vector<bool> read_repeats(const Item& root) {
+std::vector<bool> read_repeats(const JsonObject& root) {
     std::vector<bool> repeats;
-    root.each("animations", [&](const Item& animation) {
-        const std::optional<Item> ours = ours_of(animation);
+    root.each("animations", [&](const JsonObject& animation) {
+        const std::optional<JsonObject> ours = find_catoptric_extras(animation);
         repeats.push_back(ours && ours->flag("repeats", false));
     });
     return repeats;
 }
 
-tinygltf::Model parse(const std::string& file, Container& container) {
-    const std::string text = text_of(container);
+tinygltf::Model parse_gltf(const std::string& file, GltfContainer& container) {
+    const std::string text = serialise_read_members(container);
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(callbacks_of(container.files));
+    parser.SetFsCallbacks(make_file_callbacks(container.files));
     tinygltf::Model model;
     std::string error, warning;
     const bool is_read = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                                     static_cast<unsigned>(text.size()), "");
-    check(is_read, Failure::bad_data, file, ": cannot be read: ", printable(error));
+    check(is_read, Failure::bad_data, file, ": cannot be read: ", escape_control_characters(error));
     return model;
 }
 
 } // namespace
 
-std::string Document::label(std::size_t node) const {
-    return label_of("nodes", node, model.nodes[node].name);
+std::string GltfDocument::label(std::size_t node) const {
+    return label_list_item("nodes", node, model.nodes[node].name);
 }
 
-Document read(const std::string& file, Files& files, Account& account, Notes& notes,
-              std::vector<UnsupportedFeature>& unsupported) {
-    Container container = read_container(file, files, account, notes);
-    Document document{.file = file};
+GltfDocument read_gltf_document(const std::string& file, SceneFiles& files, BudgetAccount& account,
+                                LoaderNotes& notes, std::vector<UnsupportedFeature>& unsupported) {
+    GltfContainer container = read_container(file, files, account, notes);
+    GltfDocument document{.file = file};
     {
-        const Item root(container.document, file);
-        check_members(root, account, notes);
-        check_bounds(root, container.buffers);
-        check_uses(root, files, notes);
-        document.marks = read_marks(root);
+        const JsonObject root(container.document, file);
+        check_known_members(root, account, notes);
+        check_view_bounds(root, container.buffers);
+        check_cross_references(root, files, notes);
+        document.marks = read_all_node_extras(root);
         document.exposure = read_exposure(root);
-        document.weights = read_weights(root, "meshes");
-        document.node_weights = read_weights(root, "nodes");
-        document.is_quantised = uses(root, "KHR_mesh_quantization");
-        const Source source{root, container, files, account, notes, unsupported};
+        document.weights = read_morph_weights(root, "meshes");
+        document.node_weights = read_morph_weights(root, "nodes");
+        document.is_quantised = uses_extension(root, "KHR_mesh_quantization");
+        const MaterialSource source{root, container, files, account, notes, unsupported};
         document.materials = read_materials(source);
         document.lights = read_lights(source);
         document.repeats = read_repeats(root);
     }
     expand_sparse(container, file, account);
-    document.model = parse(file, container);
+    document.model = parse_gltf(file, container);
     return document;
 }
 

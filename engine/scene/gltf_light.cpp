@@ -13,26 +13,26 @@ namespace {
 constexpr std::string_view kLights = "KHR_lights_punctual";
 
 /// Returns the kind that the type names, or that the light's own mark names.
-const LightKind& kind_of(const Item& light) {
-    const std::optional<Item> ours = ours_of(light);
+const LightKind& kind_of(const JsonObject& light) {
+    const std::optional<JsonObject> ours = find_catoptric_extras(light);
     const std::string type = light.text("type");
     const std::string name = ours && ours->has("light") ? ours->text("light") : type;
     const auto kind = std::ranges::find_if(light_kinds(), [&](const LightKind& row) {
         return row.name == name && gltf_type_of(row) == type;
     });
     light.require(kind != light_kinds().end(), "type: wanted point, spot or directional, found ",
-                  shown(Json(type)));
+                  describe_json_value(Json(type)));
     return *kind;
 }
 
-Punctual light_of(const Item& light) {
+PunctualLight read_punctual_light(const JsonObject& light) {
     const LightKind& kind = kind_of(light);
-    Punctual to{.name = light.name(), .kind = kind.id};
+    PunctualLight to{.name = light.name(), .kind = kind.id};
     const std::vector<double> colour = light.numbers("color", 3);
     const double intensity = light.number("intensity", 1);
     to.intensity = vec3(colour.empty() ? dvec3(intensity)
                                        : intensity * dvec3(colour[0], colour[1], colour[2]));
-    light.require(is_radiance(to.intensity),
+    light.require(is_valid_radiance(to.intensity),
                   "wanted an intensity of at least 0 that fits a float, found another");
     if (light.has("range")) to.range = light.number("range", 0);
     light.require(to.range > 0, "range: wanted a number above 0, found ", to.range);
@@ -42,15 +42,17 @@ Punctual light_of(const Item& light) {
 
 } // namespace
 
-Lights read_lights(const Source& source) {
-    Lights result;
-    const std::optional<Item> extensions = source.root.object("extensions");
-    const std::optional<Item> all = extensions ? extensions->object(kLights) : std::nullopt;
+PunctualLights read_lights(const MaterialSource& source) {
+    PunctualLights result;
+    const std::optional<JsonObject> extensions = source.root.object("extensions");
+    const std::optional<JsonObject> all = extensions ? extensions->object(kLights) : std::nullopt;
     if (all)
-        all->each("lights", [&](const Item& item) { result.lights.push_back(light_of(item)); });
-    source.root.each("nodes", [&](const Item& node) {
-        const std::optional<Item> its = node.object("extensions");
-        const std::optional<Item> use = its ? its->object(kLights) : std::nullopt;
+        all->each("lights", [&](const JsonObject& item) {
+            result.lights.push_back(read_punctual_light(item));
+        });
+    source.root.each("nodes", [&](const JsonObject& node) {
+        const std::optional<JsonObject> its = node.object("extensions");
+        const std::optional<JsonObject> use = its ? its->object(kLights) : std::nullopt;
         result.of_node.push_back(
             use ? std::optional(use->needed_index("light", result.lights.size())) : std::nullopt);
     });

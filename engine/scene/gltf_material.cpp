@@ -14,16 +14,17 @@ namespace catoptric::scene::gltf {
 namespace {
 
 /// A material extension that is not drawn, and the unsupported feature that reports it.
-struct Unread {
+struct UnreadExtension {
     /// The extension has no effect if its factor is absent or 0. An empty factor name means that
     /// the extension always has an effect.
     std::string_view extension, factor;
     std::string_view gap;
 };
-constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
-                              {"KHR_materials_sheen", "", "sheen"},
-                              {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
-                              {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
+constexpr UnreadExtension kUnread[] = {
+    {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
+    {"KHR_materials_sheen", "", "sheen"},
+    {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
+    {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
 constexpr std::string_view kTransmission = "KHR_materials_transmission";
 constexpr std::string_view kVolume = "KHR_materials_volume"; // no effect without transmission
 constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrength,
@@ -34,12 +35,12 @@ constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrength,
                                                     "KHR_materials_pbrSpecularGlossiness",
                                                     kVolume};
 
-dvec3 vector_of(const Item& item, std::string_view key, double otherwise) {
+dvec3 read_vector_member(const JsonObject& item, std::string_view key, double otherwise) {
     const std::vector<double> list = item.numbers(key, 3);
     return list.empty() ? dvec3(otherwise) : dvec3(list[0], list[1], list[2]);
 }
 
-float fraction(const Item& item, std::string_view key, double otherwise) {
+float read_fraction_member(const JsonObject& item, std::string_view key, double otherwise) {
     return static_cast<float>(std::clamp(item.number(key, otherwise), 0.0, 1.0));
 }
 
@@ -47,47 +48,48 @@ float fraction(const Item& item, std::string_view key, double otherwise) {
 class MaterialReader {
 public:
     /// `has_colours`: some primitive with this material has vertex colours.
-    MaterialReader(const Item& from, std::size_t index, bool has_colours, const Source& source,
-                   Textures& textures)
+    MaterialReader(const JsonObject& from, std::size_t index, bool has_colours,
+                   const MaterialSource& source, TextureReader& textures)
         : from_(from), index_(index), has_colours_(has_colours), source_(source),
           textures_(textures), extensions_(from.object("extensions")) {}
 
     Material read();
 
 private:
-    std::optional<Item> extension(std::string_view name) const {
+    std::optional<JsonObject> extension(std::string_view name) const {
         return extensions_ ? extensions_->object(name) : std::nullopt;
     }
-    std::optional<Texture> texture(const Item& item, std::string_view key, bool srgb) {
-        const std::optional<Item> use = item.object(key);
+    std::optional<Texture> texture(const JsonObject& item, std::string_view key, bool srgb) {
+        const std::optional<JsonObject> use = item.object(key);
         return use ? textures_.of(*use, srgb) : std::nullopt;
     }
-    void gap(std::string_view id) {
+    void report_unsupported(std::string_view id) {
         add_unsupported_material(source_.unsupported, std::string(id), from_.label(), index_);
     }
-    void base_colour(const Item& item, std::string_view factor, std::string_view texture);
-    void factors(std::string_view extension, const Item& item);
-    void metal(const Item& pbr);
-    void glossy(const Item& glossiness);
+    void base_colour(const JsonObject& item, std::string_view factor, std::string_view texture);
+    void factors(std::string_view extension, const JsonObject& item);
+    void read_metallic_roughness(const JsonObject& pbr);
+    void read_specular_glossiness(const JsonObject& glossiness);
     void dielectric();
     void emission();
     void alpha();
     bool is_metal_everywhere() const;
     void transmission();
     void other_properties();
-    void be_mirror(const vec3& reflectance, const vec3& diffuse);
-    void marks();
+    void turn_into_mirror(const vec3& reflectance, const vec3& diffuse);
+    void read_extras();
 
-    const Item& from_;
+    const JsonObject& from_;
     std::size_t index_;
     bool has_colours_;
-    const Source& source_;
-    Textures& textures_;
-    std::optional<Item> extensions_;
+    const MaterialSource& source_;
+    TextureReader& textures_;
+    std::optional<JsonObject> extensions_;
     Material material_;
 };
 
-void MaterialReader::base_colour(const Item& item, std::string_view factor, std::string_view map) {
+void MaterialReader::base_colour(const JsonObject& item, std::string_view factor,
+                                 std::string_view map) {
     const std::vector<double> base = item.numbers(factor, 4);
     const auto at = [&](std::size_t i) {
         return base.empty() ? 1.0f : static_cast<float>(std::clamp(base[i], 0.0, 1.0));
@@ -97,50 +99,51 @@ void MaterialReader::base_colour(const Item& item, std::string_view factor, std:
 }
 
 /// Reads the factors that glTF keeps in the extension, or in the core part of a material.
-void MaterialReader::factors(std::string_view extension, const Item& item) {
+void MaterialReader::factors(std::string_view extension, const JsonObject& item) {
     for (const MaterialFactor& factor : kMaterialFactors)
         if (factor.extension == extension)
-            material_.*factor.member = fraction(item, factor.key, factor.gltf_default);
+            material_.*factor.member = read_fraction_member(item, factor.key, factor.gltf_default);
 }
 
-void MaterialReader::metal(const Item& pbr) {
+void MaterialReader::read_metallic_roughness(const JsonObject& pbr) {
     base_colour(pbr, "baseColorFactor", "baseColorTexture");
     factors(kCoreFactors, pbr);
     material_.roughness_texture = texture(pbr, "metallicRoughnessTexture", false);
 }
 
 /// Reads the factors and the diffuse texture of KHR_materials_pbrSpecularGlossiness.
-void MaterialReader::glossy(const Item& glossiness) {
+void MaterialReader::read_specular_glossiness(const JsonObject& glossiness) {
     base_colour(glossiness, "diffuseFactor", "diffuseTexture");
     material_.metallic = 0;
-    material_.roughness = 1 - fraction(glossiness, "glossinessFactor", 1);
+    material_.roughness = 1 - read_fraction_member(glossiness, "glossinessFactor", 1);
     material_.dielectric_f0 = vec3(
-        glm::clamp(vector_of(glossiness, "specularFactor", 1), 0.0, 1.0));
-    if (glossiness.has("specularGlossinessTexture")) gap("material-extension");
+        glm::clamp(read_vector_member(glossiness, "specularFactor", 1), 0.0, 1.0));
+    if (glossiness.has("specularGlossinessTexture")) report_unsupported("material-extension");
 }
 
 void MaterialReader::dielectric() {
-    const std::optional<Item> ior = extension("KHR_materials_ior"),
-                              specular = extension("KHR_materials_specular");
+    const std::optional<JsonObject> ior = extension("KHR_materials_ior"),
+                                    specular = extension("KHR_materials_specular");
     const double n = ior ? ior->number("ior", 1.5) : 1.5;
     from_.require(n == 0 || n >= 1, "KHR_materials_ior: wanted an ior of 0 or from 1 on, found ",
                   n);
     const double f = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
     if (ior) material_.dielectric_f0 = vec3(static_cast<float>(f));
     if (!specular) return;
-    const float strength = fraction(*specular, "specularFactor", 1);
-    const dvec3 colour = glm::max(vector_of(*specular, "specularColorFactor", 1), dvec3(0));
+    const float strength = read_fraction_member(*specular, "specularFactor", 1);
+    const dvec3 colour = glm::max(read_vector_member(*specular, "specularColorFactor", 1),
+                                  dvec3(0));
     material_.dielectric_f0 = vec3(glm::min(f * colour, dvec3(1))) * strength;
     material_.dielectric_f90 = vec3(strength);
     if (specular->has("specularTexture") || specular->has("specularColorTexture"))
-        gap("material-extension");
+        report_unsupported("material-extension");
 }
 
 void MaterialReader::emission() {
-    const std::optional<Item> strength = extension(kEmissiveStrength);
+    const std::optional<JsonObject> strength = extension(kEmissiveStrength);
     material_.emission = vec3((strength ? strength->number("emissiveStrength", 1) : 1) *
-                              vector_of(from_, "emissiveFactor", 0));
-    from_.require(is_radiance(material_.emission),
+                              read_vector_member(from_, "emissiveFactor", 0));
+    from_.require(is_valid_radiance(material_.emission),
                   "wanted an emission of at least 0 that fits a float, found another");
     if (material_.emission != vec3(0))
         material_.emission_texture = texture(from_, "emissiveTexture", true);
@@ -154,7 +157,7 @@ void MaterialReader::alpha() {
     if (mode != "BLEND") return;
     material_.alpha_cutoff = .5f;
     source_.notes.add("materials with alphaMode BLEND, cut where half is left", from_.label());
-    gap("blend-as-mask");
+    report_unsupported("blend-as-mask");
 }
 
 /// Returns whether the whole surface is metal, without any dielectric part.
@@ -167,12 +170,12 @@ bool MaterialReader::is_metal_everywhere() const {
 /// Reports transmission as unsupported. Only the dielectric part transmits light, so a material
 /// that is metal everywhere is not reported.
 void MaterialReader::transmission() {
-    const std::optional<Item> glass = extension(kTransmission);
+    const std::optional<JsonObject> glass = extension(kTransmission);
     if (!glass || glass->number("transmissionFactor", 0) == 0 || is_metal_everywhere()) return;
-    gap("glass-as-diffuse"), gap("glass-shadow");
+    report_unsupported("glass-as-diffuse"), report_unsupported("glass-shadow");
     for (const std::string_view name : {kTransmission, kVolume})
         if (extension(name))
-            source_.notes.add("extension " + in_quotes(name) + ", not read", from_.label());
+            source_.notes.add("extension " + quote_printable(name) + ", not read", from_.label());
 }
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.
@@ -183,9 +186,9 @@ void MaterialReader::other_properties() {
                                           "normal-texture"},
           {"occlusionTexture", "materials with an occlusionTexture, drawn without it",
            "occlusion-texture"}})
-        if (from_.has(key)) source_.notes.add(note, from_.label()), gap(id);
+        if (from_.has(key)) source_.notes.add(note, from_.label()), report_unsupported(id);
     // `technique` comes from the draft KHR_technique_webgl, which kept shaders beside materials.
-    if (from_.has("technique")) gap("material-extension");
+    if (from_.has("technique")) report_unsupported("material-extension");
     if (!extensions_) return;
     for (const auto& [name, value] : extensions_->json().items()) {
         if (is_factor_extension(name)) {
@@ -197,15 +200,16 @@ void MaterialReader::other_properties() {
         for (const auto& [extension, factor, id] : kUnread) {
             if (name != extension) continue;
             is_known = true;
-            if (factor.empty() || extensions_->object(name)->number(factor, 0) != 0) gap(id);
+            if (factor.empty() || extensions_->object(name)->number(factor, 0) != 0)
+                report_unsupported(id);
         }
-        if (!is_known) gap("material-extension");
+        if (!is_known) report_unsupported("material-extension");
     }
 }
 
 /// Makes the material a mirror, given only by reflectance and diffuse albedo, as scenes made in
 /// code do.
-void MaterialReader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
+void MaterialReader::turn_into_mirror(const vec3& reflectance, const vec3& diffuse) {
     material_.mirror = true, material_.reflectance = reflectance, material_.albedo = diffuse;
     material_.metallic = 0, material_.roughness = 1;
 }
@@ -214,25 +218,25 @@ void MaterialReader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
 ///   {"catoptric": {"reflectance": [r, g, b], "diffuse": [r, g, b], "fixed_normals": true}}
 /// The first two make a mirror with the same reflectance at any angle, over a diffuse albedo.
 /// `fixed_normals` makes a surface with two sides but one normal.
-void MaterialReader::marks() {
-    const std::optional<Item> ours = ours_of(from_);
+void MaterialReader::read_extras() {
+    const std::optional<JsonObject> ours = find_catoptric_extras(from_);
     const auto colour = [&](std::string_view key, double otherwise) {
-        return vec3(glm::clamp(vector_of(*ours, key, otherwise), 0.0, 1.0));
+        return vec3(glm::clamp(read_vector_member(*ours, key, otherwise), 0.0, 1.0));
     };
     if (ours && (ours->has("reflectance") || ours->has("diffuse")))
-        be_mirror(colour("reflectance", 1), colour("diffuse", 0));
+        turn_into_mirror(colour("reflectance", 1), colour("diffuse", 0));
     if (ours && ours->flag("fixed_normals", false)) material_.two_sided = false;
 }
 
 Material MaterialReader::read() {
     material_.name = from_.name();
-    const std::optional<Item> glossiness = extension("KHR_materials_pbrSpecularGlossiness"),
-                              pbr = from_.object("pbrMetallicRoughness");
+    const std::optional<JsonObject> glossiness = extension("KHR_materials_pbrSpecularGlossiness"),
+                                    pbr = from_.object("pbrMetallicRoughness");
     material_.metallic = 1, material_.albedo = vec3(1);
     if (glossiness)
-        glossy(*glossiness);
+        read_specular_glossiness(*glossiness);
     else if (pbr)
-        metal(*pbr);
+        read_metallic_roughness(*pbr);
     if (!glossiness) dielectric();
     emission();
     alpha();
@@ -248,17 +252,17 @@ Material MaterialReader::read() {
     const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
                             material_.albedo == vec3(1) && !material_.albedo_texture &&
                             !material_.roughness_texture && !has_colours_;
-    if (is_perfect) be_mirror(vec3(1), vec3(0));
-    marks();
+    if (is_perfect) turn_into_mirror(vec3(1), vec3(0));
+    read_extras();
     return material_;
 }
 
 /// Returns for each material whether some primitive with it has vertex colours.
-std::vector<bool> coloured_materials(const Item& root) {
+std::vector<bool> find_vertex_coloured_materials(const JsonObject& root) {
     std::vector<bool> coloured(root.size("materials"));
-    root.each("meshes", [&](const Item& mesh) {
-        mesh.each("primitives", [&](const Item& primitive) {
-            const std::optional<Item> attributes = primitive.object("attributes");
+    root.each("meshes", [&](const JsonObject& mesh) {
+        mesh.each("primitives", [&](const JsonObject& primitive) {
+            const std::optional<JsonObject> attributes = primitive.object("attributes");
             const auto material = primitive.index("material", coloured.size());
             if (material && attributes && attributes->has("COLOR_0")) coloured[*material] = true;
         });
@@ -268,11 +272,11 @@ std::vector<bool> coloured_materials(const Item& root) {
 
 } // namespace
 
-std::vector<Material> read_materials(const Source& source) {
+std::vector<Material> read_materials(const MaterialSource& source) {
     std::vector<Material> materials;
-    Textures textures(source);
-    const std::vector<bool> coloured = coloured_materials(source.root);
-    source.root.each("materials", [&](const Item& item) {
+    TextureReader textures(source);
+    const std::vector<bool> coloured = find_vertex_coloured_materials(source.root);
+    source.root.each("materials", [&](const JsonObject& item) {
         const std::size_t index = materials.size();
         materials.push_back(MaterialReader(item, index, coloured[index], source, textures).read());
     });

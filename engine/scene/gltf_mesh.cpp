@@ -11,15 +11,15 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-std::string mesh_label(const Document& document, std::size_t mesh) {
-    return label_of("meshes", mesh, document.model.meshes[mesh].name);
+std::string label_mesh(const GltfDocument& document, std::size_t mesh) {
+    return label_list_item("meshes", mesh, document.model.meshes[mesh].name);
 }
 
 /// Returns the indices of the vertices that a mesh keeps, ascending. Keeps all `count` positions if
 /// there are at most as many as corners. Otherwise keeps only those that corners use, because
 /// primitives may share a long list.
-std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& corners,
-                                       std::size_t count) {
+std::vector<std::uint32_t> list_used_vertices(const std::vector<std::uint32_t>& corners,
+                                              std::size_t count) {
     std::vector<std::uint32_t> vertices = corners;
     if (count <= corners.size()) {
         vertices.resize(count);
@@ -34,12 +34,12 @@ std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& corners
 /// Fills a per-vertex list with `otherwise` for the first `before` vertices. A list is empty until
 /// a primitive has values for it.
 template <typename Value>
-void extend(std::vector<Value>& list, std::size_t before, const Value& otherwise) {
+void extend_vertex_list(std::vector<Value>& list, std::size_t before, const Value& otherwise) {
     if (list.size() < before) list.resize(before, otherwise);
 }
 
-void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& used, const Primitive& primitive,
-                     const std::vector<dmat4>* joints) {
+void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& used,
+                     const GltfPrimitive& primitive, const std::vector<dmat4>* joints) {
     const std::size_t before = mesh.positions.size();
     for (const std::uint32_t vertex : used) {
         auto [position, normal] = primitive.vertex(vertex);
@@ -48,22 +48,22 @@ void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& used, const P
     }
     for (std::size_t set = 0; set < mesh.uv.size(); ++set) {
         if (!primitive.uv[set] && mesh.uv[set].empty()) continue;
-        extend(mesh.uv[set], before, vec2(0));
+        extend_vertex_list(mesh.uv[set], before, vec2(0));
         for (const std::uint32_t vertex : used)
             mesh.uv[set].push_back(primitive.uv[set]
-                                       ? vec2(number_at(*primitive.uv[set], vertex, 0),
-                                              number_at(*primitive.uv[set], vertex, 1))
+                                       ? vec2(read_number(*primitive.uv[set], vertex, 0),
+                                              read_number(*primitive.uv[set], vertex, 1))
                                        : vec2(0));
     }
     if (!primitive.colours && mesh.colours.empty()) return;
-    extend(mesh.colours, before, vec4(1));
+    extend_vertex_list(mesh.colours, before, vec4(1));
     for (const std::uint32_t vertex : used) mesh.colours.push_back(primitive.colour(vertex));
 }
 
 /// Adds a primitive's triangles and their vertices to the mesh.
-void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& primitive,
-            const std::vector<dmat4>* joints) {
-    const std::vector<std::uint32_t> used = vertices_of(corners, primitive.positions.count);
+void append_triangles(Mesh& mesh, std::vector<std::uint32_t> corners,
+                      const GltfPrimitive& primitive, const std::vector<dmat4>* joints) {
+    const std::vector<std::uint32_t> used = list_used_vertices(corners, primitive.positions.count);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     append_vertices(mesh, used, primitive, joints);
     const bool is_all = used.size() == primitive.positions.count;
@@ -76,7 +76,8 @@ void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& pri
 }
 
 /// Returns whether the primitive is drawn. Adds a note if it is not.
-bool is_drawn(const tinygltf::Primitive& primitive, const std::string& label, Context& context) {
+bool is_drawn_primitive(const tinygltf::Primitive& primitive, const std::string& label,
+                        GltfContext& context) {
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
         context.notes.add("primitives of points or lines, left out", label);
         add_unsupported(context.unsupported, "points-lines", label);
@@ -87,15 +88,16 @@ bool is_drawn(const tinygltf::Primitive& primitive, const std::string& label, Co
     return has_place;
 }
 
-std::vector<MeshPart> parts_of(std::size_t mesh, std::vector<Material>& materials,
-                               Context& context) {
-    const Document& document = context.document;
+std::vector<MeshPart> group_by_material(std::size_t mesh, std::vector<Material>& materials,
+                                        GltfContext& context) {
+    const GltfDocument& document = context.document;
     std::vector<MeshPart> parts;
     std::unordered_map<std::size_t, std::size_t> part_of; // part by material
     const std::vector<tinygltf::Primitive>& primitives = document.model.meshes[mesh].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const std::string label = mesh_label(document, mesh) + ": " + label_of("primitives", i);
-        if (!is_drawn(primitives[i], label, context)) continue;
+        const std::string label = label_mesh(document, mesh) + ": " +
+                                  label_list_item("primitives", i);
+        if (!is_drawn_primitive(primitives[i], label, context)) continue;
         check_primitive(primitives[i], document.file + ": " + label, context);
         if (!primitives[i].targets.empty()) {
             context.notes.add("primitives with morph targets, in their default shape", label);
@@ -115,23 +117,24 @@ std::vector<MeshPart> parts_of(std::size_t mesh, std::vector<Material>& material
 
 } // namespace
 
-std::vector<std::vector<MeshPart>> read_parts(std::vector<Material>& materials, Context& context) {
+std::vector<std::vector<MeshPart>> read_mesh_parts(std::vector<Material>& materials,
+                                                   GltfContext& context) {
     std::vector<std::vector<MeshPart>> parts;
     for (std::size_t mesh = 0; mesh < context.document.model.meshes.size(); ++mesh)
-        parts.push_back(parts_of(mesh, materials, context));
+        parts.push_back(group_by_material(mesh, materials, context));
     return parts;
 }
 
-Mesh mesh_of(std::size_t index, const MeshPart& part, const std::vector<double>& weights,
-             const Context& context, const std::vector<dmat4>* joints) {
+Mesh build_part_mesh(std::size_t index, const MeshPart& part, const std::vector<double>& weights,
+                     const GltfContext& context, const std::vector<dmat4>* joints) {
     const tinygltf::Model& model = context.document.model;
-    const std::string place = mesh_place(context.document, index);
-    Account& account = context.account;
-    std::vector<Primitive> primitives;
+    const std::string place = describe_mesh_place(context.document, index);
+    BudgetAccount& account = context.account;
+    std::vector<GltfPrimitive> primitives;
     std::size_t vertices = 0, triangles = 0;
     for (const std::size_t i : part.primitives) { // count against the budget before allocating
-        const Primitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i],
-                                                       weights);
+        const GltfPrimitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i],
+                                                           weights);
         const std::size_t count = std::min(its.positions.count, 3 * its.triangle_count());
         account.mesh_triangles.add(its.triangle_count(), place);
         account.mesh_vertices.add(count, place);
@@ -141,13 +144,13 @@ Mesh mesh_of(std::size_t index, const MeshPart& part, const std::vector<double>&
     account.name_bytes.add(mesh.name.size(), place);
     mesh.positions.reserve(vertices), mesh.normals.reserve(vertices);
     mesh.triangles.reserve(triangles);
-    for (const Primitive& primitive : primitives)
-        append(mesh, corners_of(primitive, place), primitive, joints);
+    for (const GltfPrimitive& primitive : primitives)
+        append_triangles(mesh, list_triangle_corners(primitive, place), primitive, joints);
     return mesh;
 }
 
-std::string mesh_place(const Document& document, std::size_t mesh) {
-    return document.file + ": " + mesh_label(document, mesh);
+std::string describe_mesh_place(const GltfDocument& document, std::size_t mesh) {
+    return document.file + ": " + label_mesh(document, mesh);
 }
 
 } // namespace catoptric::scene::gltf

@@ -24,20 +24,20 @@ namespace catoptric::scene::gltf {
 /// `sphere`: centre and radius of the sphere, in node space, that the mesh approximates. `true`
 /// stands for [0, 0, 0, 1]. A node with a uniform scale keeps the sphere exact in world space.
 /// `distance`: distance from a camera to its target, in world units.
-struct Marks {
+struct NodeExtras {
     std::optional<Sphere> sphere;
     std::optional<double> distance;
     bool seen_by_camera = true;
 };
 
-struct Document {
+struct GltfDocument {
     std::string file; ///< begins every message
     tinygltf::Model model;
     // These members are read before tinygltf parses the file. The library tinygltf does not read
     // some of these members, and cuts others to 32 bits.
-    std::vector<Marks> marks; ///< marks of each node
+    std::vector<NodeExtras> marks; ///< marks of each node
     std::vector<Material> materials;
-    Lights lights;
+    PunctualLights lights;
     /// Morph target weights of each mesh.
     std::vector<std::vector<double>> weights;
     /// Morph target weights of each node, which replace those of its mesh. Empty: the mesh's hold.
@@ -52,48 +52,49 @@ struct Document {
 };
 
 /// Reads a .gltf or .glb. Throws the same errors as `load_gltf`.
-Document read(const std::string& file, Files& files, Account& account, Notes& notes,
-              std::vector<UnsupportedFeature>& unsupported);
+GltfDocument read_gltf_document(const std::string& file, SceneFiles& files, BudgetAccount& account,
+                                LoaderNotes& notes, std::vector<UnsupportedFeature>& unsupported);
 
 // ---- gltf_accessor.cpp
 
 /// The elements of an accessor, as they lie in its buffer.
-struct Elements {
+struct AccessorElements {
     const unsigned char* first;
     std::size_t stride, count; ///< bytes from one element to the next; number of elements
     int component;             ///< one of TINYGLTF_COMPONENT_TYPE_*
     int width;                 ///< components per element
     bool normalised;
 };
-Elements elements_of(const tinygltf::Model& model, int accessor);
+AccessorElements read_accessor_elements(const tinygltf::Model& model, int accessor);
 /// Returns one component of an element. Normalised integers become values in [-1, 1].
-double number_at(const Elements& elements, std::size_t index, int component);
-dvec3 vector_at(const Elements& elements, std::size_t index);
-std::uint32_t whole_at(const Elements& elements, std::size_t index, int component = 0);
+double read_number(const AccessorElements& elements, std::size_t index, int component);
+dvec3 read_vector(const AccessorElements& elements, std::size_t index);
+std::uint32_t read_integer(const AccessorElements& elements, std::size_t index, int component = 0);
 /// Returns the primitive restart index, the largest value of the component type.
-std::uint32_t restart_of(const Elements& elements);
+std::uint32_t primitive_restart_index(const AccessorElements& elements);
 
 /// The document, the load options and the lists that functions add to while they build a scene.
-struct Context {
+struct GltfContext {
     /// Which integers an accessor may hold besides floats. `nothing`: none. `normalised`:
     /// normalised ones of 8 or 16 bits. `quantised`: any of 8 or 16 bits, if the file uses
     /// KHR_mesh_quantization.
-    enum class Also { nothing, normalised, quantised };
+    enum class AllowedIntegers { nothing, normalised, quantised };
 
     /// Returns the elements of an accessor of floats, or of the integers that `also` allows. The
     /// first request for an accessor adds its elements to `total` and checks that floats are
     /// finite. Throws `bad_data` beginning with `place` for a float that is not finite, for other
     /// components, or for a type other than `type` (TINYGLTF_TYPE_*).
-    Elements floats(int accessor, int type, Total& total, const std::string& place,
-                    Also also = Also::nothing);
+    AccessorElements floats(int accessor, int type, LimitedSum& total, const std::string& place,
+                            AllowedIntegers also = AllowedIntegers::nothing);
     /// Returns the elements of an accessor of unsigned integers, scalars unless `type` says
     /// otherwise. Throws `bad_data` beginning with `place` for any other accessor.
-    Elements whole(int accessor, const std::string& place, int type = TINYGLTF_TYPE_SCALAR) const;
+    AccessorElements whole(int accessor, const std::string& place,
+                           int type = TINYGLTF_TYPE_SCALAR) const;
 
-    const Document& document;
+    const GltfDocument& document;
     const FileOptions& options;
-    Account& account;
-    Notes& notes;
+    BudgetAccount& account;
+    LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
     std::set<int> finite; ///< accessors whose elements have been checked and counted
 };
@@ -101,20 +102,20 @@ struct Context {
 // ---- gltf_node.cpp
 
 /// Reads the marks of each node, from its `extras`. Throws `bad_data`.
-std::vector<Marks> read_marks(const Item& root);
+std::vector<NodeExtras> read_all_node_extras(const JsonObject& root);
 /// Returns a node's transform into its parent's space. Throws `bad_data` for a rotation of zero or
 /// infinite length.
-dmat4 parent_from_node(const Document& document, std::size_t node);
+dmat4 node_transform_to_parent(const GltfDocument& document, std::size_t node);
 /// Returns the root nodes of the default scene, or of the first scene if there is no default. A
 /// file without scenes has every node without a parent as a root.
-std::vector<int> roots_of(const tinygltf::Model& model);
+std::vector<int> list_root_nodes(const tinygltf::Model& model);
 /// Checks that the nodes form a forest: at most one parent each, no node its own ancestor, and at
 /// most 4096 levels. Throws `bad_data` if they do not.
-void check_forest(const Document& document);
+void check_nodes_form_forest(const GltfDocument& document);
 
 /// Reads the name of each camera and its field of view or, if orthographic, its height. Throws
 /// `bad_data`.
-std::vector<Camera> read_cameras(const Document& document);
+std::vector<Camera> read_cameras(const GltfDocument& document);
 
 // ---- gltf_mesh.cpp
 
@@ -127,38 +128,39 @@ struct MeshPart {
 
 /// Returns the parts of each mesh, ordered by the first use of their materials. Appends a white
 /// material to `materials` if a primitive has none.
-std::vector<std::vector<MeshPart>> read_parts(std::vector<Material>& materials, Context& context);
+std::vector<std::vector<MeshPart>> read_mesh_parts(std::vector<Material>& materials,
+                                                   GltfContext& context);
 /// Returns a mesh's place for messages, such as "FILE: meshes[0] 'm'".
-std::string mesh_place(const Document& document, std::size_t mesh);
+std::string describe_mesh_place(const GltfDocument& document, std::size_t mesh);
 /// Builds the mesh of one part, without unused vertices. Normals may be missing or have zero
 /// length. `weights`: weights of the morph targets. `joints`: for each joint of the skin, the
 /// transform from its bind space to world space. With joints, the vertices are in world space.
 /// Throws `bad_data`.
-Mesh mesh_of(std::size_t mesh, const MeshPart& part, const std::vector<double>& weights,
-             const Context& context, const std::vector<dmat4>* joints = nullptr);
+Mesh build_part_mesh(std::size_t mesh, const MeshPart& part, const std::vector<double>& weights,
+                     const GltfContext& context, const std::vector<dmat4>* joints = nullptr);
 
 // ---- gltf_animation.cpp
 
 /// The motion of a node in its parent's space. Values of a track replace the node's own. A null
 /// track means that this part of the transform does not move.
-struct Tracks {
-    std::shared_ptr<const Keys> translations, scales;
-    std::shared_ptr<const Turns> rotations;
+struct NodeTracks {
+    std::shared_ptr<const TranslationTrack> translations, scales;
+    std::shared_ptr<const RotationTrack> rotations;
     bool is_any() const { return translations || scales || rotations; }
 };
 /// The animation that moves the nodes of the scene.
-struct Animation {
-    std::vector<Tracks> nodes; ///< tracks of each node
+struct NodeAnimation {
+    std::vector<NodeTracks> nodes; ///< tracks of each node
     bool repeats = false;
 };
 /// Reads the animation that the options choose. The other animations are checked, too. Throws
 /// `bad_data`, or the failure of `FileOptions::animation_by` for a name that no animation has.
-Animation read_animation(Context& context);
+NodeAnimation read_animation(GltfContext& context);
 
 // ---- gltf_rig.cpp
 
 /// The world transform of a node, and its motion in world space.
-struct Placed {
+struct PlacedNode {
     dmat4 world_from_node{1};
     Motion motion;
     bool reached = false; ///< the node belongs to the scene that is shown
@@ -166,12 +168,13 @@ struct Placed {
 
 /// Returns the world transform and motion of each node. The transform is that at rest or, if the
 /// node follows a rig, that at time 0. Throws `bad_data` for a node that the scene reaches twice.
-std::vector<Placed> place(const Document& document, const Animation& animation);
+std::vector<PlacedNode> place_nodes(const GltfDocument& document, const NodeAnimation& animation);
 
 /// Returns, for each joint of a skin, the transform from its bind space to world space. `at_rest`
 /// holds the world transform of each node. Throws `bad_data`.
-std::vector<dmat4> joints_of(int skin, const std::vector<dmat4>& at_rest, Context& context);
+std::vector<dmat4> compute_joint_transforms(int skin, const std::vector<dmat4>& at_rest,
+                                            GltfContext& context);
 /// Returns the transform from each node to world space, with nothing animated.
-std::vector<dmat4> rest_of(const Document& document);
+std::vector<dmat4> compute_rest_transforms(const GltfDocument& document);
 
 } // namespace catoptric::scene::gltf

@@ -10,16 +10,17 @@ namespace catoptric::scene::gltf {
 namespace {
 
 template <typename Attributes>
-int attribute(const Attributes& attributes, const std::string& name) {
+int find_attribute(const Attributes& attributes, const std::string& name) {
     const auto at = attributes.find(name);
     return at == attributes.end() ? -1 : at->second;
 }
 
 template <typename Attributes>
-std::optional<Elements> elements(const tinygltf::Model& model, const Attributes& attributes,
-                                 const std::string& name) {
-    const int accessor = attribute(attributes, name);
-    return accessor < 0 ? std::nullopt : std::optional(elements_of(model, accessor));
+std::optional<AccessorElements> read_attribute_elements(const tinygltf::Model& model,
+                                                        const Attributes& attributes,
+                                                        const std::string& name) {
+    const int accessor = find_attribute(attributes, name);
+    return accessor < 0 ? std::nullopt : std::optional(read_accessor_elements(model, accessor));
 }
 
 /// A vertex attribute besides the position, with its allowed types and component types.
@@ -27,62 +28,69 @@ struct AttributeRule {
     const char* name;
     std::string_view what;
     int type, other_type;
-    Context::Also also;
+    GltfContext::AllowedIntegers also;
 };
-constexpr AttributeRule kWanted[] = {
-    {"NORMAL", "normals", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3, Context::Also::quantised},
-    {"TEXCOORD_0", "texture coordinates", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2,
-     Context::Also::quantised},
-    {"TEXCOORD_1", "texture coordinates", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2,
-     Context::Also::quantised},
-    {"COLOR_0", "colours", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4, Context::Also::normalised},
-    {"WEIGHTS_0", "weights", TINYGLTF_TYPE_VEC4, TINYGLTF_TYPE_VEC4, Context::Also::normalised}};
+constexpr AttributeRule kWanted[] = {{"NORMAL", "normals", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3,
+                                      GltfContext::AllowedIntegers::quantised},
+                                     {"TEXCOORD_0", "texture coordinates", TINYGLTF_TYPE_VEC2,
+                                      TINYGLTF_TYPE_VEC2, GltfContext::AllowedIntegers::quantised},
+                                     {"TEXCOORD_1", "texture coordinates", TINYGLTF_TYPE_VEC2,
+                                      TINYGLTF_TYPE_VEC2, GltfContext::AllowedIntegers::quantised},
+                                     {"COLOR_0", "colours", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4,
+                                      GltfContext::AllowedIntegers::normalised},
+                                     {"WEIGHTS_0", "weights", TINYGLTF_TYPE_VEC4,
+                                      TINYGLTF_TYPE_VEC4,
+                                      GltfContext::AllowedIntegers::normalised}};
 
-void check_count(std::size_t found, std::size_t wanted, std::string_view what,
-                 const std::string& place) {
+void check_element_count(std::size_t found, std::size_t wanted, std::string_view what,
+                         const std::string& place) {
     check(found == wanted, Failure::bad_data, place, ": wanted ", wanted, " ", what,
           ", one for each position, found ", found);
 }
 
 void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
-                      const std::string& place, Context& context) {
+                      const std::string& place, GltfContext& context) {
     for (const auto& [name, what, type, other, also] : kWanted) {
-        const int accessor = attribute(primitive.attributes, name);
+        const int accessor = find_attribute(primitive.attributes, name);
         if (accessor < 0) continue;
         const int its = context.document.model.accessors[std::size_t(accessor)].type;
         // Normalised texture coordinates need no extension; normals and positions need one.
         const bool is_uv = type == TINYGLTF_TYPE_VEC2;
-        const Context::Also allowed = is_uv && !context.document.is_quantised
-                                          ? Context::Also::normalised
-                                          : also;
-        Account& account = context.account;
-        Total& total = also == kWanted[0].also && !is_uv ? account.normals : account.attributes;
-        const Elements found = context.floats(accessor, its == other ? other : type, total,
-                                              place + ": " + name, allowed);
-        check_count(found.count, count, what, place);
+        const GltfContext::AllowedIntegers allowed = is_uv && !context.document.is_quantised
+                                                         ? GltfContext::AllowedIntegers::normalised
+                                                         : also;
+        BudgetAccount& account = context.account;
+        LimitedSum& total = also == kWanted[0].also && !is_uv ? account.normals
+                                                              : account.attributes;
+        const AccessorElements found = context.floats(accessor, its == other ? other : type, total,
+                                                      place + ": " + name, allowed);
+        check_element_count(found.count, count, what, place);
     }
-    if (const int joints = attribute(primitive.attributes, "JOINTS_0"); joints >= 0)
-        check_count(context.whole(joints, place + ": JOINTS_0", TINYGLTF_TYPE_VEC4).count, count,
-                    "joints", place);
+    if (const int joints = find_attribute(primitive.attributes, "JOINTS_0"); joints >= 0)
+        check_element_count(context.whole(joints, place + ": JOINTS_0", TINYGLTF_TYPE_VEC4).count,
+                            count, "joints", place);
     for (const auto& target : primitive.targets)
         for (const char* name : {"POSITION", "NORMAL"})
-            if (const int accessor = attribute(target, name); accessor >= 0)
-                check_count(context
-                                .floats(accessor, TINYGLTF_TYPE_VEC3, context.account.attributes,
-                                        place + ": targets: " + name, Context::Also::quantised)
-                                .count,
-                            count, "morphed ones", place + ": targets");
+            if (const int accessor = find_attribute(target, name); accessor >= 0)
+                check_element_count(context
+                                        .floats(accessor, TINYGLTF_TYPE_VEC3,
+                                                context.account.attributes,
+                                                place + ": targets: " + name,
+                                                GltfContext::AllowedIntegers::quantised)
+                                        .count,
+                                    count, "morphed ones", place + ": targets");
 }
 
 } // namespace
 
 void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                     Context& context) {
+                     GltfContext& context) {
     const std::string attributes = place + ": attributes";
     const std::size_t count = context
-                                  .floats(attribute(primitive.attributes, "POSITION"),
+                                  .floats(find_attribute(primitive.attributes, "POSITION"),
                                           TINYGLTF_TYPE_VEC3, context.account.positions,
-                                          attributes + ": POSITION", Context::Also::quantised)
+                                          attributes + ": POSITION",
+                                          GltfContext::AllowedIntegers::quantised)
                                   .count;
     check_attributes(primitive, count, attributes, context);
     const std::size_t corners = primitive.indices < 0
@@ -92,52 +100,56 @@ void check_primitive(const tinygltf::Primitive& primitive, const std::string& pl
           ": wanted three corners for each triangle, found ", corners, " corners");
 }
 
-Primitive::Primitive(const tinygltf::Model& model, const tinygltf::Primitive& from,
-                     const std::vector<double>& weights_of_targets)
-    : mode(from.mode), positions(elements_of(model, attribute(from.attributes, "POSITION"))) {
-    const auto of = [&](const char* name) { return elements(model, from.attributes, name); };
+GltfPrimitive::GltfPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& from,
+                             const std::vector<double>& weights_of_targets)
+    : mode(from.mode),
+      positions(read_accessor_elements(model, find_attribute(from.attributes, "POSITION"))) {
+    const auto of = [&](const char* name) {
+        return read_attribute_elements(model, from.attributes, name);
+    };
     normals = of("NORMAL"), colours = of("COLOR_0");
     uv = {of("TEXCOORD_0"), of("TEXCOORD_1")};
     joints = of("JOINTS_0"), weights = of("WEIGHTS_0");
     if (!weights) joints.reset();
-    if (from.indices >= 0) indices = elements_of(model, from.indices);
+    if (from.indices >= 0) indices = read_accessor_elements(model, from.indices);
     for (std::size_t i = 0; i < std::min(from.targets.size(), weights_of_targets.size()); ++i)
         if (weights_of_targets[i] != 0)
-            morphs.push_back({weights_of_targets[i], elements(model, from.targets[i], "POSITION"),
-                              elements(model, from.targets[i], "NORMAL")});
+            morphs.push_back({weights_of_targets[i],
+                              read_attribute_elements(model, from.targets[i], "POSITION"),
+                              read_attribute_elements(model, from.targets[i], "NORMAL")});
 }
 
-std::size_t Primitive::triangle_count() const {
+std::size_t GltfPrimitive::triangle_count() const {
     const std::size_t corners = indices ? indices->count : positions.count;
     if (mode == TINYGLTF_MODE_TRIANGLES) return corners / 3;
     return corners < 3 ? 0 : corners - 2;
 }
 
-Vertex Primitive::vertex(std::size_t index) const {
-    Vertex vertex{vector_at(positions, index),
-                  normals ? normalized_or_zero(vector_at(*normals, index)) : dvec3(0)};
-    for (const Morph& morph : morphs) {
-        if (morph.positions) vertex.position += morph.weight * vector_at(*morph.positions, index);
+GltfVertex GltfPrimitive::vertex(std::size_t index) const {
+    GltfVertex vertex{read_vector(positions, index),
+                      normals ? normalized_or_zero(read_vector(*normals, index)) : dvec3(0)};
+    for (const MorphTarget& morph : morphs) {
+        if (morph.positions) vertex.position += morph.weight * read_vector(*morph.positions, index);
         if (morph.normals && normals)
-            vertex.normal += morph.weight * vector_at(*morph.normals, index);
+            vertex.normal += morph.weight * read_vector(*morph.normals, index);
     }
     return vertex;
 }
 
-vec4 Primitive::colour(std::size_t index) const {
+vec4 GltfPrimitive::colour(std::size_t index) const {
     vec4 colour(1);
     for (int i = 0; colours && i < colours->width; ++i)
-        colour[i] = static_cast<float>(number_at(*colours, index, i));
+        colour[i] = static_cast<float>(read_number(*colours, index, i));
     return colour;
 }
 
-void Primitive::pose(std::size_t index, const std::vector<dmat4>& world_from_bound, dvec3& position,
-                     dvec3& normal) const {
+void GltfPrimitive::pose(std::size_t index, const std::vector<dmat4>& world_from_bound,
+                         dvec3& position, dvec3& normal) const {
     dmat4 world(0);
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
-        const double weight = number_at(*weights, index, i);
-        const std::uint32_t joint = whole_at(*joints, index, i);
+        const double weight = read_number(*weights, index, i);
+        const std::uint32_t joint = read_integer(*joints, index, i);
         if (weight == 0 || joint >= world_from_bound.size()) continue;
         world += weight * world_from_bound[joint];
         sum += weight;
@@ -148,7 +160,8 @@ void Primitive::pose(std::size_t index, const std::vector<dmat4>& world_from_bou
     normal = normal_matrix(world) * normal;
 }
 
-std::vector<std::uint32_t> corners_of(const Primitive& primitive, const std::string& place) {
+std::vector<std::uint32_t> list_triangle_corners(const GltfPrimitive& primitive,
+                                                 const std::string& place) {
     const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
     std::vector<std::uint32_t> named(primitive.indices ? primitive.indices->count
                                                        : primitive.positions.count);
@@ -156,10 +169,10 @@ std::vector<std::uint32_t> corners_of(const Primitive& primitive, const std::str
     const std::size_t count = primitive.positions.count;
     for (std::uint32_t& corner : named) {
         if (!primitive.indices) break;
-        corner = whole_at(*primitive.indices, corner);
+        corner = read_integer(*primitive.indices, corner);
         check(corner < count, Failure::bad_data, place, ": indices: wanted indices below ", count,
               ", found ", corner);
-        check(corner != restart_of(*primitive.indices), Failure::bad_data, place,
+        check(corner != primitive_restart_index(*primitive.indices), Failure::bad_data, place,
               ": indices: wanted a vertex, found ", corner, ", which begins a new primitive");
     }
     if (is_list) return named;

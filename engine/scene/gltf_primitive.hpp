@@ -12,20 +12,20 @@ namespace catoptric::scene::gltf {
 /// Checks a primitive's attributes, morph targets and indices. Throws `bad_data` beginning with
 /// `place` if they cannot be drawn.
 void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                     Context& context);
+                     GltfContext& context);
 
-struct Vertex {
+struct GltfVertex {
     dvec3 position, normal; ///< a normal of zero means none
 };
 
 /// The elements of a checked primitive.
-struct Primitive {
-    Primitive(const tinygltf::Model& model, const tinygltf::Primitive& from,
-              const std::vector<double>& weights);
+struct GltfPrimitive {
+    GltfPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& from,
+                  const std::vector<double>& weights);
 
     std::size_t triangle_count() const;
     /// Returns a vertex, moved by the morph targets at their weights.
-    Vertex vertex(std::size_t index) const;
+    GltfVertex vertex(std::size_t index) const;
     vec4 colour(std::size_t index) const;
     /// Moves a vertex into world space by the weighted mean of its joints. Joints beyond the list
     /// are ignored. A vertex whose weights add up to zero stays. Needs `joints` and `weights`.
@@ -33,18 +33,19 @@ struct Primitive {
               dvec3& normal) const;
 
     int mode;
-    Elements positions;
-    std::optional<Elements> normals, indices, colours, joints, weights;
-    std::array<std::optional<Elements>, 2> uv;
-    struct Morph {
+    AccessorElements positions;
+    std::optional<AccessorElements> normals, indices, colours, joints, weights;
+    std::array<std::optional<AccessorElements>, 2> uv;
+    struct MorphTarget {
         double weight;
-        std::optional<Elements> positions, normals;
+        std::optional<AccessorElements> positions, normals;
     };
-    std::vector<Morph> morphs; ///< only targets with a weight other than 0
+    std::vector<MorphTarget> morphs; ///< only targets with a weight other than 0
 };
 
 /// Returns indices into the positions, three for each triangle. Throws `bad_data` beginning with
 /// `place` for an index of no position, or for a restart index.
-std::vector<std::uint32_t> corners_of(const Primitive& primitive, const std::string& place);
+std::vector<std::uint32_t> list_triangle_corners(const GltfPrimitive& primitive,
+                                                 const std::string& place);
 
 } // namespace catoptric::scene::gltf

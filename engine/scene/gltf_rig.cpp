@@ -13,7 +13,7 @@ namespace catoptric::scene::gltf {
 namespace {
 
 /// How a node moves, given its own tracks and those of the nodes above it.
-enum class Going {
+enum class NodeMovement {
     still,
     slides, ///< only by one track of translations, on this node or one above it
     turns   ///< in any other way
@@ -21,31 +21,32 @@ enum class Going {
 
 /// The state of a node that its children continue from.
 struct NodeState {
-    Placed placed;
-    Going going = Going::still;
+    PlacedNode placed;
+    NodeMovement going = NodeMovement::still;
     std::optional<std::size_t> rig_node; ///< the nearest animated node, itself or above it
     dmat4 below{1};                      ///< transform from this node to the rig node
 };
 
 /// Visits the nodes from the roots down, without recursion. The nodes form a forest, but a scene
 /// may list a node twice, or list both a node and its parent.
-class Placer {
+class NodePlacer {
 public:
-    Placer(const Document& document, const Animation& animation)
+    NodePlacer(const GltfDocument& document, const NodeAnimation& animation)
         : document_(document), animation_(animation), placed_(document.model.nodes.size()) {
         for (std::size_t i = 0; i < placed_.size(); ++i) // unreached nodes are checked, too
-            rest_.push_back(parent_from_node(document, i));
+            rest_.push_back(node_transform_to_parent(document, i));
     }
 
-    std::vector<Placed> run() {
+    std::vector<PlacedNode> run() {
         std::vector<std::pair<std::size_t, NodeState>> waiting; // node, and state of its parent
-        for (const int root : roots_of(document_.model)) waiting.push_back({std::size_t(root), {}});
+        for (const int root : list_root_nodes(document_.model))
+            waiting.push_back({std::size_t(root), {}});
         while (!waiting.empty()) {
             const auto [index, parent] = std::move(waiting.back());
             waiting.pop_back();
             check(!placed_[index].reached, Failure::bad_data, document_.file, ": ",
                   document_.label(index), ": wanted one parent at most, found a second way to it");
-            const NodeState way = way_of(index, parent);
+            const NodeState way = node_state_of(index, parent);
             placed_[index] = way.placed;
             for (const int child : document_.model.nodes[index].children)
                 waiting.push_back({std::size_t(child), way});
@@ -55,25 +56,25 @@ public:
     }
 
 private:
-    NodeState way_of(std::size_t index, const NodeState& parent);
+    NodeState node_state_of(std::size_t index, const NodeState& parent);
     std::size_t add_to_rig(std::size_t index, const NodeState& parent);
     void finish();
 
-    const Document& document_;
-    const Animation& animation_;
-    std::vector<Placed> placed_;
+    const GltfDocument& document_;
+    const NodeAnimation& animation_;
+    std::vector<PlacedNode> placed_;
     std::vector<dmat4> rest_;
-    Rig rig_;
+    NodeRig rig_;
 };
 
 /// Adds an animated node to the rig and returns its index. Parts of its transform without a track
 /// keep their values at rest.
-std::size_t Placer::add_to_rig(std::size_t index, const NodeState& parent) {
+std::size_t NodePlacer::add_to_rig(std::size_t index, const NodeState& parent) {
     const tinygltf::Node& node = document_.model.nodes[index];
-    const Tracks& tracks = animation_.nodes[index];
-    Rig::Node to{.parent = parent.rig_node,
-                 .parent_from_space = parent.rig_node ? parent.below
-                                                      : parent.placed.world_from_node};
+    const NodeTracks& tracks = animation_.nodes[index];
+    NodeRig::RigNode to{.parent = parent.rig_node,
+                        .parent_from_space = parent.rig_node ? parent.below
+                                                             : parent.placed.world_from_node};
     to.translations = tracks.translations, to.scales = tracks.scales;
     to.rotations = tracks.rotations;
     if (!node.translation.empty()) to.translation = glm::make_vec3(node.translation.data());
@@ -84,44 +85,44 @@ std::size_t Placer::add_to_rig(std::size_t index, const NodeState& parent) {
     return rig_.nodes.size() - 1;
 }
 
-NodeState Placer::way_of(std::size_t index, const NodeState& parent) {
+NodeState NodePlacer::node_state_of(std::size_t index, const NodeState& parent) {
     NodeState way = parent;
     way.placed.reached = true;
     way.placed.world_from_node = parent.placed.world_from_node * rest_[index];
-    const Tracks& tracks = animation_.nodes[index];
+    const NodeTracks& tracks = animation_.nodes[index];
     if (!tracks.is_any()) {
         way.below = parent.below * rest_[index];
-        if (auto* follows = std::get_if<Follows>(&way.placed.motion))
+        if (auto* follows = std::get_if<RigAttachment>(&way.placed.motion))
             follows->node_from_object = way.below;
         return way;
     }
     const bool slides = tracks.translations && !tracks.rotations && !tracks.scales;
     way.rig_node = add_to_rig(index, parent);
     way.below = dmat4(1);
-    if (slides && parent.going == Going::still) {
-        way.going = Going::slides;
+    if (slides && parent.going == NodeMovement::still) {
+        way.going = NodeMovement::slides;
         way.placed.motion = Keyframes{.keys = tracks.translations,
                                       .world_from_keys = dmat3(parent.placed.world_from_node),
                                       .rest = dvec3(rest_[index][3]),
                                       .repeats = animation_.repeats};
         return way;
     }
-    way.going = Going::turns;
-    way.placed.motion = Follows{.node = *way.rig_node};
+    way.going = NodeMovement::turns;
+    way.placed.motion = RigAttachment{.node = *way.rig_node};
     return way;
 }
 
 /// Gives the rig to all nodes that follow it, and sets their transforms at time 0.
-void Placer::finish() {
-    const bool is_used = std::ranges::any_of(placed_, [](const Placed& placed) {
-        return std::holds_alternative<Follows>(placed.motion);
+void NodePlacer::finish() {
+    const bool is_used = std::ranges::any_of(placed_, [](const PlacedNode& placed) {
+        return std::holds_alternative<RigAttachment>(placed.motion);
     });
     if (!is_used) return;
     rig_.repeats = animation_.repeats;
-    const auto rig = std::make_shared<const Rig>(std::move(rig_));
-    const std::vector<dmat4> first = world_from_nodes(*rig, 0);
-    for (Placed& placed : placed_)
-        if (auto* follows = std::get_if<Follows>(&placed.motion)) {
+    const auto rig = std::make_shared<const NodeRig>(std::move(rig_));
+    const std::vector<dmat4> first = compute_node_transforms(*rig, 0);
+    for (PlacedNode& placed : placed_)
+        if (auto* follows = std::get_if<RigAttachment>(&placed.motion)) {
             follows->rig = rig;
             placed.world_from_node = first[follows->node] * follows->node_from_object;
         }
@@ -129,34 +130,36 @@ void Placer::finish() {
 
 } // namespace
 
-std::vector<Placed> place(const Document& document, const Animation& animation) {
-    return Placer(document, animation).run();
+std::vector<PlacedNode> place_nodes(const GltfDocument& document, const NodeAnimation& animation) {
+    return NodePlacer(document, animation).run();
 }
 
-std::vector<dmat4> rest_of(const Document& document) {
-    const Animation still{.nodes = std::vector<Tracks>(document.model.nodes.size())};
+std::vector<dmat4> compute_rest_transforms(const GltfDocument& document) {
+    const NodeAnimation still{.nodes = std::vector<NodeTracks>(document.model.nodes.size())};
     std::vector<dmat4> rest;
-    for (const Placed& placed : place(document, still)) rest.push_back(placed.world_from_node);
+    for (const PlacedNode& placed : place_nodes(document, still))
+        rest.push_back(placed.world_from_node);
     return rest;
 }
 
-std::vector<dmat4> joints_of(int index, const std::vector<dmat4>& at_rest, Context& context) {
-    const Document& document = context.document;
+std::vector<dmat4> compute_joint_transforms(int index, const std::vector<dmat4>& at_rest,
+                                            GltfContext& context) {
+    const GltfDocument& document = context.document;
     const tinygltf::Skin& skin = document.model.skins[std::size_t(index)];
     const std::string place = document.file + ": " +
-                              label_of("skins", std::size_t(index), skin.name);
+                              label_list_item("skins", std::size_t(index), skin.name);
     std::vector<dmat4> joints;
     for (const int joint : skin.joints) joints.push_back(at_rest[std::size_t(joint)]);
     if (skin.inverseBindMatrices < 0) return joints;
-    const Elements inverse = context.floats(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4,
-                                            context.account.attributes,
-                                            place + ": inverseBindMatrices");
+    const AccessorElements inverse = context.floats(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4,
+                                                    context.account.attributes,
+                                                    place + ": inverseBindMatrices");
     check(inverse.count >= joints.size(), Failure::bad_data, place,
           ": inverseBindMatrices: wanted one for each of ", joints.size(), " joints, found ",
           inverse.count);
     for (std::size_t i = 0; i < joints.size(); ++i) {
         dmat4 bound;
-        for (int j = 0; j < 16; ++j) bound[j / 4][j % 4] = number_at(inverse, i, j);
+        for (int j = 0; j < 16; ++j) bound[j / 4][j % 4] = read_number(inverse, i, j);
         joints[i] = joints[i] * bound;
     }
     return joints;

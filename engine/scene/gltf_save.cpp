@@ -24,17 +24,17 @@ namespace {
 
 using tinygltf::Value;
 
-int texels(GltfWriter& writer, const std::vector<vec2>& list) {
+int write_texture_coordinates(GltfWriter& writer, const std::vector<vec2>& list) {
     writer.append(list, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return size_of(writer.model.accessors) - 1;
+    return accessor_type_of(writer.model.accessors) - 1;
 }
 
-int colours(GltfWriter& writer, const std::vector<vec4>& list) {
+int write_vertex_colours(GltfWriter& writer, const std::vector<vec4>& list) {
     writer.append(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return size_of(writer.model.accessors) - 1;
+    return accessor_type_of(writer.model.accessors) - 1;
 }
 
-int indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
+int write_indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
     std::vector<std::uint32_t> wide;
     for (const uvec3& t : mesh.triangles)
         wide.insert(wide.end(), {t.x, inside_out ? t.z : t.y, inside_out ? t.y : t.z});
@@ -43,16 +43,16 @@ int indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
     else
         writer.append(std::vector<std::uint16_t>(wide.begin(), wide.end()), TINYGLTF_TYPE_SCALAR,
                       TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-    return size_of(writer.model.accessors) - 1;
+    return accessor_type_of(writer.model.accessors) - 1;
 }
 
 /// Returns the glTF mesh of an object, and adds it if it is new. glTF stores the material with the
 /// triangles. Objects with a mirrored transform get a mesh with reversed winding.
-int mesh_for(GltfWriter& writer, const Object& object) {
+int find_or_write_mesh(GltfWriter& writer, const Object& object) {
     const bool inside_out = glm::determinant(dmat3(object.world_from_object)) < 0;
     tinygltf::Model& model = writer.model;
     const auto [entry, is_new] = writer.meshes.try_emplace(
-        {object.mesh, object.material, inside_out}, size_of(model.meshes));
+        {object.mesh, object.material, inside_out}, accessor_type_of(model.meshes));
     if (!is_new) return entry->second;
     const Mesh& mesh = writer.scene.meshes[object.mesh];
     tinygltf::Primitive primitive;
@@ -61,10 +61,12 @@ int mesh_for(GltfWriter& writer, const Object& object) {
     auto& attributes = primitive.attributes;
     attributes["POSITION"] = writer.vectors({mesh.positions.begin(), mesh.positions.end()});
     attributes["NORMAL"] = writer.vectors(mesh.normals);
-    if (!mesh.uv[0].empty()) attributes["TEXCOORD_0"] = texels(writer, mesh.uv[0]);
-    if (!mesh.uv[1].empty()) attributes["TEXCOORD_1"] = texels(writer, mesh.uv[1]);
-    if (!mesh.colours.empty()) attributes["COLOR_0"] = colours(writer, mesh.colours);
-    primitive.indices = indices(writer, mesh, inside_out);
+    if (!mesh.uv[0].empty())
+        attributes["TEXCOORD_0"] = write_texture_coordinates(writer, mesh.uv[0]);
+    if (!mesh.uv[1].empty())
+        attributes["TEXCOORD_1"] = write_texture_coordinates(writer, mesh.uv[1]);
+    if (!mesh.colours.empty()) attributes["COLOR_0"] = write_vertex_colours(writer, mesh.colours);
+    primitive.indices = write_indices(writer, mesh, inside_out);
     tinygltf::Mesh to;
     to.name = mesh.name, to.primitives = {std::move(primitive)};
     model.meshes.push_back(std::move(to));
@@ -73,7 +75,7 @@ int mesh_for(GltfWriter& writer, const Object& object) {
 
 /// Returns the marks of an object (gltf_model.hpp), with the sphere in node space. Returns an empty
 /// value if all marks have their defaults.
-Value extras(const Object& object) {
+Value make_object_extras(const Object& object) {
     Value::Object ours;
     const dmat4& world = object.world_from_object;
     const double scale = glm::length(dvec3(world[0]));
@@ -81,16 +83,17 @@ Value extras(const Object& object) {
         ours["sphere"] = Value(true);
     else if (object.sphere) {
         const dvec3 centre = transform_point(glm::inverse(world), object.sphere->centre);
-        ours["sphere"] = listed({centre.x, centre.y, centre.z, object.sphere->radius / scale});
+        ours["sphere"] = make_number_list(
+            {centre.x, centre.y, centre.z, object.sphere->radius / scale});
     }
     if (!object.seen_by_camera) ours["seen_by_camera"] = Value(false);
-    return ours.empty() ? Value() : marked(std::move(ours));
+    return ours.empty() ? Value() : make_catoptric_extras(std::move(ours));
 }
 
 /// Adds a node that has no motion of its own, as a root of the scene or as a child of a rig's node.
-void add_below(GltfWriter& writer, const Follows* follows, tinygltf::Node node) {
+void add_following_node(GltfWriter& writer, const RigAttachment* follows, tinygltf::Node node) {
     const int parent = follows ? writer.node_of(*follows) : -1;
-    const int index = size_of(writer.model.nodes);
+    const int index = accessor_type_of(writer.model.nodes);
     writer.model.nodes.push_back(std::move(node));
     if (parent < 0)
         writer.model.scenes[0].nodes.push_back(index);
@@ -100,29 +103,30 @@ void add_below(GltfWriter& writer, const Follows* follows, tinygltf::Node node) 
 
 /// Adds a node with its transform and motion. A moving node stores its translation separately. If
 /// the rest of its transform is more than a scale, a child node gets the rest.
-void place(GltfWriter& writer, const dmat4& world, const Motion& motion, tinygltf::Node node) {
+void place_object_node(GltfWriter& writer, const dmat4& world, const Motion& motion,
+                       tinygltf::Node node) {
     tinygltf::Model& model = writer.model;
-    if (const Follows* follows = followed(motion)) {
-        node.matrix = numbers(follows->node_from_object);
-        return add_below(writer, follows, std::move(node));
+    if (const RigAttachment* follows = find_followed_node(motion)) {
+        node.matrix = matrix_to_numbers(follows->node_from_object);
+        return add_following_node(writer, follows, std::move(node));
     }
     const dvec3 rest(world[3]), scale(world[0][0], world[1][1], world[2][2]);
     const bool is_scale = dmat3(world) == glm::matrixCompMult(dmat3(world), dmat3(1));
-    const std::optional<Keys> keys = keys_of(motion);
-    const int index = size_of(model.nodes);
+    const std::optional<TranslationTrack> keys = motion_to_keys(motion);
+    const int index = accessor_type_of(model.nodes);
     model.scenes[0].nodes.push_back(index);
     if (keys) writer.add_motion(*keys, rest, index);
-    if (is_scale && rest != dvec3(0)) node.translation = numbers(rest);
-    if (is_scale && scale != dvec3(1)) node.scale = numbers(scale);
+    if (is_scale && rest != dvec3(0)) node.translation = matrix_to_numbers(rest);
+    if (is_scale && scale != dvec3(1)) node.scale = matrix_to_numbers(scale);
     if (!is_scale && keys) {
         tinygltf::Node& parent = model.nodes.emplace_back();
         parent.name = node.name + "/motion";
-        parent.translation = numbers(rest), parent.children = {index + 1};
+        parent.translation = matrix_to_numbers(rest), parent.children = {index + 1};
         dmat4 unmoved = world;
         unmoved[3] = dvec4(0, 0, 0, 1);
-        node.matrix = numbers(unmoved);
+        node.matrix = matrix_to_numbers(unmoved);
     } else if (!is_scale) {
-        node.matrix = numbers(world);
+        node.matrix = matrix_to_numbers(world);
     }
     model.nodes.push_back(std::move(node));
 }
@@ -130,8 +134,9 @@ void place(GltfWriter& writer, const dmat4& world, const Motion& motion, tinyglt
 void add_object(GltfWriter& writer, const Object& object) {
     if (writer.scene.meshes[object.mesh].triangles.empty()) return;
     tinygltf::Node node;
-    node.name = object.name, node.mesh = mesh_for(writer, object), node.extras = extras(object);
-    place(writer, object.world_from_object, object.motion, std::move(node));
+    node.name = object.name, node.mesh = find_or_write_mesh(writer, object),
+    node.extras = make_object_extras(object);
+    place_object_node(writer, object.world_from_object, object.motion, std::move(node));
 }
 
 /// Adds a camera and its node. glTF cameras look along -z with +y up.
@@ -143,12 +148,12 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
           "' wants an up that is not along its view");
     const dmat4 world(dvec4(right, 0), dvec4(glm::cross(right, forward), 0), dvec4(-forward, 0),
                       dvec4(camera.eye, 1));
-    const Follows* follows = camera.follows.rig ? &camera.follows : nullptr;
+    const RigAttachment* follows = camera.follows.rig ? &camera.follows : nullptr;
     tinygltf::Node node;
-    node.name = camera.name, node.camera = size_of(writer.model.cameras);
-    node.matrix = numbers(follows ? follows->node_from_object * world : world);
-    node.extras = marked({{"distance", Value(distance)}});
-    add_below(writer, follows, std::move(node));
+    node.name = camera.name, node.camera = accessor_type_of(writer.model.cameras);
+    node.matrix = matrix_to_numbers(follows ? follows->node_from_object * world : world);
+    node.extras = make_catoptric_extras({{"distance", Value(distance)}});
+    add_following_node(writer, follows, std::move(node));
     tinygltf::Camera& to = writer.model.cameras.emplace_back();
     to.name = camera.name;
     // We do not clip; these planes lie a factor of 1000 nearer and farther than the target.
@@ -164,29 +169,30 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
     }
 }
 
-void add_light(GltfWriter& writer, const Punctual& light) {
+void add_light(GltfWriter& writer, const PunctualLight& light) {
     const LightKind& kind = kind_of(light.kind);
     const std::string extension = "KHR_lights_punctual";
     const double largest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     tinygltf::Light to;
     to.name = light.name;
     to.type = gltf_type_of(kind);
-    if (to.type != kind.name) to.extras = marked({{"light", Value(std::string(kind.name))}});
+    if (to.type != kind.name)
+        to.extras = make_catoptric_extras({{"light", Value(std::string(kind.name))}});
     to.intensity = largest;
-    to.color = numbers(largest > 0 ? dvec3(light.intensity) / largest : dvec3(1));
+    to.color = matrix_to_numbers(largest > 0 ? dvec3(light.intensity) / largest : dvec3(1));
     if (std::isfinite(light.range)) to.range = light.range;
     to.spot.innerConeAngle = std::acos(light.cos_inner);
     to.spot.outerConeAngle = std::acos(light.cos_outer);
     tinygltf::Node node;
     node.name = light.name;
     node.extensions[extension] = Value(
-        Value::Object{{"light", Value(size_of(writer.model.lights))}});
+        Value::Object{{"light", Value(accessor_type_of(writer.model.lights))}});
     writer.model.lights.push_back(std::move(to));
-    place(writer, light.world_from_light, light.motion, std::move(node));
+    place_object_node(writer, light.world_from_light, light.motion, std::move(node));
 }
 
 /// Returns the bytes of a GLB file with the writer's contents. Throws `io` above 4 GiB.
-std::string packed(GltfWriter& writer) {
+std::string pack_glb(GltfWriter& writer) {
     tinygltf::Model& model = writer.model;
     if (!writer.bytes.empty()) model.buffers.emplace_back().data = std::move(writer.bytes);
     std::ostringstream stream;
@@ -199,17 +205,17 @@ std::string packed(GltfWriter& writer) {
 
 } // namespace
 
-std::vector<double> numbers(const dmat4& matrix) {
+std::vector<double> matrix_to_numbers(const dmat4& matrix) {
     std::vector<double> list;
     for (int i = 0; i < 16; ++i) list.push_back(matrix[i / 4][i % 4] + 0.0);
     return list;
 }
 
-Value marked(Value::Object ours) {
+Value make_catoptric_extras(Value::Object ours) {
     return Value(Value::Object{{"catoptric", Value(std::move(ours))}});
 }
 
-Value listed(const std::vector<double>& list) {
+Value make_number_list(const std::vector<double>& list) {
     Value::Array array;
     for (const double number : list) array.emplace_back(number + 0.0);
     return Value(std::move(array));
@@ -228,8 +234,8 @@ int GltfWriter::vectors(const std::vector<vec3>& list) {
     Bounds<float> box;
     for (const vec3& v : list) box.add(v);
     tinygltf::Accessor& accessor = append(list, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    accessor.minValues = numbers(box.lo), accessor.maxValues = numbers(box.hi);
-    return size_of(model.accessors) - 1;
+    accessor.minValues = matrix_to_numbers(box.lo), accessor.maxValues = matrix_to_numbers(box.hi);
+    return accessor_type_of(model.accessors) - 1;
 }
 
 void GltfWriter::use(const std::string& extension) {
@@ -246,14 +252,15 @@ void save_glb(const Scene& scene, const std::filesystem::path& path) {
     model.defaultScene = 0;
     model.scenes.emplace_back().name = scene.name;
     if (scene.exposure)
-        model.scenes[0].extras = gltf::marked({{"exposure", tinygltf::Value(*scene.exposure)}});
+        model.scenes[0].extras = gltf::make_catoptric_extras(
+            {{"exposure", tinygltf::Value(*scene.exposure)}});
     writer.motion.name = "motion";
     for (const Material& material : scene.materials) writer.add_material(material);
     for (const Object& object : scene.objects) gltf::add_object(writer, object);
-    for (const Punctual& light : scene.punctual) gltf::add_light(writer, light);
+    for (const PunctualLight& light : scene.punctual) gltf::add_light(writer, light);
     for (const Camera& camera : scene.cameras) gltf::add_camera(writer, camera);
     writer.finish_motion();
-    write_file(path, gltf::packed(writer));
+    write_file(path, gltf::pack_glb(writer));
 }
 
 } // namespace catoptric::scene

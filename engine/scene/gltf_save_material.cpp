@@ -13,24 +13,24 @@ namespace {
 
 using tinygltf::Value;
 
-int filter_of(const Texture& texture) {
+int gltf_filter(const Texture& texture) {
     return texture.nearest ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
 }
 
-int wrap_of(Texture::Wrap wrap) {
+int gltf_wrap(Texture::Wrap wrap) {
     if (wrap == Texture::Wrap::clamp) return TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     return wrap == Texture::Wrap::mirrored ? TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT
                                            : TINYGLTF_TEXTURE_WRAP_REPEAT;
 }
 
 /// Returns the value of KHR_texture_transform. The texture's axes must be at right angles.
-Value transform_of(const Texture& texture) {
+Value make_texture_transform(const Texture& texture) {
     const dvec3 u(texture.u_row), v(texture.v_row);
     const double angle = std::atan2(-v.x, u.x), c = std::cos(angle), s = std::sin(angle);
     const double scale_u = c * u.x - s * v.x, scale_v = s * u.y + c * v.y;
-    return Value(Value::Object{{"offset", listed({u.z, v.z})},
+    return Value(Value::Object{{"offset", make_number_list({u.z, v.z})},
                                {"rotation", Value(angle)},
-                               {"scale", listed({scale_u, scale_v})}});
+                               {"scale", make_number_list({scale_u, scale_v})}});
 }
 
 /// Writes the emission. If its largest component is above 1, that component is written as the
@@ -41,7 +41,7 @@ void write_emission(GltfWriter& writer, const Material& material, tinygltf::Mate
     const double largest = std::max({emission.x, emission.y, emission.z});
     if (largest == 0) return;
     const bool is_common = largest <= 1 && largest > 1e-6;
-    to.emissiveFactor = numbers(is_common ? emission : emission / largest);
+    to.emissiveFactor = matrix_to_numbers(is_common ? emission : emission / largest);
     if (material.emission_texture) to.emissiveTexture = writer.texture(*material.emission_texture);
     if (is_common) return;
     const std::string extension(kEmissiveStrength);
@@ -60,8 +60,9 @@ void write_dielectric(GltfWriter& writer, const Material& material, tinygltf::Ma
     const double strength = material.dielectric_f90.x;
     const dvec3 colour = strength > 0 ? dvec3(material.dielectric_f0) / (kUsual * strength)
                                       : dvec3(0);
-    to.extensions["KHR_materials_specular"] = Value(Value::Object{
-        {"specularFactor", Value(strength)}, {"specularColorFactor", listed(numbers(colour))}});
+    to.extensions["KHR_materials_specular"] = Value(
+        Value::Object{{"specularFactor", Value(strength)},
+                      {"specularColorFactor", make_number_list(matrix_to_numbers(colour))}});
     writer.use("KHR_materials_specular");
 }
 
@@ -72,37 +73,39 @@ void write_factors(GltfWriter& writer, const Material& material, tinygltf::Mater
         if (extension == kCoreFactors || material.*member == usual.*member) continue;
         Value& members = to.extensions[std::string(extension)];
         if (!members.IsObject()) members = Value(Value::Object());
-        members.Get<Value::Object>()[std::string(key)] = Value(as_typed(material.*member));
+        members.Get<Value::Object>()[std::string(key)] = Value(
+            float_to_typed_double(material.*member));
         writer.use(std::string(extension));
     }
 }
 
-Value marks_of(const Material& material) {
+Value make_material_extras(const Material& material) {
     Value::Object ours;
     if (material.mirror && material.reflectance != vec3(1))
-        ours["reflectance"] = listed(numbers(dvec3(material.reflectance)));
+        ours["reflectance"] = make_number_list(matrix_to_numbers(dvec3(material.reflectance)));
     if (material.mirror && material.albedo != vec3(0))
-        ours["diffuse"] = listed(numbers(dvec3(material.albedo)));
+        ours["diffuse"] = make_number_list(matrix_to_numbers(dvec3(material.albedo)));
     if (!is_one_sided(material) && !material.two_sided) ours["fixed_normals"] = Value(true);
-    return ours.empty() ? Value() : marked(std::move(ours));
+    return ours.empty() ? Value() : make_catoptric_extras(std::move(ours));
 }
 
 } // namespace
 
 int GltfWriter::image(const Image& image) {
-    const auto [entry, is_new] = images.try_emplace(&image, size_of(model.images));
+    const auto [entry, is_new] = images.try_emplace(&image, accessor_type_of(model.images));
     if (!is_new) return entry->second;
-    const std::string png = png_of(image);
+    const std::string png = encode_image_png(image);
     view(png.data(), png.size());
     tinygltf::Image& to = model.images.emplace_back();
     to.name = image.name, to.mimeType = "image/png";
-    to.bufferView = size_of(model.bufferViews) - 1;
+    to.bufferView = accessor_type_of(model.bufferViews) - 1;
     return entry->second;
 }
 
 int GltfWriter::sampler(const Texture& texture) {
-    const std::tuple key{filter_of(texture), wrap_of(texture.wrap_u), wrap_of(texture.wrap_v)};
-    const auto [entry, is_new] = samplers.try_emplace(key, size_of(model.samplers));
+    const std::tuple key{gltf_filter(texture), gltf_wrap(texture.wrap_u),
+                         gltf_wrap(texture.wrap_v)};
+    const auto [entry, is_new] = samplers.try_emplace(key, accessor_type_of(model.samplers));
     if (!is_new) return entry->second;
     tinygltf::Sampler& to = model.samplers.emplace_back();
     std::tie(to.magFilter, to.wrapS, to.wrapT) = key;
@@ -113,10 +116,10 @@ tinygltf::TextureInfo GltfWriter::texture(const Texture& texture) {
     tinygltf::Texture to;
     to.source = image(*texture.image), to.sampler = sampler(texture);
     tinygltf::TextureInfo info;
-    info.index = size_of(model.textures), info.texCoord = static_cast<int>(texture.uv_set);
+    info.index = accessor_type_of(model.textures), info.texCoord = static_cast<int>(texture.uv_set);
     model.textures.push_back(std::move(to));
     if (texture.u_row == vec3(1, 0, 0) && texture.v_row == vec3(0, 1, 0)) return info;
-    info.extensions["KHR_texture_transform"] = transform_of(texture);
+    info.extensions["KHR_texture_transform"] = make_texture_transform(texture);
     use("KHR_texture_transform");
     return info;
 }
@@ -126,16 +129,16 @@ void GltfWriter::add_material(const Material& material) {
     tinygltf::Material to;
     to.name = material.name;
     tinygltf::PbrMetallicRoughness& pbr = to.pbrMetallicRoughness;
-    pbr.baseColorFactor = {as_typed(base.x), as_typed(base.y), as_typed(base.z),
-                           as_typed(material.alpha)};
-    pbr.metallicFactor = material.mirror ? 1 : as_typed(material.metallic);
-    pbr.roughnessFactor = material.mirror ? 0 : as_typed(material.roughness);
+    pbr.baseColorFactor = {float_to_typed_double(base.x), float_to_typed_double(base.y),
+                           float_to_typed_double(base.z), float_to_typed_double(material.alpha)};
+    pbr.metallicFactor = material.mirror ? 1 : float_to_typed_double(material.metallic);
+    pbr.roughnessFactor = material.mirror ? 0 : float_to_typed_double(material.roughness);
     if (material.albedo_texture) pbr.baseColorTexture = texture(*material.albedo_texture);
     if (material.roughness_texture)
         pbr.metallicRoughnessTexture = texture(*material.roughness_texture);
     to.doubleSided = !is_one_sided(material);
-    if (is_masked(material))
-        to.alphaMode = "MASK", to.alphaCutoff = as_typed(material.alpha_cutoff);
+    if (has_alpha_mask(material))
+        to.alphaMode = "MASK", to.alphaCutoff = float_to_typed_double(material.alpha_cutoff);
     write_emission(*this, material, to);
     write_dielectric(*this, material, to);
     write_factors(*this, material, to);
@@ -143,7 +146,7 @@ void GltfWriter::add_material(const Material& material) {
         to.extensions["KHR_materials_unlit"] = Value(Value::Object());
         use("KHR_materials_unlit");
     }
-    to.extras = marks_of(material);
+    to.extras = make_material_extras(material);
     model.materials.push_back(std::move(to));
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 /// Returns one period as 64 Hermite pieces with the exact derivative at each key. The error is
 /// below (2 pi / 64)^4 / 384 = 2.5e-7 of the amplitude.
-Keys keys_of(const Harmonic& motion) {
+TranslationTrack motion_to_keys(const HarmonicMotion& motion) {
     constexpr int kPieces = 64;
-    Keys keys{.interpolation = Interpolation::cubic};
+    TranslationTrack keys{.interpolation = Interpolation::cubic};
     for (int i = 0; i <= kPieces; ++i) {
         const double angle = 2 * std::numbers::pi * i / kPieces;
         keys.times.push_back(motion.period * i / kPieces);
@@ -25,33 +25,36 @@ Keys keys_of(const Harmonic& motion) {
     return keys;
 }
 
-int times(GltfWriter& writer, const std::vector<double>& list) {
+int write_key_times(GltfWriter& writer, const std::vector<double>& list) {
     const std::vector<float> times(list.begin(), list.end());
     tinygltf::Accessor& accessor = writer.append(times, TINYGLTF_TYPE_SCALAR,
                                                  TINYGLTF_COMPONENT_TYPE_FLOAT);
     accessor.minValues = {times.front()}, accessor.maxValues = {times.back()};
-    return size_of(writer.model.accessors) - 1;
+    return accessor_type_of(writer.model.accessors) - 1;
 }
 
-int values(GltfWriter& writer, const std::vector<vec3>& list) { return writer.vectors(list); }
-int values(GltfWriter& writer, const std::vector<vec4>& list) {
+int write_key_values(GltfWriter& writer, const std::vector<vec3>& list) {
+    return writer.vectors(list);
+}
+int write_key_values(GltfWriter& writer, const std::vector<vec4>& list) {
     writer.append(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return size_of(writer.model.accessors) - 1;
+    return accessor_type_of(writer.model.accessors) - 1;
 }
 
-bool repeats(const Motion& motion) {
+bool is_repeating_motion(const Motion& motion) {
     if (const auto* frames = std::get_if<Keyframes>(&motion)) return frames->repeats;
-    if (const auto* follows = std::get_if<Follows>(&motion))
+    if (const auto* follows = std::get_if<RigAttachment>(&motion))
         return follows->rig && follows->rig->repeats;
     return true;
 }
 
 } // namespace
 
-std::optional<Keys> keys_of(const Motion& motion) {
-    if (const auto* harmonic = std::get_if<Harmonic>(&motion)) return keys_of(*harmonic);
+std::optional<TranslationTrack> motion_to_keys(const Motion& motion) {
+    if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion))
+        return motion_to_keys(*harmonic);
     if (const auto* frames = std::get_if<Keyframes>(&motion))
-        if (Keys keys = in_the_world(*frames); !keys.times.empty()) return keys;
+        if (TranslationTrack keys = keys_in_world_space(*frames); !keys.times.empty()) return keys;
     return std::nullopt;
 }
 
@@ -67,27 +70,27 @@ void GltfWriter::add_track(const Track<Value>& track, int node, const std::strin
         if (is_cubic) output.emplace_back(track.out_tangents[i]);
     }
     tinygltf::AnimationSampler sampler;
-    sampler.input = times(*this, track.times);
-    sampler.output = values(*this, output);
+    sampler.input = write_key_times(*this, track.times);
+    sampler.output = write_key_values(*this, output);
     sampler.interpolation = is_cubic                      ? "CUBICSPLINE"
                             : track.interpolation == step ? "STEP"
                                                           : "LINEAR";
     tinygltf::AnimationChannel channel;
-    channel.sampler = size_of(motion.samplers);
+    channel.sampler = accessor_type_of(motion.samplers);
     channel.target_node = node, channel.target_path = path;
     motion.samplers.push_back(std::move(sampler));
     motion.channels.push_back(std::move(channel));
 }
 
-void GltfWriter::add_motion(const Keys& keys, const dvec3& rest, int node) {
-    Keys there = keys;
+void GltfWriter::add_motion(const TranslationTrack& keys, const dvec3& rest, int node) {
+    TranslationTrack there = keys;
     for (dvec3& value : there.values) value += rest;
     add_track(there, node, "translation");
 }
 
-int GltfWriter::add_rig_node(const Rig::Node& node, int parent) {
+int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
     const auto add = [&](tinygltf::Node to) {
-        const int index = size_of(model.nodes);
+        const int index = accessor_type_of(model.nodes);
         model.nodes.push_back(std::move(to));
         if (parent < 0)
             model.scenes[0].nodes.push_back(index);
@@ -97,11 +100,12 @@ int GltfWriter::add_rig_node(const Rig::Node& node, int parent) {
     };
     if (node.parent_from_space != dmat4(1)) {
         tinygltf::Node still;
-        still.matrix = numbers(node.parent_from_space);
+        still.matrix = matrix_to_numbers(node.parent_from_space);
         parent = add(std::move(still));
     }
     tinygltf::Node moving;
-    moving.translation = numbers(node.translation), moving.scale = numbers(node.scale);
+    moving.translation = matrix_to_numbers(node.translation),
+    moving.scale = matrix_to_numbers(node.scale);
     moving.rotation = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
     const int index = add(std::move(moving));
     if (node.translations) add_track(*node.translations, index, "translation");
@@ -110,11 +114,11 @@ int GltfWriter::add_rig_node(const Rig::Node& node, int parent) {
     return index;
 }
 
-int GltfWriter::node_of(const Follows& follows) {
+int GltfWriter::node_of(const RigAttachment& follows) {
     const auto [entry, is_new] = rigs.try_emplace(follows.rig.get());
     if (is_new) {
         std::vector<int> nodes;
-        for (const Rig::Node& node : follows.rig->nodes)
+        for (const NodeRig::RigNode& node : follows.rig->nodes)
             nodes.push_back(add_rig_node(node, node.parent ? nodes[*node.parent] : -1));
         rigs[follows.rig.get()] = std::move(nodes);
     }
@@ -123,10 +127,10 @@ int GltfWriter::node_of(const Follows& follows) {
 
 void GltfWriter::finish_motion() {
     if (motion.channels.empty()) return;
-    const auto goes_on = [](const auto& thing) { return repeats(thing.motion); };
+    const auto goes_on = [](const auto& thing) { return is_repeating_motion(thing.motion); };
     const bool all = std::ranges::all_of(scene.objects, goes_on) &&
                      std::ranges::all_of(scene.punctual, goes_on);
-    if (all) motion.extras = marked({{"repeats", tinygltf::Value(true)}});
+    if (all) motion.extras = make_catoptric_extras({{"repeats", tinygltf::Value(true)}});
     model.animations = {std::move(motion)};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kNearest = 9728, kRepeat = 10497, kClamp = 33071, kMirrored = 33648;
 
-Texture::Wrap wrap_of(const Item& sampler, std::string_view key) {
+Texture::Wrap read_wrap_mode(const JsonObject& sampler, std::string_view key) {
     const std::uint64_t mode = sampler.whole(key, kRepeat);
     sampler.require(mode == kRepeat || mode == kClamp || mode == kMirrored, key,
                     ": wanted 10497, 33071 or 33648, found ", mode);
@@ -23,14 +23,15 @@ Texture::Wrap wrap_of(const Item& sampler, std::string_view key) {
     return mode == kMirrored ? Texture::Wrap::mirrored : Texture::Wrap::repeat;
 }
 
-void read_sampler(const Item& sampler, Texture& texture) {
-    texture.wrap_u = wrap_of(sampler, "wrapS"), texture.wrap_v = wrap_of(sampler, "wrapT");
+void read_sampler(const JsonObject& sampler, Texture& texture) {
+    texture.wrap_u = read_wrap_mode(sampler, "wrapS"),
+    texture.wrap_v = read_wrap_mode(sampler, "wrapT");
     texture.nearest = sampler.whole("magFilter", 0) == kNearest;
 }
 
 /// Reads KHR_texture_transform: scale, then rotation, then translation, as in Khronos'
 /// TextureTransformTest.
-void read_transform(const Item& transform, Texture& texture) {
+void read_transform(const JsonObject& transform, Texture& texture) {
     const auto pair = [&](std::string_view key, double otherwise) {
         std::vector<double> list = transform.numbers(key, 2);
         return list.empty() ? std::vector<double>(2, otherwise) : list;
@@ -48,7 +49,7 @@ void read_transform(const Item& transform, Texture& texture) {
 }
 
 /// Returns the index of a texture's image. The WebP image of EXT_texture_webp is preferred.
-std::optional<std::size_t> source_of(const Item& texture, std::size_t count) {
+std::optional<std::size_t> find_texture_image(const JsonObject& texture, std::size_t count) {
     if (const auto extensions = texture.object("extensions"))
         if (const auto webp = extensions->object("EXT_texture_webp"))
             return webp->index("source", count);
@@ -57,26 +58,28 @@ std::optional<std::size_t> source_of(const Item& texture, std::size_t count) {
 
 } // namespace
 
-std::shared_ptr<const Image> Textures::missing(const Item& image, const std::string& why,
-                                               const Item& use) {
+std::shared_ptr<const Image> TextureReader::missing(const JsonObject& image, const std::string& why,
+                                                    const JsonObject& use) {
     source_.notes.add("images that are not there or of a kind that is not read, drawn without",
                       image.label() + why);
     add_unsupported(source_.unsupported, "missing-image", use.entry());
     return nullptr;
 }
 
-std::shared_ptr<const Image> Textures::from_file(const Item& image, const Item& use) {
-    const std::string name = file_name_of(image.text("uri"), image.place());
+std::shared_ptr<const Image> TextureReader::from_file(const JsonObject& image,
+                                                      const JsonObject& use) {
+    const std::string name = file_name_from_uri(image.text("uri"), image.place());
     const fs::path real = source_.files.find(name, image.place());
-    if (real.empty()) return missing(image, ": " + in_quotes(name) + " is not there", use);
+    if (real.empty()) return missing(image, ": " + quote_printable(name) + " is not there", use);
     const auto [entry, is_new] = files_.try_emplace(real.string());
     if (is_new)
         entry->second = decode_image(source_.files.read(real, image.place()), name,
-                                     image.place() + ": " + in_quotes(name), source_.account);
-    return entry->second ? entry->second : missing(image, ": " + in_quotes(name), use);
+                                     image.place() + ": " + quote_printable(name), source_.account);
+    return entry->second ? entry->second : missing(image, ": " + quote_printable(name), use);
 }
 
-std::shared_ptr<const Image> Textures::decoded(const Item& image, const Item& use) {
+std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,
+                                                    const JsonObject& use) {
     const std::string kind = image.text("mimeType") == "image/x-tga" ? ".tga" : "";
     const auto decode = [&](const unsigned char* bytes, std::size_t size) {
         auto result = decode_image({reinterpret_cast<const char*>(bytes), size},
@@ -86,27 +89,27 @@ std::shared_ptr<const Image> Textures::decoded(const Item& image, const Item& us
     if (image.has("uri")) {
         const std::string uri = image.text("uri");
         if (!is_data_uri(uri)) return from_file(image, use);
-        const Bytes bytes = data_of(uri, image.place());
+        const ByteList bytes = decode_data_uri(uri, image.place());
         return decode(bytes.data(), bytes.size());
     }
     const auto number = image.index("bufferView", source_.root.size("bufferViews"));
     if (!number) return missing(image, "", use);
-    const Item view = source_.root.at("bufferViews", *number);
+    const JsonObject view = source_.root.at("bufferViews", *number);
     const GltfBuffer& buffer =
         source_.container.buffers[view.needed_index("buffer", source_.container.buffers.size())];
     return decode(source_.container.files[buffer.file].data() + view.whole("byteOffset", 0),
                   view.whole("byteLength", 0));
 }
 
-std::shared_ptr<const Image> Textures::image(std::size_t index, const Item& use) {
+std::shared_ptr<const Image> TextureReader::image(std::size_t index, const JsonObject& use) {
     const auto [entry, is_new] = images_.try_emplace(index);
     if (is_new) entry->second = decoded(source_.root.at("images", index), use);
     return entry->second;
 }
 
-std::optional<Texture> Textures::of(const Item& use, bool srgb) {
-    const Item& root = source_.root;
-    const Item from = root.at("textures", use.needed_index("index", root.size("textures")));
+std::optional<Texture> TextureReader::of(const JsonObject& use, bool srgb) {
+    const JsonObject& root = source_.root;
+    const JsonObject from = root.at("textures", use.needed_index("index", root.size("textures")));
     Texture texture{.srgb = srgb};
     std::uint64_t set = use.whole("texCoord", 0);
     if (const auto extensions = use.object("extensions"))
@@ -122,7 +125,7 @@ std::optional<Texture> Textures::of(const Item& use, bool srgb) {
     texture.uv_set = static_cast<std::uint32_t>(set);
     if (const auto sampler = from.index("sampler", root.size("samplers")))
         read_sampler(root.at("samplers", *sampler), texture);
-    const auto source = source_of(from, root.size("images"));
+    const auto source = find_texture_image(from, root.size("images"));
     texture.image = source ? image(*source, use) : missing(from, "", use);
     return texture.image ? std::optional(texture) : std::nullopt;
 }

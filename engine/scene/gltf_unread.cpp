@@ -16,40 +16,41 @@ constexpr std::string_view kReadExtensions[] = {
     // The material reader notes these two if they change the picture.
     "KHR_materials_transmission", "KHR_materials_volume"};
 
-bool is_read(std::string_view extension) {
+bool is_read_extension(std::string_view extension) {
     return std::ranges::find(kReadExtensions, extension) != std::end(kReadExtensions) ||
            is_factor_extension(extension);
 }
 
 /// The accessor types that glTF allows for attributes whose name starts with `name`.
-struct Semantic {
+struct AttributeSemantic {
     std::string_view name, type, other_type;
 };
-constexpr Semantic kSemantics[] = {{"POSITION", "VEC3", ""},    {"NORMAL", "VEC3", ""},
-                                   {"TANGENT", "VEC4", "VEC3"}, {"TEXCOORD_", "VEC2", ""},
-                                   {"COLOR_", "VEC3", "VEC4"},  {"JOINTS_", "VEC4", ""},
-                                   {"WEIGHTS_", "VEC4", ""}};
+constexpr AttributeSemantic kSemantics[] = {{"POSITION", "VEC3", ""},    {"NORMAL", "VEC3", ""},
+                                            {"TANGENT", "VEC4", "VEC3"}, {"TEXCOORD_", "VEC2", ""},
+                                            {"COLOR_", "VEC3", "VEC4"},  {"JOINTS_", "VEC4", ""},
+                                            {"WEIGHTS_", "VEC4", ""}};
 
 /// Notes the unread extensions of `value` and of all values inside it. The recursion is at most 64
 /// deep, because `parse_json` limits nesting.
-void note_extensions(const Json& value, const Item& around, Notes& notes) {
+void note_extensions(const Json& value, const JsonObject& around, LoaderNotes& notes) {
     if (!value.is_structured()) return;
     for (const auto& [key, inner] : value.items()) {
         if (value.is_object() && key == "extras") continue;
         if (value.is_object() && key == "extensions" && inner.is_object())
             for (const auto& [name, content] : inner.items())
-                if (!is_read(name))
-                    notes.add("extension " + in_quotes(name) + ", not read", around.label());
+                if (!is_read_extension(name))
+                    notes.add("extension " + quote_printable(name) + ", not read", around.label());
         note_extensions(inner, around, notes);
     }
 }
 
-void note_all_extensions(const Item& root, Notes& notes) {
+void note_unread_extensions(const JsonObject& root, LoaderNotes& notes) {
     for (const auto& [key, value] : root.json().items()) {
         if (key == "extensions") {
             for (const auto& [name, content] : value.items())
-                if (!is_read(name))
-                    notes.add("extension " + in_quotes(name) + ", not read", "of the whole file");
+                if (!is_read_extension(name))
+                    notes.add("extension " + quote_printable(name) + ", not read",
+                              "of the whole file");
         } else if (value.is_array()) {
             for (std::size_t i = 0; i < value.size(); ++i)
                 if (value[i].is_object()) note_extensions(value[i], root.at(key, i), notes);
@@ -57,70 +58,74 @@ void note_all_extensions(const Item& root, Notes& notes) {
     }
 }
 
-void check_alpha(const Item& material) {
+void check_alpha_mode(const JsonObject& material) {
     const std::string alpha = material.text("alphaMode", "OPAQUE");
     material.require(alpha == "OPAQUE" || alpha == "MASK" || alpha == "BLEND",
-                     "alphaMode: wanted OPAQUE, MASK or BLEND, found ", shown(Json(alpha)));
+                     "alphaMode: wanted OPAQUE, MASK or BLEND, found ",
+                     describe_json_value(Json(alpha)));
 }
 
-void check_image(const Item& image, Files& files) {
+void check_image_source(const JsonObject& image, SceneFiles& files) {
     const std::string uri = image.text("uri");
     if (!uri.empty() && !is_data_uri(uri))
-        files.find(file_name_of(uri, image.place()), image.place());
+        files.find(file_name_from_uri(uri, image.place()), image.place());
 }
 
-void check_camera(const Item& camera) {
+void check_camera_type(const JsonObject& camera) {
     const std::string type = camera.text("type");
     camera.require((type == "perspective" || type == "orthographic") && camera.has(type),
                    "wanted a perspective or orthographic camera, found neither");
 }
 
-void check_attributes(const Item& attributes, const Item& root) {
+void check_attributes(const JsonObject& attributes, const JsonObject& root) {
     const std::size_t count = root.size("accessors");
     for (const auto& [name, value] : attributes.json().items()) {
-        attributes.require(name.size() <= kLongestName, "attribute ", in_quotes(name),
+        attributes.require(name.size() <= kLongestName, "attribute ", quote_printable(name),
                            ": wanted a name of at most ", kLongestName, " bytes, found ",
                            name.size());
         const std::string type =
             root.at("accessors", attributes.needed_index(name, count)).text("type");
-        for (const Semantic& semantic : kSemantics)
+        for (const AttributeSemantic& semantic : kSemantics)
             attributes.require(!name.starts_with(semantic.name) || type == semantic.type ||
                                    type == semantic.other_type,
                                name, ": wanted an accessor of ", semantic.type, ", found ", type);
     }
 }
 
-void check_primitive(const Item& primitive, const Item& root) {
+void check_primitive(const JsonObject& primitive, const JsonObject& root) {
     const std::uint64_t mode = primitive.whole("mode", 4);
     primitive.require(mode <= 6, "mode: wanted 0 to 6, found ", mode);
-    const std::optional<Item> attributes = primitive.object("attributes");
+    const std::optional<JsonObject> attributes = primitive.object("attributes");
     if (attributes) check_attributes(*attributes, root);
-    primitive.each("targets", [&](const Item& target) { check_attributes(target, root); });
+    primitive.each("targets", [&](const JsonObject& target) { check_attributes(target, root); });
 }
 
-void check_animation(const Item& animation, Notes& notes) {
+void check_animation_channels(const JsonObject& animation, LoaderNotes& notes) {
     const std::size_t samplers = animation.size("samplers");
-    animation.each("channels", [&](const Item& channel) {
+    animation.each("channels", [&](const JsonObject& channel) {
         channel.needed_index("sampler", samplers);
-        const std::optional<Item> target = channel.object("target");
+        const std::optional<JsonObject> target = channel.object("target");
         channel.require(target.has_value(), "wanted a target, found none");
         const std::string path = target->text("path");
         if (target->has("node") && path != "translation" && path != "rotation" && path != "scale")
-            notes.add("animation channels of " + in_quotes(path) + ", left out", channel.label());
+            notes.add("animation channels of " + quote_printable(path) + ", left out",
+                      channel.label());
     });
 }
 
 } // namespace
 
-void check_uses(const Item& root, Files& files, Notes& notes) {
-    root.each("materials", [&](const Item& material) { check_alpha(material); });
-    root.each("images", [&](const Item& image) { check_image(image, files); });
-    root.each("cameras", [&](const Item& camera) { check_camera(camera); });
-    root.each("meshes", [&](const Item& mesh) {
-        mesh.each("primitives", [&](const Item& primitive) { check_primitive(primitive, root); });
+void check_cross_references(const JsonObject& root, SceneFiles& files, LoaderNotes& notes) {
+    root.each("materials", [&](const JsonObject& material) { check_alpha_mode(material); });
+    root.each("images", [&](const JsonObject& image) { check_image_source(image, files); });
+    root.each("cameras", [&](const JsonObject& camera) { check_camera_type(camera); });
+    root.each("meshes", [&](const JsonObject& mesh) {
+        mesh.each("primitives",
+                  [&](const JsonObject& primitive) { check_primitive(primitive, root); });
     });
-    root.each("animations", [&](const Item& animation) { check_animation(animation, notes); });
-    note_all_extensions(root, notes);
+    root.each("animations",
+              [&](const JsonObject& animation) { check_animation_channels(animation, notes); });
+    note_unread_extensions(root, notes);
 }
 
 } // namespace catoptric::scene::gltf

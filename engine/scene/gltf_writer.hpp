@@ -13,31 +13,31 @@
 
 namespace catoptric::scene::gltf {
 
-int size_of(const auto& list) { return static_cast<int>(list.size()); }
+int accessor_type_of(const auto& list) { return static_cast<int>(list.size()); }
 
 template <typename Vector>
-std::vector<double> numbers(const Vector& v) {
+std::vector<double> matrix_to_numbers(const Vector& v) {
     return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; // adding 0 turns -0.0 into 0.0
 }
 /// Returns the 16 numbers of a matrix, column by column.
-std::vector<double> numbers(const dmat4& matrix);
+std::vector<double> matrix_to_numbers(const dmat4& matrix);
 
 /// Returns `extras` that hold `ours` under the key "catoptric".
-tinygltf::Value marked(tinygltf::Value::Object ours);
-tinygltf::Value listed(const std::vector<double>& list);
+tinygltf::Value make_catoptric_extras(tinygltf::Value::Object ours);
+tinygltf::Value make_number_list(const std::vector<double>& list);
 
 /// Builds a tinygltf model and the bytes of its single buffer.
 struct GltfWriter {
     const Scene& scene;
     tinygltf::Model model;
-    Bytes bytes;
+    ByteList bytes;
     tinygltf::Animation motion;
     /// Index of the glTF mesh for each combination of mesh, material and reversed winding.
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes;
     std::map<const Image*, int> images;
     /// Index of each sampler, by filter and wrap modes.
     std::map<std::tuple<int, int, int>, int> samplers;
-    std::map<const Rig*, std::vector<int>> rigs; ///< glTF node of each node of the rig
+    std::map<const NodeRig*, std::vector<int>> rigs; ///< glTF node of each node of the rig
 
     /// Appends the bytes to the buffer, pads it to a multiple of 4 bytes, and returns a new view of
     /// them.
@@ -47,7 +47,7 @@ struct GltfWriter {
     tinygltf::Accessor& append(const std::vector<Element>& list, int type, int component) {
         view(list.data(), list.size() * sizeof(Element));
         tinygltf::Accessor& accessor = model.accessors.emplace_back();
-        accessor.bufferView = size_of(model.bufferViews) - 1, accessor.count = list.size();
+        accessor.bufferView = accessor_type_of(model.bufferViews) - 1, accessor.count = list.size();
         accessor.type = type, accessor.componentType = component;
         return accessor;
     }
@@ -65,19 +65,19 @@ struct GltfWriter {
     // gltf_save_motion.cpp
 
     /// Animates the translation of `node`. `keys` are relative to `rest`, its translation at rest.
-    void add_motion(const Keys& keys, const dvec3& rest, int node);
+    void add_motion(const TranslationTrack& keys, const dvec3& rest, int node);
     template <typename Value>
     void add_track(const Track<Value>& track, int node, const std::string& path);
     /// Returns the glTF node of the rig node that `follows` names. The first call for a rig adds
     /// all of its nodes.
-    int node_of(const Follows& follows);
-    int add_rig_node(const Rig::Node& node, int parent);
+    int node_of(const RigAttachment& follows);
+    int add_rig_node(const NodeRig::RigNode& node, int parent);
     /// Moves the animation into the model, if it has channels.
     void finish_motion();
 };
 
 /// Returns a motion's keys, relative to the place at rest. Returns none if the motion stands still
 /// or follows a rig.
-std::optional<Keys> keys_of(const Motion& motion);
+std::optional<TranslationTrack> motion_to_keys(const Motion& motion);
 
 } // namespace catoptric::scene::gltf

@@ -14,7 +14,7 @@ namespace {
 
 /// 64-bit FNV-1a hash. Lists and texts include their length, so that neighbouring values cannot run
 /// together.
-struct Hasher {
+struct SceneHasher {
     std::uint64_t state = 14695981039346656037ull;
     std::unordered_map<const void*, std::uint64_t> known;
 
@@ -62,7 +62,7 @@ struct Hasher {
         visit_members(material, [this](const auto& member) { add(member); });
     }
     void add(const std::monostate&) {}
-    void add(const Harmonic& motion) { add(motion.amplitude), add(motion.period); }
+    void add(const HarmonicMotion& motion) { add(motion.amplitude), add(motion.period); }
     template <typename Value>
     void add(const Track<Value>& keys) {
         add(static_cast<int>(keys.interpolation));
@@ -73,14 +73,14 @@ struct Hasher {
         for (int column = 0; column < 3; ++column) add(motion.world_from_keys[column]);
         add(motion.rest), add(motion.repeats);
     }
-    void add(const Rig::Node& node) {
+    void add(const NodeRig::RigNode& node) {
         add(node.parent), add(node.parent_from_space);
         add(node.translation), add(node.rotation), add(node.scale);
         add(state_of(node.translations.get())), add(state_of(node.rotations.get()));
         add(state_of(node.scales.get()));
     }
-    void add(const Rig& rig) { add(rig.nodes), add(rig.repeats); }
-    void add(const Follows& motion) {
+    void add(const NodeRig& rig) { add(rig.nodes), add(rig.repeats); }
+    void add(const RigAttachment& motion) {
         add(state_of(motion.rig.get())), add(std::uint64_t(motion.node));
         add(motion.node_from_object);
     }
@@ -90,7 +90,7 @@ struct Hasher {
     std::uint64_t state_of(const Shared* shared) {
         const auto [entry, is_new] = known.try_emplace(shared, 0);
         if (!is_new || shared == nullptr) return entry->second;
-        Hasher hasher;
+        SceneHasher hasher;
         hasher.add(*shared);
         return entry->second = hasher.state;
     }
@@ -98,7 +98,7 @@ struct Hasher {
         add(std::uint64_t(motion.index()));
         std::visit([this](const auto& kind) { add(kind); }, motion);
     }
-    void add(Punctual::Kind kind) { add(static_cast<int>(kind)); }
+    void add(PunctualLight::Kind kind) { add(static_cast<int>(kind)); }
     void add(const Object& object) {
         add(object.name), add(std::uint64_t(object.mesh)), add(std::uint64_t(object.material));
         add(object.world_from_object), add(object.motion);
@@ -106,7 +106,7 @@ struct Hasher {
         add(object.seen_by_camera), add(object.mirror);
     }
     void add(const Sphere& sphere) { add(sphere.centre), add(sphere.radius); }
-    void add(const Punctual& light) {
+    void add(const PunctualLight& light) {
         visit_members(light, [this](const auto& member) { add(member); });
     }
     void add(const Environment& environment) {
@@ -122,8 +122,8 @@ struct Hasher {
 
 } // namespace
 
-std::string hash(const Scene& scene) {
-    Hasher hasher;
+std::string hash_scene(const Scene& scene) {
+    SceneHasher hasher;
     hasher.add(scene.meshes);
     hasher.add(scene.materials);
     hasher.add(scene.objects);

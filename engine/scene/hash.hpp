@@ -9,6 +9,6 @@ namespace catoptric::scene {
 /// Returns the 64-bit FNV-1a hash of names, geometry, materials, motion, cameras, lights and
 /// environment, as 16 hex digits. The scene's own name, its warnings and its files do not count: a
 /// copied file has the same hash.
-std::string hash(const Scene& scene);
+std::string hash_scene(const Scene& scene);
 
 } // namespace catoptric::scene

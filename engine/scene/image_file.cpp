@@ -12,7 +12,7 @@ namespace catoptric::scene {
 
 namespace {
 
-bool is_targa(const std::string& file) {
+bool is_targa_file(const std::string& file) {
     std::string end = file.substr(file.size() - std::min<std::size_t>(file.size(), 4));
     std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
     return end == ".tga";
@@ -25,7 +25,7 @@ struct ChannelOrder {
     std::size_t alpha; ///< channel_count if the picture has no alpha
 };
 
-ChannelOrder layout_of(const ImageShape& shape) {
+ChannelOrder choose_channel_order(const ImageShape& shape) {
     const auto find = [&](const char* name) {
         return static_cast<std::size_t>(std::ranges::find(shape.channels, name) -
                                         shape.channels.begin());
@@ -36,9 +36,9 @@ ChannelOrder layout_of(const ImageShape& shape) {
             std::min(find("A"), count)};
 }
 
-std::vector<std::uint32_t> texels_of(const ImageShape& shape,
-                                     const std::vector<std::uint8_t>& values) {
-    const ChannelOrder layout = layout_of(shape);
+std::vector<std::uint32_t> pack_texels(const ImageShape& shape,
+                                       const std::vector<std::uint8_t>& values) {
+    const ChannelOrder layout = choose_channel_order(shape);
     std::vector<std::uint32_t> texels(std::size_t(shape.size.x) * shape.size.y);
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const std::uint8_t* const pixel = values.data() + i * shape.channel_count;
@@ -52,14 +52,14 @@ std::vector<std::uint32_t> texels_of(const ImageShape& shape,
 } // namespace
 
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
-                                          const std::string& place, Account& account) {
-    std::string format = image_format(bytes);
-    if (format.empty() && is_targa(file)) format = "targa";
+                                          const std::string& place, BudgetAccount& account) {
+    std::string format = detect_image_format(bytes);
+    if (format.empty() && is_targa_file(file)) format = "targa";
     if (format.empty()) return nullptr;
     const auto texels = [](const ImageShape& shape) { // four values count as a texel
         return std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4);
     };
-    const MemoryBytes source(bytes);
+    const MemoryByteSource source(bytes);
     ImageReader reader(source, format, place, [&](const ImageShape& shape) {
         constexpr std::uint32_t kMostSide = 65535; // the renderer stores a side in 16 bits
         check(shape.size.x <= kMostSide && shape.size.y <= kMostSide, Failure::bad_data, place,
@@ -70,16 +70,16 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
     const ImageShape& shape = reader.shape();
     account.texels.add(texels(shape), place);
     return std::make_shared<const Image>(
-        Image{.name = file, .size = shape.size, .texels = texels_of(shape, reader.bytes())});
+        Image{.name = file, .size = shape.size, .texels = pack_texels(shape, reader.bytes())});
 }
 
-std::string png_of(const Image& image) {
+std::string encode_image_png(const Image& image) {
     std::vector<std::uint8_t> values;
     values.reserve(4 * image.texels.size());
     for (const std::uint32_t texel : image.texels)
         for (int shift = 0; shift < 32; shift += 8)
             values.push_back(static_cast<std::uint8_t>(texel >> shift));
-    return png_bytes({image.size, 4, {"R", "G", "B", "A"}}, values);
+    return encode_png({image.size, 4, {"R", "G", "B", "A"}}, values);
 }
 
 } // namespace catoptric::scene

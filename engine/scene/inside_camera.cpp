@@ -13,7 +13,7 @@ namespace catoptric::scene {
 
 namespace {
 
-struct Met {
+struct SurfaceHit {
     double distance = 0;   ///< in lengths of the ray's direction
     bool is_front = false; ///< the surface's normal points towards the ray's origin
 };
@@ -27,7 +27,7 @@ public:
     }
 
     /// Returns the first surface that a ray from a camera meets.
-    std::optional<Met> first(const dvec3& origin, const dvec3& direction) const;
+    std::optional<SurfaceHit> first(const dvec3& origin, const dvec3& direction) const;
     /// Returns whether a surface lies between the two places.
     bool is_blocked(const dvec3& from, const dvec3& to) const {
         constexpr double kShort = 1 - 1e-6; // excludes the surface at `to`
@@ -42,8 +42,8 @@ private:
 
 /// Returns the distance along the ray to a triangle, met from either side (Moeller and Trumbore
 /// 1997). Returns nothing for a triangle behind the origin.
-std::optional<double> distance_to(const dvec3& a, const dvec3& b, const dvec3& c,
-                                  const dvec3& origin, const dvec3& direction) {
+std::optional<double> distance_to_triangle(const dvec3& a, const dvec3& b, const dvec3& c,
+                                           const dvec3& origin, const dvec3& direction) {
     const dvec3 ab = b - a, ac = c - a, p = cross(direction, ac);
     const double volume = dot(ab, p);
     if (volume == 0) return std::nullopt;
@@ -54,8 +54,8 @@ std::optional<double> distance_to(const dvec3& a, const dvec3& b, const dvec3& c
     return distance;
 }
 
-std::optional<Met> RayCaster::first(const dvec3& origin, const dvec3& direction) const {
-    std::optional<Met> nearest;
+std::optional<SurfaceHit> RayCaster::first(const dvec3& origin, const dvec3& direction) const {
+    std::optional<SurfaceHit> nearest;
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
         const Object& object = scene_.objects[i];
         if (!object.seen_by_camera) continue;
@@ -65,20 +65,20 @@ std::optional<Met> RayCaster::first(const dvec3& origin, const dvec3& direction)
         const dvec3 from = transform_point(object_from_world_[i], origin);
         const dvec3 along = dmat3(object_from_world_[i]) * direction;
         for (const uvec3& t : mesh.triangles) {
-            const auto distance = distance_to(mesh.positions[t.x], mesh.positions[t.y],
-                                              mesh.positions[t.z], from, along);
+            const auto distance = distance_to_triangle(mesh.positions[t.x], mesh.positions[t.y],
+                                                       mesh.positions[t.z], from, along);
             if (!distance || (nearest && *distance >= nearest->distance)) continue;
             const dvec3 normal = dvec3(mesh.normals[t.x]) + dvec3(mesh.normals[t.y]) +
                                  dvec3(mesh.normals[t.z]);
             const bool is_front = dot(normal, along) < 0;
-            if (is_front || has_back) nearest = Met{*distance, is_front};
+            if (is_front || has_back) nearest = SurfaceHit{*distance, is_front};
         }
     }
     return nearest;
 }
 
 /// Returns directions spread evenly over the sphere, on a spiral with golden angles.
-std::vector<dvec3> directions(int count) {
+std::vector<dvec3> spread_directions(int count) {
     std::vector<dvec3> all;
     for (int i = 0; i < count; ++i) {
         const double y = 1 - (2 * i + 1) / static_cast<double>(count),
@@ -89,17 +89,17 @@ std::vector<dvec3> directions(int count) {
     return all;
 }
 
-bool is_closed(const RayCaster& rays, const dvec3& centre) {
+bool is_closed_around(const RayCaster& rays, const dvec3& centre) {
     constexpr int kRays = 64, kMostMisses = 3;
     int misses = 0;
-    for (const dvec3& direction : directions(kRays))
+    for (const dvec3& direction : spread_directions(kRays))
         if (!rays.first(centre, direction) && ++misses > kMostMisses) return false;
     return true;
 }
 
 /// Returns whether nearly all surfaces that the camera sees turn their backs, over a grid of its
 /// picture.
-bool sees_backs(const RayCaster& rays, const Camera& camera) {
+bool sees_mostly_back_faces(const RayCaster& rays, const Camera& camera) {
     constexpr int kSide = 12;
     constexpr double kMost = .9;
     const dvec3 forward = normalize(camera.target - camera.eye),
@@ -116,13 +116,14 @@ bool sees_backs(const RayCaster& rays, const Camera& camera) {
 }
 
 /// Returns some places on the objects that matter most in a picture: mirrors and lamps.
-std::vector<dvec3> places_of_interest(const Scene& scene) {
+std::vector<dvec3> list_places_of_interest(const Scene& scene) {
     constexpr std::size_t kMostObjects = 16, kMostPlaces = 8;
     std::vector<dvec3> places;
     std::size_t objects = 0;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
-        const bool counts = is_mirror(scene, object) || glows(scene.materials[object.material]);
+        const bool counts = is_mirror(scene, object) ||
+                            is_visibly_emissive(scene.materials[object.material]);
         if (!counts || mesh.triangles.empty() || objects++ == kMostObjects) continue;
         const std::size_t step = (mesh.triangles.size() + kMostPlaces - 1) / kMostPlaces;
         for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
@@ -135,8 +136,8 @@ std::vector<dvec3> places_of_interest(const Scene& scene) {
     return places;
 }
 
-bool hides_what_is_of_interest(const RayCaster& rays, const std::vector<dvec3>& places,
-                               const dvec3& eye, const dvec3& centre) {
+bool hides_places_of_interest(const RayCaster& rays, const std::vector<dvec3>& places,
+                              const dvec3& eye, const dvec3& centre) {
     const auto seen_from = [&](const dvec3& from) {
         return std::ranges::any_of(places,
                                    [&](const dvec3& to) { return !rays.is_blocked(from, to); });
@@ -146,7 +147,8 @@ bool hides_what_is_of_interest(const RayCaster& rays, const std::vector<dvec3>& 
 
 /// Returns the share of the places that the camera sees unhidden, within a cone as wide as its
 /// vertical field of view.
-double share_seen(const RayCaster& rays, const std::vector<dvec3>& places, const Camera& camera) {
+double visible_share(const RayCaster& rays, const std::vector<dvec3>& places,
+                     const Camera& camera) {
     const dvec3 forward = normalize(camera.target - camera.eye);
     const double least = std::cos(glm::radians(camera.vertical_fov_degrees) / 2);
     const auto seen = std::ranges::count_if(places, [&](const dvec3& place) {
@@ -158,9 +160,9 @@ double share_seen(const RayCaster& rays, const std::vector<dvec3>& places, const
 
 /// Returns the summed distance from a place to the surfaces that rays from it meet. A ray that
 /// meets nothing counts as 0.
-double freedom_of(const RayCaster& rays, const dvec3& place) {
+double sum_free_distances(const RayCaster& rays, const dvec3& place) {
     double sum = 0;
-    for (const dvec3& direction : directions(24)) {
+    for (const dvec3& direction : spread_directions(24)) {
         const auto met = rays.first(place, direction);
         sum += met ? met->distance : 0;
     }
@@ -176,15 +178,16 @@ dvec3 rounded_to_thousandth(const dvec3& point, double extent) {
 
 } // namespace
 
-std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside) {
+std::optional<Camera> find_inside_camera(const Scene& scene, const Camera& outside) {
     const Bounds<double> box = bounds(scene);
     if (box.empty() || triangle_count(scene) > kMostTested) return std::nullopt;
     const RayCaster rays(scene);
     const double extent = length(box.extent());
     const dvec3 centre = rounded_to_thousandth(box.centre(), extent);
-    if (!is_closed(rays, centre)) return std::nullopt;
-    const std::vector<dvec3> places = places_of_interest(scene);
-    if (!sees_backs(rays, outside) && !hides_what_is_of_interest(rays, places, outside.eye, centre))
+    if (!is_closed_around(rays, centre)) return std::nullopt;
+    const std::vector<dvec3> places = list_places_of_interest(scene);
+    if (!sees_mostly_back_faces(rays, outside) &&
+        !hides_places_of_interest(rays, places, outside.eye, centre))
         return std::nullopt;
     Camera camera{.name = "default", .target = centre, .vertical_fov_degrees = 60}, tried = camera;
     double best = -1;
@@ -192,7 +195,8 @@ std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside) {
     for (int i = 0; i < 8; ++i) {
         const dvec3 side(i & 1 ? -kAside : kAside, i & 4 ? 0 : kAbove, i & 2 ? -kAside : kAside);
         tried.eye = rounded_to_thousandth(centre + side * box.extent(), extent);
-        const double worth = freedom_of(rays, tried.eye) * (1 + share_seen(rays, places, tried));
+        const double worth = sum_free_distances(rays, tried.eye) *
+                             (1 + visible_share(rays, places, tried));
         if (worth > best) best = worth, camera = tried;
     }
     return camera;

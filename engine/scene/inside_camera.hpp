@@ -17,6 +17,6 @@ inline constexpr std::size_t kMostTested = std::size_t{1} << 17;
 ///   - Every mirror and lamp is hidden from it, although some can be seen from the centre.
 /// The eye is the best of eight places around the centre: much free space around it, and a view of
 /// most mirrors and lamps. It looks at the centre with a vertical field of view of 60 degrees.
-std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside);
+std::optional<Camera> find_inside_camera(const Scene& scene, const Camera& outside);
 
 } // namespace catoptric::scene

@@ -7,158 +7,161 @@
 
 namespace catoptric::scene::gltf {
 
-Json parse_json(const std::string& file, std::string_view text, Account& account) {
+Json parse_json(const std::string& file, std::string_view text, BudgetAccount& account) {
     account.json_bytes.add(text.size(), file);
     return catoptric::parse_json<Json>(
         file, text, [&](std::uint64_t bytes) { account.json_memory.add(bytes, file); });
 }
 
-std::string shown(const Json& value) {
+std::string describe_json_value(const Json& value) {
     if (value.is_array()) return "an array";
     if (value.is_object()) return "an object";
     if (!value.is_string()) return value.dump();
-    std::string text = in_quotes(value.get_ref<const std::string&>());
+    std::string text = quote_printable(value.get_ref<const std::string&>());
     text[0] = '"';
     text[text.rfind('\'')] = '"';
     return text;
 }
 
-std::string label_of(std::string_view list, std::size_t index, const std::string& name) {
+std::string label_list_item(std::string_view list, std::size_t index, const std::string& name) {
     return std::string(list) + "[" + std::to_string(index) + "]" +
-           (name.empty() ? "" : " " + in_quotes(name));
+           (name.empty() ? "" : " " + quote_printable(name));
 }
 
-std::string Item::label(std::string_view before, std::size_t steps) const {
+std::string JsonObject::label(std::string_view before, std::size_t steps) const {
     std::string text;
     for (std::size_t i = 0; i < steps; ++i) {
         const auto& [key, index, json] = way_[i];
         text += i == 0 ? before : std::string_view(": ");
         const auto name = json->find("name"); // `end` for values that are not objects
         const bool is_named = name != json->end() && name->is_string();
-        text += index ? label_of(key, *index, is_named ? name->get<std::string>() : "") : key;
+        text += index ? label_list_item(key, *index, is_named ? name->get<std::string>() : "")
+                      : key;
     }
     return text;
 }
 
-std::string Item::entry() const {
+std::string JsonObject::entry() const {
     std::size_t steps = steps_;
     while (steps > 0 && !way_[steps - 1].index) --steps;
     return label("", steps);
 }
 
-Item Item::to(const PathStep& step) const {
+JsonObject JsonObject::to(const JsonPathStep& step) const {
     if (steps_ == kMostSteps) fail(Failure::internal, place(), ": ", step.key, ": lies too deep");
-    Item item = *this;
+    JsonObject item = *this;
     item.way_[item.steps_++] = step;
     item.json_ = step.json;
     return item;
 }
 
-const Json* Item::find(std::string_view key) const {
+const Json* JsonObject::find(std::string_view key) const {
     const auto at = json_->find(key);
     return at == json_->end() ? nullptr : &*at;
 }
 
-std::optional<Item> Item::object(std::string_view key) const {
+std::optional<JsonObject> JsonObject::object(std::string_view key) const {
     const Json* value = find(key);
     if (value == nullptr) return std::nullopt;
-    require(value->is_object(), key, ": wanted an object, found ", shown(*value));
+    require(value->is_object(), key, ": wanted an object, found ", describe_json_value(*value));
     return to({key, std::nullopt, value});
 }
 
-const Json* Item::list(std::string_view key) const {
+const Json* JsonObject::list(std::string_view key) const {
     const Json* value = find(key);
     if (value != nullptr)
-        require(value->is_array(), key, ": wanted an array, found ", shown(*value));
+        require(value->is_array(), key, ": wanted an array, found ", describe_json_value(*value));
     return value;
 }
 
-std::size_t Item::size(std::string_view key) const {
+std::size_t JsonObject::size(std::string_view key) const {
     const Json* value = list(key);
     return value == nullptr ? 0 : value->size();
 }
 
-Item Item::at(std::string_view key, std::size_t index) const {
+JsonObject JsonObject::at(std::string_view key, std::size_t index) const {
     const Json& value = (*list(key))[index];
-    const Item item = to({key, index, &value});
+    const JsonObject item = to({key, index, &value});
     if (!value.is_object())
-        fail(Failure::bad_data, item.place(), ": wanted an object, found ", shown(value));
+        fail(Failure::bad_data, item.place(), ": wanted an object, found ",
+             describe_json_value(value));
     return item;
 }
 
-std::uint64_t Item::whole_of(const Json& value, std::string_view key) const {
+std::uint64_t JsonObject::whole_of(const Json& value, std::string_view key) const {
     constexpr double kMost = 9007199254740992; // 2^53: doubles hold every integer up to it
     const double number = value.is_number_float() ? value.get<double>() : -1;
     if (number >= 0 && number <= kMost && number == std::floor(number))
         return static_cast<std::uint64_t>(number);
     require(value.is_number_unsigned(), key, ": wanted a whole number of at least 0, found ",
-            shown(value));
+            describe_json_value(value));
     return value.get<std::uint64_t>();
 }
 
-std::size_t Item::index_of(const Json& value, std::string_view key, std::size_t count) const {
+std::size_t JsonObject::index_of(const Json& value, std::string_view key, std::size_t count) const {
     const std::uint64_t index = whole_of(value, key);
     require(index < count, key, ": wanted an index below ", count, ", found ", index);
     return index;
 }
 
-std::optional<std::size_t> Item::index(std::string_view key, std::size_t count) const {
+std::optional<std::size_t> JsonObject::index(std::string_view key, std::size_t count) const {
     const Json* value = find(key);
     return value == nullptr ? std::nullopt : std::optional(index_of(*value, key, count));
 }
 
-std::size_t Item::needed_index(std::string_view key, std::size_t count) const {
+std::size_t JsonObject::needed_index(std::string_view key, std::size_t count) const {
     const std::optional<std::size_t> given = index(key, count);
     require(given.has_value(), key, ": wanted an index, found none");
     return *given;
 }
 
-std::vector<std::size_t> Item::indices(std::string_view key, std::size_t count) const {
+std::vector<std::size_t> JsonObject::indices(std::string_view key, std::size_t count) const {
     std::vector<std::size_t> indices;
     if (const Json* values = list(key))
         for (const Json& value : *values) indices.push_back(index_of(value, key, count));
     return indices;
 }
 
-std::uint64_t Item::whole(std::string_view key, std::uint64_t otherwise) const {
+std::uint64_t JsonObject::whole(std::string_view key, std::uint64_t otherwise) const {
     const Json* value = find(key);
     return value == nullptr ? otherwise : whole_of(*value, key);
 }
 
-double Item::number(std::string_view key, double otherwise) const {
+double JsonObject::number(std::string_view key, double otherwise) const {
     const Json* value = find(key);
     if (value == nullptr) return otherwise;
-    require(value->is_number(), key, ": wanted a number, found ", shown(*value));
+    require(value->is_number(), key, ": wanted a number, found ", describe_json_value(*value));
     return value->get<double>();
 }
 
-bool Item::flag(std::string_view key, bool otherwise) const {
+bool JsonObject::flag(std::string_view key, bool otherwise) const {
     const Json* value = find(key);
     if (value == nullptr) return otherwise;
-    require(value->is_boolean(), key, ": wanted true or false, found ", shown(*value));
+    require(value->is_boolean(), key, ": wanted true or false, found ",
+            describe_json_value(*value));
     return value->get<bool>();
 }
 
-std::string Item::text(std::string_view key, std::string_view otherwise) const {
+std::string JsonObject::text(std::string_view key, std::string_view otherwise) const {
     const Json* value = find(key);
     if (value == nullptr) return std::string(otherwise);
-    require(value->is_string(), key, ": wanted a text, found ", shown(*value));
+    require(value->is_string(), key, ": wanted a text, found ", describe_json_value(*value));
     return value->get<std::string>();
 }
 
-std::vector<double> Item::numbers(std::string_view key, std::size_t count) const {
+std::vector<double> JsonObject::numbers(std::string_view key, std::size_t count) const {
     std::vector<double> numbers;
     const Json* values = list(key);
     if (values == nullptr) return numbers;
     require(values->size() == count, key, ": wanted ", count, " numbers, found ", values->size());
     for (const Json& value : *values) {
-        require(value.is_number(), key, ": wanted numbers, found ", shown(value));
+        require(value.is_number(), key, ": wanted numbers, found ", describe_json_value(value));
         numbers.push_back(value.get<double>());
     }
     return numbers;
 }
 
-std::optional<Item> ours_of(const Item& item) {
+std::optional<JsonObject> find_catoptric_extras(const JsonObject& item) {
     const Json* extras = item.find("extras");
     if (extras == nullptr || !extras->is_object()) return std::nullopt;
     return item.object("extras")->object("catoptric");

@@ -19,20 +19,20 @@ using Json = nlohmann::json;
 
 /// Parses JSON. Throws `bad_data` naming `file` for invalid JSON, for values nested 64 deep or
 /// more, or for text over the budget.
-Json parse_json(const std::string& file, std::string_view text, Account& account);
+Json parse_json(const std::string& file, std::string_view text, BudgetAccount& account);
 
 /// Returns a short description of a value for messages: `"text"`, `3.5`, `an array`.
-std::string shown(const Json& value);
+std::string describe_json_value(const Json& value);
 
 /// Returns "nodes[3] 'lamp'", or "nodes[3]" without a name.
-std::string label_of(std::string_view list, std::size_t index, const std::string& name = {});
+std::string label_list_item(std::string_view list, std::size_t index, const std::string& name = {});
 
 /// An object of the document and the path to it. An absent member gives a default. A member of the
 /// wrong type throws `bad_data` with its place, the expected type and the value found. Valid while
 /// the document and the file's name exist.
-class Item {
+class JsonObject {
 public:
-    Item(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
+    JsonObject(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
 
     /// Returns the object's place for messages: "FILE: nodes[3] 'lamp': mesh".
     std::string place() const { return *file_ + label(": ", steps_); }
@@ -50,11 +50,11 @@ public:
     const Json* find(std::string_view key) const;
     const Json& json() const { return *json_; }
 
-    std::optional<Item> object(std::string_view key) const;
+    std::optional<JsonObject> object(std::string_view key) const;
     /// Returns the number of objects in the list `key`, 0 if it is absent.
     std::size_t size(std::string_view key) const;
     /// Returns one object of the list `key`, which must exist and be longer than `index`.
-    Item at(std::string_view key, std::size_t index) const;
+    JsonObject at(std::string_view key, std::size_t index) const;
     /// Calls `body` with each object of the list.
     template <typename Body>
     void each(std::string_view key, Body&& body) const {
@@ -80,14 +80,14 @@ public:
 
 private:
     /// One step of the path: the member `key` or, with an index, one element of the list `key`.
-    struct PathStep {
+    struct JsonPathStep {
         std::string_view key;
         std::optional<std::size_t> index;
         const Json* json = nullptr; ///< the value that the step leads to
     };
     static constexpr std::size_t kMostSteps = 8; // nested extensions need no more steps
 
-    Item to(const PathStep& step) const;
+    JsonObject to(const JsonPathStep& step) const;
     std::string label(std::string_view before, std::size_t steps) const;
     std::uint64_t whole_of(const Json& value, std::string_view key) const;
     std::size_t index_of(const Json& value, std::string_view key, std::size_t count) const;
@@ -95,11 +95,11 @@ private:
 
     const Json* json_;
     const std::string* file_;
-    std::array<PathStep, kMostSteps> way_{};
+    std::array<JsonPathStep, kMostSteps> way_{};
     std::size_t steps_ = 0; ///< 0 for the document itself
 };
 
 /// Returns the object "catoptric" of an object's `extras`, if any. `extras` may be of any type.
-std::optional<Item> ours_of(const Item& item);
+std::optional<JsonObject> find_catoptric_extras(const JsonObject& item);
 
 } // namespace catoptric::scene::gltf

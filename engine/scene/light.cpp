@@ -18,9 +18,9 @@ namespace catoptric::scene {
 namespace {
 
 /// Sets of vertices that triangles connect. At first, each vertex is a set of its own.
-class Islands {
+class VertexIslands {
 public:
-    explicit Islands(std::size_t count) : parent_(count) {
+    explicit VertexIslands(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), std::size_t(0));
     }
     std::size_t find(std::size_t vertex) {
@@ -48,13 +48,13 @@ struct LightSums {
 /// Returns whether the mean normal is zero. The mean of float unit normals that should cancel
 /// differs from zero by their rounding, 2^-24 for each component. The limit is 16 times this
 /// rounding, still far below any real mean.
-bool vanishes(const LightSums& sums) {
+bool has_zero_mean_normal(const LightSums& sums) {
     const double rounding = 16 * std::ldexp(1.0, -24);
     return !(glm::length(sums.normals) > rounding * sums.normal_count);
 }
 
 /// Rotates the columns of `axes` until the symmetric `matrix` is diagonal along them (Jacobi 1846).
-void diagonalise(dmat3& matrix, dmat3& axes) {
+void diagonalise_matrix(dmat3& matrix, dmat3& axes) {
     constexpr int kSweeps = 12; // each sweep squares the error; a float's precision takes four
     for (int turn = 0; turn < 3 * kSweeps; ++turn) {
         const int i = turn % 3, j = (i + 1) % 3;
@@ -70,7 +70,7 @@ void diagonalise(dmat3& matrix, dmat3& axes) {
 }
 
 /// Returns the mean over all directions of the length of `cosines * direction`.
-double mean_length(const dvec3& cosines) {
+double mean_projected_length(const dvec3& cosines) {
     constexpr int kSteps = 64; // steps across an octant, in each direction
     double sum = 0;
     for (int i = 0; i < kSteps; ++i)
@@ -86,10 +86,10 @@ double mean_length(const dvec3& cosines) {
 /// direction d is near the root of their mean square cosine, a quadratic form of d. The root is
 /// exact for a board. For a tube and a ball it is the true mean times a constant. The constant
 /// follows from the mean over all directions, which is a half for any surface.
-void set_both_sides(PointLight& light, const LightSums& sums) {
+void set_two_sided_axes(PointLight& light, const LightSums& sums) {
     dmat3 squares = sums.facets / sums.area;
     light.axes = dmat3(1);
-    diagonalise(squares, light.axes);
+    diagonalise_matrix(squares, light.axes);
     dvec3 cosines(squares[0][0], squares[1][1], squares[2][2]);
     cosines = glm::sqrt(glm::max(cosines, 0.0));
     // The axis with the largest cosine comes last, because shadow maps look along it.
@@ -99,63 +99,63 @@ void set_both_sides(PointLight& light, const LightSums& sums) {
     const int first = (last + 1) % 3, second = (last + 2) % 3;
     light.axes = dmat3(light.axes[first], light.axes[second], light.axes[last]);
     cosines = {cosines[first], cosines[second], cosines[last]};
-    light.cosines = cosines * (.5 / mean_length(cosines));
+    light.cosines = cosines * (.5 / mean_projected_length(cosines));
 }
 
-PointLight light_of(const LightSums& sums, const Material& material) {
+PointLight make_point_light(const LightSums& sums, const Material& material) {
     PointLight light{.position = sums.positions / sums.position_count,
                      .area = sums.area,
                      .is_lamp = true,
                      .closed = sums.closed,
-                     .emission = scene::light_of(material)};
+                     .emission = scene::emitted_radiance(material)};
     if (light.closed) return light;
     if (material.two_sided)
-        set_both_sides(light, sums);
-    else if (!vanishes(sums))
+        set_two_sided_axes(light, sums);
+    else if (!has_zero_mean_normal(sums))
         light.normal = glm::normalize(sums.normals);
     return light;
 }
 
-dvec3 cross_of(const std::vector<dvec3>& world, const uvec3& t) {
+dvec3 triangle_cross_product(const std::vector<dvec3>& world, const uvec3& t) {
     return glm::cross(world[t.y] - world[t.x], world[t.z] - world[t.x]);
 }
 
-double area_of(const std::vector<dvec3>& world, const uvec3& t) {
-    return 0.5 * glm::length(cross_of(world, t));
+double compute_triangle_area(const std::vector<dvec3>& world, const uvec3& t) {
+    return 0.5 * glm::length(triangle_cross_product(world, t));
 }
 
 /// Sums of each connected component, in the order of their first vertices, and the component of
 /// each triangle with an area.
-struct Components {
+struct MeshComponents {
     std::vector<LightSums> sums;
     std::vector<std::optional<std::size_t>> of_triangles;
 };
 
-Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
+MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_object) {
     std::vector<dvec3> world;
     for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
-    const std::vector<std::size_t> first = first_at_place(mesh.positions);
+    const std::vector<std::size_t> first = first_vertex_at_place(mesh.positions);
 
-    Islands islands(world.size());
+    VertexIslands islands(world.size());
     std::vector<double> area(world.size(), 0); // of the triangles whose first corner is the vertex
     std::vector<dmat3> facets(world.size(), dmat3(0));
     std::vector<bool> used(world.size(), false);
-    std::vector<Corners> corners;
+    std::vector<TriangleCorners> corners;
     for (const uvec3& t : mesh.triangles) {
         corners.push_back({first[t.x], first[t.y], first[t.z]});
-        const double triangle_area = area_of(world, t);
+        const double triangle_area = compute_triangle_area(world, t);
         if (!(triangle_area > 0)) continue;
         islands.join(first[t.x], first[t.y]);
         islands.join(first[t.x], first[t.z]);
         used[t.x] = used[t.y] = used[t.z] = true;
         area[t.x] += triangle_area;
-        const dvec3 facet = normalized_or_zero(cross_of(world, t));
+        const dvec3 facet = normalized_or_zero(triangle_cross_product(world, t));
         facets[t.x] += triangle_area * glm::outerProduct(facet, facet);
     }
 
     const dmat3 normal_to_world = normal_matrix(world_from_object);
     std::map<std::size_t, std::size_t> index_of_root;
-    Components components;
+    MeshComponents components;
     std::vector<LightSums>& sums = components.sums;
     std::vector<bool> counted(world.size(), false);
     for (std::size_t i = 0; i < world.size(); ++i) {
@@ -169,7 +169,7 @@ Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
         if (!counted[first[i]]) sums[index].add_position(world[i]);
         counted[first[i]] = true;
     }
-    for_each_edge(sides_of(corners), [&](std::span<const TriangleEdge> edge) {
+    for_each_edge(list_triangle_edges(corners), [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 2) return;
         for (const std::size_t end : {edge[0].low, edge[0].high})
             if (const auto index = index_of_root.find(islands.find(end));
@@ -178,12 +178,13 @@ Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
     });
     for (const uvec3& t : mesh.triangles)
         components.of_triangles.push_back(
-            area_of(world, t) > 0 ? std::optional(index_of_root.at(islands.find(first[t.x])))
-                                  : std::nullopt);
+            compute_triangle_area(world, t) > 0
+                ? std::optional(index_of_root.at(islands.find(first[t.x])))
+                : std::nullopt);
     return components;
 }
 
-PointLight light_of(const Punctual& punctual) {
+PointLight make_point_light(const PunctualLight& punctual) {
     const LightKind& kind = kind_of(punctual.kind);
     PointLight light{.position = dvec3(punctual.world_from_light[3]),
                      .area = 1,
@@ -199,27 +200,27 @@ PointLight light_of(const Punctual& punctual) {
 
 } // namespace
 
-std::vector<std::optional<std::size_t>> light_of_triangles(const Mesh& mesh,
-                                                           const dmat4& world_from_object) {
-    return components_of(mesh, world_from_object).of_triangles;
+std::vector<std::optional<std::size_t>> light_index_per_triangle(const Mesh& mesh,
+                                                                 const dmat4& world_from_object) {
+    return find_mesh_components(mesh, world_from_object).of_triangles;
 }
 
-double share_towards(const PointLight& light, const dvec3& along) {
+double light_share_towards(const PointLight& light, const dvec3& along) {
     if (light.normal != dvec3(0)) return std::max(0.0, glm::dot(light.normal, along));
     if (light.cosines != dvec3(0)) return glm::length(light.cosines * (along * light.axes));
     return light.is_lamp ? .25 : 1;
 }
 
-std::vector<PointLight> lights(const Scene& scene) {
+std::vector<PointLight> list_lights(const Scene& scene) {
     std::vector<PointLight> all;
     for (const Object& object : scene.objects) {
         const Material& material = scene.materials[object.material];
-        if (scene::light_of(material) == vec3(0)) continue;
+        if (scene::emitted_radiance(material) == vec3(0)) continue;
         const Mesh& mesh = scene.meshes[object.mesh];
-        for (const LightSums& sums : components_of(mesh, object.world_from_object).sums)
-            all.push_back(light_of(sums, material));
+        for (const LightSums& sums : find_mesh_components(mesh, object.world_from_object).sums)
+            all.push_back(make_point_light(sums, material));
     }
-    for (const Punctual& punctual : scene.punctual) all.push_back(light_of(punctual));
+    for (const PunctualLight& punctual : scene.punctual) all.push_back(make_point_light(punctual));
     return all;
 }
 

@@ -24,16 +24,16 @@ struct PointLight {
     vec3 emission{0}; ///< radiance of a lamp; intensity or illuminance of a light without a surface
     dvec3 axis{0}; ///< unit direction in which a spot or directional light shines; zero: all around
     double range = std::numeric_limits<double>::infinity();
-    double cos_inner = 1, cos_outer = -1;        ///< cosines of a spot's half angles
-    bool directional = false;                    ///< infinitely far away; shines along `axis`
-    Punctual::Kind kind = Punctual::Kind::point; ///< of a light without a surface
+    double cos_inner = 1, cos_outer = -1; ///< cosines of a spot's half angles
+    bool directional = false;             ///< infinitely far away; shines along `axis`
+    PunctualLight::Kind kind = PunctualLight::Kind::point; ///< of a light without a surface
 };
 
 /// Returns the scene's lights: one for each connected component of each mesh that lights, in file
 /// order, then the lights without a surface. Vertices connect through a shared index or an
 /// identical position. Vertices at one position count once in the mean. Triangles without area, and
 /// vertices that only they use, contribute nothing.
-std::vector<PointLight> lights(const Scene& scene);
+std::vector<PointLight> list_lights(const Scene& scene);
 
 /// Returns how much of a light's area shines in the unit direction `along`, away from it, 0 to 1:
 ///   - A lamp with a mean normal: the cosine to that normal.
@@ -41,11 +41,11 @@ std::vector<PointLight> lights(const Scene& scene);
 ///   - Any other lamp, mainly a closed one: a quarter, the mean over all directions of the share
 ///     that a convex body shows.
 ///   - A light without a surface: 1.
-double share_towards(const PointLight& light, const dvec3& along);
+double light_share_towards(const PointLight& light, const dvec3& along);
 
 /// Returns for each triangle the index of its light; nothing for a triangle without area. The index
-/// counts the lights that `lights` makes of this mesh alone, from 0.
-std::vector<std::optional<std::size_t>> light_of_triangles(const Mesh& mesh,
-                                                           const dmat4& world_from_object);
+/// counts the lights that `list_lights` makes of this mesh alone, from 0.
+std::vector<std::optional<std::size_t>> light_index_per_triangle(const Mesh& mesh,
+                                                                 const dmat4& world_from_object);
 
 } // namespace catoptric::scene

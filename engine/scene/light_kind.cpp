@@ -28,7 +28,7 @@ const std::vector<LightKind>& light_kinds() {
     return kRows;
 }
 
-const LightKind& kind_of(Punctual::Kind id) {
+const LightKind& kind_of(PunctualLight::Kind id) {
     const auto kind = std::ranges::find(light_kinds(), id, &LightKind::id);
     check(kind != light_kinds().end(), Failure::internal, "there is no kind of light ",
           static_cast<int>(id));
@@ -39,7 +39,7 @@ std::string_view gltf_type_of(const LightKind& kind) {
     return kind.gltf_type.empty() ? kind.name : kind.gltf_type;
 }
 
-bool shine_alike(const Punctual& a, const Punctual& b) {
+bool shine_alike(const PunctualLight& a, const PunctualLight& b) {
     const auto& [name, kind, intensity, range, cos_inner, cos_outer, world_from_light, motion] = a;
     return kind == b.kind && intensity == b.intensity && range == b.range &&
            cos_inner == b.cos_inner && cos_outer == b.cos_outer &&

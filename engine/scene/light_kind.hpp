@@ -13,7 +13,7 @@
 namespace catoptric::scene {
 
 namespace gltf {
-class Item;
+class JsonObject;
 }
 
 /// The two numbers of a light whose meaning depends on its kind: `cos_outer` and `sharpness` of
@@ -25,7 +25,7 @@ struct ShaderNumbers {
 
 struct LightKind {
     /// Unlike that of any other kind. A kind with a file of its own has the next number.
-    Punctual::Kind id = Punctual::Kind::point;
+    PunctualLight::Kind id = PunctualLight::Kind::point;
     /// Name in reports and `info`, and `type` of KHR_lights_punctual.
     std::string_view name;
     /// For a kind that glTF lacks: the `type` as which other programs read the light. The name is
@@ -44,7 +44,7 @@ struct LightKind {
     ShaderNumbers (*shader_numbers)(const PointLight& light) = nullptr;
     /// Reads the kind's parameters from a light of KHR_lights_punctual. Throws `bad_data`. May be
     /// null. save_glb writes a cone for each light with the type "spot".
-    void (*read)(const gltf::Item& light, Punctual& to) = nullptr;
+    void (*read)(const gltf::JsonObject& light, PunctualLight& to) = nullptr;
 };
 
 /// Registers a kind of light. Define it at namespace scope: the kind enters the table while the
@@ -56,17 +56,17 @@ struct RegisteredLightKind {
 /// Returns all kinds by `id`.
 const std::vector<LightKind>& light_kinds();
 /// Returns the row of a kind. Throws `internal` for a kind that is not in the table.
-const LightKind& kind_of(Punctual::Kind id);
+const LightKind& kind_of(PunctualLight::Kind id);
 /// Returns the type of a kind in KHR_lights_punctual.
 std::string_view gltf_type_of(const LightKind& kind);
 
 /// Reads the angles of the object "spot". Throws `bad_data`.
-void read_cone(const gltf::Item& light, Punctual& to);
+void read_spot_cone(const gltf::JsonObject& light, PunctualLight& to);
 
 /// Calls `visit` with each member of a light, in the order of declaration. Hashes follow from these
 /// lists; a member that is missing here does not compile.
 template <typename Visit>
-inline void visit_members(const Punctual& light, Visit&& visit) {
+inline void visit_members(const PunctualLight& light, Visit&& visit) {
     const auto& [name, kind, intensity, range, cos_inner, cos_outer, world_from_light,
                  motion] = light;
     visit(name), visit(kind), visit(intensity), visit(range), visit(cos_inner), visit(cos_outer);
@@ -81,8 +81,8 @@ inline void visit_members(const PointLight& light, Visit&& visit) {
     visit(cos_outer), visit(directional), visit(kind);
 }
 
-/// Returns whether two lights shine in the same way. Compares lights as scene::at leaves them:
-/// without motion. Names do not count.
-bool shine_alike(const Punctual& a, const Punctual& b);
+/// Returns whether two lights shine in the same way. Compares lights as scene::scene_at_time leaves
+/// them: without motion. Names do not count.
+bool shine_alike(const PunctualLight& a, const PunctualLight& b);
 
 } // namespace catoptric::scene

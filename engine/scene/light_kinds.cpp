@@ -9,8 +9,8 @@
 
 namespace catoptric::scene {
 
-void read_cone(const gltf::Item& light, Punctual& to) {
-    const std::optional<gltf::Item> spot = light.object("spot");
+void read_spot_cone(const gltf::JsonObject& light, PunctualLight& to) {
+    const std::optional<gltf::JsonObject> spot = light.object("spot");
     const double inner = spot ? spot->number("innerConeAngle", 0) : 0;
     const double outer = spot ? spot->number("outerConeAngle", std::numbers::pi / 4)
                               : std::numbers::pi / 4;
@@ -36,17 +36,17 @@ ShaderNumbers numbers_of_spot(const PointLight& light) {
     return {static_cast<float>(light.cos_outer), static_cast<float>(1 / width_of_edge(light))};
 }
 
-const RegisteredLightKind kPoint{{.id = Punctual::Kind::point,
+const RegisteredLightKind kPoint{{.id = PunctualLight::Kind::point,
                                   .name = "point",
                                   .shader_kind = shared::kLightAtPoint,
                                   .is_aimed = false}};
-const RegisteredLightKind kSpot{{.id = Punctual::Kind::spot,
+const RegisteredLightKind kSpot{{.id = PunctualLight::Kind::spot,
                                  .name = "spot",
                                  .shader_kind = shared::kLightAtPoint,
                                  .share = share_of_spot,
                                  .shader_numbers = numbers_of_spot,
-                                 .read = read_cone}};
-const RegisteredLightKind kDirectional{{.id = Punctual::Kind::directional,
+                                 .read = read_spot_cone}};
+const RegisteredLightKind kDirectional{{.id = PunctualLight::Kind::directional,
                                         .name = "directional",
                                         .shader_kind = shared::kLightDirectional,
                                         .is_parallel = true}};

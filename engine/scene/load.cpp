@@ -14,8 +14,8 @@ namespace catoptric::scene {
 
 namespace {
 
-std::vector<BuiltIn>& table() {
-    static std::vector<BuiltIn> scenes; // filled while the program starts
+std::vector<BuiltInScene>& built_in_scene_table() {
+    static std::vector<BuiltInScene> scenes; // filled while the program starts
     return scenes;
 }
 
@@ -26,39 +26,42 @@ std::string lower_case_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-Scene classified(Scene scene) {
-    classify(scene);
+Scene classify_mirrors(Scene scene) {
+    find_mirrors(scene);
     scene.meshes.shrink_to_fit(), scene.objects.shrink_to_fit(); // no more are added
     return scene;
 }
 
 /// Throws if the options choose an animation of a scene that has none.
-void refuse_animation(const std::string& scene, const FileOptions& options) {
+void check_no_animation_chosen(const std::string& scene, const FileOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
           options.animation_by.where, ": ", scene, " has no animation ",
-          in_quotes(options.animation), ": wanted one of none");
+          quote_printable(options.animation), ": wanted one of none");
 }
 
-[[noreturn]] void fail_unknown(const std::string& word) {
+[[noreturn]] void fail_unknown_scene(const std::string& word) {
     std::vector<std::string> names;
     std::string list;
-    for (const BuiltIn& scene : built_in_scenes()) {
+    for (const BuiltInScene& scene : built_in_scenes()) {
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
-    fail(Failure::usage, "scene ", in_quotes(word), ": wanted a built-in scene (", list,
-         ") or a .glb, .gltf or .obj file", did_you_mean(word, names));
+    fail(Failure::usage, "scene ", quote_printable(word), ": wanted a built-in scene (", list,
+         ") or a .glb, .gltf or .obj file", suggest_name(word, names));
 }
 
 } // namespace
 
-RegisteredScene::RegisteredScene(BuiltIn scene) { table().push_back(std::move(scene)); }
+RegisteredScene::RegisteredScene(BuiltInScene scene) {
+    built_in_scene_table().push_back(std::move(scene));
+}
 
-const std::vector<BuiltIn>& built_in_scenes() {
-    static const std::vector<BuiltIn> kScenes = [] {
-        std::vector<BuiltIn> scenes = table();
-        std::ranges::sort(scenes, {},
-                          [](const BuiltIn& scene) { return std::pair(scene.order, scene.name); });
+const std::vector<BuiltInScene>& built_in_scenes() {
+    static const std::vector<BuiltInScene> kScenes = [] {
+        std::vector<BuiltInScene> scenes = built_in_scene_table();
+        std::ranges::sort(scenes, {}, [](const BuiltInScene& scene) {
+            return std::pair(scene.order, scene.name);
+        });
         return scenes;
     }();
     return kScenes;
@@ -69,19 +72,19 @@ Scene load(const std::string& name_or_path, const LoadOptions& options) {
 }
 
 Scene load_file(const std::string& name_or_path, const FileOptions& options) {
-    for (const BuiltIn& scene : built_in_scenes())
+    for (const BuiltInScene& scene : built_in_scenes())
         if (scene.name == name_or_path) {
-            refuse_animation(name_or_path, options);
-            return classified(scene.make());
+            check_no_animation_chosen(name_or_path, options);
+            return classify_mirrors(scene.make());
         }
     const std::string extension = lower_case_extension(name_or_path);
     if (extension == ".glb" || extension == ".gltf")
-        return classified(load_gltf(name_or_path, options));
+        return classify_mirrors(load_gltf(name_or_path, options));
     if (extension == ".obj") {
-        refuse_animation(name_or_path, options);
-        return classified(load_obj(name_or_path, options));
+        check_no_animation_chosen(name_or_path, options);
+        return classify_mirrors(load_obj(name_or_path, options));
     }
-    fail_unknown(name_or_path);
+    fail_unknown_scene(name_or_path);
 }
 
 } // namespace catoptric::scene

@@ -5,15 +5,15 @@ namespace catoptric::scene {
 
 bool is_one_sided(const Material& material) {
     if (material.mirror || material.two_sided) return false;
-    return material.front_only || light_of(material) != vec3(0);
+    return material.front_only || emitted_radiance(material) != vec3(0);
 }
 
-bool glows(const Material& material) { return material.emission != vec3(0); }
+bool is_visibly_emissive(const Material& material) { return material.emission != vec3(0); }
 
-vec3 light_of(const Material& material) {
+vec3 emitted_radiance(const Material& material) {
     return material.light.value_or(material.emission_texture ? vec3(0) : material.emission);
 }
 
-bool is_masked(const Material& material) { return material.alpha_cutoff > 0; }
+bool has_alpha_mask(const Material& material) { return material.alpha_cutoff > 0; }
 
 } // namespace catoptric::scene

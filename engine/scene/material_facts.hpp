@@ -41,10 +41,10 @@ inline void visit_members(const Material& material, Visit&& visit) {
 /// from both sides.
 bool is_one_sided(const Material& material);
 /// Returns whether the surface can be seen by its own light.
-bool glows(const Material& material);
+bool is_visibly_emissive(const Material& material);
 /// Returns the radiance with which the surface lights others; 0 if it lights nothing.
-vec3 light_of(const Material& material);
+vec3 emitted_radiance(const Material& material);
 /// Returns whether an alpha mask may cut out parts of the surface.
-bool is_masked(const Material& material);
+bool has_alpha_mask(const Material& material);
 
 } // namespace catoptric::scene

@@ -20,25 +20,25 @@ constexpr double kTurned = .01;         // normals: radians
 
 /// Triangles of an object in the world, relative to the centre of its bounds. Each place has one
 /// number.
-struct Soup {
+struct CentredTriangles {
     std::vector<dvec3> places;
-    std::vector<Corners> triangles;
+    std::vector<TriangleCorners> triangles;
     dvec3 centre{0};
     double extent = 0; ///< longest side of the bounds
 
-    dvec3 cross_of(const Corners& t) const {
+    dvec3 cross_of(const TriangleCorners& t) const {
         return glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
     }
 };
 
-Soup soup_of(const Scene& scene, const Object& object) {
+CentredTriangles make_centred_triangles(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const Bounds<double> box = bounds(scene, object);
-    Soup soup;
+    CentredTriangles soup;
     if (box.empty()) return soup;
     soup.centre = box.centre();
     soup.extent = std::max({box.extent().x, box.extent().y, box.extent().z});
-    const std::vector<std::size_t> first = first_at_place(mesh.positions);
+    const std::vector<std::size_t> first = first_vertex_at_place(mesh.positions);
     std::vector<std::size_t> place(first.size(), soup.places.max_size());
     const auto place_of = [&](std::uint32_t vertex) {
         std::size_t& number = place[first[vertex]];
@@ -50,19 +50,19 @@ Soup soup_of(const Scene& scene, const Object& object) {
         return number;
     };
     for (const uvec3& t : mesh.triangles) {
-        const Corners corners{place_of(t.x), place_of(t.y), place_of(t.z)};
-        if (has_three_places(corners)) soup.triangles.push_back(corners);
+        const TriangleCorners corners{place_of(t.x), place_of(t.y), place_of(t.z)};
+        if (has_three_distinct_places(corners)) soup.triangles.push_back(corners);
     }
     return soup;
 }
 
-bool is_flat(const Soup& soup) {
+bool are_triangles_flat(const CentredTriangles& soup) {
     dvec3 sum(0);
-    for (const Corners& t : soup.triangles) sum += soup.cross_of(t);
+    for (const TriangleCorners& t : soup.triangles) sum += soup.cross_of(t);
     const dvec3 normal = normalized_or_zero(sum);
     if (normal == dvec3(0)) return false;
     const double height = glm::dot(normal, soup.places[soup.triangles.front()[0]]);
-    return std::ranges::all_of(soup.triangles, [&](const Corners& t) {
+    return std::ranges::all_of(soup.triangles, [&](const TriangleCorners& t) {
         const bool in_plane = std::ranges::all_of(t, [&](std::size_t i) {
             return std::abs(glm::dot(normal, soup.places[i]) - height) <=
                    kFlatTolerance * soup.extent;
@@ -73,7 +73,7 @@ bool is_flat(const Soup& soup) {
 
 /// Returns the sphere that fits the places best by least squares. |p|^2 = 2 c.p + (r^2 - |c|^2) is
 /// linear in c and in the bracket. Solved in units of the extent.
-std::optional<Sphere> fitted(const Soup& soup) {
+std::optional<Sphere> fit_sphere(const CentredTriangles& soup) {
     dmat4 matrix(0);
     dvec4 wanted(0);
     for (const dvec3& place : soup.places) {
@@ -92,11 +92,11 @@ std::optional<Sphere> fitted(const Soup& soup) {
 
 /// Returns the largest distance of a vertex from the sphere, in radii. Returns 1 if facets cut off
 /// so much that the mesh is a cube rather than a ball.
-double farthest_from(const Sphere& sphere, const Soup& soup) {
+double max_distance_from_sphere(const Sphere& sphere, const CentredTriangles& soup) {
     double farthest = 0;
     for (const dvec3& place : soup.places)
         farthest = std::max(farthest, std::abs(glm::length(place - sphere.centre) - sphere.radius));
-    for (const Corners& t : soup.triangles) {
+    for (const TriangleCorners& t : soup.triangles) {
         const dvec3 normal = normalized_or_zero(soup.cross_of(t));
         const double height = std::abs(glm::dot(normal, soup.places[t[0]] - sphere.centre));
         if (!(height >= (1 - kFacets) * sphere.radius)) return 1;
@@ -106,7 +106,7 @@ double farthest_from(const Sphere& sphere, const Soup& soup) {
 
 /// Returns whether the corners' normals lie along the sphere's radii, outwards or inwards. A ball
 /// with flat-shaded facets reflects as its facets do, not as a sphere.
-bool has_normals_of(const Sphere& sphere, const Scene& scene, const Object& object) {
+bool has_sphere_normals(const Sphere& sphere, const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const dmat3 turns = normal_matrix(object.world_from_object);
     return std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
@@ -122,7 +122,7 @@ bool has_normals_of(const Sphere& sphere, const Scene& scene, const Object& obje
 
 /// Returns whether all vertices lie about equally far from the centre of the bounds. This quick
 /// test numbers no places.
-bool may_be_ball(const Scene& scene, const Object& object) {
+bool may_be_sphere(const Scene& scene, const Object& object) {
     const Bounds<double> box = bounds(scene, object);
     if (box.empty()) return false;
     const dvec3 centre = box.centre();
@@ -134,7 +134,7 @@ bool may_be_ball(const Scene& scene, const Object& object) {
 }
 
 /// Sums over the edges at which triangles meet.
-struct Edges {
+struct EdgeBendSums {
     bool closed = true;
     double outwards = 0, inwards = 0; ///< bend angles times lengths of the edges
 
@@ -143,8 +143,8 @@ struct Edges {
 
 /// Returns how the edges bend. An edge bends inwards if the tip of a triangle lies above the plane
 /// of its neighbour.
-Edges edges_of(const Soup& soup) {
-    Edges edges;
+EdgeBendSums measure_edge_bends(const CentredTriangles& soup) {
+    EdgeBendSums edges;
     const auto add = [&](const TriangleEdge& here, const TriangleEdge& there) {
         const dvec3 normal = normalized_or_zero(soup.cross_of(soup.triangles[here.triangle]));
         const dvec3 other = normalized_or_zero(soup.cross_of(soup.triangles[there.triangle]));
@@ -155,7 +155,7 @@ Edges edges_of(const Soup& soup) {
                                                         glm::distance(soup.places[here.low],
                                                                       soup.places[here.high]);
     };
-    for_each_edge(sides_of(soup.triangles), [&](std::span<const TriangleEdge> sides) {
+    for_each_edge(list_triangle_edges(soup.triangles), [&](std::span<const TriangleEdge> sides) {
         edges.closed &= sides.size() == 2;
         if (sides.size() == 2) add(sides[0], sides[1]);
     });
@@ -163,9 +163,9 @@ Edges edges_of(const Soup& soup) {
 }
 
 /// Returns whether most of the area faces away from a point.
-bool faces_out(const Soup& soup, const dvec3& point) {
+bool faces_away_from_point(const CentredTriangles& soup, const dvec3& point) {
     double area = 0;
-    for (const Corners& t : soup.triangles) {
+    for (const TriangleCorners& t : soup.triangles) {
         const dvec3 cross = soup.cross_of(t);
         area += glm::dot(cross, soup.places[t[0]] - point) > 0 ? glm::length(cross)
                                                                : -glm::length(cross);
@@ -175,19 +175,19 @@ bool faces_out(const Soup& soup, const dvec3& point) {
 
 } // namespace
 
-Shape shape_of(const Scene& scene, const Object& object) {
-    using enum Shape::Kind;
-    const Soup soup = soup_of(scene, object);
-    Shape shape;
+MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
+    using enum MirrorShape::Kind;
+    const CentredTriangles soup = make_centred_triangles(scene, object);
+    MirrorShape shape;
     if (soup.triangles.empty()) return shape;
-    const Edges edges = edges_of(soup);
+    const EdgeBendSums edges = measure_edge_bends(soup);
     shape.is_closed = edges.closed;
-    if (is_flat(soup)) {
+    if (are_triangles_flat(soup)) {
         shape.kind = flat;
         return shape;
     }
-    if (std::optional<Sphere> fit = fitted(soup)) {
-        const double off = farthest_from(*fit, soup);
+    if (std::optional<Sphere> fit = fit_sphere(soup)) {
+        const double off = max_distance_from_sphere(*fit, soup);
         fit->centre += soup.centre;
         if (off <= kRound) shape.fit = fit, shape.tolerance = off;
     }
@@ -196,10 +196,12 @@ Shape shape_of(const Scene& scene, const Object& object) {
         if (!shape.fit) shape.tolerance = 0;
         shape.fit = object.sphere;
     }
-    if (shape.fit && edges.closed && (object.sphere || has_normals_of(*shape.fit, scene, object)))
+    if (shape.fit && edges.closed &&
+        (object.sphere || has_sphere_normals(*shape.fit, scene, object)))
         shape.kind = sphere;
     else if (shape.fit) // subdivided balls bend inwards at some edges
-        shape.kind = faces_out(soup, shape.fit->centre - soup.centre) ? convex : concave;
+        shape.kind = faces_away_from_point(soup, shape.fit->centre - soup.centre) ? convex
+                                                                                  : concave;
     else
         shape.kind = edges.is_mostly(edges.outwards)  ? convex
                      : edges.is_mostly(edges.inwards) ? concave
@@ -207,24 +209,24 @@ Shape shape_of(const Scene& scene, const Object& object) {
     return shape;
 }
 
-void find_spheres(Scene& scene) {
+void find_exact_spheres(Scene& scene) {
     for (Object& object : scene.objects) {
-        const Follows* follows = followed(object.motion);
+        const RigAttachment* follows = find_followed_node(object.motion);
         if (object.sphere || !is_mirror(scene, object) || (follows && !keeps_spheres(*follows)) ||
-            !may_be_ball(scene, object))
+            !may_be_sphere(scene, object))
             continue;
-        const Shape shape = shape_of(scene, object);
-        if (shape.kind == Shape::Kind::sphere) object.sphere = shape.fit;
+        const MirrorShape shape = classify_mirror_shape(scene, object);
+        if (shape.kind == MirrorShape::Kind::sphere) object.sphere = shape.fit;
     }
 }
 
-const char* name_of(Shape::Kind kind) {
+const char* name_of(MirrorShape::Kind kind) {
     switch (kind) {
-    case Shape::Kind::flat: return "flat";
-    case Shape::Kind::sphere: return "sphere";
-    case Shape::Kind::convex: return "convex";
-    case Shape::Kind::concave: return "concave";
-    case Shape::Kind::other: break;
+    case MirrorShape::Kind::flat: return "flat";
+    case MirrorShape::Kind::sphere: return "sphere";
+    case MirrorShape::Kind::convex: return "convex";
+    case MirrorShape::Kind::concave: return "concave";
+    case MirrorShape::Kind::other: break;
     }
     return "other";
 }

@@ -5,7 +5,7 @@
 namespace catoptric::scene {
 
 /// Kind of surface of an object, independent of its material.
-struct Shape {
+struct MirrorShape {
     enum class Kind { flat, sphere, convex, concave, other };
     Kind kind = Kind::other;
     bool is_closed = false; ///< every edge belongs to two triangles
@@ -22,14 +22,15 @@ struct Shape {
 ///     within .01 radian of the sphere's radii.
 ///   - Convex, concave: a part of a sphere, or at least 95 % of the edges' bending (angle times
 ///     length) goes that way, seen from the front.
-Shape shape_of(const Scene& scene, const Object& object);
+MirrorShape classify_mirror_shape(const Scene& scene, const Object& object);
 
-/// Sets Object::sphere of each mirror that shape_of calls a sphere. Rays then intersect the exact
-/// sphere. Mirrors that have a sphere keep it. A mirror that a rig stretches into an ellipsoid at
-/// some time gets none. A mirror that is no ball is rejected in O(vertices) at most.
-void find_spheres(Scene& scene);
+/// Sets Object::sphere of each mirror that classify_mirror_shape calls a sphere. Rays then
+/// intersect the exact sphere. Mirrors that have a sphere keep it. A mirror that a rig stretches
+/// into an ellipsoid at some time gets none. A mirror that is no ball is rejected in O(vertices) at
+/// most.
+void find_exact_spheres(Scene& scene);
 
 /// Returns "flat", "sphere", "convex", "concave" or "other".
-const char* name_of(Shape::Kind kind);
+const char* name_of(MirrorShape::Kind kind);
 
 } // namespace catoptric::scene

@@ -40,10 +40,10 @@ std::optional<Sphere> moved_sphere(const Object& object, const dmat4& world_from
     return Sphere{dvec3(change * dvec4(object.sphere->centre, 1)), object.sphere->radius * *scale};
 }
 
-bool keeps_spheres(const Follows& follows) {
+bool keeps_spheres(const RigAttachment& follows) {
     if (!keeps_shapes(follows.node_from_object)) return false;
     for (std::optional<std::size_t> at = follows.node; at; at = follows.rig->nodes[*at].parent) {
-        const Rig::Node& node = follows.rig->nodes[*at];
+        const NodeRig::RigNode& node = follows.rig->nodes[*at];
         if (!keeps_shapes(node.parent_from_space)) return false;
         if (!node.scales || node.scales->times.empty()) {
             if (!is_positive_and_uniform(node.scale)) return false;

@@ -8,7 +8,7 @@ constexpr std::size_t kMostKinds = 40; // as many lines as a user may still read
 
 } // namespace
 
-void Notes::add(std::string_view kind, std::string_view first, std::uint64_t count) {
+void LoaderNotes::add(std::string_view kind, std::string_view first, std::uint64_t count) {
     if (count == 0) return;
     const auto known = index_of_.find(std::string(kind));
     if (known != index_of_.end()) {
@@ -21,7 +21,7 @@ void Notes::add(std::string_view kind, std::string_view first, std::uint64_t cou
     }
 }
 
-std::vector<std::string> Notes::lines(const std::string& file) const {
+std::vector<std::string> LoaderNotes::lines(const std::string& file) const {
     std::vector<std::string> lines;
     for (const auto& [text, first, count] : kinds_)
         lines.push_back(file + ": " + text + ": " + std::to_string(count) + " (first: " + first +

@@ -11,7 +11,7 @@ namespace catoptric::scene {
 /// Summary of what a loader left out, repaired or could not read. It keeps the count and the first
 /// place of each kind. A file with a hundred thousand oddities therefore has one line for each
 /// kind.
-class Notes {
+class LoaderNotes {
 public:
     /// Adds `count` occurrences of `kind`. `first` is their place, printable; it is shown if they
     /// are the first of their kind.

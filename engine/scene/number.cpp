@@ -9,7 +9,7 @@ namespace catoptric::scene {
 namespace {
 
 template <typename Real>
-std::string shortest(Real number) {
+std::string shortest_text(Real number) {
     if (number == 0) return "0";
     char text[32];
     const std::to_chars_result end = std::to_chars(text, text + sizeof text, number);
@@ -18,10 +18,12 @@ std::string shortest(Real number) {
 
 } // namespace
 
-std::string number_text(double number) { return shortest(number); }
-std::string number_text(float number) { return shortest(number); }
+std::string format_shortest_number(double number) { return shortest_text(number); }
+std::string format_shortest_number(float number) { return shortest_text(number); }
 
-double as_typed(float number) { return parse_number(shortest(number)).value_or(double(number)); }
+double float_to_typed_double(float number) {
+    return parse_number(shortest_text(number)).value_or(double(number));
+}
 
 std::optional<double> parse_number(std::string_view text) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

@@ -19,16 +19,16 @@ namespace catoptric::scene {
 namespace {
 
 /// Indices of a vertex's position, normal and texture coordinates; -1 if absent.
-struct Triple {
+struct CornerIndices {
     int position, normal, uv;
-    auto operator<=>(const Triple&) const = default;
+    auto operator<=>(const CornerIndices&) const = default;
 };
 
-Triple triple_of(const tinyobj::index_t& corner) {
+CornerIndices corner_indices(const tinyobj::index_t& corner) {
     return {corner.vertex_index, corner.normal_index, corner.texcoord_index};
 }
 
-void add_vertex(Mesh& mesh, const Triple& vertex, const obj::Text& text, bool has_uv) {
+void add_vertex(Mesh& mesh, const CornerIndices& vertex, const obj::ObjText& text, bool has_uv) {
     const auto& [position, normal, uv] = vertex;
     mesh.positions.push_back(text.positions[std::size_t(position)]);
     mesh.normals.push_back(
@@ -41,17 +41,17 @@ void add_vertex(Mesh& mesh, const Triple& vertex, const obj::Text& text, bool ha
 
 /// Builds a mesh with one vertex for each distinct triple among the corners. Each three corners are
 /// a triangle. Vertices are sorted by the index of position, then normal, then texture coordinates.
-Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners, std::string name,
-             Total& vertices, const std::string& place) {
+Mesh build_obj_mesh(const obj::ObjText& text, const std::vector<tinyobj::index_t>& corners,
+                    std::string name, LimitedSum& vertices, const std::string& place) {
     struct CornerUse {
-        Triple triple;
+        CornerIndices triple;
         std::uint32_t corner;
         auto operator<=>(const CornerUse&) const = default;
     };
     std::vector<CornerUse> uses;
     uses.reserve(corners.size());
     for (const tinyobj::index_t& corner : corners)
-        uses.push_back({triple_of(corner), static_cast<std::uint32_t>(uses.size())});
+        uses.push_back({corner_indices(corner), static_cast<std::uint32_t>(uses.size())});
     std::ranges::sort(uses);
     const auto is_first = [&](std::size_t i) {
         return i == 0 || uses[i].triple != uses[i - 1].triple;
@@ -76,8 +76,8 @@ Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners
 
 struct ObjBuilder {
     const std::string& file;
-    const obj::Text& text;
-    obj::Context& context;
+    const obj::ObjText& text;
+    obj::ObjContext& context;
     Scene scene;
     /// Material of faces without one. Set on first use.
     std::optional<std::size_t> without_material;
@@ -119,7 +119,8 @@ std::size_t ObjBuilder::material_index(int material) {
     return *without_material;
 }
 
-void apply_remarks(const obj::Remarks& remarks, const std::string& group, Object& object) {
+void apply_object_remarks(const obj::CatoptricRemarks& remarks, const std::string& group,
+                          Object& object) {
     if (const auto at = remarks.motions.find(group); at != remarks.motions.end())
         object.motion = at->second;
     if (const auto at = remarks.spheres.find(group); at != remarks.spheres.end())
@@ -128,21 +129,23 @@ void apply_remarks(const obj::Remarks& remarks, const std::string& group, Object
 }
 
 void ObjBuilder::add_object(const std::string& shape, ShapePart part, bool is_only) {
-    Account& account = context.account;
-    account.objects.add(1, file, ": object ", in_quotes(shape));
+    BudgetAccount& account = context.account;
+    account.objects.add(1, file, ": object ", quote_printable(shape));
     Object object{
         .name = shape, .mesh = scene.meshes.size(), .material = material_index(part.material)};
     const std::string& material = scene.materials[object.material].name;
     account.name_bytes.add(2 * (shape.size() + 1 + material.size()), file, ": object ",
-                           in_quotes(shape));
+                           quote_printable(shape));
     if (!is_only) object.name += "/" + material;
-    apply_remarks(text.remarks, shape, object);
+    apply_object_remarks(text.remarks, shape, object);
 
-    Mesh mesh = mesh_of(text, part.corners, object.name, account.mesh_vertices, file);
+    Mesh mesh = build_obj_mesh(text, part.corners, object.name, account.mesh_vertices, file);
     part.corners = {};
-    account.mesh_vertices.add(corners_without_normal(mesh), file, ": object ", in_quotes(shape));
-    const std::size_t dropped = repair(mesh);
-    context.notes.add("triangles without area, left out", "in " + in_quotes(object.name), dropped);
+    account.mesh_vertices.add(count_corners_without_normal(mesh), file, ": object ",
+                              quote_printable(shape));
+    const std::size_t dropped = repair_mesh(mesh);
+    context.notes.add("triangles without area, left out", "in " + quote_printable(object.name),
+                      dropped);
     scene.meshes.push_back(std::move(mesh));
     scene.objects.push_back(std::move(object));
 }
@@ -153,17 +156,17 @@ void ObjBuilder::add_shape(const tinyobj::shape_t& shape) {
         add_object(text.names[std::stoul(shape.name)], std::move(part), parts.size() == 1);
 }
 
-void check_names(const obj::Text& text) {
+void check_object_names(const obj::ObjText& text) {
     const std::unordered_set<std::string> known(text.names.begin(), text.names.end());
     for (const auto& [name, where] : text.remarks.named_at)
         if (!known.contains(name))
             fail(Failure::bad_data, where, ": wanted the name of an object with faces, found ",
-                 in_quotes(name), did_you_mean(name, text.names));
+                 quote_printable(name), suggest_name(name, text.names));
 }
 
 /// Returns a material library for tinyobjloader, in which each material is only named by its
 /// number.
-std::string names_of(const obj::Library& library) {
+std::string make_name_only_library(const obj::MaterialLibrary& library) {
     std::string text;
     for (std::size_t i = 0; i < library.drafts.size(); ++i)
         text += "newmtl " + std::to_string(i) + "\n";
@@ -171,16 +174,18 @@ std::string names_of(const obj::Library& library) {
 }
 
 /// Parses the statements with tinyobjloader. Moves them out of `text`, because they may be long.
-struct Parsed {
-    Parsed(obj::Text& text, const std::string& file) {
-        std::istringstream statements(std::move(text.statements)), library(names_of(text.library));
+struct ParsedObj {
+    ParsedObj(obj::ObjText& text, const std::string& file) {
+        std::istringstream statements(std::move(text.statements)),
+            library(make_name_only_library(text.library));
         tinyobj::MaterialStreamReader libraries(library);
         tinyobj::attrib_t attributes;
         std::vector<tinyobj::material_t> materials;
         std::string error;
         const bool is_read = tinyobj::LoadObj(&attributes, &shapes, &materials, nullptr, &error,
                                               &statements, &libraries, false, false);
-        check(is_read, Failure::bad_data, file, ": cannot be read: ", printable(error));
+        check(is_read, Failure::bad_data, file,
+              ": cannot be read: ", escape_control_characters(error));
     }
     std::vector<tinyobj::shape_t> shapes;
 };
@@ -189,22 +194,22 @@ struct Parsed {
 
 Scene load_obj(const std::filesystem::path& path, const FileOptions& options) {
     const std::string file = path.string();
-    Account account(options.budget);
-    Files files(path, options.root, account);
-    Notes notes;
+    BudgetAccount account(options.budget);
+    SceneFiles files(path, options.root, account);
+    LoaderNotes notes;
     std::vector<UnsupportedFeature> unsupported;
-    obj::Context context{files, account, notes, unsupported};
-    obj::Text text = obj::read_text(file, context);
-    check_names(text);
-    const Parsed parsed(text, file);
+    obj::ObjContext context{files, account, notes, unsupported};
+    obj::ObjText text = obj::read_obj_text(file, context);
+    check_object_names(text);
+    const ParsedObj parsed(text, file);
     ObjBuilder builder{.file = file, .text = text, .context = context};
     builder.scene = {.name = path.stem().string(),
-                     .materials = materials_of(text.library, context),
+                     .materials = make_library_materials(text.library, context),
                      .cameras = text.remarks.cameras,
                      .exposure = text.remarks.exposure,
                      .files = files.found()};
     for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
-    finish(builder.scene, file, notes, std::move(unsupported));
+    finish_loading(builder.scene, file, notes, std::move(unsupported));
     return std::move(builder.scene);
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kSpace = " \t\r\v\f";
 constexpr std::size_t kMostWords = 4096; // no valid statement that is split into words has more
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trim_blanks(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kSpace);
     if (first == text.npos) return {};
     return text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
@@ -23,7 +23,7 @@ std::string_view take_line(std::string_view& text, std::size_t& number, std::str
     joined.clear();
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
-        std::string_view part = trimmed(text.substr(0, end));
+        std::string_view part = trim_blanks(text.substr(0, end));
         text.remove_prefix(end == text.npos ? text.size() : end + 1);
         ++number;
         const bool goes_on = part.ends_with('\\');
@@ -38,14 +38,14 @@ std::string_view take_line(std::string_view& text, std::size_t& number, std::str
 } // namespace
 
 std::string_view take_word(std::string_view& text) {
-    text = trimmed(text);
+    text = trim_blanks(text);
     const std::string_view word = text.substr(0, text.find_first_of(kSpace));
-    text = trimmed(text.substr(word.size()));
+    text = trim_blanks(text.substr(word.size()));
     return word;
 }
 
-void for_each_line(const std::string& file, std::string_view text,
-                   const std::function<void(const ObjLine&)>& body) {
+void for_each_obj_line(const std::string& file, std::string_view text,
+                       const std::function<void(const ObjLine&)>& body) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     std::string joined, remark;
@@ -64,7 +64,7 @@ void for_each_line(const std::string& file, std::string_view text,
     }
 }
 
-std::vector<std::string_view> words(const ObjLine& line) {
+std::vector<std::string_view> split_words(const ObjLine& line) {
     std::vector<std::string_view> list;
     std::string_view rest = line.rest;
     while (!rest.empty() && rest.front() != '#' && list.size() < kMostWords)
@@ -78,45 +78,48 @@ std::size_t count_words(std::string_view text) {
     return count;
 }
 
-double number_of(const ObjLine& line, std::string_view word) {
+double parse_word_number(const ObjLine& line, std::string_view word) {
     if (const std::optional<double> number = parse_number(word)) return *number;
     fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants finite numbers, found ",
-         in_quotes(word));
+         quote_printable(word));
 }
 
-std::vector<double> numbers(const ObjLine& line, const std::vector<std::string_view>& words,
-                            std::size_t first, std::size_t count) {
+std::vector<double> parse_word_numbers(const ObjLine& line,
+                                       const std::vector<std::string_view>& words,
+                                       std::size_t first, std::size_t count) {
     if (words.size() < first + count)
         fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants ", count,
              " numbers, found ", words.size() - std::min(first, words.size()));
     std::vector<double> list;
-    for (std::size_t i = first; i < first + count; ++i) list.push_back(number_of(line, words[i]));
+    for (std::size_t i = first; i < first + count; ++i)
+        list.push_back(parse_word_number(line, words[i]));
     return list;
 }
 
-void Unread::add(const ObjLine& line) {
+void UnreadStatements::add(const ObjLine& line) {
     auto at = counts_.find(line.keyword);
     if (at == counts_.end())
-        at = counts_.try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "", Count())
+        at = counts_
+                 .try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "", KeywordCount())
                  .first;
     if (at->second.lines++ == 0) at->second.first = line.number;
 }
 
-void Unread::tell(const std::string& file, Notes& notes) const {
+void UnreadStatements::tell(const std::string& file, LoaderNotes& notes) const {
     for (const auto& [keyword, count] : counts_)
         notes.add(keyword.empty() ? "other statements, not read"
-                                  : "statements " + in_quotes(keyword) + ", not read",
+                                  : "statements " + quote_printable(keyword) + ", not read",
                   file + ":" + std::to_string(count.first), count.lines);
 }
 
-dvec3 vector_of(const ObjLine& line) {
+dvec3 parse_line_vector(const ObjLine& line) {
     dvec3 vector(0);
     std::string_view rest = line.rest;
     for (int i = 0; i < 3; ++i) {
         if (rest.empty() || rest.front() == '#')
             fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants 3 numbers, found ",
                  i);
-        vector[i] = number_of(line, take_word(rest));
+        vector[i] = parse_word_number(line, take_word(rest));
     }
     return vector;
 }

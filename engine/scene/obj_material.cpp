@@ -17,31 +17,33 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Returns whether a statement names a texture map, such as "map_Kd", "bump", "norm" or "refl".
-bool is_map(std::string_view keyword) {
+bool is_map_statement(std::string_view keyword) {
     constexpr std::string_view kMaps[] = {"bump", "disp", "decal", "refl", "norm"};
     return keyword.starts_with("map_") || std::ranges::find(kMaps, keyword) != std::end(kMaps);
 }
 
-bool is_bump(std::string_view keyword) {
+bool is_bump_statement(std::string_view keyword) {
     return keyword == "norm" || keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump";
 }
 
 /// Reads a colour from three numbers, or from one number for all channels. Returns none for the
 /// forms "spectral" and "xyz".
-std::optional<dvec3> colour_of(const ObjLine& line) {
+std::optional<dvec3> parse_colour(const ObjLine& line) {
     std::string_view rest = line.rest;
     const std::string_view first = take_word(rest);
     if (first == "spectral" || first == "xyz") return std::nullopt;
-    if (rest.empty() || rest.front() == '#') return dvec3(number_of(line, first));
-    return vector_of(line);
+    if (rest.empty() || rest.front() == '#') return dvec3(parse_word_number(line, first));
+    return parse_line_vector(line);
 }
 
-double number_in(const ObjLine& line) { return numbers(line, words(line), 0, 1)[0]; }
+double parse_line_number(const ObjLine& line) {
+    return parse_word_numbers(line, split_words(line), 0, 1)[0];
+}
 
 /// Reads a map's options and file name. `-s`, `-o` and `-clamp` change the lookup; other options
 /// are skipped.
-MapUse map_of(const ObjLine& line) {
-    MapUse map;
+ObjMapUse parse_map(const ObjLine& line) {
+    ObjMapUse map;
     std::string_view rest = line.rest;
     while (rest.starts_with('-')) {
         const std::string_view option = take_word(rest);
@@ -70,7 +72,7 @@ MapUse map_of(const ObjLine& line) {
 
 /// Returns the real path of a map, or an empty path if it is missing. Backslashes are read as
 /// slashes. If the path is absolute or does not exist, the file name is looked up beside the scene.
-fs::path find_map(const std::string& name, const std::string& place, Files& files) {
+fs::path find_map_file(const std::string& name, const std::string& place, SceneFiles& files) {
     std::string slashed = name;
     std::ranges::replace(slashed, '\\', '/');
     const bool is_absolute = slashed.starts_with('/') ||
@@ -82,91 +84,94 @@ fs::path find_map(const std::string& name, const std::string& place, Files& file
     return real;
 }
 
-void add_map(const ObjLine& line, Context& context, Library& library) {
-    MapUse map = map_of(line);
+void add_map_to_draft(const ObjLine& line, ObjContext& context, MaterialLibrary& library) {
+    ObjMapUse map = parse_map(line);
     if (map.file.empty()) return;
-    map.real = find_map(map.file, line.where(), context.files);
+    map.real = find_map_file(map.file, line.where(), context.files);
     map.place = line.where();
-    Draft& draft = library.drafts.back();
+    MaterialDraft& draft = library.drafts.back();
     if (line.keyword == "map_Kd")
         draft.colour = std::move(map);
     else if (line.keyword == "map_d")
         draft.cut = std::move(map);
     else if (line.keyword != "map_Ka") // ambient, which no light of the engine shows
         add_unsupported_material(context.unsupported,
-                                 is_bump(line.keyword) ? "normal-texture" : "material-extension",
+                                 is_bump_statement(line.keyword) ? "normal-texture"
+                                                                 : "material-extension",
                                  line.where(), library.drafts.size() - 1);
 }
 
 /// A statement with one number, and the member that it sets.
-struct Number {
+struct NumberStatement {
     std::string_view keyword;
-    std::optional<double> Draft::*member;
+    std::optional<double> MaterialDraft::*member;
 };
-constexpr Number kNumbers[] = {{"Ns", &Draft::shininess}, {"Ni", &Draft::ior},
-                               {"Pr", &Draft::roughness}, {"Pm", &Draft::metallic},
-                               {"illum", &Draft::kind},   {"d", &Draft::alpha}};
+constexpr NumberStatement kNumbers[] = {
+    {"Ns", &MaterialDraft::shininess}, {"Ni", &MaterialDraft::ior},
+    {"Pr", &MaterialDraft::roughness}, {"Pm", &MaterialDraft::metallic},
+    {"illum", &MaterialDraft::kind},   {"d", &MaterialDraft::alpha}};
 
-void add_radiance(const ObjLine& line, const dvec3& radiance, Draft& draft) {
+void add_radiance_to_draft(const ObjLine& line, const dvec3& radiance, MaterialDraft& draft) {
     draft.emission = vec3(radiance);
-    check(is_radiance(draft.emission), Failure::bad_data, line.where(),
-          ": 'Ke' wants radiance of at least 0 that fits a float, found ", in_quotes(line.rest));
+    check(is_valid_radiance(draft.emission), Failure::bad_data, line.where(),
+          ": 'Ke' wants radiance of at least 0 that fits a float, found ",
+          quote_printable(line.rest));
 }
 
 /// Reads a statement into a member of the draft. Returns false if the draft has none for it.
-bool add_member(const ObjLine& line, Draft& draft) {
-    const auto* const number = std::ranges::find(kNumbers, line.keyword, &Number::keyword);
+bool add_statement_to_draft(const ObjLine& line, MaterialDraft& draft) {
+    const auto* const number = std::ranges::find(kNumbers, line.keyword, &NumberStatement::keyword);
     if (number != std::end(kNumbers)) {
         // The number may follow an option: "d -halo .5".
         std::string_view rest = line.rest;
         const ObjLine of{line.file, line.number, line.keyword,
                          take_word(rest) == "-halo" ? rest : line.rest};
-        const double value = number_in(of);
+        const double value = parse_line_number(of);
         check(line.keyword != "illum" || (value >= 0 && value <= 10 && value == std::floor(value)),
               Failure::bad_data, line.where(),
               ": 'illum' wants a whole number from 0 to 10, found ", value);
         draft.*(number->member) = value;
         return true;
     }
-    if (line.keyword == "Tr") return draft.alpha = 1 - number_in(line), true;
+    if (line.keyword == "Tr") return draft.alpha = 1 - parse_line_number(line), true;
     if (line.keyword == "#two_sided") return draft.two_sided = true;
     if (line.keyword == "#fixed_normals") return draft.fixed_normals = true;
     if (line.keyword != "Kd" && line.keyword != "Ks" && line.keyword != "Ke") return false;
-    const std::optional<dvec3> colour = colour_of(line);
+    const std::optional<dvec3> colour = parse_colour(line);
     if (!colour) return false;
     if (line.keyword == "Kd") draft.diffuse = colour;
     if (line.keyword == "Ks") draft.specular = colour;
-    if (line.keyword == "Ke") add_radiance(line, *colour, draft);
+    if (line.keyword == "Ke") add_radiance_to_draft(line, *colour, draft);
     return true;
 }
 
-void add_statement(Library& library, const ObjLine& line, Unread& unread, Context& context,
-                   bool& is_in_material) {
+void add_library_statement(MaterialLibrary& library, const ObjLine& line, UnreadStatements& unread,
+                           ObjContext& context, bool& is_in_material) {
     if (line.keyword == "newmtl") {
         context.account.materials.add(1, line.where());
         library.drafts.push_back({.name = std::string(line.rest), .place = line.where()});
         is_in_material = true;
     } else if (!is_in_material) {
         context.notes.add("statements before the first newmtl, left out", line.where());
-    } else if (!add_member(line, library.drafts.back())) {
+    } else if (!add_statement_to_draft(line, library.drafts.back())) {
         if (line.keyword != "map_Kd" && line.keyword != "Ka") unread.add(line);
-        if (is_map(line.keyword)) add_map(line, context, library);
+        if (is_map_statement(line.keyword)) add_map_to_draft(line, context, library);
     }
 }
 
 /// Reads the images of materials. Decodes each image once.
 class MaterialMaps {
 public:
-    explicit MaterialMaps(Context& context) : context_(context) {}
+    explicit MaterialMaps(ObjContext& context) : context_(context) {}
 
-    std::optional<Texture> of(const MapUse& map) {
+    std::optional<Texture> of(const ObjMapUse& map) {
         const std::shared_ptr<const Image> image = image_of(map);
         if (!image) {
             context_.notes.add("images that are not there or of a kind that is not read, drawn "
                                "without",
-                               map.place + ": " + in_quotes(map.file));
+                               map.place + ": " + quote_printable(map.file));
             add_unsupported(context_.unsupported, "missing-image",
-                            map.place + ": " + in_quotes(map.file));
+                            map.place + ": " + quote_printable(map.file));
             return std::nullopt;
         }
         const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
@@ -181,25 +186,27 @@ public:
     }
 
 private:
-    std::shared_ptr<const Image> image_of(const MapUse& map) {
+    std::shared_ptr<const Image> image_of(const ObjMapUse& map) {
         if (map.real.empty()) return nullptr;
         const auto [entry, is_new] = images_.try_emplace(map.real.string());
         if (is_new)
             entry->second = decode_image(context_.files.read(map.real, map.place), map.file,
-                                         map.place + ": " + in_quotes(map.file), context_.account);
+                                         map.place + ": " + quote_printable(map.file),
+                                         context_.account);
         return entry->second;
     }
 
-    Context& context_;
+    ObjContext& context_;
     std::map<std::string, std::shared_ptr<const Image>> images_;
 };
 
-vec3 fraction(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
+vec3 clamp_to_fraction(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
 
 /// Turns a draft into an engine material, as scene.md describes under "Surface".
-class Maker {
+class MaterialMaker {
 public:
-    Maker(const Draft& draft, std::size_t index, MaterialMaps& maps, Context& context)
+    MaterialMaker(const MaterialDraft& draft, std::size_t index, MaterialMaps& maps,
+                  ObjContext& context)
         : draft_(draft), index_(index), maps_(maps), context_(context) {}
 
     Material make() {
@@ -207,22 +214,22 @@ public:
         material_ = {.name = draft_.name, .emission = draft_.emission};
         // Without Kd the albedo is white under a map, black if emissive or illum 3, else grey.
         const bool shines = draft_.emission != vec3(0) || kind_ == 3;
-        material_.albedo = fraction(draft_.diffuse.value_or(draft_.colour ? dvec3(1)
-                                                            : shines      ? dvec3(0)
-                                                                          : dvec3(0.8)));
+        material_.albedo = clamp_to_fraction(draft_.diffuse.value_or(draft_.colour ? dvec3(1)
+                                                                     : shines      ? dvec3(0)
+                                                                                   : dvec3(0.8)));
         if (draft_.colour) material_.albedo_texture = maps_.of(*draft_.colour);
-        sides();
+        set_sidedness();
         transparency();
-        if (has_lobe()) gap("specular-left-out");
+        if (has_lobe()) report_unsupported("specular-left-out");
         if (draft_.roughness || draft_.metallic)
-            physical();
+            set_physical_factors();
         else
             reflection();
         return material_;
     }
 
 private:
-    void gap(const char* id) {
+    void report_unsupported(const char* id) {
         add_unsupported_material(context_.unsupported, id, draft_.place, index_);
     }
 
@@ -233,7 +240,7 @@ private:
         return has_highlight || draft_.roughness || draft_.metallic;
     }
 
-    void sides() {
+    void set_sidedness() {
         const bool is_lamp = draft_.emission != vec3(0);
         material_.two_sided = is_lamp ? draft_.two_sided : !draft_.fixed_normals;
     }
@@ -244,20 +251,20 @@ private:
                               (alpha < 1 && draft_.ior.value_or(1) > 1.01);
         if (is_glass) {
             context_.notes.add("glass, drawn as what it is without being clear", draft_.place);
-            return gap("glass-as-diffuse"), gap("glass-shadow");
+            return report_unsupported("glass-as-diffuse"), report_unsupported("glass-shadow");
         }
         const bool is_cut = draft_.cut && material_.albedo_texture &&
                             draft_.cut->real == draft_.colour->real;
-        if (draft_.cut && !is_cut) gap("material-extension");
+        if (draft_.cut && !is_cut) report_unsupported("material-extension");
         if (alpha == 1 && !is_cut) return;
         context_.notes.add("materials that let light through, cut where half is left",
                            draft_.place);
-        gap("blend-as-mask");
+        report_unsupported("blend-as-mask");
         material_.alpha = static_cast<float>(alpha);
         material_.alpha_cutoff = .5f;
     }
 
-    void physical() {
+    void set_physical_factors() {
         material_.metallic = static_cast<float>(std::clamp(draft_.metallic.value_or(0), 0.0, 1.0));
         material_.roughness = static_cast<float>(
             std::clamp(draft_.roughness.value_or(1), 0.0, 1.0));
@@ -267,7 +274,7 @@ private:
     /// approximation. All others are diffuse.
     void reflection() {
         if (kind_ != 3 && kind_ != 5 && kind_ != 8) return;
-        const vec3 f0 = fraction(draft_.specular.value_or(dvec3(0)));
+        const vec3 f0 = clamp_to_fraction(draft_.specular.value_or(dvec3(0)));
         const double shininess = draft_.shininess.value_or(100);
         const bool is_sharp = shininess >= 100;
         if (kind_ != 5 && is_sharp && largest_channel(f0) >= kLeastMirrorF0) {
@@ -281,32 +288,32 @@ private:
         if (kind_ != 5) material_.dielectric_f90 = f0;
     }
 
-    const Draft& draft_;
+    const MaterialDraft& draft_;
     std::size_t index_;
     MaterialMaps& maps_;
-    Context& context_;
+    ObjContext& context_;
     Material material_;
     int kind_ = 0;
 };
 
 } // namespace
 
-void read_materials(const fs::path& real, const std::string& place, Context& context,
-                    Library& library) {
-    Unread unread;
+void read_material_library(const fs::path& real, const std::string& place, ObjContext& context,
+                           MaterialLibrary& library) {
+    UnreadStatements unread;
     bool is_in_material = false;
     const std::string file = real.string();
-    for_each_line(file, context.files.read(real, place), [&](const ObjLine& line) {
-        add_statement(library, line, unread, context, is_in_material);
+    for_each_obj_line(file, context.files.read(real, place), [&](const ObjLine& line) {
+        add_library_statement(library, line, unread, context, is_in_material);
     });
     unread.tell(file, context.notes);
 }
 
-std::vector<Material> materials_of(const Library& library, Context& context) {
+std::vector<Material> make_library_materials(const MaterialLibrary& library, ObjContext& context) {
     std::vector<Material> materials;
     MaterialMaps maps(context);
-    for (const Draft& draft : library.drafts)
-        materials.push_back(Maker(draft, materials.size(), maps, context).make());
+    for (const MaterialDraft& draft : library.drafts)
+        materials.push_back(MaterialMaker(draft, materials.size(), maps, context).make());
     return materials;
 }
 

@@ -10,7 +10,8 @@ using glm::dvec2;
 
 /// Projects a polygon's corners to two dimensions, along the axis in which its normal is longest.
 /// The axes are ordered so that the result runs counter-clockwise.
-std::vector<dvec2> flattened(std::span<const Corner> polygon, const std::vector<dvec3>& positions) {
+std::vector<dvec2> project_to_plane(std::span<const ObjCorner> polygon,
+                                    const std::vector<dvec3>& positions) {
     const auto at = [&](std::size_t i) { return positions[polygon[i % polygon.size()].position]; };
     dvec3 normal(0); // Newell's normal: twice the projected area, for each axis
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -25,14 +26,14 @@ std::vector<dvec2> flattened(std::span<const Corner> polygon, const std::vector<
 }
 
 /// Returns twice the signed area of the triangle a, b, c. It is above 0 if they turn left.
-double turn(const dvec2& a, const dvec2& b, const dvec2& c) {
+double twice_signed_area(const dvec2& a, const dvec2& b, const dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 /// Triangulates by clipping ears: convex corners whose triangle holds no reflex corner (notch).
-class Ears {
+class EarClipper {
 public:
-    Ears(const std::vector<dvec2>& points, Total& comparisons, const ObjLine& line)
+    EarClipper(const std::vector<dvec2>& points, LimitedSum& comparisons, const ObjLine& line)
         : points_(points), comparisons_(comparisons), line_(line), next_(points.size()),
           previous_(points.size()), left_(points.size()) {
         for (std::size_t i = 0; i < left_; ++i) {
@@ -44,7 +45,7 @@ public:
 
     /// Calls `body` with the three corners of each triangle.
     template <typename Body>
-    void take(Body&& body) {
+    void clip_all_ears(Body&& body) {
         // `refused` counts corners in a row that are no ears. If none is left in a polygon that
         // crosses itself, any corner is clipped.
         std::size_t corner = 0, refused = 0;
@@ -67,21 +68,22 @@ public:
 
 private:
     bool is_notch(std::size_t i) const {
-        return turn(points_[previous_[i]], points_[i], points_[next_[i]]) < 0;
+        return twice_signed_area(points_[previous_[i]], points_[i], points_[next_[i]]) < 0;
     }
     bool is_ear(std::size_t i) {
         comparisons_.add(notches_.size() + 1, *line_.file, ":", line_.number);
         const dvec2 &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
-        if (!(turn(a, b, c) > 0)) return false;
+        if (!(twice_signed_area(a, b, c) > 0)) return false;
         return std::ranges::none_of(notches_, [&](std::size_t k) {
             const dvec2& p = points_[k];
             if (p == a || p == b || p == c) return false;
-            return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+            return twice_signed_area(a, b, p) >= 0 && twice_signed_area(b, c, p) >= 0 &&
+                   twice_signed_area(c, a, p) >= 0;
         });
     }
 
     const std::vector<dvec2>& points_;
-    Total& comparisons_;
+    LimitedSum& comparisons_;
     const ObjLine& line_;
     std::vector<std::size_t> next_, previous_, notches_;
     std::size_t left_;
@@ -89,15 +91,16 @@ private:
 
 } // namespace
 
-void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
-         const ObjLine& line, std::vector<Corner>& triangles) {
+void triangulate_polygon(std::span<const ObjCorner> polygon, const std::vector<dvec3>& positions,
+                         LimitedSum& comparisons, const ObjLine& line,
+                         std::vector<ObjCorner>& triangles) {
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         triangles.insert(triangles.end(), {polygon[a], polygon[b], polygon[c]});
     };
     if (polygon.size() == 3) return add(0, 1, 2);
-    const std::vector<dvec2> points = flattened(polygon, positions);
-    Ears ears(points, comparisons, line);
-    if (!ears.is_convex()) return ears.take(add);
+    const std::vector<dvec2> points = project_to_plane(polygon, positions);
+    EarClipper ears(points, comparisons, line);
+    if (!ears.is_convex()) return ears.clip_all_ears(add);
     const auto apart = [&](std::size_t a, std::size_t b) {
         return glm::distance(positions[polygon[a].position], positions[polygon[b].position]);
     };

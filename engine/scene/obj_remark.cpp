@@ -13,53 +13,57 @@ namespace {
 
 using WordList = std::vector<std::string_view>;
 
-dvec3 vector_at(const std::vector<double>& list, std::size_t first) {
+dvec3 parse_vector_at(const std::vector<double>& list, std::size_t first) {
     return {list[first], list[first + 1], list[first + 2]};
 }
 
-Camera camera(const ObjLine& line, const WordList& words) {
-    const std::vector<double> n = numbers(line, words, 1, 10);
+Camera parse_camera_remark(const ObjLine& line, const WordList& words) {
+    const std::vector<double> n = parse_word_numbers(line, words, 1, 10);
     const Camera camera{.name = std::string(words[0]),
-                        .eye = vector_at(n, 0),
-                        .target = vector_at(n, 3),
-                        .up = vector_at(n, 6),
+                        .eye = parse_vector_at(n, 0),
+                        .target = parse_vector_at(n, 3),
+                        .up = parse_vector_at(n, 6),
                         .vertical_fov_degrees = n[9]};
     const dvec3 side = normalized_or_zero(glm::cross(camera.target - camera.eye, camera.up));
-    check(side != dvec3(0), Failure::bad_data, line.where(), ": camera ", in_quotes(camera.name),
-          " wants an up that is not along its view, found none");
+    check(side != dvec3(0), Failure::bad_data, line.where(), ": camera ",
+          quote_printable(camera.name), " wants an up that is not along its view, found none");
     check(n[9] > 0 && n[9] < 180, Failure::bad_data, line.where(), ": camera ",
-          in_quotes(camera.name), " wants a field of view between 0 and 180 degrees, found ", n[9]);
+          quote_printable(camera.name), " wants a field of view between 0 and 180 degrees, found ",
+          n[9]);
     return camera;
 }
 
-Harmonic harmonic(const ObjLine& line, const WordList& words) {
-    const std::vector<double> n = numbers(line, words, 2, 4);
-    check(n[3] > 0, Failure::bad_data, line.where(), ": motion of ", in_quotes(words[0]),
+HarmonicMotion parse_harmonic_remark(const ObjLine& line, const WordList& words) {
+    const std::vector<double> n = parse_word_numbers(line, words, 2, 4);
+    check(n[3] > 0, Failure::bad_data, line.where(), ": motion of ", quote_printable(words[0]),
           " wants a period above 0, found ", n[3]);
-    return {.amplitude = vector_at(n, 0), .period = n[3]};
+    return {.amplitude = parse_vector_at(n, 0), .period = n[3]};
 }
 
 /// Reads a key count, and then time and position of each key. Words are not stored in a list,
 /// because a line may be as long as the file. Throws `bad_data`.
-Keyframes keyframes(const ObjLine& line, std::string_view name, std::string_view rest,
-                    Keys::Interpolation interpolation, Account& account) {
-    const bool is_cubic = interpolation == Keys::Interpolation::cubic;
+Keyframes parse_keyframes_remark(const ObjLine& line, std::string_view name, std::string_view rest,
+                                 TranslationTrack::Interpolation interpolation,
+                                 BudgetAccount& account) {
+    const bool is_cubic = interpolation == TranslationTrack::Interpolation::cubic;
     const std::size_t stride = is_cubic ? 10 : 4;
-    const double count = number_of(line, take_word(rest));
+    const double count = parse_word_number(line, take_word(rest));
     const std::size_t found = count_words(rest);
     check(count >= 1 && count * double(stride) == double(found), Failure::bad_data, line.where(),
-          ": motion of ", in_quotes(name), " wants ", stride, " numbers for each of ", count,
+          ": motion of ", quote_printable(name), " wants ", stride, " numbers for each of ", count,
           " keys, found ", found);
     account.keys.add(found / stride, line.where());
-    auto keys = std::make_shared<Keys>(Keys{.interpolation = interpolation});
+    auto keys = std::make_shared<TranslationTrack>(
+        TranslationTrack{.interpolation = interpolation});
     const auto vector = [&] {
-        const double x = number_of(line, take_word(rest)), y = number_of(line, take_word(rest));
-        return dvec3(x, y, number_of(line, take_word(rest)));
+        const double x = parse_word_number(line, take_word(rest)),
+                     y = parse_word_number(line, take_word(rest));
+        return dvec3(x, y, parse_word_number(line, take_word(rest)));
     };
     for (std::size_t i = 0; i < found / stride; ++i) {
-        const double time = number_of(line, take_word(rest));
+        const double time = parse_word_number(line, take_word(rest));
         check(keys->times.empty() || time > keys->times.back(), Failure::bad_data, line.where(),
-              ": motion of ", in_quotes(name), " wants increasing times, found ", time);
+              ": motion of ", quote_printable(name), " wants increasing times, found ", time);
         keys->times.push_back(time);
         if (is_cubic) keys->in_tangents.push_back(vector());
         keys->values.push_back(vector());
@@ -68,33 +72,33 @@ Keyframes keyframes(const ObjLine& line, std::string_view name, std::string_view
     return {.keys = std::move(keys)};
 }
 
-Motion motion(const ObjLine& line, Account& account) {
-    using enum Keys::Interpolation;
+Motion parse_motion_remark(const ObjLine& line, BudgetAccount& account) {
+    using enum TranslationTrack::Interpolation;
     std::string_view rest = line.rest;
     const std::string_view name = take_word(rest), kind = take_word(rest);
-    if (kind == "harmonic") return harmonic(line, words(line));
-    if (kind == "step") return keyframes(line, name, rest, step, account);
-    if (kind == "linear") return keyframes(line, name, rest, linear, account);
-    if (kind == "cubic") return keyframes(line, name, rest, cubic, account);
+    if (kind == "harmonic") return parse_harmonic_remark(line, split_words(line));
+    if (kind == "step") return parse_keyframes_remark(line, name, rest, step, account);
+    if (kind == "linear") return parse_keyframes_remark(line, name, rest, linear, account);
+    if (kind == "cubic") return parse_keyframes_remark(line, name, rest, cubic, account);
     fail(Failure::bad_data, line.where(), ": motion wants harmonic, step, linear or cubic, found ",
-         in_quotes(kind));
+         quote_printable(kind));
 }
 
-Sphere sphere(const ObjLine& line, const WordList& words) {
-    const std::vector<double> n = numbers(line, words, 1, 4);
-    check(n[3] > 0, Failure::bad_data, line.where(), ": sphere ", in_quotes(words[0]),
+Sphere parse_sphere_remark(const ObjLine& line, const WordList& words) {
+    const std::vector<double> n = parse_word_numbers(line, words, 1, 4);
+    check(n[3] > 0, Failure::bad_data, line.where(), ": sphere ", quote_printable(words[0]),
           " wants a radius above 0, found ", n[3]);
-    return {vector_at(n, 0), n[3]};
+    return {parse_vector_at(n, 0), n[3]};
 }
 
 } // namespace
 
-void add_remark(Remarks& remarks, const ObjLine& line, Account& account) {
-    const WordList list = words(line);
-    check(!list.empty(), Failure::bad_data, line.where(), ": ", in_quotes(line.keyword),
+void add_catoptric_remark(CatoptricRemarks& remarks, const ObjLine& line, BudgetAccount& account) {
+    const WordList list = split_words(line);
+    check(!list.empty(), Failure::bad_data, line.where(), ": ", quote_printable(line.keyword),
           " wants a name, found none");
     if (line.keyword == "#exposure") {
-        const double stops = numbers(line, list, 0, 1)[0];
+        const double stops = parse_word_numbers(line, list, 0, 1)[0];
         check(std::abs(stops) <= kMostStops, Failure::bad_data, line.where(), ": exposure wants ",
               -kMostStops, " to ", kMostStops, ", found ", stops);
         remarks.exposure = stops;
@@ -103,7 +107,7 @@ void add_remark(Remarks& remarks, const ObjLine& line, Account& account) {
     const std::string name(list[0]);
     if (line.keyword == "#camera") {
         account.cameras.add(1, line.where());
-        remarks.cameras.push_back(camera(line, list));
+        remarks.cameras.push_back(parse_camera_remark(line, list));
         return;
     }
     if (!remarks.named_at.contains(name)) {
@@ -111,15 +115,15 @@ void add_remark(Remarks& remarks, const ObjLine& line, Account& account) {
         remarks.named_at[name] = line.where();
     }
     if (line.keyword == "#motion")
-        remarks.motions[name] = motion(line, account);
+        remarks.motions[name] = parse_motion_remark(line, account);
     else if (line.keyword == "#sphere")
-        remarks.spheres[name] = sphere(line, list);
+        remarks.spheres[name] = parse_sphere_remark(line, list);
     else if (line.keyword == "#hidden")
         remarks.hidden[name] = true;
     else
         fail(Failure::bad_data, line.where(),
              ": '# catoptric' wants camera, motion, sphere, hidden or exposure, found ",
-             in_quotes(line.keyword.substr(1)));
+             quote_printable(line.keyword.substr(1)));
 }
 
 } // namespace catoptric::scene::obj

@@ -20,14 +20,14 @@ namespace {
 /// they refer to.
 class ObjReader {
 public:
-    ObjReader(const std::string& file, Context& context) : file_(file), context_(context) {}
+    ObjReader(const std::string& file, ObjContext& context) : file_(file), context_(context) {}
 
     /// Reads one line of the first pass: everything but faces, groups and uses of materials.
-    void definition(const ObjLine& line);
+    void read_definition_line(const ObjLine& line);
     void name_materials();
     /// Reads one line of the second pass: faces, groups and uses of materials.
-    void use(const ObjLine& line);
-    Text finish();
+    void read_use_line(const ObjLine& line);
+    ObjText finish();
 
 private:
     void library(const ObjLine& line);
@@ -35,40 +35,41 @@ private:
     void position(const ObjLine& line);
     void texture_coordinates(const ObjLine& line);
     void face(const ObjLine& line);
-    Corner corner(const ObjLine& line, std::string_view word) const;
+    ObjCorner corner(const ObjLine& line, std::string_view word) const;
     void group(const ObjLine& line);
     void use_material(const ObjLine& line);
 
     const std::string& file_;
-    Context& context_;
-    Text text_;
-    Unread unread_;
+    ObjContext& context_;
+    ObjText text_;
+    UnreadStatements unread_;
     std::unordered_set<std::string> libraries_; ///< real paths of the libraries read so far
     std::unordered_map<std::string, std::size_t> material_of_;
     std::optional<std::size_t> material_;               ///< of the next faces
     std::size_t positions_ = 0, normals_ = 0, uvs_ = 0; ///< counts in the second pass so far
     bool has_faces_ = false;                            ///< whether the last shape has faces
-    std::vector<Corner> polygon_, triangles_;           ///< of the current face
+    std::vector<ObjCorner> polygon_, triangles_;        ///< of the current face
 };
 
 void ObjReader::library_file(const ObjLine& line, const std::string& name) {
     const std::string place = line.where() + ": mtllib";
     const fs::path real = context_.files.find(name, place);
     if (real.empty()) {
-        context_.notes.add("material libraries that are not there", place + ": " + in_quotes(name));
+        context_.notes.add("material libraries that are not there",
+                           place + ": " + quote_printable(name));
         add_unsupported(context_.unsupported, "missing-material",
-                        line.where() + ": " + in_quotes(name));
+                        line.where() + ": " + quote_printable(name));
     } else if (libraries_.insert(real.string()).second)
-        read_materials(real, place, context_, text_.library);
+        read_material_library(real, place, context_, text_.library);
 }
 
 /// Reads `mtllib`. The line is one name with spaces if such a file exists, else several names.
 void ObjReader::library(const ObjLine& line) {
-    const std::vector<std::string_view> names = words(line);
+    const std::vector<std::string_view> names = split_words(line);
     check(!names.empty(), Failure::bad_data, line.where(),
           ": mtllib wants a file name, found none");
     const std::string all(line.rest);
-    const bool is_one = names.size() > 1 && all.size() <= Files::kLongestName &&
+    const bool is_one = names.size() > 1 && all.size() <= SceneFiles::kLongestName &&
                         !context_.files.find(all, line.where() + ": mtllib").empty();
     if (is_one) return library_file(line, all);
     for (const std::string_view name : names) library_file(line, std::string(name));
@@ -87,9 +88,9 @@ void ObjReader::use_material(const ObjLine& line) {
         // Without any material, the missing library has been noted already.
         const bool has_any = !text_.library.drafts.empty();
         context_.notes.add("uses of materials that no library has, drawn grey",
-                           line.where() + ": " + in_quotes(name), has_any ? 1 : 0);
+                           line.where() + ": " + quote_printable(name), has_any ? 1 : 0);
         add_unsupported(context_.unsupported, "missing-material",
-                        line.where() + ": " + in_quotes(name));
+                        line.where() + ": " + quote_printable(name));
         if (material_) text_.statements += "usemtl none\n";
         material_.reset();
         return;
@@ -117,14 +118,14 @@ void ObjReader::group(const ObjLine& line) {
 
 /// Parses an index and returns it from 0. A negative index counts back from the last of the
 /// `so_far` elements before the line. Throws `bad_data` if no element has the index.
-std::uint32_t index_of(const ObjLine& line, std::string_view digits, std::size_t so_far,
-                       std::size_t count, std::string_view what) {
+std::uint32_t parse_obj_index(const ObjLine& line, std::string_view digits, std::size_t so_far,
+                              std::size_t count, std::string_view what) {
     std::int64_t value = 0;
     const char* end = digits.data() + digits.size();
     const auto result = std::from_chars(digits.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end || value == 0)
         fail(Failure::bad_data, line.where(), ": face wants an index other than 0, found ",
-             in_quotes(digits));
+             quote_printable(digits));
     if (value < 0 && std::uint64_t(0) - std::uint64_t(value) > so_far)
         fail(Failure::bad_data, line.where(), ": face wants one of ", so_far,
              " vertices so far, found ", value);
@@ -135,18 +136,19 @@ std::uint32_t index_of(const ObjLine& line, std::string_view digits, std::size_t
 }
 
 /// Parses a face corner: "v", "v/vt", "v//vn" or "v/vt/vn".
-Corner ObjReader::corner(const ObjLine& line, std::string_view word) const {
+ObjCorner ObjReader::corner(const ObjLine& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
-    Corner corner{
-        index_of(line, word.substr(0, slash), positions_, text_.positions.size(), "positions"),
-        kNone, kNone};
+    ObjCorner corner{parse_obj_index(line, word.substr(0, slash), positions_,
+                                     text_.positions.size(), "positions"),
+                     kNone, kNone};
     if (last != slash && last + 1 != word.size())
-        corner.normal = index_of(line, word.substr(last + 1), normals_, text_.normals.size(),
-                                 "normals");
+        corner.normal = parse_obj_index(line, word.substr(last + 1), normals_, text_.normals.size(),
+                                        "normals");
     if (slash == word.npos) return corner;
     const std::string_view uv = word.substr(slash + 1,
                                             last == slash ? word.npos : last - slash - 1);
-    if (!uv.empty()) corner.uv = index_of(line, uv, uvs_, text_.uv.size(), "texture coordinates");
+    if (!uv.empty())
+        corner.uv = parse_obj_index(line, uv, uvs_, text_.uv.size(), "texture coordinates");
     return corner;
 }
 
@@ -160,7 +162,7 @@ void ObjReader::face(const ObjLine& line) {
     polygon_.clear(), triangles_.clear();
     std::string_view rest = line.rest;
     for (std::size_t i = 0; i < count; ++i) polygon_.push_back(corner(line, take_word(rest)));
-    cut(polygon_, text_.positions, context_.account.cuts, line, triangles_);
+    triangulate_polygon(polygon_, text_.positions, context_.account.cuts, line, triangles_);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto [position, normal, uv] = triangles_[i];
         (text_.statements += i % 3 == 0 ? "f " : " ") += std::to_string(position + 1);
@@ -175,35 +177,36 @@ void ObjReader::face(const ObjLine& line) {
 /// Reads a position: x y z, optionally followed by w, r g b, or w r g b. w is ignored.
 void ObjReader::position(const ObjLine& line) {
     context_.account.positions.add(1, *line.file, ":", line.number);
-    text_.positions.push_back(vector_of(line));
+    text_.positions.push_back(parse_line_vector(line));
     const std::size_t count = count_words(line.rest);
     if (count < 6 && text_.colours.empty()) return;
     text_.colours.resize(text_.positions.size(), vec3(1));
     if (count < 6) return;
-    const std::vector<double> rgb = numbers(line, words(line), count > 6 ? 4 : 3, 3);
+    const std::vector<double> rgb = parse_word_numbers(line, split_words(line), count > 6 ? 4 : 3,
+                                                       3);
     text_.colours.back() = vec3(glm::clamp(dvec3(rgb[0], rgb[1], rgb[2]), 0.0, 1.0));
 }
 
 void ObjReader::texture_coordinates(const ObjLine& line) {
     context_.account.attributes.add(1, *line.file, ":", line.number);
     std::string_view rest = line.rest;
-    const double u = number_of(line, take_word(rest));
+    const double u = parse_word_number(line, take_word(rest));
     const bool has_v = !rest.empty() && rest.front() != '#';
-    text_.uv.emplace_back(u, has_v ? number_of(line, take_word(rest)) : 0);
+    text_.uv.emplace_back(u, has_v ? parse_word_number(line, take_word(rest)) : 0);
 }
 
-void ObjReader::definition(const ObjLine& line) {
+void ObjReader::read_definition_line(const ObjLine& line) {
     if (line.keyword == "v") {
         position(line);
     } else if (line.keyword == "vt") {
         texture_coordinates(line);
     } else if (line.keyword == "vn") {
         context_.account.normals.add(1, *line.file, ":", line.number);
-        text_.normals.push_back(vector_of(line));
+        text_.normals.push_back(parse_line_vector(line));
     } else if (line.keyword == "mtllib") {
         library(line);
     } else if (line.keyword.front() == '#') {
-        add_remark(text_.remarks, line, context_.account);
+        add_catoptric_remark(text_.remarks, line, context_.account);
     } else if (line.keyword != "f" && line.keyword != "o" && line.keyword != "g" &&
                line.keyword != "usemtl") {
         if (line.keyword == "p" || line.keyword == "l")
@@ -212,7 +215,7 @@ void ObjReader::definition(const ObjLine& line) {
     }
 }
 
-void ObjReader::use(const ObjLine& line) {
+void ObjReader::read_use_line(const ObjLine& line) {
     if (line.keyword == "v") ++positions_;
     if (line.keyword == "vn") ++normals_;
     if (line.keyword == "vt") ++uvs_;
@@ -221,7 +224,7 @@ void ObjReader::use(const ObjLine& line) {
     if (line.keyword == "usemtl") use_material(line);
 }
 
-Text ObjReader::finish() {
+ObjText ObjReader::finish() {
     unread_.tell(file_, context_.notes);
     if (!has_faces_) text_.names.pop_back();
     return std::move(text_);
@@ -229,14 +232,14 @@ Text ObjReader::finish() {
 
 } // namespace
 
-Text read_text(const std::string& file, Context& context) {
+ObjText read_obj_text(const std::string& file, ObjContext& context) {
     ObjReader reader(file, context);
     const std::string bytes = context.files.read_scene();
     check(!bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff"), Failure::bad_data, file,
           ": wanted text in UTF-8, found UTF-16");
-    for_each_line(file, bytes, [&](const ObjLine& line) { reader.definition(line); });
+    for_each_obj_line(file, bytes, [&](const ObjLine& line) { reader.read_definition_line(line); });
     reader.name_materials();
-    for_each_line(file, bytes, [&](const ObjLine& line) { reader.use(line); });
+    for_each_obj_line(file, bytes, [&](const ObjLine& line) { reader.read_use_line(line); });
     return reader.finish();
 }
 

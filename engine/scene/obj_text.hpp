@@ -32,45 +32,46 @@ struct ObjLine {
 
 /// Calls `body` for each statement and each `# catoptric` comment. Empty lines and other comments
 /// are skipped. A backslash at the end of a line joins it with the next line.
-void for_each_line(const std::string& file, std::string_view text,
-                   const std::function<void(const ObjLine&)>& body);
+void for_each_obj_line(const std::string& file, std::string_view text,
+                       const std::function<void(const ObjLine&)>& body);
 
 /// Removes the first word from the front of `text` and returns it.
 std::string_view take_word(std::string_view& text);
 
 /// Returns the words of `line.rest` up to a comment, at most 4096 words.
-std::vector<std::string_view> words(const ObjLine& line);
+std::vector<std::string_view> split_words(const ObjLine& line);
 /// Returns the number of words up to a comment.
 std::size_t count_words(std::string_view text);
 
 /// Parses a word as a finite number. Throws `bad_data` naming the line.
-double number_of(const ObjLine& line, std::string_view word);
+double parse_word_number(const ObjLine& line, std::string_view word);
 
 /// Parses the words [first, first + count) as finite numbers. Throws `bad_data` naming the line.
-std::vector<double> numbers(const ObjLine& line, const std::vector<std::string_view>& words,
-                            std::size_t first, std::size_t count);
+std::vector<double> parse_word_numbers(const ObjLine& line,
+                                       const std::vector<std::string_view>& words,
+                                       std::size_t first, std::size_t count);
 
 /// Parses the first three words of `line.rest` as finite numbers. Throws `bad_data` naming the
 /// line.
-dvec3 vector_of(const ObjLine& line);
+dvec3 parse_line_vector(const ObjLine& line);
 
 /// Counts the statements that are not read, by keyword.
-class Unread {
+class UnreadStatements {
 public:
     void add(const ObjLine& line);
     /// Adds a note for each keyword. Keywords after the first 40 share one note.
-    void tell(const std::string& file, Notes& notes) const;
+    void tell(const std::string& file, LoaderNotes& notes) const;
 
 private:
-    struct Count {
+    struct KeywordCount {
         std::uint64_t lines = 0;
         std::size_t first = 0;
     };
-    std::map<std::string, Count, std::less<>> counts_;
+    std::map<std::string, KeywordCount, std::less<>> counts_;
 };
 
 /// A texture map of a material.
-struct MapUse {
+struct ObjMapUse {
     std::string file, place;    ///< name in the library; "FILE:LINE" of the statement
     std::filesystem::path real; ///< real path; empty if the file does not exist
     std::array<double, 2> scale{1, 1}, offset{0, 0}; ///< of u and v, with v upwards
@@ -78,35 +79,35 @@ struct MapUse {
 };
 
 /// A material as its library defines it.
-struct Draft {
+struct MaterialDraft {
     std::string name, place;
     std::optional<dvec3> diffuse, specular;
     vec3 emission{0};
     std::optional<double> shininess, ior, roughness, metallic, kind, alpha;
-    std::optional<MapUse> colour, cut;             ///< map_Kd and map_d
+    std::optional<ObjMapUse> colour, cut;          ///< map_Kd and map_d
     bool two_sided = false, fixed_normals = false; ///< from `# catoptric` comments
 };
 
 /// The materials of all libraries of a file.
-struct Library {
-    std::vector<Draft> drafts;
+struct MaterialLibrary {
+    std::vector<MaterialDraft> drafts;
 };
 
 /// The inputs and lists that readers use besides the text.
-struct Context {
-    Files& files;
-    Account& account;
-    Notes& notes;
+struct ObjContext {
+    SceneFiles& files;
+    BudgetAccount& account;
+    LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
 };
 
 /// Reads one .mtl file and appends its materials to `library`. Throws `bad_data`, `missing_input`
 /// or `io`.
-void read_materials(const std::filesystem::path& real, const std::string& place, Context& context,
-                    Library& library);
+void read_material_library(const std::filesystem::path& real, const std::string& place,
+                           ObjContext& context, MaterialLibrary& library);
 /// Builds the materials in file order, as scene.md describes them, and reads their images. Throws
 /// `bad_data` for an image that cannot be decoded.
-std::vector<Material> materials_of(const Library& library, Context& context);
+std::vector<Material> make_library_materials(const MaterialLibrary& library, ObjContext& context);
 
 /// The contents of the `# catoptric` comments, by object name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
@@ -116,7 +117,7 @@ std::vector<Material> materials_of(const Library& library, Context& context);
 ///   # catoptric sphere OBJECT cx cy cz r
 ///   # catoptric hidden OBJECT            (camera rays pass through it)
 ///   # catoptric exposure STOPS           (of the scene)
-struct Remarks {
+struct CatoptricRemarks {
     std::optional<double> exposure;
     std::vector<Camera> cameras;
     std::map<std::string, Motion> motions;
@@ -127,10 +128,10 @@ struct Remarks {
 };
 
 /// Adds one comment line. Throws `bad_data` naming the line if it is invalid.
-void add_remark(Remarks& remarks, const ObjLine& line, Account& account);
+void add_catoptric_remark(CatoptricRemarks& remarks, const ObjLine& line, BudgetAccount& account);
 
 /// A corner of a face, as indices from 0.
-struct Corner {
+struct ObjCorner {
     std::uint32_t position;
     std::uint32_t normal; ///< `kNone` if absent
     std::uint32_t uv;     ///< `kNone` if absent
@@ -138,25 +139,26 @@ struct Corner {
 inline constexpr std::uint32_t kNone = ~0u;
 
 /// An .obj file, rewritten for tinyobjloader.
-struct Text {
+struct ObjText {
     /// Holds only `mtllib`, `o NUMBER`, `usemtl`, and triangles `f` with valid indices.
     std::string statements = "mtllib all\no 0\n";
     std::vector<std::string> names{1};     ///< of shapes, by the number of `o`
     std::vector<dvec3> positions, normals; ///< doubles, since tinyobjloader rounds to floats
     std::vector<vec3> colours;             ///< one per position, or empty
     std::vector<vec2> uv;                  ///< with v upwards
-    Library library;
-    Remarks remarks;
+    MaterialLibrary library;
+    CatoptricRemarks remarks;
 };
 
 /// Reads an .obj file and its material libraries. Throws `bad_data` with file and line.
-Text read_text(const std::string& file, Context& context);
+ObjText read_obj_text(const std::string& file, ObjContext& context);
 
 /// Cuts a polygon into triangles and appends their corners. A convex quad is cut along its shorter
 /// diagonal, any other convex polygon into a fan, and a concave polygon by clipping ears. There are
 /// at most corners - 2 triangles. The work may grow with the cube of the corners; `comparisons`
 /// counts it. Throws `bad_data` naming the line if the count exceeds the budget.
-void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
-         const ObjLine& line, std::vector<Corner>& triangles);
+void triangulate_polygon(std::span<const ObjCorner> polygon, const std::vector<dvec3>& positions,
+                         LimitedSum& comparisons, const ObjLine& line,
+                         std::vector<ObjCorner>& triangles);
 
 } // namespace catoptric::scene::obj

@@ -6,15 +6,15 @@
 namespace catoptric::scene {
 
 /// Makes squares of two colours (sRGB, 0 to 255), `count` along each edge, 4 x 4 texels each.
-Texture checker(uvec3 dark, uvec3 light, std::uint32_t count);
+Texture make_checker_texture(uvec3 dark, uvec3 light, std::uint32_t count);
 
 /// Makes planks along v with grain and staggered joints; 128 x 128 texels.
-Texture planks(uvec3 colour);
+Texture make_plank_texture(uvec3 colour);
 
 /// Makes a wallpaper: stripes along v with a row of diamonds between them; 64 x 64 texels.
-Texture wallpaper(uvec3 ground, uvec3 figure);
+Texture make_wallpaper_texture(uvec3 ground, uvec3 figure);
 
 /// Makes woven threads; 32 x 32 texels.
-Texture cloth(uvec3 colour);
+Texture make_cloth_texture(uvec3 colour);
 
 } // namespace catoptric::scene

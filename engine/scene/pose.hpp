@@ -17,7 +17,7 @@ double period(const Scene& scene);
 /// Sets `still` to what `at` returns for this time, without copying a mesh or a material. `still`
 /// is a copy of the scene or an earlier result of this function. Throws `Failure::usage` for a time
 /// that is not finite.
-void pose(Scene& still, const Scene& scene, double seconds);
+void pose_scene(Scene& still, const Scene& scene, double seconds);
 
 /// Scene at an instant, valid as long as `scene` lives. Only an animated scene is copied, with each
 /// mesh. Throws as `at`.
@@ -32,9 +32,9 @@ private:
 };
 
 /// Returns the node of a rig that the motion follows, or null if it follows none.
-const Follows* followed(const Motion& motion);
+const RigAttachment* find_followed_node(const Motion& motion);
 
 /// Throws `usage` for a time that is not a finite number of seconds.
-void check_time(double seconds);
+void check_scene_time(double seconds);
 
 } // namespace catoptric::scene

@@ -16,13 +16,13 @@ namespace {
 /// Range of lengths whose squares are finite, non-zero doubles.
 constexpr double kLongest = 1e150, kShortest = 1e-150;
 
-bool is_in_range(const dvec3& v) {
+bool is_coordinate_in_range(const dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kLongest && is_finite(v);
 }
 
 /// Returns a vector along the normal, of any length; zero if the triangle has no area. Edges are
 /// scaled first, so that no size of a triangle over- or underflows.
-dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
+dvec3 triangle_normal_direction(const dvec3& a, const dvec3& b, const dvec3& c) {
     const auto scaled = [](const dvec3& edge) {
         const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
         return size >= kShortest ? edge / size : dvec3(0);
@@ -30,41 +30,41 @@ dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
     return glm::cross(scaled(b - a), scaled(c - a));
 }
 
-dvec3 normal_of(const Mesh& mesh, const uvec3& t) {
+dvec3 unit_triangle_normal(const Mesh& mesh, const uvec3& t) {
     const auto& p = mesh.positions;
-    return normalized_or_zero(edge_cross(p[t.x], p[t.y], p[t.z]));
+    return normalized_or_zero(triangle_normal_direction(p[t.x], p[t.y], p[t.z]));
 }
 
-std::size_t drop_flat_triangles(Mesh& mesh) {
+std::size_t drop_degenerate_triangles(Mesh& mesh) {
     return std::erase_if(mesh.triangles,
-                         [&](const uvec3& t) { return normal_of(mesh, t) == dvec3(0); });
+                         [&](const uvec3& t) { return unit_triangle_normal(mesh, t) == dvec3(0); });
 }
 
 /// Appends a copy of a vertex's element. A list without elements stays empty.
 template <typename Value>
-void repeat(std::vector<Value>& list, std::uint32_t vertex) {
+void repeat_vertex_element(std::vector<Value>& list, std::uint32_t vertex) {
     if (!list.empty()) list.push_back(Value(list[vertex]));
 }
 
 template <typename Value>
-void keep(std::vector<Value>& list, std::size_t to, std::size_t from) {
+void keep_used_elements(std::vector<Value>& list, std::size_t to, std::size_t from) {
     if (!list.empty()) list[to] = list[from];
 }
 
 template <typename Value>
-void shorten(std::vector<Value>& list, std::size_t count) {
+void shorten_vertex_lists(std::vector<Value>& list, std::size_t count) {
     if (!list.empty()) list.resize(count);
 }
 
 /// Gives every corner without a normal a vertex of its own, with the triangle's normal.
-void complete_normals(Mesh& mesh) {
+void add_missing_normals(Mesh& mesh) {
     mesh.normals.resize(mesh.positions.size(), vec3(0));
     for (vec3& normal : mesh.normals) normal = vec3(normalized_or_zero(dvec3(normal)));
-    const std::size_t missing = corners_without_normal(mesh);
+    const std::size_t missing = count_corners_without_normal(mesh);
     mesh.positions.reserve(mesh.positions.size() + missing);
     mesh.normals.reserve(mesh.normals.size() + missing);
     for (uvec3& triangle : mesh.triangles) {
-        const vec3 geometric(normal_of(mesh, triangle));
+        const vec3 geometric(unit_triangle_normal(mesh, triangle));
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = triangle[corner];
             if (mesh.normals[vertex] != vec3(0)) continue;
@@ -72,7 +72,8 @@ void complete_normals(Mesh& mesh) {
             const dvec3 position = mesh.positions[vertex];
             mesh.positions.push_back(position);
             mesh.normals.push_back(geometric);
-            repeat(mesh.uv[0], vertex), repeat(mesh.uv[1], vertex), repeat(mesh.colours, vertex);
+            repeat_vertex_element(mesh.uv[0], vertex), repeat_vertex_element(mesh.uv[1], vertex),
+                repeat_vertex_element(mesh.colours, vertex);
         }
     }
 }
@@ -85,12 +86,14 @@ void drop_unused_vertices(Mesh& mesh) {
         if (renamed[i] == 0) continue;
         mesh.positions[kept] = mesh.positions[i];
         mesh.normals[kept] = mesh.normals[i];
-        keep(mesh.uv[0], kept, i), keep(mesh.uv[1], kept, i), keep(mesh.colours, kept, i);
+        keep_used_elements(mesh.uv[0], kept, i), keep_used_elements(mesh.uv[1], kept, i),
+            keep_used_elements(mesh.colours, kept, i);
         renamed[i] = kept++;
     }
     mesh.positions.resize(kept);
     mesh.normals.resize(kept);
-    shorten(mesh.uv[0], kept), shorten(mesh.uv[1], kept), shorten(mesh.colours, kept);
+    shorten_vertex_lists(mesh.uv[0], kept), shorten_vertex_lists(mesh.uv[1], kept),
+        shorten_vertex_lists(mesh.colours, kept);
     for (uvec3& t : mesh.triangles) t = {renamed[t.x], renamed[t.y], renamed[t.z]};
 }
 
@@ -100,13 +103,13 @@ bool has_area(const Scene& scene, const Object& object) {
         return transform_point(object.world_from_object, mesh.positions[i]);
     };
     return std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
-        return edge_cross(world(t.x), world(t.y), world(t.z)) != dvec3(0);
+        return triangle_normal_direction(world(t.x), world(t.y), world(t.z)) != dvec3(0);
     });
 }
 
 } // namespace
 
-std::size_t corners_without_normal(const Mesh& mesh) {
+std::size_t count_corners_without_normal(const Mesh& mesh) {
     std::size_t count = 0;
     for (const uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner)
@@ -114,31 +117,32 @@ std::size_t corners_without_normal(const Mesh& mesh) {
     return count;
 }
 
-std::size_t repair(Mesh& mesh) {
-    const std::size_t dropped = drop_flat_triangles(mesh);
-    complete_normals(mesh);
+std::size_t repair_mesh(Mesh& mesh) {
+    const std::size_t dropped = drop_degenerate_triangles(mesh);
+    add_missing_normals(mesh);
     drop_unused_vertices(mesh);
     return dropped;
 }
 
-bool is_radiance(const vec3& emission) {
+bool is_valid_radiance(const vec3& emission) {
     return is_finite(emission) && glm::all(glm::greaterThanEqual(emission, vec3(0)));
 }
 
-void finish(Scene& scene, const std::string& file, Notes& notes,
-            std::vector<UnsupportedFeature> unsupported) {
+void finish_loading(Scene& scene, const std::string& file, LoaderNotes& notes,
+                    std::vector<UnsupportedFeature> unsupported) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
-            check(is_in_range(transform_point(object.world_from_object, position)),
-                  Failure::bad_data, file, ": object ", in_quotes(object.name),
+            check(is_coordinate_in_range(transform_point(object.world_from_object, position)),
+                  Failure::bad_data, file, ": object ", quote_printable(object.name),
                   ": wanted finite world coordinates up to 1e150, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
         if (has_area(scene, object)) return false;
-        notes.add("objects that have no triangle with an area, left out", in_quotes(object.name));
+        notes.add("objects that have no triangle with an area, left out",
+                  quote_printable(object.name));
         return true;
     });
-    for (const std::string& name : leave_out_unreachable(scene))
-        notes.add("objects farther away than floats reach, left out", in_quotes(name));
+    for (const std::string& name : drop_distant_objects(scene))
+        notes.add("objects farther away than floats reach, left out", quote_printable(name));
     const auto lines = std::ranges::find(unsupported, "points-lines", &UnsupportedFeature::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none",

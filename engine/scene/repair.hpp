@@ -13,20 +13,20 @@ namespace catoptric::scene {
 /// Drops triangles without area and vertices that no triangle uses. Normals become unit length.
 /// Where a normal is missing or has no direction, the corner gets a vertex of its own with the
 /// triangle's geometric normal. Returns the number of triangles dropped.
-std::size_t repair(Mesh& mesh);
+std::size_t repair_mesh(Mesh& mesh);
 
-/// Returns how many vertices `repair` may add: the number of corners whose normal has no direction.
-/// The mesh has one normal for each position.
-std::size_t corners_without_normal(const Mesh& mesh);
+/// Returns how many vertices `repair_mesh` may add: the number of corners whose normal has no
+/// direction. The mesh has one normal for each position.
+std::size_t count_corners_without_normal(const Mesh& mesh);
 
 /// Returns whether an emission is valid: each component finite and at least 0.
-bool is_radiance(const vec3& emission);
+bool is_valid_radiance(const vec3& emission);
 
 /// Drops objects that have no triangle with an area, or that lie too far out
 /// (leave_out_unreachable). Turns `notes` into the scene's warnings and `unsupported` into its
 /// unsupported features. Throws `bad_data`, naming `file`, if no object is left or if coordinates
 /// exceed 1e150.
-void finish(Scene& scene, const std::string& file, Notes& notes,
-            std::vector<UnsupportedFeature> unsupported = {});
+void finish_loading(Scene& scene, const std::string& file, LoaderNotes& notes,
+                    std::vector<UnsupportedFeature> unsupported = {});
 
 } // namespace catoptric::scene

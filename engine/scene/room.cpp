@@ -13,7 +13,7 @@ namespace catoptric::scene {
 
 namespace {
 
-dmat4 placed(dvec3 at, double degrees = 0) {
+dmat4 place_and_turn(dvec3 at, double degrees = 0) {
     const double angle = glm::radians(degrees);
     dmat4 world(1);
     world[0] = {std::cos(angle), 0, -std::sin(angle), 0};
@@ -23,7 +23,7 @@ dmat4 placed(dvec3 at, double degrees = 0) {
 }
 
 /// Returns a wall whose texture repeats `times` a metre and stands upright on the vertical walls.
-Mesh papered(int face, dvec3 lo, dvec3 hi, float times) {
+Mesh make_papered_wall(int face, dvec3 lo, dvec3 hi, float times) {
     Mesh mesh = wall(face, lo, hi);
     for (const dvec3& p : mesh.positions)
         mesh.uv[0].push_back(times * (face / 2 == 0   ? vec2(p.z, -p.y)
@@ -32,7 +32,8 @@ Mesh papered(int face, dvec3 lo, dvec3 hi, float times) {
     return mesh;
 }
 
-void add_copies(Scene& scene, Mesh mesh, std::size_t material, const std::vector<dmat4>& places) {
+void add_mesh_copies(Scene& scene, Mesh mesh, std::size_t material,
+                     const std::vector<dmat4>& places) {
     for (const dmat4& place : places)
         scene.objects.push_back(
             {.name = mesh.name + " " + std::to_string(1 + (&place - places.data())),
@@ -43,7 +44,7 @@ void add_copies(Scene& scene, Mesh mesh, std::size_t material, const std::vector
 }
 
 /// Returns several boxes as one mesh.
-Mesh boxes(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
+Mesh make_boxes_mesh(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
     Mesh all{.name = name};
     for (const auto& [lo, hi] : of) {
         const Mesh one = box(name, lo, hi);
@@ -58,61 +59,68 @@ Mesh boxes(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& 
 
 void add_furniture(Scene& scene) {
     const std::size_t oak = add_material(
-        scene, {.name = "oak", .albedo = vec3(1), .albedo_texture = planks({150, 104, 60})});
+        scene,
+        {.name = "oak", .albedo = vec3(1), .albedo_texture = make_plank_texture({150, 104, 60})});
     const std::size_t linen = add_material(
-        scene, {.name = "linen", .albedo = vec3(1), .albedo_texture = cloth({206, 96, 70})});
+        scene,
+        {.name = "linen", .albedo = vec3(1), .albedo_texture = make_cloth_texture({206, 96, 70})});
     const std::size_t glaze = add_material(
         scene,
         {.name = "glaze", .albedo = {.08f, .25f, .3f}, .two_sided = true, .roughness = .05f});
-    const Mesh chair = boxes("chair", {{{-.22, .42, -.22}, {.22, .46, .22}},
-                                       {{-.22, .46, .18}, {.22, .95, .22}},
-                                       {{-.22, 0, -.22}, {-.18, .42, -.18}},
-                                       {{.18, 0, -.22}, {.22, .42, -.18}},
-                                       {{-.22, 0, .18}, {-.18, .42, .22}},
-                                       {{.18, 0, .18}, {.22, .42, .22}}});
-    add_copies(scene, chair, oak,
-               {placed({-.45, kStandingGap, .95}), placed({.45, kStandingGap, .95}),
-                placed({-.45, kStandingGap, -.35}, 180), placed({.45, kStandingGap, -.35}, 180),
-                placed({1.05, kStandingGap, .3}, 90), placed({1.9, kStandingGap, 1.7}, 130)});
+    const Mesh chair = make_boxes_mesh("chair", {{{-.22, .42, -.22}, {.22, .46, .22}},
+                                                 {{-.22, .46, .18}, {.22, .95, .22}},
+                                                 {{-.22, 0, -.22}, {-.18, .42, -.18}},
+                                                 {{.18, 0, -.22}, {.22, .42, -.18}},
+                                                 {{-.22, 0, .18}, {-.18, .42, .22}},
+                                                 {{.18, 0, .18}, {.22, .42, .22}}});
+    add_mesh_copies(scene, chair, oak,
+                    {place_and_turn({-.45, kStandingGap, .95}),
+                     place_and_turn({.45, kStandingGap, .95}),
+                     place_and_turn({-.45, kStandingGap, -.35}, 180),
+                     place_and_turn({.45, kStandingGap, -.35}, 180),
+                     place_and_turn({1.05, kStandingGap, .3}, 90),
+                     place_and_turn({1.9, kStandingGap, 1.7}, 130)});
     Mesh cushion = box("cushion", {-.2, .46 + 2 * kStandingGap, -.2}, {.2, .5, .17});
     for (vec2& uv : cushion.uv[0]) uv *= 4;
-    add_copies(scene, cushion, linen,
-               {placed({-.45, 0, .95}), placed({.45, 0, .95}), placed({-.45, 0, -.35}, 180),
-                placed({.45, 0, -.35}, 180)});
+    add_mesh_copies(scene, cushion, linen,
+                    {place_and_turn({-.45, 0, .95}), place_and_turn({.45, 0, .95}),
+                     place_and_turn({-.45, 0, -.35}, 180), place_and_turn({.45, 0, -.35}, 180)});
     add_mesh(scene, box("table top", {-.8, .71, -.2}, {.8, .75, .8}), oak);
-    add_copies(
+    add_mesh_copies(
         scene,
         lathe("leg", {{.05, 0}, {.05, .06}, {.025, .12}, {.045, .35}, {.025, .55}, {.05, .71}}, 16),
         oak,
-        {placed({-.7, 0, -.1}), placed({.7, 0, -.1}), placed({-.7, 0, .7}), placed({.7, 0, .7})});
-    add_copies(scene, lathe("bowl", {{0, 0}, {.1, 0}, {.16, .07}, {.2, .16}}, 32), glaze,
-               {placed({.15, .75 + kStandingGap, .3})});
-    add_copies(
+        {place_and_turn({-.7, 0, -.1}), place_and_turn({.7, 0, -.1}), place_and_turn({-.7, 0, .7}),
+         place_and_turn({.7, 0, .7})});
+    add_mesh_copies(scene, lathe("bowl", {{0, 0}, {.1, 0}, {.16, .07}, {.2, .16}}, 32), glaze,
+                    {place_and_turn({.15, .75 + kStandingGap, .3})});
+    add_mesh_copies(
         scene,
         lathe("vase", {{0, 0}, {.07, 0}, {.11, .12}, {.08, .26}, {.03, .36}, {.05, .42}}, 32),
         glaze,
-        {placed({-.45, .75 + kStandingGap, .45}), placed({2.2, .9 + kStandingGap, -1.2}),
-         placed({2.2, .9 + kStandingGap, -1.6})});
+        {place_and_turn({-.45, .75 + kStandingGap, .45}),
+         place_and_turn({2.2, .9 + kStandingGap, -1.2}),
+         place_and_turn({2.2, .9 + kStandingGap, -1.6})});
     add_mesh(scene, box("sideboard", {1.95, kStandingGap, -2}, {2.45, .9, -.8}), oak);
 }
 
-void add_lights(Scene& scene) {
+void add_room_lights(Scene& scene) {
     const std::size_t bulb = add_material(
         scene, {.name = "bulb", .emission = {2080, 1760, 1280}, .two_sided = true});
     const std::size_t shade = add_material(
         scene, {.name = "shade", .albedo = {.8f, .75f, .62f}, .two_sided = true});
-    const std::vector<dmat4> places{placed({0, 1.75, .3}), placed({-2.1, 1.5, 2})};
+    const std::vector<dmat4> places{place_and_turn({0, 1.75, .3}), place_and_turn({-2.1, 1.5, 2})};
     Mesh lamp = ball("bulb", 2);
     for (dvec3& position : lamp.positions) position *= .04;
-    add_copies(scene, lamp, bulb, places);
-    add_copies(scene, lathe("shade", {{.24, -.12}, {.1, .14}}, 32), shade, places);
-    add_copies(scene, lathe("stand", {{.14, 0}, {.14, .02}, {.012, .04}, {.012, 1.42}}, 12), shade,
-               {placed({-2.1, 0, 2})});
-    Punctual spot{.name = "spot on the wall",
-                  .kind = Punctual::Kind::spot,
-                  .intensity = {16, 16, 18},
-                  .cos_inner = std::cos(glm::radians(14.0)),
-                  .cos_outer = std::cos(glm::radians(24.0))};
+    add_mesh_copies(scene, lamp, bulb, places);
+    add_mesh_copies(scene, lathe("shade", {{.24, -.12}, {.1, .14}}, 32), shade, places);
+    add_mesh_copies(scene, lathe("stand", {{.14, 0}, {.14, .02}, {.012, .04}, {.012, 1.42}}, 12),
+                    shade, {place_and_turn({-2.1, 0, 2})});
+    PunctualLight spot{.name = "spot on the wall",
+                       .kind = PunctualLight::Kind::spot,
+                       .intensity = {16, 16, 18},
+                       .cos_inner = std::cos(glm::radians(14.0)),
+                       .cos_outer = std::cos(glm::radians(24.0))};
     const dvec3 at(1.2, 2.5, .6), to(2.5, 1.1, .9),
         back = glm::normalize(at - to), right = glm::normalize(glm::cross(dvec3(0, 1, 0), back));
     spot.world_from_light = dmat4(dvec4(right, 0), dvec4(glm::cross(back, right), 0),
@@ -124,23 +132,25 @@ void add_lights(Scene& scene) {
 
 Scene furnished_room() {
     Scene scene{.name = "room"};
-    const std::size_t parquet = add_material(scene, {.name = "parquet",
-                                                     .albedo = vec3(1),
-                                                     .roughness = .05f,
-                                                     .albedo_texture = planks({168, 120, 74})});
+    const std::size_t parquet = add_material(
+        scene, {.name = "parquet",
+                .albedo = vec3(1),
+                .roughness = .05f,
+                .albedo_texture = make_plank_texture({168, 120, 74})});
     const std::size_t paper = add_material(
         scene, {.name = "wallpaper",
                 .albedo = vec3(1),
-                .albedo_texture = wallpaper({214, 206, 186}, {150, 170, 160})});
+                .albedo_texture = make_wallpaper_texture({214, 206, 186}, {150, 170, 160})});
     const std::size_t plaster = add_material(scene, {.name = "plaster", .albedo = vec3(.75f)});
     const dvec3 lo(-2.5, 0, -2.5), hi(2.5, 2.6, 2.5);
-    for (const int face : {0, 1, 4, 5}) add_mesh(scene, papered(face, lo, hi, 1.6f), paper);
-    add_mesh(scene, papered(3, lo, hi, .8f), parquet);
+    for (const int face : {0, 1, 4, 5})
+        add_mesh(scene, make_papered_wall(face, lo, hi, 1.6f), paper);
+    add_mesh(scene, make_papered_wall(3, lo, hi, .8f), parquet);
     add_mesh(scene, wall(2, lo, hi), plaster);
     add_quad(scene, "wall mirror", add_material(scene, {.name = "mirror", .mirror = true}),
              {1.1, .8, 2.48}, {-1.1, .8, 2.48}, {-1.1, 2.2, 2.48}, {1.1, 2.2, 2.48});
     add_furniture(scene);
-    add_lights(scene);
+    add_room_lights(scene);
     scene.cameras.push_back({.name = "door",
                              .eye = {-1.8, 1.6, -2.2},
                              .target = {.3, .9, 1},

@@ -21,7 +21,7 @@
 namespace catoptric::scene {
 
 /// translation(t) = amplitude * (1 - cos(2 pi t / period)), world units; 0 at t = 0.
-struct Harmonic {
+struct HarmonicMotion {
     dvec3 amplitude{0};
     double period = 1; ///< seconds, > 0
 };
@@ -37,31 +37,31 @@ struct Track {
     std::vector<Value> values;
     std::vector<Value> in_tangents, out_tangents; ///< only with `cubic`
 };
-using Keys = Track<dvec3>; ///< positions or scales
+using TranslationTrack = Track<dvec3>; ///< positions or scales
 
 /// World-space translation through keys: world_from_keys * (position - rest), relative to the
 /// object's place at rest. Objects that follow the same keys share them.
 struct Keyframes {
-    std::shared_ptr<const Keys> keys; ///< none, or keys without times: stands still
+    std::shared_ptr<const TranslationTrack> keys; ///< none, or keys without times: stands still
     dmat3 world_from_keys{1};
     dvec3 rest{0};
     /// Whether the motion starts again after the last key; false: the object stays there.
     bool repeats = true;
 };
 
-struct Rig; // hierarchy of moving nodes that a loader makes; internal
+struct NodeRig; // hierarchy of moving nodes that a loader makes; internal
 
 /// Attachment to a node of a rig. The transform is world_from_node * node_from_object. It replaces
 /// the transform at rest, which is the transform of the first instant. For a camera, it carries
 /// eye, target and up from their values at rest.
-struct Follows {
-    std::shared_ptr<const Rig> rig; ///< none: stands still
+struct RigAttachment {
+    std::shared_ptr<const NodeRig> rig; ///< none: stands still
     std::size_t node = 0;
     dmat4 node_from_object{1};
-    bool operator==(const Follows&) const = default;
+    bool operator==(const RigAttachment&) const = default;
 };
 
-using Motion = std::variant<std::monostate, Harmonic, Keyframes, Follows>;
+using Motion = std::variant<std::monostate, HarmonicMotion, Keyframes, RigAttachment>;
 
 /// Picture around the scene, seen by every ray that leaves the scene: radiance by direction. The
 /// picture is equirectangular: row 0 is at +y, the middle column at -z, and +x lies to its right.
@@ -127,12 +127,12 @@ struct Camera {
     dvec3 up{0, 1, 0};
     double vertical_fov_degrees = 45;
     double orthographic_height = 0; ///< height of the picture, world units; 0: perspective
-    Follows follows;                ///< node that carries the camera
+    RigAttachment follows;          ///< node that carries the camera
     bool operator==(const Camera&) const = default;
 };
 
 /// Light without a surface, as in KHR_lights_punctual. It shines along -z of its node.
-struct Punctual {
+struct PunctualLight {
     enum class Kind : std::uint8_t { point, spot, directional }; ///< ids: scene/light_kind.hpp
     std::string name;
     Kind kind = Kind::point;
@@ -149,7 +149,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Object> objects;
     std::vector<Camera> cameras;
-    std::vector<Punctual> punctual;
+    std::vector<PunctualLight> punctual;
     std::shared_ptr<const Environment> environment; ///< none: black
     float mirror_max_roughness = .1f;               ///< surfaces up to this roughness are sharp
     std::optional<double> exposure;                 ///< stops, if the file gives them
@@ -164,7 +164,7 @@ struct Scene {
 /// Returns the scene `seconds` after its start. Every motion is applied to transforms, exact
 /// spheres, cameras and lights without a surface, and none is left. Pure. Throws `Failure::usage`
 /// for a time that is not finite.
-CATOPTRIC_API Scene at(const Scene& scene, double seconds);
+CATOPTRIC_API Scene scene_at_time(const Scene& scene, double seconds);
 /// Returns whether the object is a mirror: numbered, captured, counted.
 CATOPTRIC_API bool is_mirror(const Scene& scene, const Object& object);
 /// Returns the indices into Scene::objects of the mirrors, in file order. Mirror n, counted from 1,

@@ -20,38 +20,41 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Key of the file: its name, its reader and its writer. The table of keys defines the format.
-struct OverrideKey {
+struct SceneFileKey {
     const char* name;
-    void (*read)(const gltf::Item& file, const gltf::Json& value, SceneOverrides& overrides);
+    void (*read)(const gltf::JsonObject& file, const gltf::Json& value, SceneOverrides& overrides);
     gltf::Json (*written)(const SceneOverrides& overrides); ///< null: not set
 };
 
-using gltf::Item;
 using gltf::Json;
+using gltf::JsonObject;
 
-std::string text_of(const Item& file, const Json& value, const char* key) {
-    file.require(value.is_string(), key, ": wanted a text, found ", gltf::shown(value));
+std::string read_text(const JsonObject& file, const Json& value, const char* key) {
+    file.require(value.is_string(), key, ": wanted a text, found ",
+                 gltf::describe_json_value(value));
     return value.get<std::string>();
 }
 
-std::vector<std::string> texts_of(const Item& file, const Json& value, const char* key) {
-    file.require(value.is_array(), key, ": wanted a list of texts, found ", gltf::shown(value));
+std::vector<std::string> read_texts(const JsonObject& file, const Json& value, const char* key) {
+    file.require(value.is_array(), key, ": wanted a list of texts, found ",
+                 gltf::describe_json_value(value));
     std::vector<std::string> texts;
-    for (const Json& one : value) texts.push_back(text_of(file, one, key));
+    for (const Json& one : value) texts.push_back(read_text(file, one, key));
     return texts;
 }
 
-double number_of(const Item& file, const Json& value, const char* key, double low, double high) {
+double read_bounded_number(const JsonObject& file, const Json& value, const char* key, double low,
+                           double high) {
     const double number = value.is_number() ? value.get<double>() : NAN;
     file.require(number >= low && number <= high, key, ": wanted a number from ", low, " to ", high,
-                 ", found ", gltf::shown(value));
+                 ", found ", gltf::describe_json_value(value));
     return number;
 }
 
 /// Calls `read`, which is shared with the command line, and turns its errors into errors of the
 /// file.
 template <typename Read>
-auto as_data(const Item& file, Read&& read) {
+auto as_bad_data(const JsonObject& file, Read&& read) {
     try {
         return read();
     } catch (const Error& error) {
@@ -60,159 +63,172 @@ auto as_data(const Item& file, Read&& read) {
 }
 
 template <typename Value>
-Json json_of(const std::optional<Value>& value) {
+Json overrides_to_json(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
 }
 
-Json mirror_json(const MirrorOverride& wish) {
+Json mirror_override_to_json(const MirrorOverride& wish) {
     const vec3& r = wish.reflectance;
-    const auto text = [](float share) { return Json(as_typed(share)).dump(); };
+    const auto text = [](float share) { return Json(float_to_typed_double(share)).dump(); };
     return wish.pattern + "=" +
            (r.x == r.y && r.y == r.z ? text(r.x) : text(r.x) + "," + text(r.y) + "," + text(r.z));
 }
 
-const std::array<OverrideKey, 12> kKeys{
+const std::array<SceneFileKey, 12> kKeys{
     {{"mirrors",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          for (const std::string& text : texts_of(file, value, "mirrors"))
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          for (const std::string& text : read_texts(file, value, "mirrors"))
               overrides.mirrors.push_back(
-                  as_data(file, [&] { return read_mirror_override("mirrors", text); }));
+                  as_bad_data(file, [&] { return read_mirror_override("mirrors", text); }));
       },
       [](const SceneOverrides& overrides) {
           Json list = Json::array();
-          for (const MirrorOverride& wish : overrides.mirrors) list.push_back(mirror_json(wish));
+          for (const MirrorOverride& wish : overrides.mirrors)
+              list.push_back(mirror_override_to_json(wish));
           return list.empty() ? Json() : list;
       }},
      {"lights",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.lights = texts_of(file, value, "lights");
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.lights = read_texts(file, value, "lights");
       },
       [](const SceneOverrides& overrides) {
           return overrides.lights.empty() ? Json() : Json(overrides.lights);
       }},
      {"mirror_max_roughness",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.mirror_max_roughness = number_of(file, value, "mirror_max_roughness", 0, 1);
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.mirror_max_roughness = read_bounded_number(file, value, "mirror_max_roughness",
+                                                               0, 1);
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.mirror_max_roughness); }},
+      [](const SceneOverrides& overrides) {
+          return overrides_to_json(overrides.mirror_max_roughness);
+      }},
      {"dielectric_mirrors",
-      [](const Item& file, const Json&, SceneOverrides& overrides) {
+      [](const JsonObject& file, const Json&, SceneOverrides& overrides) {
           overrides.dielectric_mirrors = file.flag("dielectric_mirrors", false);
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.dielectric_mirrors); }},
+      [](const SceneOverrides& overrides) {
+          return overrides_to_json(overrides.dielectric_mirrors);
+      }},
      {"environment",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.environment = text_of(file, value, "environment");
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.environment = read_text(file, value, "environment");
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.environment); }},
+      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.environment); }},
      {"environment_scale",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.environment_scale = number_of(file, value, "environment_scale", 0, kMostScale);
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.environment_scale = read_bounded_number(file, value, "environment_scale", 0,
+                                                            kMostScale);
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.environment_scale); }},
+      [](const SceneOverrides& overrides) {
+          return overrides_to_json(overrides.environment_scale);
+      }},
      {"environment_rotate",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.environment_rotation = number_of(file, value, "environment_rotate", -kMostTurn,
-                                                     kMostTurn);
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.environment_rotation = read_bounded_number(file, value, "environment_rotate",
+                                                               -kMostTurn, kMostTurn);
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.environment_rotation); }},
+      [](const SceneOverrides& overrides) {
+          return overrides_to_json(overrides.environment_rotation);
+      }},
      {"ambient",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.ambient = number_of(file, value, "ambient", 0, kMostScale);
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.ambient = read_bounded_number(file, value, "ambient", 0, kMostScale);
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.ambient); }},
+      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.ambient); }},
      {"exposure",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           if (value == "auto")
               overrides.exposure = ExposureOverride{};
           else
               overrides.exposure = ExposureOverride{
-                  number_of(file, value, "exposure", -kMostStops, kMostStops)};
+                  read_bounded_number(file, value, "exposure", -kMostStops, kMostStops)};
       },
       [](const SceneOverrides& overrides) {
           if (!overrides.exposure) return Json();
           return overrides.exposure->stops ? Json(*overrides.exposure->stops) : Json("auto");
       }},
      {"camera",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.camera = text_of(file, value, "camera");
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.camera = read_text(file, value, "camera");
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.camera); }},
+      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.camera); }},
      {"up",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           file.require(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
-                       gltf::shown(value));
-          overrides.up = value == "z" ? Up::z : Up::y;
+                       gltf::describe_json_value(value));
+          overrides.up = value == "z" ? UpAxis::z : UpAxis::y;
       },
       [](const SceneOverrides& overrides) {
-          return overrides.up ? Json(*overrides.up == Up::z ? "z" : "y") : Json();
+          return overrides.up ? Json(*overrides.up == UpAxis::z ? "z" : "y") : Json();
       }},
      {"animation",
-      [](const Item& file, const Json& value, SceneOverrides& overrides) {
-          overrides.animation = text_of(file, value, "animation");
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          overrides.animation = read_text(file, value, "animation");
       },
-      [](const SceneOverrides& overrides) { return json_of(overrides.animation); }}}};
+      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.animation); }}}};
 
-SceneOverrides read(const std::string& file, const std::string& text, Account& account) {
+SceneOverrides read_overrides(const std::string& file, const std::string& text,
+                              BudgetAccount& account) {
     const Json document = gltf::parse_json(file, text, account);
-    const Item item(document, file);
-    item.require(document.is_object(), "wanted an object, found ", gltf::shown(document));
+    const JsonObject item(document, file);
+    item.require(document.is_object(), "wanted an object, found ",
+                 gltf::describe_json_value(document));
     std::vector<std::string> names;
-    for (const OverrideKey& key : kKeys) names.emplace_back(key.name);
+    for (const SceneFileKey& key : kKeys) names.emplace_back(key.name);
     SceneOverrides overrides;
     for (const auto& [name, value] : document.items()) {
-        const auto key = std::ranges::find(kKeys, name, &OverrideKey::name);
+        const auto key = std::ranges::find(kKeys, name, &SceneFileKey::name);
         if (key == kKeys.end()) {
             std::string list;
             for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
-            item.require(false, in_quotes(name), ": wanted one of ", list,
-                         did_you_mean(name, names));
+            item.require(false, quote_printable(name), ": wanted one of ", list,
+                         suggest_name(name, names));
         }
         key->read(item, value, overrides);
     }
     return overrides;
 }
 
-bool is_file_name(const std::string& environment) {
+bool names_a_file(const std::string& environment) {
     return environment != "studio" && environment != "none";
 }
 
 } // namespace
 
-fs::path scene_file_of(const fs::path& scene) {
+fs::path scene_file_path(const fs::path& scene) {
     fs::path path = scene;
     return path += ".catoptric.json";
 }
 
 std::optional<SceneFile> read_scene_file(const fs::path& scene, const FileOptions& options) {
-    SceneFile found{.path = scene_file_of(scene)};
+    SceneFile found{.path = scene_file_path(scene)};
     const std::string place = found.path.string();
-    Account account(options.budget);
-    Files files(scene, options.root, account);
-    if (found.path.filename().string().size() > Files::kLongestName) return std::nullopt;
+    BudgetAccount account(options.budget);
+    SceneFiles files(scene, options.root, account);
+    if (found.path.filename().string().size() > SceneFiles::kLongestName) return std::nullopt;
     const fs::path real = files.find(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;
-    found.overrides = read(place, files.read(real, place), account);
+    found.overrides = read_overrides(place, files.read(real, place), account);
     if (std::optional<std::string>& picture = found.overrides.environment;
-        picture && is_file_name(*picture))
-        picture = files.get(*picture, place + ": environment").string();
+        picture && names_a_file(*picture))
+        picture = files.find_required(*picture, place + ": environment").string();
     found.files = files.found();
     return found;
 }
 
-std::string scene_file_text(const SceneOverrides& overrides, const fs::path& scene) {
+std::string write_scene_file_text(const SceneOverrides& overrides, const fs::path& scene) {
     SceneOverrides relative = overrides;
     if (std::optional<std::string>& picture = relative.environment;
-        picture && is_file_name(*picture)) {
-        const fs::path folder = real_path(scene).parent_path();
-        const fs::path name = real_path(*picture).lexically_relative(folder);
+        picture && names_a_file(*picture)) {
+        const fs::path folder = resolve_real_path(scene).parent_path();
+        const fs::path name = resolve_real_path(*picture).lexically_relative(folder);
         check(!name.empty() && *name.begin() != "..", Failure::usage,
-              "--environment: ", in_quotes(*picture), ": wanted a picture below ",
-              in_quotes(folder.string()), ", where a file beside the scene may name it");
+              "--environment: ", quote_printable(*picture), ": wanted a picture below ",
+              quote_printable(folder.string()), ", where a file beside the scene may name it");
         picture = name.string();
     }
     nlohmann::ordered_json document = nlohmann::ordered_json::object();
-    for (const OverrideKey& key : kKeys)
+    for (const SceneFileKey& key : kKeys)
         if (const Json value = key.written(relative); !value.is_null()) document[key.name] = value;
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

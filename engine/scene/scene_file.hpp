@@ -17,7 +17,7 @@
 /// folder or --root.
 namespace catoptric::scene {
 
-std::filesystem::path scene_file_of(const std::filesystem::path& scene);
+std::filesystem::path scene_file_path(const std::filesystem::path& scene);
 
 struct SceneFile {
     std::filesystem::path path;
@@ -32,6 +32,7 @@ std::optional<SceneFile> read_scene_file(const std::filesystem::path& scene,
 
 /// Returns the text that `read_scene_file` reads as these overrides. Throws `usage` for a picture
 /// that does not lie below the scene's folder.
-std::string scene_file_text(const SceneOverrides& overrides, const std::filesystem::path& scene);
+std::string write_scene_file_text(const SceneOverrides& overrides,
+                                  const std::filesystem::path& scene);
 
 } // namespace catoptric::scene

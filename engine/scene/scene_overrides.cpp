@@ -20,13 +20,13 @@ namespace {
 
 /// Replaces `value` if `stronger` is set.
 template <typename Value>
-void put_over(std::optional<Value>& value, const std::optional<Value>& stronger) {
+void replace_if_set(std::optional<Value>& value, const std::optional<Value>& stronger) {
     if (stronger) value = stronger;
 }
 
 /// Returns the names by which patterns find an object: its own and its material's. If a node has
 /// several materials, its objects are named "NODE/MATERIAL", and the node's name counts, too.
-std::vector<std::string> names_of(const Scene& scene, const Object& object) {
+std::vector<std::string> object_pattern_names(const Scene& scene, const Object& object) {
     const std::string& material = scene.materials[object.material].name;
     std::vector<std::string> names{object.name, material};
     if (const std::string end = "/" + material; object.name.ends_with(end))
@@ -35,13 +35,14 @@ std::vector<std::string> names_of(const Scene& scene, const Object& object) {
 }
 
 /// Returns the indices of the objects that a pattern matches. Throws if there are none.
-std::vector<std::size_t> objects_of(const Scene& scene, const SaidBy& by,
-                                    const std::string& pattern) {
+std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const SettingOrigin& by,
+                                                 const std::string& pattern) {
     std::vector<std::size_t> found;
     std::vector<std::string> known;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const std::vector<std::string> names = names_of(scene, scene.objects[i]);
-        if (std::ranges::any_of(names, [&](const auto& name) { return matches(pattern, name); }))
+        const std::vector<std::string> names = object_pattern_names(scene, scene.objects[i]);
+        if (std::ranges::any_of(names,
+                                [&](const auto& name) { return matches_pattern(pattern, name); }))
             found.push_back(i);
         known.insert(known.end(), names.begin(), names.end());
     }
@@ -49,22 +50,24 @@ std::vector<std::size_t> objects_of(const Scene& scene, const SaidBy& by,
     std::erase(known, "");
     std::ranges::sort(known);
     known.erase(std::ranges::unique(known).begin(), known.end());
-    const std::string nearest = nearest_name(pattern, known);
+    const std::string nearest = find_nearest_name(pattern, known);
     std::string list;
     constexpr std::size_t kMostListed = 10;
     for (std::size_t i = 0; i < std::min(known.size(), kMostListed); ++i)
-        list += (i ? ", " : "") + in_quotes(known[i]);
+        list += (i ? ", " : "") + quote_printable(known[i]);
     if (known.size() > kMostListed)
         list += " and " + std::to_string(known.size() - kMostListed) + " more";
-    fail(by.failure, by.where, " ", in_quotes(pattern), ": matches no object or material of scene ",
-         in_quotes(scene.name), "; it has: ", list,
-         nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)");
+    fail(by.failure, by.where, " ", quote_printable(pattern),
+         ": matches no object or material of scene ", quote_printable(scene.name),
+         "; it has: ", list,
+         nearest.empty() ? "" : " (did you mean " + quote_printable(nearest) + "?)");
 }
 
 /// Gives these objects a changed copy of their material. Objects that share a material share its
 /// copy. Materials keep their indices.
 template <typename Change>
-void repaint(Scene& scene, const std::vector<std::size_t>& objects, Change&& change) {
+void change_object_materials(Scene& scene, const std::vector<std::size_t>& objects,
+                             Change&& change) {
     std::map<std::size_t, std::size_t> copies; // new material by old material
     for (const std::size_t i : objects) {
         std::size_t& material = scene.objects[i].material;
@@ -78,33 +81,37 @@ void repaint(Scene& scene, const std::vector<std::size_t>& objects, Change&& cha
     }
 }
 
-void make_mirrors(Scene& scene, const MirrorOverride& wish) {
-    repaint(scene, objects_of(scene, {"--mirror"}, wish.pattern), [&](Material& material) {
-        material = {.name = material.name, .mirror = true, .reflectance = wish.reflectance};
-    });
+void apply_mirror_override(Scene& scene, const MirrorOverride& wish) {
+    change_object_materials(
+        scene, find_objects_by_pattern(scene, {"--mirror"}, wish.pattern), [&](Material& material) {
+            material = {.name = material.name, .mirror = true, .reflectance = wish.reflectance};
+        });
 }
 
 /// Returns the objects that the pattern matches and that emit light. Throws if there are none.
-std::vector<std::size_t> glowing_of(const Scene& scene, const SaidBy& by,
-                                    const std::string& pattern) {
-    std::vector<std::size_t> objects = objects_of(scene, by, pattern);
-    std::erase_if(
-        objects, [&](std::size_t i) { return !glows(scene.materials[scene.objects[i].material]); });
-    check(!objects.empty(), by.failure, by.where, " ", in_quotes(pattern),
+std::vector<std::size_t> find_emitters_by_pattern(const Scene& scene, const SettingOrigin& by,
+                                                  const std::string& pattern) {
+    std::vector<std::size_t> objects = find_objects_by_pattern(scene, by, pattern);
+    std::erase_if(objects, [&](std::size_t i) {
+        return !is_visibly_emissive(scene.materials[scene.objects[i].material]);
+    });
+    check(!objects.empty(), by.failure, by.where, " ", quote_printable(pattern),
           ": wanted something that emits light, found objects that do not");
     return objects;
 }
 
-void make_lights(Scene& scene, const std::string& pattern) {
-    repaint(scene, glowing_of(scene, {"--light"}, pattern), [](Material& material) {
-        material.light = material.emission;
-        if (material.emission_texture) *material.light *= mean_texel(*material.emission_texture);
-    });
+void keep_matching_lights(Scene& scene, const std::string& pattern) {
+    change_object_materials(scene, find_emitters_by_pattern(scene, {"--light"}, pattern),
+                            [](Material& material) {
+                                material.light = material.emission;
+                                if (material.emission_texture)
+                                    *material.light *= mean_texel(*material.emission_texture);
+                            });
 }
 
 } // namespace
 
-SceneOverrides over(const SceneOverrides& stronger, const SceneOverrides& weaker) {
+SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOverrides& weaker) {
     SceneOverrides both = weaker;
     for (const MirrorOverride& wish : stronger.mirrors)
         std::erase_if(both.mirrors,
@@ -112,20 +119,20 @@ SceneOverrides over(const SceneOverrides& stronger, const SceneOverrides& weaker
     for (const std::string& pattern : stronger.lights) std::erase(both.lights, pattern);
     both.mirrors.insert(both.mirrors.end(), stronger.mirrors.begin(), stronger.mirrors.end());
     both.lights.insert(both.lights.end(), stronger.lights.begin(), stronger.lights.end());
-    put_over(both.mirror_max_roughness, stronger.mirror_max_roughness);
-    put_over(both.dielectric_mirrors, stronger.dielectric_mirrors);
-    put_over(both.environment, stronger.environment);
-    put_over(both.environment_scale, stronger.environment_scale);
-    put_over(both.environment_rotation, stronger.environment_rotation);
-    put_over(both.exposure, stronger.exposure);
-    put_over(both.camera, stronger.camera);
-    put_over(both.up, stronger.up);
-    put_over(both.animation, stronger.animation);
-    put_over(both.ambient, stronger.ambient);
+    replace_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
+    replace_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
+    replace_if_set(both.environment, stronger.environment);
+    replace_if_set(both.environment_scale, stronger.environment_scale);
+    replace_if_set(both.environment_rotation, stronger.environment_rotation);
+    replace_if_set(both.exposure, stronger.exposure);
+    replace_if_set(both.camera, stronger.camera);
+    replace_if_set(both.up, stronger.up);
+    replace_if_set(both.animation, stronger.animation);
+    replace_if_set(both.ambient, stronger.ambient);
     return both;
 }
 
-bool matches(const std::string& pattern, const std::string& name) {
+bool matches_pattern(const std::string& pattern, const std::string& name) {
     return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
@@ -150,7 +157,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
                       std::ranges::all_of(numbers, [](double n) { return n >= 0 && n <= 1; }),
                   Failure::usage, option,
                   ": wanted PATTERN or PATTERN=REFLECTANCE, a number or r,g,b from 0 to 1, found ",
-                  in_quotes(text));
+                  quote_printable(text));
             wish.pattern = text.substr(0, at);
             for (int i = 0; i < 3; ++i)
                 wish.reflectance[i] = static_cast<float>(
@@ -158,16 +165,16 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
         }
     }
     check(!wish.pattern.empty(), Failure::usage, option, ": wanted a name or a pattern, found ",
-          in_quotes(text));
+          quote_printable(text));
     return wish;
 }
 
-std::string pattern_of(const std::string& name) {
+std::string make_mirror_pattern(const std::string& name) {
     constexpr std::size_t kLongest = 60; // bytes; a longer name is reduced to its beginning
     std::size_t size = std::min(name.size(), kLongest);
     while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
         --size; // keeps UTF-8 characters whole
-    const bool is_plain = printable(name) == name;
+    const bool is_plain = escape_control_characters(name) == name;
     std::string pattern;
     for (const char c : name.substr(0, size)) {
         const auto byte = static_cast<unsigned char>(c);
@@ -186,18 +193,18 @@ std::string pattern_of(const std::string& name) {
 
 void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file) {
     for (const MirrorOverride& wish : overrides.mirrors)
-        objects_of(scene, {file + ": mirrors", Failure::bad_data}, wish.pattern);
+        find_objects_by_pattern(scene, {file + ": mirrors", Failure::bad_data}, wish.pattern);
     for (const std::string& pattern : overrides.lights)
-        glowing_of(scene, {file + ": lights", Failure::bad_data}, pattern);
+        find_emitters_by_pattern(scene, {file + ": lights", Failure::bad_data}, pattern);
 }
 
-void apply(Scene& scene, const SceneOverrides& overrides) {
-    if (overrides.up == Up::z) turn_z_up(scene);
-    for (const MirrorOverride& wish : overrides.mirrors) make_mirrors(scene, wish);
-    for (const std::string& pattern : overrides.lights) make_lights(scene, pattern);
+void apply_edit(Scene& scene, const SceneOverrides& overrides) {
+    if (overrides.up == UpAxis::z) turn_z_up_to_y_up(scene);
+    for (const MirrorOverride& wish : overrides.mirrors) apply_mirror_override(scene, wish);
+    for (const std::string& pattern : overrides.lights) keep_matching_lights(scene, pattern);
     if (overrides.mirror_max_roughness)
         scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
-    classify(scene, overrides.dielectric_mirrors.value_or(false));
+    find_mirrors(scene, overrides.dielectric_mirrors.value_or(false));
 }
 
 } // namespace catoptric::scene

@@ -15,7 +15,7 @@ namespace catoptric::scene {
 /// Mirror that reflects a constant share of all light. The rest of the object's material is
 /// dropped.
 struct MirrorOverride {
-    std::string pattern; ///< as `matches` takes it
+    std::string pattern; ///< as `matches_pattern` takes it
     vec3 reflectance{1}; ///< in [0,1]
     bool operator==(const MirrorOverride&) const = default;
 };
@@ -25,7 +25,7 @@ struct ExposureOverride {
     bool operator==(const ExposureOverride&) const = default;
 };
 
-enum class Up { y, z };
+enum class UpAxis { y, z };
 
 inline constexpr double kMostStops = 64; ///< limit of exposure in either direction; 2^64 is finite
 inline constexpr double kMostTurn = 36000; ///< limit of an environment's rotation, degrees
@@ -41,7 +41,7 @@ struct SceneOverrides {
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;
     std::optional<std::string> camera; ///< as camera_named takes it
-    std::optional<Up> up;
+    std::optional<UpAxis> up;
     std::optional<std::string> animation; ///< name, or "none"
     std::optional<double> ambient;
     bool operator==(const SceneOverrides&) const = default;
@@ -49,10 +49,10 @@ struct SceneOverrides {
 
 /// Returns both sets of overrides combined. `stronger` wins where both give a value. Its mirrors
 /// and lights come after those of `weaker`, each pattern once.
-SceneOverrides over(const SceneOverrides& stronger, const SceneOverrides& weaker);
+SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOverrides& weaker);
 
 /// Returns whether a whole name equals the pattern or matches it (fnmatch: * ? [...]); case counts.
-bool matches(const std::string& pattern, const std::string& name);
+bool matches_pattern(const std::string& pattern, const std::string& name);
 
 /// Reads "PATTERN" or "PATTERN=REFLECTANCE", where REFLECTANCE is a number or r,g,b in [0,1]. A
 /// name may contain '=' as long as no number follows it. `option` begins the error message. Throws
@@ -61,24 +61,24 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
 
 /// Returns the value of --mirror that selects this name. Pattern characters are escaped. Bytes that
 /// a terminal does not show become '?'. A name longer than 60 bytes is reduced to its beginning.
-std::string pattern_of(const std::string& name);
+std::string make_mirror_pattern(const std::string& name);
 
 /// Checks the patterns of mirrors and lights that come from a file. Throws `bad_data`, naming file
-/// and key, for a pattern that `apply` would not accept.
+/// and key, for a pattern that `apply_edit` would not accept.
 void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file);
 
 /// Applies the overrides of mirrors, lights, roughness and dielectrics, turns the scene if +z is
 /// up, and finds its mirrors again (classify.hpp). Overrides that name a picture are left to
 /// session/resolved_scene.hpp. Throws `usage`, with the nearest names, for a pattern without a
 /// match.
-void apply(Scene& scene, const SceneOverrides& overrides);
+void apply_edit(Scene& scene, const SceneOverrides& overrides);
 
 /// Turns a scene from +z up to +y up: (x, y, z) becomes (x, z, -y), exactly.
-void turn_z_up(Scene& scene);
+void turn_z_up_to_y_up(Scene& scene);
 
 /// Keeps the `most` lights that are strongest at the centre of the bounds, at rest. A mesh that
 /// lights from several places may keep some of them. The other lights stay visible but light
 /// nothing. Adds the unsupported feature "lights-left-out".
-void leave_out_lights(Scene& scene, std::size_t most);
+void drop_weakest_lights(Scene& scene, std::size_t most);
 
 } // namespace catoptric::scene

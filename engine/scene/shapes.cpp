@@ -12,26 +12,26 @@ namespace catoptric::scene {
 
 namespace {
 
-using Vertex = std::uint32_t;
-using Midpoints = std::map<std::pair<Vertex, Vertex>, Vertex>;
+using VertexIndex = std::uint32_t;
+using EdgeMidpoints = std::map<std::pair<VertexIndex, VertexIndex>, VertexIndex>;
 
 /// Returns the vertex on the sphere over the middle of the edge. The first call for an edge
 /// creates the vertex.
-Vertex midpoint(Mesh& mesh, Midpoints& known, Vertex a, Vertex b) {
+VertexIndex sphere_midpoint(Mesh& mesh, EdgeMidpoints& known, VertexIndex a, VertexIndex b) {
     const auto [entry, is_new] = known.try_emplace(std::minmax(a, b),
-                                                   static_cast<Vertex>(mesh.positions.size()));
+                                                   static_cast<VertexIndex>(mesh.positions.size()));
     if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
     return entry->second;
 }
 
-void subdivide(Mesh& mesh) {
-    Midpoints known;
+void subdivide_sphere(Mesh& mesh) {
+    EdgeMidpoints known;
     std::vector<uvec3> finer;
     finer.reserve(4 * mesh.triangles.size());
     for (const uvec3& t : mesh.triangles) {
-        const Vertex xy = midpoint(mesh, known, t.x, t.y);
-        const Vertex yz = midpoint(mesh, known, t.y, t.z);
-        const Vertex zx = midpoint(mesh, known, t.z, t.x);
+        const VertexIndex xy = sphere_midpoint(mesh, known, t.x, t.y);
+        const VertexIndex yz = sphere_midpoint(mesh, known, t.y, t.z);
+        const VertexIndex zx = sphere_midpoint(mesh, known, t.z, t.x);
         finer.insert(finer.end(), {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
     }
     mesh.triangles = std::move(finer);
@@ -51,7 +51,7 @@ Mesh box(std::string name, dvec3 lo, dvec3 hi) {
     Mesh box{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
         const Mesh side = wall(face, hi, lo); // faces outwards because low and high are exchanged
-        const auto first = static_cast<Vertex>(box.positions.size());
+        const auto first = static_cast<VertexIndex>(box.positions.size());
         box.positions.insert(box.positions.end(), side.positions.begin(), side.positions.end());
         box.normals.insert(box.normals.end(), side.normals.begin(), side.normals.end());
         box.uv[0].insert(box.uv[0].end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
@@ -84,11 +84,11 @@ Mesh lathe(std::string name, const std::vector<dvec2>& profile, int around) {
         }
         far += glm::length(along(i));
     }
-    const auto row = static_cast<Vertex>(around + 1);
-    for (Vertex i = 0; i + 1 < profile.size(); ++i) {
+    const auto row = static_cast<VertexIndex>(around + 1);
+    for (VertexIndex i = 0; i + 1 < profile.size(); ++i) {
         if (along(i) == dvec2(0)) continue;
-        for (Vertex k = 0; k + 1 < row; ++k) {
-            const Vertex a = i * row + k, b = a + 1, c = b + row, d = a + row;
+        for (VertexIndex k = 0; k + 1 < row; ++k) {
+            const VertexIndex a = i * row + k, b = a + 1, c = b + row, d = a + row;
             if (profile[i].x > 0) mesh.triangles.emplace_back(a, b, c);
             if (profile[i + 1].x > 0) mesh.triangles.emplace_back(a, c, d);
         }
@@ -131,7 +131,7 @@ Mesh ball(std::string name, int levels) {
     mesh.positions = {
         {0, 0, -1}, {0, 2 * s / 3, 1.0 / 3}, {-q / 3, -s / 3, 1.0 / 3}, {q / 3, -s / 3, 1.0 / 3}};
     mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}; // counter-clockwise from outside
-    for (int level = 0; level < levels; ++level) subdivide(mesh);
+    for (int level = 0; level < levels; ++level) subdivide_sphere(mesh);
     mesh.normals.assign(mesh.positions.begin(), mesh.positions.end());
     return mesh;
 }

@@ -12,14 +12,15 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr uvec2 kStudioSize{512, 256};
 
-double angle_of(const Environment& environment) {
+double environment_angle(const Environment& environment) {
     return glm::radians(environment.rotation_degrees);
 }
 
 /// Returns the unscaled radiance in a direction that is given in the environment's own axes.
-dvec3 shown(const Environment& environment, const dvec3& own) {
-    if (environment.studio) return dvec3(f64::studio(own));
-    const f64::MapPlace at = f64::map_place(own, environment.size.x, environment.size.y);
+dvec3 radiance_in_own_axes(const Environment& environment, const dvec3& own) {
+    if (environment.studio) return dvec3(f64::studio_radiance(own));
+    const f64::EnvironmentMapPosition at = f64::environment_map_position(own, environment.size.x,
+                                                                         environment.size.y);
     const auto texel = [&](std::uint32_t column, std::uint32_t row) {
         return dvec3(environment.texels[std::size_t{row} * environment.size.x + column]);
     };
@@ -29,7 +30,7 @@ dvec3 shown(const Environment& environment, const dvec3& own) {
 }
 
 /// Returns the polynomials of the nine spherical harmonics.
-std::array<double, 9> harmonics(const dvec3& d) {
+std::array<double, 9> spherical_harmonics(const dvec3& d) {
     return {1,
             d.y,
             d.z,
@@ -48,13 +49,14 @@ constexpr std::array<double, 9> kFactors{1. / 4,   1. / 2,  1. / 2,   1. / 2,  1
 
 } // namespace
 
-dvec3 radiance(const Environment& environment, const dvec3& direction) {
-    const double angle = angle_of(environment);
-    return environment.scale * shown(environment, f64::environment_direction(
-                                                      direction, std::cos(angle), std::sin(angle)));
+dvec3 environment_radiance(const Environment& environment, const dvec3& direction) {
+    const double angle = environment_angle(environment);
+    return environment.scale *
+           radiance_in_own_axes(environment, f64::environment_direction(direction, std::cos(angle),
+                                                                        std::sin(angle)));
 }
 
-std::array<dvec3, 9> irradiance_coefficients(const Environment& environment) {
+std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environment) {
     const uvec2 size = environment.studio ? kStudioSize : environment.size;
     const double width = 2 * kPi / size.x, height = kPi / size.y;
     std::array<dvec3, 9> sums{};
@@ -68,9 +70,10 @@ std::array<dvec3, 9> irradiance_coefficients(const Environment& environment) {
                              -std::sin(polar) * std::cos(turned));
             };
             const dvec3 light = environment.studio
-                                    ? dvec3(f64::studio(at(azimuth)))
+                                    ? dvec3(f64::studio_radiance(at(azimuth)))
                                     : dvec3(environment.texels[std::size_t{row} * size.x + column]);
-            const std::array<double, 9> of = harmonics(at(azimuth + angle_of(environment)));
+            const std::array<double, 9> of = spherical_harmonics(
+                at(azimuth + environment_angle(environment)));
             for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += solid_angle * of[i] * light;
         }
     }

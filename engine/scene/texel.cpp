@@ -8,7 +8,7 @@ namespace catoptric::scene {
 
 namespace {
 
-vec4 decoded(const Texture& texture, std::uint32_t texel) {
+vec4 decode_texel(const Texture& texture, std::uint32_t texel) {
     vec4 value;
     for (int channel = 0; channel < 4; ++channel) {
         const std::uint32_t byte = texel >> (8 * channel) & 255u;
@@ -19,7 +19,7 @@ vec4 decoded(const Texture& texture, std::uint32_t texel) {
 }
 
 /// Returns the texel's index along one side of the image.
-std::uint32_t wrapped(Texture::Wrap wrap, double coordinate, std::uint32_t size) {
+std::uint32_t wrap_texel_index(Texture::Wrap wrap, double coordinate, std::uint32_t size) {
     const double whole = std::floor(coordinate * size), n = size;
     if (!std::isfinite(whole)) return 0;
     if (wrap == Texture::Wrap::clamp)
@@ -45,17 +45,20 @@ float linear_from_srgb(std::uint32_t byte) {
     return kTable[byte & 255u];
 }
 
-vec4 texel_at(const Texture& texture, const vec2& uv) {
+vec4 read_texel(const Texture& texture, const vec2& uv) {
     const Image& image = *texture.image;
     const vec3 from(uv, 1);
-    const std::uint32_t x = wrapped(texture.wrap_u, glm::dot(texture.u_row, from), image.size.x),
-                        y = wrapped(texture.wrap_v, glm::dot(texture.v_row, from), image.size.y);
-    return decoded(texture, image.texels[std::size_t{y} * image.size.x + x]);
+    const std::uint32_t x = wrap_texel_index(texture.wrap_u, glm::dot(texture.u_row, from),
+                                             image.size.x),
+                        y = wrap_texel_index(texture.wrap_v, glm::dot(texture.v_row, from),
+                                             image.size.y);
+    return decode_texel(texture, image.texels[std::size_t{y} * image.size.x + x]);
 }
 
 vec3 mean_texel(const Texture& texture) {
     dvec3 sum(0);
-    for (const std::uint32_t texel : texture.image->texels) sum += dvec3(decoded(texture, texel));
+    for (const std::uint32_t texel : texture.image->texels)
+        sum += dvec3(decode_texel(texture, texel));
     return vec3(sum / static_cast<double>(std::max<std::size_t>(1, texture.image->texels.size())));
 }
 

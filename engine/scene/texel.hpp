@@ -10,7 +10,7 @@ float linear_from_srgb(std::uint32_t byte);
 
 /// Returns the texel at a point of the mesh's texture space, wrapped as the texture says and not
 /// filtered. Red, green, blue and alpha are in 0 to 1, decoded if the texture is sRGB.
-vec4 texel_at(const Texture& texture, const vec2& uv);
+vec4 read_texel(const Texture& texture, const vec2& uv);
 
 /// Returns the mean of all texels, decoded, without alpha.
 vec3 mean_texel(const Texture& texture);

@@ -67,19 +67,19 @@ private:
 
 } // namespace
 
-std::vector<std::size_t> first_at_place(std::span<const dvec3> positions) {
+std::vector<std::size_t> first_vertex_at_place(std::span<const dvec3> positions) {
     VertexGrid places(positions);
     std::vector<std::size_t> first(positions.size());
     for (std::size_t i = 0; i < first.size(); ++i) first[i] = places.first_at(i);
     return first;
 }
 
-std::vector<TriangleEdge> sides_of(std::span<const Corners> triangles) {
+std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> triangles) {
     std::vector<TriangleEdge> sides;
     sides.reserve(3 * triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Corners& t = triangles[i];
-        if (!has_three_places(t)) continue;
+        const TriangleCorners& t = triangles[i];
+        if (!has_three_distinct_places(t)) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
             sides.push_back({low, high, i, t[(k + 2) % 3]});

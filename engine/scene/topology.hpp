@@ -11,16 +11,16 @@
 namespace catoptric::scene {
 
 /// Vertex numbers of a triangle's corners.
-using Corners = std::array<std::size_t, 3>;
+using TriangleCorners = std::array<std::size_t, 3>;
 
-inline bool has_three_places(const Corners& t) {
+inline bool has_three_distinct_places(const TriangleCorners& t) {
     return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
 }
 
 /// Returns for each vertex the first vertex at the same place. Two places are the same if no
 /// coordinate differs by more than 2^-21 of the largest coordinate, four roundings of a float. The
 /// tolerance is needed because files compute the two ends of a seam apart. O(n).
-std::vector<std::size_t> first_at_place(std::span<const dvec3> positions);
+std::vector<std::size_t> first_vertex_at_place(std::span<const dvec3> positions);
 
 /// Edge of one triangle.
 struct TriangleEdge {
@@ -31,7 +31,7 @@ struct TriangleEdge {
 
 /// Returns the sides of all triangles, ordered by edge, then by triangle. A triangle with two equal
 /// corners is skipped. O(n log n).
-std::vector<TriangleEdge> sides_of(std::span<const Corners> triangles);
+std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> triangles);
 
 /// Calls `visit(std::span<const Side>)` for each edge with the sides that meet there. A surface is
 /// closed if every edge has two sides.

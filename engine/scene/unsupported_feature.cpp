@@ -6,8 +6,8 @@ namespace catoptric::scene {
 
 namespace {
 
-UnsupportedFeature& gap_of(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
-                           const std::string& first) {
+UnsupportedFeature& find_or_add_feature(std::vector<UnsupportedFeature>& unsupported,
+                                        const std::string& id, const std::string& first) {
     const auto known = std::ranges::find(unsupported, id, &UnsupportedFeature::id);
     if (known != unsupported.end()) return *known;
     return unsupported.emplace_back(UnsupportedFeature{.id = id, .first = first});
@@ -17,12 +17,12 @@ UnsupportedFeature& gap_of(std::vector<UnsupportedFeature>& unsupported, const s
 
 void add_unsupported(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
                      const std::string& first, std::uint64_t count) {
-    if (count > 0) gap_of(unsupported, id, first).count += count;
+    if (count > 0) find_or_add_feature(unsupported, id, first).count += count;
 }
 
 void add_unsupported_material(std::vector<UnsupportedFeature>& unsupported, const std::string& id,
                               const std::string& first, std::size_t material) {
-    UnsupportedFeature& gap = gap_of(unsupported, id, first);
+    UnsupportedFeature& gap = find_or_add_feature(unsupported, id, first);
     ++gap.count;
     gap.materials.push_back(material);
 }

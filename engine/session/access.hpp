@@ -13,13 +13,13 @@
 #include <vector>
 
 namespace catoptric::render {
-struct Captured;
+struct CapturedCubes;
 } // namespace catoptric::render
 namespace catoptric::graph {
-struct ExternalSync;
+struct ExternalSemaphores;
 } // namespace catoptric::graph
 namespace catoptric::gpu {
-struct GivenDevice;
+struct ExternalDevice;
 } // namespace catoptric::gpu
 namespace catoptric::require {
 struct Model;
@@ -29,8 +29,8 @@ struct Model;
 // that are installed do not declare them.
 namespace catoptric::app {
 
-class Screen;
-struct Showing;
+class WindowScreen;
+struct WindowPictures;
 struct FrameGraph;
 
 /// Options of an engine that other programs do not have.
@@ -47,7 +47,7 @@ struct EngineHooks {
     /// show pictures on this surface.
     std::vector<std::string> instance_extensions = {};
     std::function<std::uint64_t(void* instance)> make_surface = {};
-    const gpu::GivenDevice* given = nullptr; ///< device of an embedding program; null: none
+    const gpu::ExternalDevice* given = nullptr; ///< device of an embedding program; null: none
 };
 
 /// Options of a frame that other programs do not have.
@@ -59,20 +59,20 @@ struct FrameHooks {
 
 /// Pipelines that an engine has compiled so far. A software driver compiles more of a pipeline in
 /// the first frame that uses it.
-struct Compiled {
+struct CompiledPipelines {
     std::size_t pipelines = 0;
     double ms = 0; ///< host time from the shader's words to the driver's pipeline
 };
 
 /// State of the pipeline cache on disk. none: there is no cache. made: the cache is new, or its
 /// file was damaged. used: the driver received the cached data.
-enum class CacheUse { none, made, used };
+enum class PipelineCacheState { none, made, used };
 
 /// Output format of a frame's compiled plan.
 enum class PlanFormat { text, dot, json };
 
 /// Counters of a session's work so far.
-struct Counts {
+struct SessionCounters {
     std::uint64_t frames = 0;
     std::uint64_t updates = 0; ///< writes of scene data to the device
     std::uint64_t plans = 0;   ///< differently shaped frames that were planned
@@ -84,23 +84,23 @@ struct Counts {
 };
 
 /// Host time for work that a scene needs once, in milliseconds.
-struct Setup {
+struct SetupTimes {
     double upload_ms = 0;    ///< laying the scene out and writing it to the device
     double hierarchy_ms = 0; ///< building BVHs; 0: no pass has traced rays
 };
 
 /// A suspended sequence of frames: the history that they left for the next frame. Only the session
 /// that suspended the sequence can resume it. The engine must outlive it.
-class Sequence {
+class FrameSequence {
 public:
-    Sequence(Sequence&&) noexcept;
-    Sequence& operator=(Sequence&&) noexcept;
-    ~Sequence();
+    FrameSequence(FrameSequence&&) noexcept;
+    FrameSequence& operator=(FrameSequence&&) noexcept;
+    ~FrameSequence();
 
 private:
     friend struct Access;
     struct Impl;
-    explicit Sequence(std::unique_ptr<Impl> impl);
+    explicit FrameSequence(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
 
@@ -109,8 +109,8 @@ struct Access {
     using SessionImpl = Session::Impl;
 
     static Engine make_engine(const EngineOptions& options, const EngineHooks& hooks);
-    static Compiled compiled(const Engine& engine);
-    static CacheUse cache_use(const Engine& engine);
+    static CompiledPipelines compiled(const Engine& engine);
+    static PipelineCacheState cache_use(const Engine& engine);
     static EngineImpl& impl(const Engine& engine) { return *engine.impl_; }
 
     /// Returns whether a technique's picture depends on the frame before.
@@ -119,7 +119,7 @@ struct Access {
     static const require::Model& model(const Frame& frame);
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
     /// `internal` without `with_captures`.
-    static render::Captured captures(const Frame& frame, std::size_t part = 0);
+    static render::CapturedCubes captures(const Frame& frame, std::size_t part = 0);
     /// Returns the linear pictures and all data that the next frame can read of this one, as bytes.
     /// If two successive frames of a still scene have equal states, the picture changes no more.
     /// Empty if nothing is remembered.
@@ -129,32 +129,32 @@ struct Access {
     /// before the frame is submitted.
     static Frame frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks);
     static Frame submit(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
-                        const std::function<graph::ExternalSync(FrameGraph&)>& finish);
+                        const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish);
     /// Submits a frame and shows it in a window. The screen must belong to the session's engine,
-    /// and Screen::fit must have returned true. If the window has no image for the frame, the frame
-    /// is still rendered.
-    static Frame show(Session& session, const FrameSpec& spec, Screen& screen,
-                      const Showing& showing);
+    /// and WindowScreen::fit must have returned true. If the window has no image for the frame, the
+    /// frame is still rendered.
+    static Frame show(Session& session, const FrameSpec& spec, WindowScreen& screen,
+                      const WindowPictures& showing);
     /// Makes a cut and returns the history of the frame sequence, which `resume` can continue.
     /// Waits for frames in flight.
-    static Sequence suspend(Session& session);
+    static FrameSequence suspend(Session& session);
     /// Continues a suspended sequence: the next frame follows its last one. Discards the present
     /// history. If the scene's units changed in between (see Session::change), the next frame
     /// begins without history.
-    static void resume(Session& session, Sequence sequence);
+    static void resume(Session& session, FrameSequence sequence);
     /// Returns the plan, written out, of a frame that follows another frame. With
-    /// Modelling::required, the scene is still and its captures no longer change.
+    /// RenderedWork::required, the scene is still and its captures no longer change.
     static std::string plan(Session& session, const FrameSpec& spec, PlanFormat format);
     /// Renders a frame that clears the cubes of every mirror, 256 texels an edge, and draws
     /// nothing. The time of this frame is the least that any capture costs. The history of the
     /// session stays.
     static FrameTimes clear_cubes(Session& session);
-    static Counts counts(const Session& session);
+    static SessionCounters counts(const Session& session);
     /// Returns the setup times of the scene as it is resident now.
-    static Setup setup(const Session& session);
+    static SetupTimes setup(const Session& session);
 };
 
 /// Returns "everything" or "required".
-std::string name_of(Modelling modelling);
+std::string name_of(RenderedWork modelling);
 
 } // namespace catoptric::app

@@ -20,20 +20,20 @@ struct MirrorCandidate {
     std::string name;
 };
 
-double area_of(const Bounds<double>& box) {
+double compute_surface_area(const Bounds<double>& box) {
     const dvec3 side = box.extent();
     return side.x * side.y + side.y * side.z + side.z * side.x;
 }
 
 } // namespace
 
-std::string shell_word(const std::string& text) {
+std::string quote_for_shell(const std::string& text) {
     std::string word = "'";
     for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return word + "'";
 }
 
-std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t most) {
+std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::size_t most) {
     constexpr std::size_t kMostObjects = 20'000; // objects that are examined
     std::vector<MirrorCandidate> candidates;
     std::map<std::pair<std::size_t, std::size_t>, float> smoothest; // by mesh and material
@@ -42,11 +42,12 @@ std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t m
         const scene::Material& material = scene.materials[object.material];
         const std::string& name = object.name.empty() ? material.name : object.name;
         // An object that emits light only in parts, by a texture, may still be a candidate.
-        const bool lights = scene::light_of(material) != vec3(0);
+        const bool lights = scene::emitted_radiance(material) != vec3(0);
         if (material.mirror || object.mirror || !object.seen_by_camera || lights) continue;
         const auto [entry, is_new] = smoothest.try_emplace({object.mesh, object.material}, 1.f);
-        if (is_new) entry->second = scene::surface_of(scene, object).smoothest;
-        candidates.push_back({entry->second, area_of(scene::bounds(scene, object)), name});
+        if (is_new) entry->second = scene::measure_surface_kinds(scene, object).smoothest;
+        candidates.push_back(
+            {entry->second, compute_surface_area(scene::bounds(scene, object)), name});
     }
     std::ranges::stable_sort(candidates, [](const MirrorCandidate& a, const MirrorCandidate& b) {
         return a.roughness != b.roughness ? a.roughness < b.roughness : a.area > b.area;
@@ -55,9 +56,10 @@ std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t m
     std::set<std::string> known;
     for (const MirrorCandidate& candidate : candidates)
         if (options.size() < most && known.insert(candidate.name).second)
-            options.push_back("--mirror " + shell_word(candidate.name.empty()
-                                                           ? "*" // selects all other objects, too
-                                                           : scene::pattern_of(candidate.name)));
+            options.push_back("--mirror " +
+                              quote_for_shell(candidate.name.empty()
+                                                  ? "*" // selects all other objects, too
+                                                  : scene::make_mirror_pattern(candidate.name)));
     return options;
 }
 

@@ -11,9 +11,9 @@ namespace catoptric::app {
 /// Returns options that make mirrors of a scene's smoothest surfaces, ready for a shell: "--mirror
 /// 'NAME'". Returns at most `most` options, the smoothest surface first and, between equals, the
 /// largest first. Each option names other surfaces than those before it.
-std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t most = 5);
+std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::size_t most = 5);
 
 /// Returns the text as a word for a POSIX shell, in single quotes.
-std::string shell_word(const std::string& text);
+std::string quote_for_shell(const std::string& text);
 
 } // namespace catoptric::app

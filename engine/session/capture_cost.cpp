@@ -19,9 +19,10 @@ void CaptureCost::add(double ms, std::uint32_t mirrors) {
     each_ms_.push_back(ms / mirrors);
 }
 
-std::uint32_t CaptureCost::fitting(double budget_ms, std::uint32_t mirrors) const {
+std::uint32_t CaptureCost::count_affordable_captures(double budget_ms,
+                                                     std::uint32_t mirrors) const {
     if (each_ms_.empty()) return mirrors;
-    const double fit = std::floor(budget_ms / measure::percentile(each_ms_, .5));
+    const double fit = std::floor(budget_ms / measure::compute_percentile(each_ms_, .5));
     // If a mirror's time is too short to measure, any number fits.
     if (!(fit < mirrors)) return mirrors;
     return std::max(1u, static_cast<std::uint32_t>(fit));

@@ -14,7 +14,7 @@ public:
     void add(double ms, std::uint32_t mirrors);
     /// Returns how many of `mirrors` captures fit into the budget, by the median of the frames
     /// added last. Returns at least 1, and `mirrors` if no frame was added.
-    std::uint32_t fitting(double budget_ms, std::uint32_t mirrors) const;
+    std::uint32_t count_affordable_captures(double budget_ms, std::uint32_t mirrors) const;
 
 private:
     std::vector<double> each_ms_; ///< milliseconds per mirror, the newest last

@@ -25,8 +25,8 @@ struct PixelRectangle {
 /// Returns the pixels whose rays can meet a triangle. Their centres lie within the triangle's
 /// bounds on the screen, or less than half a pixel outside (for rounding errors). Returns all
 /// pixels if a corner lies behind the eye.
-PixelRectangle bounds_on_screen(const shared::View& view, uvec2 size,
-                                const std::array<vec3, 3>& corners) {
+PixelRectangle compute_screen_bounds(const shared::View& view, uvec2 size,
+                                     const std::array<vec3, 3>& corners) {
     dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     int behind = 0;
     for (const vec3& corner : corners) {
@@ -50,9 +50,9 @@ PixelRectangle bounds_on_screen(const shared::View& view, uvec2 size,
 
 } // namespace
 
-std::optional<std::vector<int>> objects_covering(const render::Geometry& geometry,
-                                                 const shared::View& view, uvec2 size,
-                                                 std::uint64_t most_tests) {
+std::optional<std::vector<int>> find_first_object_per_pixel(const render::Geometry& geometry,
+                                                            const shared::View& view, uvec2 size,
+                                                            std::uint64_t most_tests) {
     struct Pixel {
         f32::Ray ray;
         f32::RayShear shear;
@@ -60,8 +60,8 @@ std::optional<std::vector<int>> objects_covering(const render::Geometry& geometr
     };
     std::vector<Pixel> pixels;
     for (std::size_t i = 0; i < std::size_t{size.x} * size.y; ++i) {
-        const f32::Ray ray = camera_ray(view, size, i);
-        pixels.push_back({ray, f32::ray_shear(ray.direction)});
+        const f32::Ray ray = make_camera_ray(view, size, i);
+        pixels.push_back({ray, f32::make_ray_shear(ray.direction)});
     }
     std::vector<int> seen(pixels.size(), -1);
     std::uint64_t tests = 0;
@@ -74,7 +74,7 @@ std::optional<std::vector<int>> objects_covering(const render::Geometry& geometr
             for (std::uint32_t j = 0; j < 3; ++j)
                 corners[j] = geometry.vertices[geometry.indices[k + j]].position;
             const auto& [a, b, c] = corners;
-            const PixelRectangle box = bounds_on_screen(view, size, corners);
+            const PixelRectangle box = compute_screen_bounds(view, size, corners);
             tests += box.count();
             if (tests > most_tests) return std::nullopt;
             for (int y = box.low.y; y < box.high.y; ++y)

@@ -8,16 +8,16 @@ namespace catoptric::app {
 
 /// Returns the facts that reports list about a device. Leaves out the lanes, because only a
 /// dispatch can count them.
-inline measure::DeviceFacts facts_of(const DeviceInfo& device) {
+inline measure::DeviceFacts make_device_facts(const DeviceInfo& device) {
     return {device.name,    device.driver,  device.api,     device.type,
             device.threads, device.profile, device.variants};
 }
 
 /// Returns the facts that reports list about the engine's device. Dispatches a shader to count the
 /// lanes.
-inline measure::DeviceFacts facts_of(const Engine& engine) {
-    measure::DeviceFacts facts = facts_of(engine.device());
-    facts.lanes = lanes_of(engine);
+inline measure::DeviceFacts make_device_facts(const Engine& engine) {
+    measure::DeviceFacts facts = make_device_facts(engine.device());
+    facts.lanes = count_shader_lanes(engine);
     return facts;
 }
 

@@ -11,8 +11,8 @@ namespace catoptric::app {
 
 /// Access to the device of an engine and to the graph of a frame. embed/ adds passes to frames.
 /// Tuning chooses other shaders from the next frame on; Engine::device does not report this choice.
-struct Embedding {
-    static void choose(Engine& engine, const gpu::Choices& choices) {
+struct EmbeddingAccess {
+    static void choose(Engine& engine, const gpu::VariantChoices& choices) {
         Access::impl(engine).device.choose(choices);
     }
     static gpu::Device& device(const Engine& engine) { return Access::impl(engine).device; }
@@ -20,7 +20,7 @@ struct Embedding {
                         const std::function<void(FrameGraph&)>& finish) {
         return Access::submit(session, spec, {}, [&](FrameGraph& frame) {
             finish(frame);
-            return graph::ExternalSync{};
+            return graph::ExternalSemaphores{};
         });
     }
 };

@@ -15,7 +15,7 @@ std::string commit() { return CATOPTRIC_COMMIT; }
 
 namespace {
 
-DeviceInfo to_info(const gpu::DeviceProperties& info) {
+DeviceInfo to_public_device_info(const gpu::DeviceProperties& info) {
     return {.name = info.name,
             .driver = info.driver,
             .api = info.api,
@@ -27,20 +27,20 @@ DeviceInfo to_info(const gpu::DeviceProperties& info) {
             .warning = {}};
 }
 
-gpu::DeviceOptions to_options(const EngineOptions& options, const EngineHooks& hooks) {
+gpu::DeviceOptions to_device_options(const EngineOptions& options, const EngineHooks& hooks) {
     gpu::DeviceOptions wanted{options.device, options.validate, hooks.layered, false,
                               hooks.instance_extensions};
     if (hooks.given) wanted.given = *hooks.given;
     if (hooks.make_surface)
         wanted.make_surface = [make = hooks.make_surface](auto instance) {
-            return gpu::surface_of(make(instance));
+            return gpu::surface_from_number(make(instance));
         };
     return wanted;
 }
 
 /// Returns catoptric's folder within the folder that `variable` names, or within a folder of HOME.
 /// Returns an empty path if neither is absolute.
-std::filesystem::path users_folder(const char* variable, const char* in_home) {
+std::filesystem::path find_user_folder(const char* variable, const char* in_home) {
     const auto absolute = [](const char* name) {
         const char* text = std::getenv(name);
         const std::filesystem::path path = text ? text : "";
@@ -54,9 +54,10 @@ std::filesystem::path users_folder(const char* variable, const char* in_home) {
 } // namespace
 
 Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
-    : device(to_options(options, hooks)), pipelines(device, hooks.shader_variants, options.cache),
-      info(to_info(device.info())) {
-    device.choose(choose(options, info));
+    : device(to_device_options(options, hooks)),
+      pipelines(device, hooks.shader_variants, options.cache),
+      info(to_public_device_info(device.info())) {
+    device.choose(choose_shader_variants(options, info));
 }
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -72,30 +73,30 @@ void Engine::check_validation() const { impl_->device.check_validation(); }
 Engine Access::make_engine(const EngineOptions& options, const EngineHooks& hooks) {
     return Engine(options, hooks);
 }
-Compiled Access::compiled(const Engine& engine) {
+CompiledPipelines Access::compiled(const Engine& engine) {
     const gpu::Pipelines& pipelines = engine.impl_->pipelines;
     return {pipelines.made(), pipelines.ms()};
 }
-CacheUse Access::cache_use(const Engine& engine) {
+PipelineCacheState Access::cache_use(const Engine& engine) {
     const gpu::PipelineCache& cache = engine.impl_->pipelines.cache();
-    if (!cache.is_persistent()) return CacheUse::none;
-    return cache.loaded_bytes() > 0 ? CacheUse::used : CacheUse::made;
+    if (!cache.is_persistent()) return PipelineCacheState::none;
+    return cache.loaded_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;
 }
 
-bool any_abandoned() { return gpu::any_abandoned(); }
+bool has_abandoned_device() { return gpu::has_abandoned_device(); }
 
-std::filesystem::path cache_folder() { return users_folder("XDG_CACHE_HOME", ".cache"); }
+std::filesystem::path cache_folder() { return find_user_folder("XDG_CACHE_HOME", ".cache"); }
 
 std::filesystem::path profile_folder() {
-    const std::filesystem::path folder = users_folder("XDG_CONFIG_HOME", ".config");
+    const std::filesystem::path folder = find_user_folder("XDG_CONFIG_HOME", ".config");
     return folder.empty() ? folder : folder / "devices";
 }
 
 std::vector<DeviceInfo> devices(const std::filesystem::path& profiles) {
     std::vector<DeviceInfo> list;
     for (const gpu::DeviceProperties& info : gpu::list_devices()) {
-        list.push_back(to_info(info));
-        choose({.profiles = profiles}, list.back());
+        list.push_back(to_public_device_info(info));
+        choose_shader_variants({.profiles = profiles}, list.back());
     }
     return list;
 }

@@ -13,7 +13,7 @@ namespace catoptric::app {
 
 /// Chosen shader variants by name: {"groups", "in order"}. Variants are builds of shaders that
 /// change no byte of a picture.
-using Variants = std::vector<std::pair<std::string, std::string>>;
+using VariantNames = std::vector<std::pair<std::string, std::string>>;
 
 struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
@@ -26,7 +26,7 @@ struct EngineOptions {
     /// all variants have their defaults.
     std::filesystem::path profiles = {};
     /// Variants to use instead of a profile.
-    Variants variants = {};
+    VariantNames variants = {};
     /// Folder that keeps compiled pipelines from process to process. Empty: pipelines are not kept
     /// on disk.
     std::filesystem::path cache = {};
@@ -49,11 +49,11 @@ CATOPTRIC_API std::vector<TechniqueInfo> techniques();
 struct DeviceInfo {
     std::string name, driver, api, type;
     int threads = 0;
-    std::string missing;    ///< features that the engine needs and the device lacks; empty: usable
-    std::string id;         ///< vendor and device in hexadecimal: "10de-2330"
-    std::string profile;    ///< file name of the profile in effect; empty: none
-    Variants variants = {}; ///< all variants in effect
-    std::string warning;    ///< why an existing profile is not in effect; else empty
+    std::string missing; ///< features that the engine needs and the device lacks; empty: usable
+    std::string id;      ///< vendor and device in hexadecimal: "10de-2330"
+    std::string profile; ///< file name of the profile in effect; empty: none
+    VariantNames variants = {}; ///< all variants in effect
+    std::string warning;        ///< why an existing profile is not in effect; else empty
 };
 /// Returns the machine's devices. `profiles`: see EngineOptions.
 CATOPTRIC_API std::vector<DeviceInfo> devices(const std::filesystem::path& profiles = {});
@@ -64,7 +64,7 @@ CATOPTRIC_API std::string commit();  ///< abbreviated, "unknown" outside a check
 /// Returns whether an Engine of this process had to give up its device (Engine::usable). Threads of
 /// the driver may then still run, and a normal exit under them can crash. Such a program must end
 /// with std::_Exit.
-CATOPTRIC_API bool any_abandoned();
+CATOPTRIC_API bool has_abandoned_device();
 
 /// A device with the pipelines compiled for it. Only one thread may use an engine at a time. The
 /// constructor sets environment variables of this process, so call it before other threads read the

@@ -6,7 +6,7 @@
 
 namespace catoptric::app {
 
-FrameTimes to_times(const graph::GraphFrameTimes& times) {
+FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times) {
     FrameTimes frame{.gpu_ms = times.span_ms,
                      .record_ms = times.record_ms,
                      .wall_ms = times.wall_ms,
@@ -21,7 +21,7 @@ FrameTimes to_times(const graph::GraphFrameTimes& times) {
 
 const FrameTimes& Frame::times() const {
     if (!impl_->times) {
-        impl_->times = to_times(impl_->runner().wait(impl_->ticket));
+        impl_->times = to_public_frame_times(impl_->runner().wait(impl_->ticket));
         impl_->times->host.update = impl_->update_ms;
         impl_->times->host.hierarchy = impl_->hierarchy_ms;
         impl_->times->host.compile += impl_->declare_ms;
@@ -34,7 +34,7 @@ std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
 bool Access::remembers(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
-    return app::remembers(self.frame, self.plan(), self.part(part));
+    return app::depends_on_previous_frame(self.frame, self.plan(), self.part(part));
 }
 
 const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
@@ -43,7 +43,7 @@ const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
 
 std::uint32_t Frame::waiting() const {
     std::uint32_t waiting = 0;
-    for (const Declared& part : impl_->frame.parts)
+    for (const TechniquePasses& part : impl_->frame.parts)
         waiting += part.slices ? part.slices->waiting : 0;
     return waiting;
 }
@@ -51,26 +51,27 @@ std::uint32_t Frame::waiting() const {
 const require::Model& Access::model(const Frame& frame) { return *frame.impl_->model; }
 
 measure::Picture Frame::hdr(std::size_t part) const {
-    return read_hdr(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
+    return read_hdr_picture(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
 }
 
-Part Frame::read(std::size_t part) const {
+TechniqueResult Frame::read(std::size_t part) const {
     if (impl_->spec.with_lookup) impl_->check_last();
-    Part read = read_part(impl_->runner(), impl_->ticket, impl_->frame, part,
-                          impl_->session->mirrors, *impl_->session->resident, impl_->spec);
+    TechniqueResult read = read_technique_result(impl_->runner(), impl_->ticket, impl_->frame, part,
+                                                 impl_->session->mirrors, *impl_->session->resident,
+                                                 impl_->spec);
     read.model = impl_->spec.model;
     read.left_out = impl_->model->left_out;
     read.slices = slices(part);
     return read;
 }
 
-std::vector<Part> Frame::read_all() const {
-    std::vector<Part> parts;
+std::vector<TechniqueResult> Frame::read_all() const {
+    std::vector<TechniqueResult> parts;
     for (std::size_t i = 0; i < size(); ++i) parts.push_back(read(i));
     return parts;
 }
 
-render::Captured Access::captures(const Frame& frame, std::size_t part) {
+render::CapturedCubes Access::captures(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
     const std::shared_ptr<const render::Captures>& captures = self.part(part).outputs.captures;
     check(
@@ -79,8 +80,8 @@ render::Captured Access::captures(const Frame& frame, std::size_t part) {
         Failure::internal, "'", self.part(part).plan.label,
         "': wanted captures with distances in one array that the frame was asked for, found none");
     self.check_last();
-    graph::Runner& runner = self.runner();
-    const render::Cubes& cubes = captures->arrays.front();
+    graph::GraphRunner& runner = self.runner();
+    const render::CubeArray& cubes = captures->arrays.front();
     return {cubes.face, runner.read(self.ticket, cubes.colour),
             runner.read(self.ticket, *cubes.distance), self.session->resident->space()};
 }
@@ -88,21 +89,21 @@ render::Captured Access::captures(const Frame& frame, std::size_t part) {
 std::vector<std::byte> Access::state(const Frame& frame) {
     const Frame::Impl& self = *frame.impl_;
     self.check_last();
-    graph::Runner& runner = self.runner();
+    graph::GraphRunner& runner = self.runner();
     std::vector<std::byte> bytes = runner.read_history();
     const auto add = [&](graph::ImageHandle image) {
         const std::vector<std::byte> texels = runner.read(self.ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };
-    for (const Declared& part : self.frame.parts) {
+    for (const TechniquePasses& part : self.frame.parts) {
         if (!part.outputs.kept) continue;
-        for (const render::Cubes& cubes : part.outputs.captures->arrays) {
+        for (const render::CubeArray& cubes : part.outputs.captures->arrays) {
             add(cubes.colour);
             if (cubes.distance) add(*cubes.distance);
         }
     }
     if (bytes.empty()) return bytes;
-    for (const Declared& part : self.frame.parts) add(part.outputs.hdr);
+    for (const TechniquePasses& part : self.frame.parts) add(part.outputs.hdr);
     return bytes;
 }
 

@@ -19,10 +19,11 @@ namespace catoptric::app {
 namespace {
 
 /// Counts scene passes and draws of the part whose passes begin with `prefix`.
-void count_scene_passes(const graph::Graph& graph, const graph::GraphPlan& plan, Part& part) {
+void count_scene_passes_of_part(const graph::Graph& graph, const graph::GraphPlan& plan,
+                                TechniqueResult& part) {
     for (const graph::PlannedPass& planned : plan.passes) {
         const graph::Pass& pass = graph.passes()[planned.pass];
-        if (pass.tag != graph::Tag::scene || !pass.name.starts_with(part.prefix)) continue;
+        if (pass.tag != graph::PassTag::scene || !pass.name.starts_with(part.prefix)) continue;
         ++part.scene_passes;
         part.scene_draws += static_cast<int>(pass.layer_count);
     }
@@ -44,25 +45,26 @@ measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, Fo
 }
 
 template <typename Value>
-std::vector<Value> values_of(const std::vector<std::byte>& bytes) {
+std::vector<Value> read_typed_values(const std::vector<std::byte>& bytes) {
     std::vector<Value> values(bytes.size() / sizeof(Value));
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
 }
 
-/// Returns the mirrors that rays hit (Part::hits), from the alpha channel of a traced picture.
-std::vector<std::uint32_t> to_hits(const std::vector<std::byte>& texels) {
+/// Returns the mirrors that rays hit (TechniqueResult::hits), from the alpha channel of a traced
+/// picture.
+std::vector<std::uint32_t> decode_mirror_hits(const std::vector<std::byte>& texels) {
     std::vector<std::uint32_t> hits;
     hits.reserve(texels.size() / sizeof(vec4));
-    for (const vec4& texel : values_of<vec4>(texels)) {
-        const std::uint32_t met = bvh::bits(texel.w) & ~f32::kBvhTag;
+    for (const vec4& texel : read_typed_values<vec4>(texels)) {
+        const std::uint32_t met = bvh::float_to_bits(texel.w) & ~f32::kBvhTag;
         hits.push_back((met & shared::kMostMirrors) | met >> shared::kMetBits << 16);
     }
     return hits;
 }
 
 /// Adds the counters of one ray-tracing pass.
-void add_counters(const std::vector<std::byte>& bytes, Part& part) {
+void add_ray_counters(const std::vector<std::byte>& bytes, TechniqueResult& part) {
     shared::Counters counters;
     std::memcpy(&counters, bytes.data(), sizeof counters);
     check(counters.exhausted == 0, Failure::exhausted, "'", part.label, "': ", counters.exhausted,
@@ -79,8 +81,8 @@ void add_counters(const std::vector<std::byte>& bytes, Part& part) {
 }
 
 /// Returns the outcome of captures that are kept under a limit.
-std::optional<CaptureBudget> slices_of(const reflect::Outputs& outputs,
-                                       const reflect::CaptureHistory& keeping) {
+std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs& outputs,
+                                                 const reflect::CaptureHistory& keeping) {
     if (!outputs.kept || keeping.most == 0) return std::nullopt;
     const render::CaptureCache& kept = *outputs.kept;
     CaptureBudget slices;
@@ -95,19 +97,20 @@ std::optional<CaptureBudget> slices_of(const reflect::Outputs& outputs,
 }
 
 /// Returns the bytes of persistent images that the frame does not use.
-std::uint64_t idle_bytes(const graph::Runner& runner, const graph::Graph& graph) {
+std::uint64_t count_unused_image_bytes(const graph::GraphRunner& runner,
+                                       const graph::Graph& graph) {
     std::uint64_t bytes = 0;
     for (const auto& [name, kept] : runner.history().persistent) {
         const bool is_used = std::ranges::find(graph.images(), name, &graph::ImageDesc::name) !=
                              graph.images().end();
-        if (!is_used) bytes += graph::plain_sizer().image(kept.desc).bytes;
+        if (!is_used) bytes += graph::make_default_sizer().image(kept.desc).bytes;
     }
     return bytes;
 }
 
 /// Counts texels of four halves with a colour at or above the largest half.
-std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
-    const std::vector<std::uint16_t> halves = values_of<std::uint16_t>(bytes);
+std::size_t count_saturated_texels(const std::vector<std::byte>& bytes) {
+    const std::vector<std::uint16_t> halves = read_typed_values<std::uint16_t>(bytes);
     std::size_t count = 0;
     for (std::size_t i = 0; i + 3 < halves.size(); i += 4)
         count += std::any_of(&halves[i], &halves[i] + 3, [](std::uint16_t half) {
@@ -118,9 +121,9 @@ std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
 
 } // namespace
 
-std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& techniques) {
+std::vector<reflect::TechniquePlan> parse_plans(const std::vector<std::string>& techniques) {
     check(!techniques.empty(), Failure::usage, "no technique was asked for");
-    std::vector<reflect::Plan> plans;
+    std::vector<reflect::TechniquePlan> plans;
     for (const std::string& text : techniques) {
         plans.push_back(read_plan(text));
         for (std::size_t i = 0; i + 1 < plans.size(); ++i)
@@ -130,40 +133,43 @@ std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& technique
     return plans;
 }
 
-FrameGraph declare(const FrameSpec& spec, const FrameHooks& hooks,
-                   const std::vector<reflect::Plan>& plans, const std::vector<std::string>& mirrors,
-                   const render::GpuScene& scene, graph::History history,
-                   const std::vector<reflect::CaptureHistory>& keeping) {
+FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
+                               const std::vector<reflect::TechniquePlan>& plans,
+                               const std::vector<std::string>& mirrors,
+                               const render::GpuScene& scene, graph::GraphHistory history,
+                               const std::vector<reflect::CaptureHistory>& keeping) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     scene.begin_frame();
-    for (const reflect::Plan& plan : plans) {
+    for (const reflect::TechniquePlan& plan : plans) {
         const reflect::CaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{scene,     spec.size,     prefix,
                                          spec.seed, hooks.ablated, spec.with_lookup};
-        const reflect::Assignment assignment = reflect::fitted(
-            reflect::assign(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
-        reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment, kept);
-        const graph::ImageHandle display = render::add_compose(frame.graph, inputs, outputs.hdr,
-                                                               spec.exposure);
+        const reflect::MirrorAssignment assignment = reflect::replace_unfit_techniques(
+            reflect::assign_mirrors(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
+        reflect::TechniqueOutputs outputs = reflect::add_frame_passes(frame.graph, inputs,
+                                                                      assignment, kept);
+        const graph::ImageHandle display = render::add_compose_pass(frame.graph, inputs,
+                                                                    outputs.hdr, spec.exposure);
         frame.graph.mark_output(outputs.hdr);
         frame.graph.mark_output(display);
         for (const graph::BufferHandle counters : outputs.counters)
             frame.graph.mark_output(counters);
         if (outputs.lookup) frame.graph.mark_output(*outputs.lookup);
         if (outputs.captures && (spec.with_lookup || hooks.with_captures)) {
-            for (const render::Cubes& cubes : outputs.captures->arrays) {
+            for (const render::CubeArray& cubes : outputs.captures->arrays) {
                 frame.graph.mark_output(cubes.colour);
                 if (hooks.with_captures && cubes.distance) frame.graph.mark_output(*cubes.distance);
             }
         }
-        const std::optional<CaptureBudget> slices = slices_of(outputs, kept);
+        const std::optional<CaptureBudget> slices = make_capture_budget(outputs, kept);
         frame.parts.push_back({plan, assignment, prefix, std::move(outputs), display, slices});
     }
     return frame;
 }
 
-bool remembers(const FrameGraph& frame, const graph::GraphPlan& plan, const Declared& part) {
+bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& plan,
+                               const TechniquePasses& part) {
     return part.outputs.kept ||
            std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
                const graph::Pass& pass = frame.graph.passes()[planned.pass];
@@ -174,24 +180,25 @@ bool remembers(const FrameGraph& frame, const graph::GraphPlan& plan, const Decl
            });
 }
 
-measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
-                          uvec2 size) {
+measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                                  const TechniquePasses& declared, uvec2 size) {
     return to_picture(runner.read(ticket, declared.outputs.hdr), size, Format::rgba32f);
 }
 
 /// Returns how each mirror was drawn, and which rule decided so.
-std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::string>& mirrors) {
+std::vector<PlanEntry> list_plan_entries(const TechniquePasses& declared,
+                                         const std::vector<std::string>& mirrors) {
     const auto& [choices, of_mirror, patterns, reasons, lacks] = declared.assignment;
     std::vector<PlanEntry> entries;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
-        const reflect::Choice& choice = choices[of_mirror[i]];
+        const reflect::TechniqueChoice& choice = choices[of_mirror[i]];
         std::string why = patterns[i].empty() ? "one technique was asked for"
                                               : "rule '" + patterns[i] + "'";
         if (!reasons[i].empty()) why = reasons[i];
         const bool is_left_out = choices.size() > 1 && choice.shared.is_black_in_others;
         if (is_left_out) why += "; black in the captures of others, capture=none";
         entries.push_back({static_cast<std::uint32_t>(i + 1), mirrors[i],
-                           std::string(choice.technique->name), settings_of(choice),
+                           std::string(choice.technique->name), list_settings(choice),
                            std::move(why)});
     }
     return entries;
@@ -199,8 +206,8 @@ std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::
 
 /// Returns sentences about mirrors that their technique cannot draw as asked. Mirrors that lack the
 /// same share a sentence, which names the first of them.
-std::vector<std::string> shortfalls_of(const Declared& declared,
-                                       const std::vector<std::string>& mirrors) {
+std::vector<std::string> describe_unmet_requests(const TechniquePasses& declared,
+                                                 const std::vector<std::string>& mirrors) {
     constexpr std::size_t kMostNamed = 3;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -215,7 +222,7 @@ std::vector<std::string> shortfalls_of(const Declared& declared,
         std::string names;
         for (std::size_t k = 0; k < std::min(kMostNamed, lacking.size()); ++k)
             names += (k ? ", " : "") + std::to_string(lacking[k] + 1) + " " +
-                     in_quotes(mirrors[lacking[k]]);
+                     quote_printable(mirrors[lacking[k]]);
         if (lacking.size() > kMostNamed)
             names += " and " + std::to_string(lacking.size() - kMostNamed) + " more";
         said.push_back((lacking.size() > 1 ? "mirrors " : "mirror ") + names + ": " + lack);
@@ -223,37 +230,38 @@ std::vector<std::string> shortfalls_of(const Declared& declared,
     return said;
 }
 
-Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& frame,
-               std::size_t index, const std::vector<std::string>& mirrors,
-               const render::GpuScene& scene, const FrameSpec& spec) {
-    const Declared& declared = frame.parts[index];
-    const reflect::Outputs& outputs = declared.outputs;
+TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
+                                      const FrameGraph& frame, std::size_t index,
+                                      const std::vector<std::string>& mirrors,
+                                      const render::GpuScene& scene, const FrameSpec& spec) {
+    const TechniquePasses& declared = frame.parts[index];
+    const reflect::TechniqueOutputs& outputs = declared.outputs;
     const graph::GraphPlan& plan = runner.compiled(frame.graph);
-    Part part;
+    TechniqueResult part;
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
-    part.plan = plan_of(declared, mirrors);
-    part.memory_bytes = plan.bytes + idle_bytes(runner, frame.graph);
-    part.remembers = app::remembers(frame, plan, declared);
-    count_scene_passes(frame.graph, plan, part);
+    part.plan = list_plan_entries(declared, mirrors);
+    part.memory_bytes = plan.bytes + count_unused_image_bytes(runner, frame.graph);
+    part.remembers = app::depends_on_previous_frame(frame, plan, declared);
+    count_scene_passes_of_part(frame.graph, plan, part);
     part.notes = outputs.notes;
-    std::ranges::move(shortfalls_of(declared, mirrors), std::back_inserter(part.notes));
-    for (const reflect::Choice& choice : declared.assignment.choices)
+    std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
+    for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
         if (choice.shared.chooses_face)
             part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
     for (const graph::BufferHandle counters : outputs.counters)
-        add_counters(runner.read(ticket, counters), part);
+        add_ray_counters(runner.read(ticket, counters), part);
     const std::vector<std::byte> texels = runner.read(ticket, outputs.hdr);
     part.hdr = to_picture(texels, spec.size, Format::rgba32f);
-    if (outputs.has_hits) part.hits = to_hits(texels);
+    if (outputs.has_hits) part.hits = decode_mirror_hits(texels);
     part.display = to_picture(runner.read(ticket, declared.display), spec.size,
                               Format::rgba8_unorm);
     if (spec.with_lookup && outputs.captures)
-        for (const render::Cubes& cubes : outputs.captures->arrays)
+        for (const render::CubeArray& cubes : outputs.captures->arrays)
             if (frame.graph.images()[cubes.colour.id].format == Format::rgba16f)
                 part.saturated = part.saturated.value_or(0) +
-                                 saturated_texels(runner.read(ticket, cubes.colour));
-    if (outputs.lookup) part.lookup = values_of<vec4>(runner.read(ticket, *outputs.lookup));
+                                 count_saturated_texels(runner.read(ticket, cubes.colour));
+    if (outputs.lookup) part.lookup = read_typed_values<vec4>(runner.read(ticket, *outputs.lookup));
     return part;
 }
 

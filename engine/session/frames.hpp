@@ -35,7 +35,7 @@ public:
     /// Returns the times of the measured frames so far.
     const std::vector<FrameTimes>& times() const { return times_; }
     /// Returns the results up to the frame rendered last.
-    Result result() const;
+    RunResult result() const;
 
 private:
     Session& session_;
@@ -44,7 +44,7 @@ private:
     int number_ = 0;
     bool settled_ = false;
     std::optional<Frame> frame_;
-    std::optional<Sequence> aside_;
+    std::optional<FrameSequence> aside_;
     std::vector<FrameTimes> times_;
     std::vector<std::byte> state_; ///< Access::state of the frame before, with `until_settled`
 };

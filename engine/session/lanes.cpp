@@ -14,14 +14,14 @@ namespace {
 
 constexpr int kLaneBits = 32;
 
-int count_lanes(gpu::Device& device) {
+int measure_shader_lanes(gpu::Device& device) {
     gpu::Pipelines pipelines(device); // separate, so that the engine's counts do not change
-    graph::Runner runner(device, pipelines);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle lanes = graph.buffer({"lanes", 16});
     graph.pass("lanes")
-        .writes(lanes, graph::Use::storage_write)
-        .record([=](graph::Commands& commands) {
+        .writes(lanes, graph::ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"lanes.comp", {}});
             commands.bind("Lanes", lanes);
             commands.dispatch(1, 1);
@@ -35,12 +35,14 @@ int count_lanes(gpu::Device& device) {
 
 } // namespace
 
-int lanes_of(const Engine& engine) { return count_lanes(Embedding::device(engine)); }
+int count_shader_lanes(const Engine& engine) {
+    return measure_shader_lanes(EmbeddingAccess::device(engine));
+}
 
-std::string width_warning(const Engine& engine) {
-    const std::optional<long> asked = gpu::vector_bits_asked();
+std::string warn_of_vector_width(const Engine& engine) {
+    const std::optional<long> asked = gpu::requested_vector_bits();
     if (!asked || engine.device().type != "cpu") return "";
-    const int bits = kLaneBits * lanes_of(engine);
+    const int bits = kLaneBits * count_shader_lanes(engine);
     if (*asked == bits) return "";
     return "LP_NATIVE_VECTOR_WIDTH asks for vectors of " + std::to_string(*asked) +
            " bits, the driver runs code of " + std::to_string(bits) +

@@ -17,48 +17,50 @@ using PlanJson = nlohmann::json;
 constexpr std::string_view kPrefix = "plan:";
 constexpr std::uintmax_t kMostPlanBytes = 16U << 20U;
 
-std::string value_text(const PlanJson& value) {
+std::string format_json_value(const PlanJson& value) {
     constexpr std::size_t kLongest = 60;
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
     const std::string text = value.dump(-1, ' ', true, PlanJson::error_handler_t::replace);
     return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
-const PlanJson& rules_of(const PlanJson& document, const std::string& file) {
+const PlanJson& find_plan_rules(const PlanJson& document, const std::string& file) {
     const PlanJson& list = document.is_object() && document.contains("plan") ? document["plan"]
                                                                              : document;
     check(list.is_array() && !list.empty(), Failure::bad_data, file,
-          ": wanted a list of rules, or an object with one as 'plan', found ", value_text(list));
+          ": wanted a list of rules, or an object with one as 'plan', found ",
+          format_json_value(list));
     return list;
 }
 
 /// Returns a member that must be text or, if `numbers` is true, a whole number.
-std::string text_of(const PlanJson& rule, const char* member, const std::string& place,
-                    bool numbers) {
+std::string read_text_member(const PlanJson& rule, const char* member, const std::string& place,
+                             bool numbers) {
     const PlanJson value = rule.value(member, PlanJson());
     if (numbers && value.is_number_unsigned()) return std::to_string(value.get<std::uint64_t>());
     check(value.is_string() && !value.get_ref<const std::string&>().empty(), Failure::bad_data,
           place, ".", member, ": wanted ", numbers ? "a mirror's number or a pattern" : "text",
-          ", found ", value.is_null() ? "nothing" : value_text(value));
+          ", found ", value.is_null() ? "nothing" : format_json_value(value));
     return value.get<std::string>();
 }
 
-reflect::Rule rule_of(const PlanJson& rule, const std::string& place) {
+reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place) {
     check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ",
-          value_text(rule));
+          format_json_value(rule));
     for (const auto& [key, value] : rule.items())
         check(key == "mirror" || key == "technique" || key == "settings" || key == "name" ||
                   key == "why",
               Failure::bad_data, place, ": wanted mirror, technique and settings, found '", key,
               "'");
-    std::string pattern = text_of(rule, "mirror", place, true);
-    reflect::Choice choice = reflect::parse_choice(text_of(rule, "technique", place, false));
+    std::string pattern = read_text_member(rule, "mirror", place, true);
+    reflect::TechniqueChoice choice = reflect::parse_technique_choice(
+        read_text_member(rule, "technique", place, false));
     const PlanJson settings = rule.value("settings", PlanJson::object());
     check(settings.is_object(), Failure::bad_data, place, ".settings: wanted an object, found ",
-          value_text(settings));
+          format_json_value(settings));
     for (const auto& [knob, value] : settings.items()) {
         check(value.is_string() || value.is_number(), Failure::bad_data, place, ".settings.", knob,
-              ": wanted a number or text, found ", value_text(value));
+              ": wanted a number or text, found ", format_json_value(value));
         choice.settings.set(choice.technique->name, knob,
                             value.is_string() ? value.get<std::string>() : value.dump());
     }
@@ -68,7 +70,7 @@ reflect::Rule rule_of(const PlanJson& rule, const std::string& place) {
 
 } // namespace
 
-reflect::Plan read_plan(const std::string& text) {
+reflect::TechniquePlan read_plan(const std::string& text) {
     if (!text.starts_with(kPrefix)) return reflect::parse_plan(text);
     const std::string file = text.substr(kPrefix.size());
     std::error_code error;
@@ -78,14 +80,14 @@ reflect::Plan read_plan(const std::string& text) {
     check(error || bytes <= kMostPlanBytes, Failure::bad_data, file, ": wanted a plan of at most ",
           kMostPlanBytes, " bytes, found ", bytes);
     const PlanJson document = parse_json<PlanJson>(file, read_file(file));
-    reflect::Plan plan{text, {}};
-    const PlanJson& rules = rules_of(document, file);
+    reflect::TechniquePlan plan{text, {}};
+    const PlanJson& rules = find_plan_rules(document, file);
     for (std::size_t i = 0; i < rules.size(); ++i)
-        plan.rules.push_back(rule_of(rules[i], file + ": plan[" + std::to_string(i) + "]"));
+        plan.rules.push_back(read_plan_rule(rules[i], file + ": plan[" + std::to_string(i) + "]"));
     return plan;
 }
 
-std::vector<std::string> mirror_names(const scene::Scene& scene) {
+std::vector<std::string> list_mirror_names(const scene::Scene& scene) {
     std::vector<std::string> names;
     for (const std::size_t object : scene::mirrors(scene))
         names.push_back(scene.objects[object].name);

@@ -22,7 +22,7 @@ constexpr double kLoadMemory = 60;   ///< seconds after which a load counts 1/e
 constexpr double kNanosecond = 1e-9;
 
 /// Returns the seconds that all processors worked, for any process.
-double busy_seconds() {
+double read_busy_seconds() {
     std::ifstream file("/proc/stat");
     std::string name;
     double user = 0, nice = 0, system = 0, idle = 0, io = 0, irq = 0, softirq = 0, stolen = 0;
@@ -33,7 +33,7 @@ double busy_seconds() {
 }
 
 /// Returns the numbers of this process's threads whose name begins with `prefix`, sorted by name.
-std::vector<int> threads_named(const std::string& prefix) {
+std::vector<int> find_threads_by_prefix(const std::string& prefix) {
     std::map<std::string, int> found;
     std::error_code error;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
@@ -48,7 +48,7 @@ std::vector<int> threads_named(const std::string& prefix) {
 }
 
 /// Returns the processors that this process's threads may use.
-cpu_set_t allowed_processors() {
+cpu_set_t read_allowed_processors() {
     cpu_set_t allowed;
     CPU_ZERO(&allowed);
     ::sched_getaffinity(0, sizeof allowed, &allowed);
@@ -57,20 +57,20 @@ cpu_set_t allowed_processors() {
 
 } // namespace
 
-double process_seconds() {
+double read_process_seconds() {
     timespec used{};
     if (::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used) != 0)
         return std::numeric_limits<double>::quiet_NaN();
     return static_cast<double>(used.tv_sec) + kNanosecond * static_cast<double>(used.tv_nsec);
 }
 
-double machine_load() {
+double read_machine_load() {
     double load = 0;
     return ::getloadavg(&load, 1) == 1 ? load : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<ProcessorUse> processor_use() {
-    ProcessorUse use{{}, busy_seconds()};
+std::optional<ProcessorUse> read_processor_use() {
+    ProcessorUse use{{}, read_busy_seconds()};
     std::error_code error;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
         // The file begins with the nanoseconds that the thread ran, and those that it waited.
@@ -84,12 +84,12 @@ std::optional<ProcessorUse> processor_use() {
     return use;
 }
 
-void Waiting::operator+=(const Waiting& more) {
+void WaitingTimes::operator+=(const WaitingTimes& more) {
     ran += more.ran, waited += more.waited, others += more.others;
 }
 
-Waiting waiting_between(const ProcessorUse& before, const ProcessorUse& after) {
-    Waiting sum;
+WaitingTimes compute_waiting_times(const ProcessorUse& before, const ProcessorUse& after) {
+    WaitingTimes sum;
     for (const auto& [thread, time] : after.threads) {
         const auto found = before.threads.find(thread);
         const ThreadTime start = found == before.threads.end() ? ThreadTime{} : found->second;
@@ -100,7 +100,7 @@ Waiting waiting_between(const ProcessorUse& before, const ProcessorUse& after) {
     return sum;
 }
 
-double waited_share(const Waiting& waiting) {
+double compute_waited_share(const WaitingTimes& waiting) {
     if (!(waiting.waited > 0)) return 0;
     const double share = waiting.waited / (waiting.ran + waiting.waited);
     if (std::isnan(waiting.others)) return share;
@@ -109,17 +109,17 @@ double waited_share(const Waiting& waiting) {
     return others > 0 ? share * others / (waiting.ran + others) : 0;
 }
 
-bool is_noisy(double waited_share) { return waited_share > kMostWaiting; }
+bool is_timing_noisy(double waited_share) { return waited_share > kMostWaiting; }
 
-bool is_noisy(double load, double used_seconds, double elapsed_seconds) {
+bool is_timing_noisy(double load, double used_seconds, double elapsed_seconds) {
     if (std::isnan(load) || !(elapsed_seconds > 0)) return false;
     const double own = used_seconds / elapsed_seconds *
                        (1 - std::exp(-elapsed_seconds / kLoadMemory));
     return load - own > kMostOthers;
 }
 
-HeldThreads::HeldThreads() : threads_(threads_named("llvmpipe-")) {
-    const cpu_set_t allowed = allowed_processors();
+PinnedThreads::PinnedThreads() : threads_(find_threads_by_prefix("llvmpipe-")) {
+    const cpu_set_t allowed = read_allowed_processors();
     if (threads_.size() > static_cast<std::size_t>(CPU_COUNT(&allowed))) threads_.clear();
     int processor = -1;
     for (const int thread : threads_) {
@@ -132,8 +132,8 @@ HeldThreads::HeldThreads() : threads_(threads_named("llvmpipe-")) {
     }
 }
 
-HeldThreads::~HeldThreads() {
-    const cpu_set_t allowed = allowed_processors();
+PinnedThreads::~PinnedThreads() {
+    const cpu_set_t allowed = read_allowed_processors();
     for (const int thread : threads_) ::sched_setaffinity(thread, sizeof allowed, &allowed);
 }
 

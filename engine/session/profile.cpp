@@ -20,36 +20,37 @@ constexpr const char* kSchema = "catoptric/device-profile/1";
 constexpr std::uintmax_t kMostProfileBytes = 1U << 20U;
 
 /// Returns the value as text for messages, without JSON's quotes.
-std::string shown(const Json& value) {
-    return value.is_string() ? in_quotes(value.get<std::string>()) : report::shown(value);
+std::string format_for_message(const Json& value) {
+    return value.is_string() ? quote_printable(value.get<std::string>())
+                             : report::describe_json_value(value);
 }
 
 /// Returns the index of the variant, or throws `failure` with `place` in front.
-std::size_t find_variant(std::string_view name, Failure failure, const std::string& place) {
+std::size_t find_variant_index(std::string_view name, Failure failure, const std::string& place) {
     std::string known;
     for (std::size_t i = 0; i < gpu::kVariants; ++i) {
-        const gpu::Variant& variant = gpu::variants()[i];
+        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         if (variant.name == name) return i;
         known += (known.empty() ? "" : ", ") + std::string(variant.name);
     }
-    fail(failure, place, ": wanted one of ", known, ", found ", in_quotes(name));
+    fail(failure, place, ": wanted one of ", known, ", found ", quote_printable(name));
 }
 
 /// Returns the index of the choice, or throws `failure` with `place` in front.
-std::uint8_t find_choice(const gpu::Variant& variant, const Json& choice, Failure failure,
-                         const std::string& place) {
+std::uint8_t find_choice_index(const gpu::ShaderVariant& variant, const Json& choice,
+                               Failure failure, const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
         if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
-    fail(failure, place, ".", variant.name, ": wanted ", in_quotes(variant.choices[0]), " or ",
-         in_quotes(variant.choices[1]), ", found ", shown(choice));
+    fail(failure, place, ".", variant.name, ": wanted ", quote_printable(variant.choices[0]),
+         " or ", quote_printable(variant.choices[1]), ", found ", format_for_message(choice));
 }
 
-Json device_json(const DeviceInfo& device) {
+Json make_device_json(const DeviceInfo& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"id", device.id}};
 }
 
 /// Reads a small file. Users may name any file, so its type and size are checked first.
-std::string small_file(const fs::path& file) {
+std::string read_small_file(const fs::path& file) {
     std::error_code error;
     check(!fs::exists(file, error) || fs::is_regular_file(file, error), Failure::bad_data,
           file.string(), ": wanted a file with a device profile, found something else");
@@ -59,37 +60,37 @@ std::string small_file(const fs::path& file) {
     return read_file(file);
 }
 
-gpu::Choices read(const fs::path& file, const DeviceInfo& device) {
-    return read_profile(small_file(file), file.string(), device);
+gpu::VariantChoices read_profile_if_usable(const fs::path& file, const DeviceInfo& device) {
+    return read_profile(read_small_file(file), file.string(), device);
 }
 
 /// Returns the choices of the folder's profile, or the defaults if there is no usable profile.
-gpu::Choices found_in(const fs::path& folder, DeviceInfo& device) {
-    const fs::path file = folder / profile_name(device);
+gpu::VariantChoices find_profile_choices(const fs::path& folder, DeviceInfo& device) {
+    const fs::path file = folder / make_profile_file_name(device);
     std::error_code error;
-    if (!fs::exists(fs::symlink_status(file, error))) return default_choices(device);
+    if (!fs::exists(fs::symlink_status(file, error))) return choose_default_variants(device);
     try {
-        const gpu::Choices choices = read(file, device);
+        const gpu::VariantChoices choices = read_profile_if_usable(file, device);
         device.profile = file.filename().string();
         return choices;
     } catch (const Error& refused) {
         device.warning = std::string(refused.what()) +
                          "; shaders are as by default ('bench --tune' writes a new profile)";
-        return default_choices(device);
+        return choose_default_variants(device);
     }
 }
 
 } // namespace
 
-gpu::Choices default_choices(const DeviceInfo& device) {
-    gpu::Choices choices{};
+gpu::VariantChoices choose_default_variants(const DeviceInfo& device) {
+    gpu::VariantChoices choices{};
     // Only a software driver gives each of its threads a contiguous run of work groups.
-    const std::size_t groups = find_variant("groups", Failure::internal, "variants");
+    const std::size_t groups = find_variant_index("groups", Failure::internal, "variants");
     choices[groups] = device.type == "cpu" ? 0 : 1;
     return choices;
 }
 
-std::string profile_name(const DeviceInfo& device) {
+std::string make_profile_file_name(const DeviceInfo& device) {
     std::string name = device.id + "-" + device.driver;
     const auto is_safe = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
@@ -99,80 +100,84 @@ std::string profile_name(const DeviceInfo& device) {
     return name + ".json";
 }
 
-std::string profile_text(const DeviceInfo& device, const std::vector<measure::Tried>& tried) {
+std::string make_profile_text(const DeviceInfo& device,
+                              const std::vector<measure::TriedVariant>& tried) {
     Json document{{"schema", kSchema}, {"version", version()}, {"commit", commit()}};
-    document["device"] = device_json(device);
+    document["device"] = make_device_json(device);
     document["variants"] = Json::object();
     document["measured"] = Json::array();
-    for (const measure::Tried& one : tried) {
+    for (const measure::TriedVariant& one : tried) {
         document["variants"][one.variant] = one.is_taken() ? one.choice : one.standard;
-        const measure::Ratio ratio = one.ratio();
+        const measure::CostRatio ratio = one.ratio();
         document["measured"].push_back({{"variant", one.variant},
                                         {"choice", one.choice},
                                         {"against", one.standard},
                                         {"benchmark", one.benchmark},
-                                        {"ratio", report::number(ratio.median)},
+                                        {"ratio", report::number_json(ratio.median)},
                                         {"ci95", report::interval_json(ratio.ci95)},
                                         {"taken", one.is_taken()}});
     }
-    return report::written(document);
+    return report::serialise_json(document);
 }
 
-gpu::Choices read_profile(const std::string& text, const std::string& file,
-                          const DeviceInfo& device) {
+gpu::VariantChoices read_profile(const std::string& text, const std::string& file,
+                                 const DeviceInfo& device) {
     const Json document = parse_json<Json>(file, text);
     const auto member = [](const Json& object, const char* name) {
         return object.is_object() ? object.value(name, Json()) : Json();
     };
     check(member(document, "schema") == kSchema, Failure::bad_data, file,
           ": wanted a device profile, schema '", kSchema, "', found ",
-          shown(member(document, "schema")));
-    const Json found = member(document, "device"), wanted = device_json(device);
+          format_for_message(member(document, "schema")));
+    const Json found = member(document, "device"), wanted = make_device_json(device);
     for (const auto& [name, value] : wanted.items())
         check(member(found, name.c_str()) == value, Failure::bad_data, file,
-              ": is another device's or driver's profile: device.", name, ": wanted ", shown(value),
-              ", found ", shown(member(found, name.c_str())));
+              ": is another device's or driver's profile: device.", name, ": wanted ",
+              format_for_message(value), ", found ",
+              format_for_message(member(found, name.c_str())));
     const Json list = member(document, "variants");
     check(list.is_object(), Failure::bad_data, file, ": variants: wanted an object, found ",
-          shown(list));
-    gpu::Choices choices = default_choices(device);
+          format_for_message(list));
+    gpu::VariantChoices choices = choose_default_variants(device);
     const std::string place = file + ": variants";
     for (const auto& [name, choice] : list.items()) {
-        const std::size_t i = find_variant(name, Failure::bad_data, place);
-        choices[i] = find_choice(gpu::variants()[i], choice, Failure::bad_data, place);
+        const std::size_t i = find_variant_index(name, Failure::bad_data, place);
+        choices[i] = find_choice_index(gpu::list_shader_variants()[i], choice, Failure::bad_data,
+                                       place);
     }
     return choices;
 }
 
-Variants variants_of(const gpu::Choices& choices) {
-    Variants variants;
+VariantNames name_variant_choices(const gpu::VariantChoices& choices) {
+    VariantNames variants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        const gpu::Variant& variant = gpu::variants()[i];
+        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         variants.emplace_back(variant.name, variant.choices[choices[i]]);
     }
     return variants;
 }
 
-gpu::Choices choices_of(const Variants& variants, const DeviceInfo& device) {
-    gpu::Choices choices = default_choices(device);
+gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const DeviceInfo& device) {
+    gpu::VariantChoices choices = choose_default_variants(device);
     for (const auto& [name, choice] : variants) {
-        const std::size_t i = find_variant(name, Failure::usage, "variants");
-        choices[i] = find_choice(gpu::variants()[i], choice, Failure::usage, "variants");
+        const std::size_t i = find_variant_index(name, Failure::usage, "variants");
+        choices[i] = find_choice_index(gpu::list_shader_variants()[i], choice, Failure::usage,
+                                       "variants");
     }
     return choices;
 }
 
-gpu::Choices choose(const EngineOptions& options, DeviceInfo& device) {
-    gpu::Choices choices = default_choices(device);
+gpu::VariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device) {
+    gpu::VariantChoices choices = choose_default_variants(device);
     if (!options.variants.empty()) {
-        choices = choices_of(options.variants, device);
+        choices = parse_variant_choices(options.variants, device);
     } else if (!options.profile.empty()) {
-        choices = read(options.profile, device);
+        choices = read_profile_if_usable(options.profile, device);
         device.profile = options.profile.filename().string();
     } else if (!options.profiles.empty()) {
-        choices = found_in(options.profiles, device);
+        choices = find_profile_choices(options.profiles, device);
     }
-    device.variants = variants_of(choices);
+    device.variants = name_variant_choices(choices);
     return choices;
 }
 

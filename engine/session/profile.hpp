@@ -13,28 +13,29 @@
 namespace catoptric::app {
 
 /// Returns the file name of the profile for this device and driver: "10de-2330-NVIDIA-550.54.json".
-std::string profile_name(const DeviceInfo& device);
+std::string make_profile_file_name(const DeviceInfo& device);
 
 /// Returns the text of a profile. `tried`: measured variants in the table's order; the profile
 /// chooses those that are taken.
-std::string profile_text(const DeviceInfo& device, const std::vector<measure::Tried>& tried);
+std::string make_profile_text(const DeviceInfo& device,
+                              const std::vector<measure::TriedVariant>& tried);
 /// Reads the choices from the text of `file`. Throws `bad_data` if the text is no profile, or
 /// belongs to another device or driver.
-gpu::Choices read_profile(const std::string& text, const std::string& file,
-                          const DeviceInfo& device);
+gpu::VariantChoices read_profile(const std::string& text, const std::string& file,
+                                 const DeviceInfo& device);
 
 /// Returns each variant with its choice, by name.
-Variants variants_of(const gpu::Choices& choices);
+VariantNames name_variant_choices(const gpu::VariantChoices& choices);
 /// Returns the choices of named variants. Variants that are not named have their defaults. Throws
 /// `usage` for unknown names.
-gpu::Choices choices_of(const Variants& variants, const DeviceInfo& device);
+gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const DeviceInfo& device);
 /// Returns the choices without a profile. Work groups are scattered on a processor and in order on
 /// any other device. Each other variant has its first choice.
-gpu::Choices default_choices(const DeviceInfo& device);
+gpu::VariantChoices choose_default_variants(const DeviceInfo& device);
 
 /// Returns the choices for the device by the options. Writes the variants, and the profile or why
 /// it is not used, to `device`. Throws `bad_data` and `missing_input` for a profile that the
 /// options name.
-gpu::Choices choose(const EngineOptions& options, DeviceInfo& device);
+gpu::VariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device);
 
 } // namespace catoptric::app

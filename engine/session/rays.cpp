@@ -4,7 +4,7 @@
 
 namespace catoptric::app {
 
-bvh::Bvh hierarchy_without(const render::Geometry& geometry, std::size_t left_out) {
+bvh::Bvh build_bvh_without_object(const render::Geometry& geometry, std::size_t left_out) {
     std::vector<bvh::Triangle> triangles;
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
         const render::DrawRange& range = geometry.ranges[object];
@@ -20,10 +20,10 @@ bvh::Bvh hierarchy_without(const render::Geometry& geometry, std::size_t left_ou
                                      (range.one_sided ? bvh::kOneSided : 0)});
         }
     }
-    return bvh::build(triangles, geometry.core, bvh::Copies::of_all);
+    return bvh::build_bvh(triangles, geometry.core, bvh::CopyHandling::of_all);
 }
 
-f32::Ray camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {
+f32::Ray make_camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {
     const vec2 place(static_cast<float>(pixel % size.x) + 0.5f,
                      static_cast<float>(pixel / size.x) + 0.5f);
     const vec2 ndc = place / vec2(size) * 2.0f - 1.0f;

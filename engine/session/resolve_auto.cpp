@@ -7,14 +7,15 @@
 
 namespace catoptric::app {
 
-reflect::Plan resolve_auto(reflect::Plan plan, const scene::Scene& scene, const FrameSpec& spec) {
+reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
+                                         const FrameSpec& spec) {
     if (!plan.is_auto) return plan;
     const scene::SceneAt at_time(scene, spec.time);
     const scene::Scene& now = *at_time;
     const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
-    const require::Suggestion suggestion = require::suggest(
+    const require::PlanSuggestion suggestion = require::suggest_plan(
         {.now = now, .camera = camera, .size = spec.size});
-    reflect::Plan made = reflect::parse_plan(suggestion.plan);
+    reflect::TechniquePlan made = reflect::parse_plan(suggestion.plan);
     plan.rules = std::move(made.rules);
     plan.reasons = suggestion.reasons;
     // A plan with one technique for all mirrors is drawn as that technique: it may draw its own

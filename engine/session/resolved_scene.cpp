@@ -27,9 +27,10 @@ constexpr std::size_t kMostLights = 16;
 constexpr std::size_t kMostTexels = std::size_t{1} << 25; // 8192 x 4096
 constexpr std::size_t kManyMirrors = 64;                  // scenes with more mirrors get a message
 
-bool is_built_in(const std::string& name) {
-    return std::ranges::any_of(scene::built_in_scenes(),
-                               [&](const scene::BuiltIn& scene) { return scene.name == name; });
+bool is_built_in_scene(const std::string& name) {
+    return std::ranges::any_of(scene::built_in_scenes(), [&](const scene::BuiltInScene& scene) {
+        return scene.name == name;
+    });
 }
 
 std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
@@ -55,7 +56,7 @@ std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
 }
 
 /// Returns the environment that `word` names; null for "none".
-std::shared_ptr<scene::Environment> environment_of(const std::string& word) {
+std::shared_ptr<scene::Environment> load_environment(const std::string& word) {
     if (word == "none") return nullptr;
     if (word != "studio") return read_environment(word);
     auto studio = std::make_shared<scene::Environment>();
@@ -63,14 +64,15 @@ std::shared_ptr<scene::Environment> environment_of(const std::string& word) {
     return studio;
 }
 
-void add_file(scene::Scene& scene, const std::filesystem::path& real) {
+void record_scene_file(scene::Scene& scene, const std::filesystem::path& real) {
     if (std::ranges::find(scene.files, real) == scene.files.end()) scene.files.push_back(real);
 }
 
 /// Throws if overrides change an environment that the scene does not have. `remedy` ends the
 /// message.
-void require_unchanged(const scene::SceneOverrides& overrides, const scene::SaidBy& scale,
-                       const scene::SaidBy& rotation, const char* remedy) {
+void check_environment_exists(const scene::SceneOverrides& overrides,
+                              const scene::SettingOrigin& scale,
+                              const scene::SettingOrigin& rotation, const char* remedy) {
     for (const auto& [is_said, by] :
          {std::pair(overrides.environment_scale.has_value(), &scale),
           std::pair(overrides.environment_rotation.has_value(), &rotation)})
@@ -78,17 +80,19 @@ void require_unchanged(const scene::SceneOverrides& overrides, const scene::Said
 }
 
 /// Applies the overrides of the environment. `said`: those of the command line.
-void surround(ResolvedScene& wanted, const scene::SceneOverrides& said) {
+void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverrides& said) {
     scene::Scene& scene = wanted.scene;
     const scene::SceneOverrides& overrides = wanted.overrides;
     std::shared_ptr<scene::Environment> environment;
     if (scene.environment) environment = std::make_shared<scene::Environment>(*scene.environment);
     if (overrides.environment) {
-        environment = environment_of(*overrides.environment);
-        if (environment && !environment->studio) add_file(scene, real_path(*overrides.environment));
-    } else if (wanted.is_file && !environment && scene::lights(scene).empty()) {
-        environment = environment_of("studio");
-        scene::add_unsupported(scene.unsupported, "added-studio", "scene " + in_quotes(scene.name));
+        environment = load_environment(*overrides.environment);
+        if (environment && !environment->studio)
+            record_scene_file(scene, resolve_real_path(*overrides.environment));
+    } else if (wanted.is_file && !environment && scene::list_lights(scene).empty()) {
+        environment = load_environment("studio");
+        scene::add_unsupported(scene.unsupported, "added-studio",
+                               "scene " + quote_printable(scene.name));
         wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
     if (environment) {
@@ -96,21 +100,21 @@ void surround(ResolvedScene& wanted, const scene::SceneOverrides& said) {
         if (overrides.environment_rotation)
             environment->rotation_degrees = *overrides.environment_rotation;
     } else {
-        require_unchanged(said, {"--environment-scale"}, {"--environment-rotate"},
-                          "give --environment");
+        check_environment_exists(said, {"--environment-scale"}, {"--environment-rotate"},
+                                 "give --environment");
         // The scene file cannot know that the command line removes the environment.
         if (wanted.scene_file && !said.environment) {
             const std::string file = wanted.scene_file->string();
-            require_unchanged(overrides, {file + ": environment_scale", Failure::bad_data},
-                              {file + ": environment_rotate", Failure::bad_data},
-                              "say \"environment\", too");
+            check_environment_exists(overrides, {file + ": environment_scale", Failure::bad_data},
+                                     {file + ": environment_rotate", Failure::bad_data},
+                                     "say \"environment\", too");
         }
     }
     scene.environment = std::move(environment);
 }
 
 /// Adds a message about the cost of many mirrors.
-void announce_mirrors(scene::Scene& scene) {
+void warn_of_many_mirrors(scene::Scene& scene) {
     // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
     // it come distance and, for one frame, the number of the surface seen.
     constexpr std::size_t kTexels = 6 * 256 * 256, kMebibyte = 1 << 20, kColours = kTexels * 2 * 8,
@@ -121,66 +125,68 @@ void announce_mirrors(scene::Scene& scene) {
     const auto mebibytes = [&](std::size_t bytes) {
         return std::to_string(count * bytes / kMebibyte);
     };
-    scene.warnings.push_back("scene " + in_quotes(scene.name) + " has " + number +
+    scene.warnings.push_back("scene " + quote_printable(scene.name) + " has " + number +
                              " mirrors: " + number + " captures of six faces a frame, " +
                              mebibytes(kColours) + " to " + mebibytes(kAll) +
                              " MiB at face=256; a smaller face=, --plan and --model required "
                              "lessen that");
 }
 
-bool is_seeded(const std::string& camera, const scene::Scene& scene) {
+bool is_seeded_camera(const std::string& camera, const scene::Scene& scene) {
     return camera == "seeded" &&
            std::ranges::find(scene.cameras, camera, &scene::Camera::name) == scene.cameras.end();
 }
 
 /// Returns the camera that the overrides name. Returns nothing if it is to be drawn from a seed, or
 /// is not named.
-std::optional<scene::Camera> named_camera(const scene::SceneOverrides& overrides,
-                                          const scene::Scene& scene, const scene::SaidBy& by) {
-    if (!overrides.camera || is_seeded(*overrides.camera, scene)) return std::nullopt;
-    return scene::camera_named(*overrides.camera, scene, by);
+std::optional<scene::Camera> find_named_camera(const scene::SceneOverrides& overrides,
+                                               const scene::Scene& scene,
+                                               const scene::SettingOrigin& by) {
+    if (!overrides.camera || is_seeded_camera(*overrides.camera, scene)) return std::nullopt;
+    return scene::find_camera_by_name(*overrides.camera, scene, by);
 }
 
 /// Copies exposure and camera of the scene file into the scene, and therefore into its hash. The
 /// camera comes first.
-void adopt(ResolvedScene& wanted, const scene::SceneFile& filed,
-           const std::optional<scene::Camera>& camera) {
+void copy_view_into_scene(ResolvedScene& wanted, const scene::SceneFile& filed,
+                          const std::optional<scene::Camera>& camera) {
     scene::Scene& scene = wanted.scene;
     if (filed.overrides.exposure) scene.exposure = filed.overrides.exposure->stops;
     if (camera) {
         std::erase(scene.cameras, *camera);
         scene.cameras.insert(scene.cameras.begin(), *camera);
     }
-    for (const std::filesystem::path& file : filed.files) add_file(scene, file);
+    for (const std::filesystem::path& file : filed.files) record_scene_file(scene, file);
 }
 
 /// Applies all overrides to the scene. `said`: those of the command line.
-void apply(ResolvedScene& wanted, const scene::SceneOverrides& said,
-           const std::optional<scene::SceneFile>& filed) {
+void apply_scene_overrides(ResolvedScene& wanted, const scene::SceneOverrides& said,
+                           const std::optional<scene::SceneFile>& filed) {
     scene::Scene& scene = wanted.scene;
     const std::string file = filed ? filed->path.string() : "";
     if (filed) scene::check_patterns(scene, filed->overrides, file);
-    scene::apply(scene, wanted.overrides);
-    // Finds the camera before `adopt` changes the order of cameras, because an index counts in the
-    // scene's own order.
+    scene::apply_edit(scene, wanted.overrides);
+    // Finds the camera before `copy_view_into_scene` changes the order of cameras, because an index
+    // counts in the scene's own order.
     std::optional<scene::Camera> camera;
     if (filed)
-        camera = named_camera(filed->overrides, scene, {file + ": camera", Failure::bad_data});
-    wanted.camera = said.camera ? named_camera(said, scene, {"--camera"}) : camera;
-    wanted.is_camera_seeded = wanted.overrides.camera && is_seeded(*wanted.overrides.camera, scene);
-    if (filed) adopt(wanted, *filed, camera);
+        camera = find_named_camera(filed->overrides, scene, {file + ": camera", Failure::bad_data});
+    wanted.camera = said.camera ? find_named_camera(said, scene, {"--camera"}) : camera;
+    wanted.is_camera_seeded = wanted.overrides.camera &&
+                              is_seeded_camera(*wanted.overrides.camera, scene);
+    if (filed) copy_view_into_scene(wanted, *filed, camera);
 }
 
 } // namespace
 
-ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& options) {
-    ResolvedScene wanted{.overrides = options.overrides, .is_file = !is_built_in(name)};
+ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& options) {
+    ResolvedScene wanted{.overrides = options.overrides, .is_file = !is_built_in_scene(name)};
     std::optional<scene::SceneFile> filed;
     if (wanted.is_file && options.use_scene_file)
         filed = scene::read_scene_file(name, options.load);
     if (filed) {
         wanted.scene_file = filed->path;
-        wanted.overrides = scene::over(options.overrides, filed->overrides);
+        wanted.overrides = scene::combine_overrides(options.overrides, filed->overrides);
         wanted.said.push_back("read beside the scene: " + filed->path.string() +
                               " (--no-scene-file leaves it out)");
     }
@@ -189,35 +195,36 @@ ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& optio
     if (filed && !options.overrides.animation)
         load.animation_by = {filed->path.string() + ": animation", Failure::bad_data};
     wanted.scene = scene::load_file(name, load);
-    apply(wanted, options.overrides, filed);
-    if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
-    surround(wanted, options.overrides);
-    scene::settle_unsupported(wanted.scene);
-    announce_mirrors(wanted.scene);
+    apply_scene_overrides(wanted, options.overrides, filed);
+    if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMostLights);
+    apply_environment_overrides(wanted, options.overrides);
+    scene::sort_unsupported_features(wanted.scene);
+    warn_of_many_mirrors(wanted.scene);
     return wanted;
 }
 
-double ambient_of(const ResolvedScene& wanted) {
+double choose_ambient_light(const ResolvedScene& wanted) {
     return wanted.overrides.ambient.value_or(wanted.scene.environment ? 0 : .05);
 }
 
-std::optional<double> exposure_of(const ResolvedScene& wanted) {
+std::optional<double> find_exposure(const ResolvedScene& wanted) {
     if (wanted.overrides.exposure) return wanted.overrides.exposure->stops;
     if (wanted.scene.exposure) return wanted.scene.exposure;
     return wanted.is_file ? std::nullopt : std::optional(0.0);
 }
 
-scene::Camera camera_of(ResolvedScene& wanted, double aspect) {
+scene::Camera choose_camera(ResolvedScene& wanted, double aspect) {
     scene::Scene& scene = wanted.scene;
     if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();
-    const scene::Camera outside = scene::default_camera(scene, aspect);
-    const std::optional<scene::Camera> inside = scene::inside_camera(scene, outside);
+    const scene::Camera outside = scene::make_default_camera(scene, aspect);
+    const std::optional<scene::Camera> inside = scene::find_inside_camera(scene, outside);
     const scene::Camera camera = inside.value_or(outside);
     if (wanted.is_file)
-        scene::add_unsupported(scene.unsupported, "added-camera", "scene " + in_quotes(scene.name));
+        scene::add_unsupported(scene.unsupported, "added-camera",
+                               "scene " + quote_printable(scene.name));
     wanted.said.push_back(std::string("no camera") + (inside ? ", a closed room" : "") +
-                          ": using --camera " + scene::camera_text(camera) +
+                          ": using --camera " + scene::format_camera(camera) +
                           (inside ? " (inside)" : ""));
     return camera;
 }

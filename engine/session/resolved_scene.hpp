@@ -25,7 +25,7 @@ struct ResolvedScene {
     bool is_file = false;                            ///< false: the scene is built in
 };
 
-struct ResolveOptions {
+struct SceneResolveOptions {
     scene::FileOptions load;
     /// Overrides of the command line; they win over those of SCENE.catoptric.json.
     scene::SceneOverrides overrides;
@@ -35,18 +35,18 @@ struct ResolveOptions {
 /// Loads a scene, reads SCENE.catoptric.json beside it, applies all overrides and completes the
 /// scene. Keeps at most 16 lights of a scene file. A scene without a light gets the environment
 /// `studio` (gap "added-studio"), unless the user says something about it. Throws as scene::load,
-/// scene::read_scene_file, scene::apply and scene::camera_named do, and `bad_data` for a picture
-/// that cannot be an environment.
-ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& options);
+/// scene::read_scene_file, scene::apply_edit and scene::find_camera_by_name do, and `bad_data` for
+/// a picture that cannot be an environment.
+ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& options);
 
 /// Returns the ambient light: the user's value, else 0 with an environment and .05 without.
-double ambient_of(const ResolvedScene& wanted);
+double choose_ambient_light(const ResolvedScene& wanted);
 /// Returns the exposure in stops that the user or else the scene sets. If neither does, returns 0
 /// for scenes built in code, and nothing for scene files: session/exposure.hpp finds it then.
-std::optional<double> exposure_of(const ResolvedScene& wanted);
+std::optional<double> find_exposure(const ResolvedScene& wanted);
 /// Returns the user's camera, or else the scene's first. If there is none, adds a camera (gap
-/// "added-camera") and reports it in `said`: scene::inside_camera for a closed room, else
-/// scene::default_camera.
-scene::Camera camera_of(ResolvedScene& wanted, double aspect);
+/// "added-camera") and reports it in `said`: scene::find_inside_camera for a closed room, else
+/// scene::make_default_camera.
+scene::Camera choose_camera(ResolvedScene& wanted, double aspect);
 
 } // namespace catoptric::app

@@ -27,13 +27,13 @@ bool Frames::next() {
     ++number_;
     FrameSpec spec = request_;
     spec.time = request_.instant(number_);
-    const double used_before = process_seconds();
+    const double used_before = read_process_seconds();
     frame_ = Access::frame(session_, spec, hooks_);
     // The first measured frame must not wait for the frames before it.
     if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) {
         times_.push_back(frame_->times());
-        times_.back().cpu_ms = 1e3 * (process_seconds() - used_before);
+        times_.back().cpu_ms = 1e3 * (read_process_seconds() - used_before);
         if (times_.size() > kDetailedFrames)
             times_[times_.size() - kDetailedFrames - 1].passes = std::vector<PassTime>();
     }
@@ -50,21 +50,22 @@ bool Frames::next() {
 int Frames::most_frames() const {
     std::uint32_t round = 1;
     for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)
-        round = std::max(round, frame_->slices(i) ? frame_->slices(i)->round() : 1);
+        round = std::max(round,
+                         frame_->slices(i) ? frame_->slices(i)->frames_per_update_cycle() : 1);
     return static_cast<int>(std::min<std::int64_t>(std::int64_t{request_.total()} * round,
                                                    std::numeric_limits<int>::max()));
 }
 
-Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
+RunResult Frames::result() const { return {frame_->read_all(), times_, settled_}; }
 
-Result run(Session& session, const Request& request, const Watcher& watcher) {
+RunResult run(Session& session, const Request& request, const Watcher& watcher) {
     Frames frames(session, request);
     check_stopped(watcher);
     while (frames.next()) tell_frame(watcher, frames.number(), frames.most_frames());
     return frames.result();
 }
 
-Result run(Engine& engine, const Request& request) {
+RunResult run(Engine& engine, const Request& request) {
     Session session(engine, request.scene);
     return run(session, request);
 }

@@ -35,9 +35,9 @@ struct Request : FrameSpec {
     double instant(int k) const { return time + (animate ? (k - 1) / 60.0 : 0.0); }
 };
 
-struct Result {
-    std::vector<Part> parts;        ///< one per technique, of the last frame
-    std::vector<FrameTimes> frames; ///< measured frames; fewer if the picture settled
+struct RunResult {
+    std::vector<TechniqueResult> parts; ///< one per technique, of the last frame
+    std::vector<FrameTimes> frames;     ///< measured frames; fewer if the picture settled
     bool settled = false; ///< no further frame would differ; only set with `until_settled`
 };
 
@@ -54,8 +54,8 @@ struct Watcher {
 };
 
 /// Renders all frames of a request in a session of its scene. The watcher may end the run.
-CATOPTRIC_API Result run(Session& session, const Request& request, const Watcher& watcher = {});
+CATOPTRIC_API RunResult run(Session& session, const Request& request, const Watcher& watcher = {});
 /// Renders all frames of a request in a session of their own.
-CATOPTRIC_API Result run(Engine& engine, const Request& request);
+CATOPTRIC_API RunResult run(Engine& engine, const Request& request);
 
 } // namespace catoptric::app

@@ -18,7 +18,7 @@
 
 namespace catoptric::app {
 
-measure::CameraFacts facts_of(const scene::Camera& camera) {
+measure::CameraFacts make_device_facts(const scene::Camera& camera) {
     return {camera.name,
             camera.eye,
             camera.target,
@@ -27,7 +27,7 @@ measure::CameraFacts facts_of(const scene::Camera& camera) {
             camera.orthographic_height};
 }
 
-uvec2 small_size(uvec2 size) {
+uvec2 compute_thumbnail_size(uvec2 size) {
     constexpr double kLongest = 128;
     const double longest = std::max(size.x, size.y);
     const auto side = [&](std::uint32_t pixels) {
@@ -36,29 +36,30 @@ uvec2 small_size(uvec2 size) {
     return {side(size.x), side(size.y)};
 }
 
-std::vector<int> objects_seen(const Request& request, uvec2 size) {
+std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     const scene::SceneAt at_time(request.scene, request.time);
     const scene::Scene& now = *at_time;
-    const render::Space space = render::space_of(request.scene);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
     const render::Geometry geometry = render::make_geometry(now, space);
-    const shared::View view = render::camera_view(request.camera, space, size, 0);
+    const shared::View view = render::make_camera_view(request.camera, space, size, 0);
     // More tests than this take longer than building a BVH.
     const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
                                                              16 * (geometry.indices.size() / 3));
-    if (auto covering = objects_covering(geometry, view, size, most_tests)) return *covering;
-    const bvh::Bvh hierarchy = hierarchy_without(geometry, geometry.ranges.size());
+    if (auto covering = find_first_object_per_pixel(geometry, view, size, most_tests))
+        return *covering;
+    const bvh::Bvh hierarchy = build_bvh_without_object(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
-        const auto hit = bvh::closest_hit<float>(hierarchy, camera_ray(view, size, pixel),
-                                                 std::numeric_limits<float>::max(),
-                                                 bvh::kHidden | bvh::kOneSided);
+        const auto hit = bvh::find_closest_hit<float>(hierarchy, make_camera_ray(view, size, pixel),
+                                                      std::numeric_limits<float>::max(),
+                                                      bvh::kHidden | bvh::kOneSided);
         seen.push_back(hit ? static_cast<int>(hit->object) : -1);
     }
     return seen;
 }
 
-double share_of(const std::vector<int>& seen, const scene::Scene& scene,
-                const std::vector<std::size_t>& materials) {
+double compute_pixel_share(const std::vector<int>& seen, const scene::Scene& scene,
+                           const std::vector<std::size_t>& materials) {
     std::vector<bool> counts(scene.materials.size());
     for (const std::size_t material : materials) counts[material] = true;
     const auto shows = [&](int object) {
@@ -68,12 +69,13 @@ double share_of(const std::vector<int>& seen, const scene::Scene& scene,
            static_cast<double>(std::max<std::size_t>(1, seen.size()));
 }
 
-std::vector<measure::UnsupportedFeatureFacts> unsupported_facts(const scene::Scene& scene,
-                                                                const std::vector<int>& seen) {
+std::vector<measure::UnsupportedFeatureFacts>
+list_unsupported_features(const scene::Scene& scene, const std::vector<int>& seen) {
     std::vector<measure::UnsupportedFeatureFacts> facts;
     for (const scene::UnsupportedFeature& gap : scene.unsupported) {
         facts.push_back({gap.id, gap.count, gap.first, {}});
-        if (!gap.materials.empty()) facts.back().pixel_share = share_of(seen, scene, gap.materials);
+        if (!gap.materials.empty())
+            facts.back().pixel_share = compute_pixel_share(seen, scene, gap.materials);
     }
     // Features without a share (-1) come last. Equal shares keep their order.
     std::ranges::stable_sort(
@@ -82,8 +84,8 @@ std::vector<measure::UnsupportedFeatureFacts> unsupported_facts(const scene::Sce
     return facts;
 }
 
-std::vector<measure::LightFacts> light_facts(const scene::Scene& scene) {
-    const std::vector<scene::PointLight> lights = scene::lights(scene);
+std::vector<measure::LightFacts> list_light_facts(const scene::Scene& scene) {
+    const std::vector<scene::PointLight> lights = scene::list_lights(scene);
     const std::size_t first_without = lights.size() - scene.punctual.size();
     std::vector<measure::LightFacts> facts;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -95,7 +97,7 @@ std::vector<measure::LightFacts> light_facts(const scene::Scene& scene) {
                                 .emission = dvec3(light.emission),
                                 .area = light.area};
         if (i >= first_without) {
-            const scene::Punctual& punctual = scene.punctual[i - first_without];
+            const scene::PunctualLight& punctual = scene.punctual[i - first_without];
             one.kind = scene::kind_of(punctual.kind).name, one.is_parallel = light.directional;
             one.name = punctual.name, one.direction = light.axis, one.area = 0;
         }
@@ -104,32 +106,34 @@ std::vector<measure::LightFacts> light_facts(const scene::Scene& scene) {
     return facts;
 }
 
-std::optional<measure::EnvironmentFacts> environment_facts(const scene::Scene& scene) {
+std::optional<measure::EnvironmentFacts> make_environment_facts(const scene::Scene& scene) {
     if (!scene.environment) return std::nullopt;
     return measure::EnvironmentFacts{scene.environment->name, scene.environment->scale,
                                      scene.environment->rotation_degrees};
 }
 
-measure::SceneFacts scene_facts(const Request& request, const std::vector<int>& seen) {
+measure::SceneFacts make_scene_facts(const Request& request, const std::vector<int>& seen) {
     const scene::Scene& scene = request.scene;
     measure::SceneFacts facts{scene.name,
                               scene::triangle_count(scene),
                               scene::mirrors(scene).size(),
-                              scene::hash(scene),
-                              scene::hash(scene) == scene::hash(scene::cornell_mirrors()),
-                              facts_of(request.camera)};
-    facts.lights = light_facts(scene);
-    facts.environment = environment_facts(scene);
-    facts.unsupported = unsupported_facts(scene, seen);
+                              scene::hash_scene(scene),
+                              scene::hash_scene(scene) ==
+                                  scene::hash_scene(scene::make_cornell_mirrors()),
+                              make_device_facts(request.camera)};
+    facts.lights = list_light_facts(scene);
+    facts.environment = make_environment_facts(scene);
+    facts.unsupported = list_unsupported_features(scene, seen);
     return facts;
 }
 
-measure::SceneFacts scene_facts(const Request& request) {
+measure::SceneFacts make_scene_facts(const Request& request) {
     const bool has_shares = std::ranges::any_of(
         request.scene.unsupported,
         [](const scene::UnsupportedFeature& gap) { return !gap.materials.empty(); });
-    return scene_facts(request, has_shares ? objects_seen(request, small_size(request.size))
-                                           : std::vector<int>());
+    return make_scene_facts(
+        request, has_shares ? find_visible_objects(request, compute_thumbnail_size(request.size))
+                            : std::vector<int>());
 }
 
 } // namespace catoptric::app

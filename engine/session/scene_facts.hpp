@@ -11,31 +11,31 @@ namespace catoptric::app {
 /// Works on the processor, at the request's instant. Parts that alpha masks cut out count as solid.
 /// Costs a projection per triangle. Costs a BVH over all triangles instead if many large ones lie
 /// behind each other.
-std::vector<int> objects_seen(const Request& request, uvec2 size);
+std::vector<int> find_visible_objects(const Request& request, uvec2 size);
 
 /// Returns the share of the pixels that show one of these materials.
-double share_of(const std::vector<int>& seen, const scene::Scene& scene,
-                const std::vector<std::size_t>& materials);
+double compute_pixel_share(const std::vector<int>& seen, const scene::Scene& scene,
+                           const std::vector<std::size_t>& materials);
 
 /// Returns every unsupported feature of the scene with its share of the picture `seen`
-/// (objects_seen). The largest share comes first, and features without a share come last.
-std::vector<measure::UnsupportedFeatureFacts> unsupported_facts(const scene::Scene& scene,
-                                                                const std::vector<int>& seen);
+/// (find_visible_objects). The largest share comes first, and features without a share come last.
+std::vector<measure::UnsupportedFeatureFacts>
+list_unsupported_features(const scene::Scene& scene, const std::vector<int>& seen);
 
 /// Returns every light as the shading formula sees it.
-std::vector<measure::LightFacts> light_facts(const scene::Scene& scene);
-std::optional<measure::EnvironmentFacts> environment_facts(const scene::Scene& scene);
+std::vector<measure::LightFacts> list_light_facts(const scene::Scene& scene);
+std::optional<measure::EnvironmentFacts> make_environment_facts(const scene::Scene& scene);
 
-measure::CameraFacts facts_of(const scene::Camera& camera);
+measure::CameraFacts make_device_facts(const scene::Camera& camera);
 
 /// Returns a size of the same aspect ratio whose longest side is 128.
-uvec2 small_size(uvec2 size);
+uvec2 compute_thumbnail_size(uvec2 size);
 
-/// Returns the facts that a report lists about the request's scene. `seen`: objects_seen of the
-/// picture that shares refer to.
-measure::SceneFacts scene_facts(const Request& request, const std::vector<int>& seen);
+/// Returns the facts that a report lists about the request's scene. `seen`: find_visible_objects of
+/// the picture that shares refer to.
+measure::SceneFacts make_scene_facts(const Request& request, const std::vector<int>& seen);
 /// Returns the same facts. If a share is needed, it refers to a picture with a longest side of 128
 /// pixels.
-measure::SceneFacts scene_facts(const Request& request);
+measure::SceneFacts make_scene_facts(const Request& request);
 
 } // namespace catoptric::app

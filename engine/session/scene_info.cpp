@@ -17,11 +17,12 @@ namespace catoptric::app {
 namespace {
 
 template <typename Item>
-std::uint64_t bytes_of(const std::vector<Item>& list) {
+std::uint64_t count_list_bytes(const std::vector<Item>& list) {
     return list.size() * sizeof(Item);
 }
 
-std::string kind_of(const scene::Material& material, const scene::Surface& surface) {
+std::string classify_material(const scene::Material& material,
+                              const scene::SurfaceShares& surface) {
     if (material.mirror) return "mirror";
     if (material.unlit) return "unlit";
     if (surface.mirror >= scene::kLeastMirrorShare) return "sharp";
@@ -29,15 +30,15 @@ std::string kind_of(const scene::Material& material, const scene::Surface& surfa
     return surface.rough_metal > 0 ? "rough metal" : "diffuse";
 }
 
-void add_texture(MaterialInfo& info, const char* what,
-                 const std::optional<scene::Texture>& texture) {
+void add_texture_info(MaterialInfo& info, const char* what,
+                      const std::optional<scene::Texture>& texture) {
     if (!texture) return;
     const uvec2 size = texture->image->size;
     info.textures.push_back(std::string(what) + " " + std::to_string(size.x) + "x" +
                             std::to_string(size.y));
 }
 
-std::vector<MaterialInfo> materials_of(const scene::Scene& scene) {
+std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
     std::vector<MaterialInfo> infos;
     std::map<std::size_t, std::pair<std::size_t, const scene::Object*>> users; // count and first
     for (const scene::Object& object : scene.objects) {
@@ -49,34 +50,36 @@ std::vector<MaterialInfo> materials_of(const scene::Scene& scene) {
         if (user == users.end()) continue;
         const auto& [count, first] = user->second;
         const scene::Material& material = scene.materials[i];
-        MaterialInfo info{.name = material.name,
-                          .kind = kind_of(material, scene::surface_of(scene, *first)),
-                          .objects = count,
-                          .albedo = material.albedo};
+        MaterialInfo info{
+            .name = material.name,
+            .kind = classify_material(material, scene::measure_surface_kinds(scene, *first)),
+            .objects = count,
+            .albedo = material.albedo};
         std::ranges::transform(
             scene::kMaterialFactors, info.factors.begin(),
             [&](const scene::MaterialFactor& factor) { return material.*factor.member; });
         info.f0 = material.mirror ? material.reflectance
-                                  : scene::f0_of(material, material.albedo, material.metallic);
-        info.light = scene::light_of(material);
-        info.glows = scene::glows(material), info.is_masked = scene::is_masked(material);
+                                  : scene::compute_f0(material, material.albedo, material.metallic);
+        info.light = scene::emitted_radiance(material);
+        info.glows = scene::is_visibly_emissive(material),
+        info.is_masked = scene::has_alpha_mask(material);
         info.is_two_sided = !scene::is_one_sided(material);
-        add_texture(info, "base colour", material.albedo_texture);
-        add_texture(info, "emission", material.emission_texture);
-        add_texture(info, "metallic and roughness", material.roughness_texture);
+        add_texture_info(info, "base colour", material.albedo_texture);
+        add_texture_info(info, "emission", material.emission_texture);
+        add_texture_info(info, "metallic and roughness", material.roughness_texture);
         infos.push_back(std::move(info));
     }
     return infos;
 }
 
-std::vector<MirrorInfo> mirrors_of(const scene::Scene& now, const std::vector<int>& seen) {
+std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vector<int>& seen) {
     std::vector<MirrorInfo> infos;
     for (const std::size_t index : scene::mirrors(now)) {
         const scene::Object& object = now.objects[index];
         const scene::Material& material = now.materials[object.material];
         MirrorInfo info{.number = infos.size() + 1,
                         .name = object.name,
-                        .shape = scene::shape_of(now, object),
+                        .shape = scene::classify_mirror_shape(now, object),
                         .capture_centre = scene::bounds(now, object).centre(),
                         .is_constant = material.mirror};
         info.screen_share = static_cast<double>(std::ranges::count(seen, static_cast<int>(index))) /
@@ -84,17 +87,17 @@ std::vector<MirrorInfo> mirrors_of(const scene::Scene& now, const std::vector<in
         if (material.mirror) {
             info.reflectance = material.reflectance;
         } else {
-            const scene::Surface surface = scene::surface_of(now, object);
-            info.reflectance = surface.mirror > 0
-                                   ? surface.mirror_f0
-                                   : scene::f0_of(material, material.albedo, material.metallic);
+            const scene::SurfaceShares surface = scene::measure_surface_kinds(now, object);
+            info.reflectance = surface.mirror > 0 ? surface.mirror_f0
+                                                  : scene::compute_f0(material, material.albedo,
+                                                                      material.metallic);
         }
         infos.push_back(info);
     }
     return infos;
 }
 
-void add_sizes(SceneInfo& info, const scene::Scene& scene) {
+void fill_scene_sizes(SceneInfo& info, const scene::Scene& scene) {
     std::set<std::size_t> shown;
     for (const scene::Object& object : scene.objects)
         info.instances += !shown.insert(object.mesh).second;
@@ -102,16 +105,16 @@ void add_sizes(SceneInfo& info, const scene::Scene& scene) {
     for (const std::size_t i : shown) {
         const scene::Mesh& mesh = scene.meshes[i];
         info.stored_triangles += mesh.triangles.size();
-        info.geometry_bytes += bytes_of(mesh.positions) + bytes_of(mesh.normals) +
-                               bytes_of(mesh.triangles) + bytes_of(mesh.uv[0]) +
-                               bytes_of(mesh.uv[1]) + bytes_of(mesh.colours);
+        info.geometry_bytes += count_list_bytes(mesh.positions) + count_list_bytes(mesh.normals) +
+                               count_list_bytes(mesh.triangles) + count_list_bytes(mesh.uv[0]) +
+                               count_list_bytes(mesh.uv[1]) + count_list_bytes(mesh.colours);
     }
     std::set<const scene::Image*> images;
     for (const scene::Material& material : scene.materials)
         for (const auto& texture :
              {material.albedo_texture, material.emission_texture, material.roughness_texture})
             if (texture && images.insert(texture->image.get()).second)
-                info.image_bytes += bytes_of(texture->image->texels);
+                info.image_bytes += count_list_bytes(texture->image->texels);
     for (const std::filesystem::path& file : scene.files) {
         std::error_code gone;
         const std::uintmax_t size = std::filesystem::file_size(file, gone);
@@ -121,15 +124,17 @@ void add_sizes(SceneInfo& info, const scene::Scene& scene) {
 
 } // namespace
 
-SceneInfo scene_info(const Request& request) {
+SceneInfo make_scene_info(const Request& request) {
     const scene::Scene& scene = request.scene;
-    const std::vector<int> seen = objects_seen(request, small_size(request.size));
-    SceneInfo info{.facts = scene_facts(request, seen)};
-    add_sizes(info, scene);
-    info.materials = materials_of(scene);
-    info.mirrors = mirrors_of(*scene::SceneAt(scene, request.time), seen);
-    if (info.mirrors.empty()) info.mirror_options = mirror_options(scene);
-    for (const scene::Camera& camera : scene.cameras) info.cameras.push_back(facts_of(camera));
+    const std::vector<int> seen = find_visible_objects(request,
+                                                       compute_thumbnail_size(request.size));
+    SceneInfo info{.facts = make_scene_facts(request, seen)};
+    fill_scene_sizes(info, scene);
+    info.materials = list_material_info(scene);
+    info.mirrors = list_mirror_info(*scene::SceneAt(scene, request.time), seen);
+    if (info.mirrors.empty()) info.mirror_options = suggest_mirror_options(scene);
+    for (const scene::Camera& camera : scene.cameras)
+        info.cameras.push_back(make_device_facts(camera));
     return info;
 }
 

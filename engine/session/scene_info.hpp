@@ -35,7 +35,7 @@ struct MaterialInfo {
 struct MirrorInfo {
     std::size_t number = 0; ///< number of the mirror, from 1
     std::string name;
-    scene::Shape shape;
+    scene::MirrorShape shape;
     double screen_share = 0; ///< share of the picture, 0 to 1
     dvec3 capture_centre{0}; ///< world units
     vec3 reflectance{1};     ///< head-on; the mean over the parts that are mirrors
@@ -57,6 +57,6 @@ struct SceneInfo {
 
 /// Returns all facts of a request's scene, from its camera and at its instant. Costs rays through a
 /// picture with a longest side of 128 pixels.
-SceneInfo scene_info(const Request& request);
+SceneInfo make_scene_info(const Request& request);
 
 } // namespace catoptric::app

@@ -16,7 +16,7 @@ namespace catoptric::app {
 namespace {
 
 /// Packs a picture of values from 0 to 1 into four bytes per pixel.
-std::vector<std::uint32_t> packed(const measure::Picture& display) {
+std::vector<std::uint32_t> pack_rgba8(const measure::Picture& display) {
     std::vector<std::uint32_t> words(display.pixels.size());
     std::ranges::transform(display.pixels, words.begin(), [](const vec3& pixel) {
         std::uint32_t word = 0xFF000000;
@@ -31,8 +31,8 @@ std::vector<std::uint32_t> packed(const measure::Picture& display) {
 /// Writes data into a buffer. The buffer grows to a power of two, so that changing sizes seldom
 /// need a new buffer.
 template <typename T>
-void put(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
-         const std::vector<T>& data, gpu::BufferUsage use) {
+void write_to_buffer(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
+                     const std::vector<T>& data, gpu::BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
     if (buffer.bytes() < bytes || !buffer.handle())
         buffer = gpu::Buffer(device, name, std::bit_ceil(bytes), use);
@@ -41,11 +41,11 @@ void put(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
 
 } // namespace
 
-Screen::Impl::Impl(Access::EngineImpl& engine)
+WindowScreen::Impl::Impl(Access::EngineImpl& engine)
     : device(engine.device), swapchain(engine.device),
       font(device, "font", 4, gpu::BufferUsage::plain) {}
 
-Screen::Impl::~Impl() {
+WindowScreen::Impl::~Impl() {
     if (device.abandoned()) return;
     try {
         swapchain.wait();
@@ -54,15 +54,15 @@ Screen::Impl::~Impl() {
     }
 }
 
-Screen::Screen(Engine& engine) : impl_(std::make_unique<Impl>(Access::impl(engine))) {}
-Screen::~Screen() = default;
+WindowScreen::WindowScreen(Engine& engine) : impl_(std::make_unique<Impl>(Access::impl(engine))) {}
+WindowScreen::~WindowScreen() = default;
 
-bool Screen::lost() const { return impl_->swapchain.lost(); }
-uvec2 Screen::size() const { return impl_->swapchain.size(); }
-double Screen::acquire_ms() const { return impl_->acquire_ms; }
-double Screen::present_ms() const { return impl_->present_ms; }
+bool WindowScreen::lost() const { return impl_->swapchain.lost(); }
+uvec2 WindowScreen::size() const { return impl_->swapchain.size(); }
+double WindowScreen::acquire_ms() const { return impl_->acquire_ms; }
+double WindowScreen::present_ms() const { return impl_->present_ms; }
 
-bool Screen::fit(uvec2 window) {
+bool WindowScreen::fit(uvec2 window) {
     Impl& self = *impl_;
     if (self.fits && window == self.window) return true;
     self.fits = false;
@@ -74,12 +74,12 @@ bool Screen::fit(uvec2 window) {
     const uvec2 size = self.swapchain.size();
     for (const auto image : self.swapchain.images())
         self.images.push_back(
-            graph::adopt({"window", self.swapchain.format(), size.x, size.y}, image));
+            graph::wrap_external_image({"window", self.swapchain.format(), size.x, size.y}, image));
     self.fits = true;
     return true;
 }
 
-void Screen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
+void WindowScreen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
     Impl& self = *impl_;
     check(coverage.size() == std::size_t{size.x} * size.y && !coverage.empty(), Failure::usage,
           "a font's picture of ", size.x, "x", size.y, " texels has ", coverage.size(), " bytes");
@@ -87,33 +87,34 @@ void Screen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
     self.font_size = size;
     std::vector<std::uint8_t> padded = coverage; // padded to whole words
     padded.resize((padded.size() + 3) / 4 * 4);
-    gpu::upload(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
+    gpu::upload_to_buffer(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
 }
 
-Frame Access::show(Session& session, const FrameSpec& spec, Screen& screen,
-                   const Showing& showing) {
-    Screen::Impl& onto = *screen.impl_;
+Frame Access::show(Session& session, const FrameSpec& spec, WindowScreen& screen,
+                   const WindowPictures& showing) {
+    WindowScreen::Impl& onto = *screen.impl_;
     check(onto.fits, Failure::internal,
           "a frame is shown on a screen that does not fit its window");
-    graph::Runner& runner = session.impl_->runner;
+    graph::GraphRunner& runner = session.impl_->runner;
     const std::size_t index = std::exchange(onto.next_slot,
                                             (onto.next_slot + 1) % onto.slots.size());
-    Screen::Impl::ScreenSlot& slot = onto.slots[index];
+    WindowScreen::Impl::FrameBuffers& slot = onto.slots[index];
     if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait(slot.ticket);
     std::optional<std::uint32_t> image;
     onto.fits = false; // a refused frame returns its image only when all images are made again
     Frame frame = submit(session, spec, {}, [&](FrameGraph& graph) {
         image = onto.acquire();
-        if (!image) return graph::ExternalSync{};
+        if (!image) return graph::ExternalSemaphores{};
         onto.add(graph, spec, showing, index);
-        return graph::ExternalSync{onto.swapchain.acquired(), onto.swapchain.rendered(*image)};
+        return graph::ExternalSemaphores{onto.swapchain.acquired(),
+                                         onto.swapchain.rendered(*image)};
     });
     slot.runner = &runner, slot.ticket = frame.impl_->ticket;
     onto.fits = image && onto.present();
     return frame;
 }
 
-std::optional<std::uint32_t> Screen::Impl::acquire() {
+std::optional<std::uint32_t> WindowScreen::Impl::acquire() {
     acquire_ms = 0;
     const Stopwatch watch(acquire_ms);
     const std::optional<std::uint32_t> acquired = swapchain.acquire();
@@ -121,44 +122,46 @@ std::optional<std::uint32_t> Screen::Impl::acquire() {
     return acquired;
 }
 
-bool Screen::Impl::present() {
+bool WindowScreen::Impl::present() {
     present_ms = 0;
     const Stopwatch watch(present_ms);
     return swapchain.present(image);
 }
 
-void Screen::Impl::add(FrameGraph& frame, const FrameSpec& spec, const Showing& showing,
-                       std::size_t index) {
+void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
+                             const WindowPictures& showing, std::size_t index) {
     using graph::ImageHandle;
-    ScreenSlot& slot = slots[index];
-    const Overlay& overlay = showing.overlay;
+    FrameBuffers& slot = slots[index];
+    const WindowOverlay& overlay = showing.overlay;
     // The first three indices belong to the triangle that covers the whole window.
     std::vector<std::uint32_t> indices{0, 1, 2};
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
-    put(device, slot.vertices, "overlay.vertices", overlay.vertices, gpu::BufferUsage::vertex);
-    put(device, slot.indices, "overlay.indices", indices, gpu::BufferUsage::index);
+    write_to_buffer(device, slot.vertices, "overlay.vertices", overlay.vertices,
+                    gpu::BufferUsage::vertex);
+    write_to_buffer(device, slot.indices, "overlay.indices", indices, gpu::BufferUsage::index);
     std::vector<std::uint32_t> canvas{0};
-    if (showing.canvas) canvas = packed(*showing.canvas);
-    put(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
+    if (showing.canvas) canvas = pack_rgba8(*showing.canvas);
+    write_to_buffer(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
 
     const uvec2 size = swapchain.size();
     const auto picture = [&](std::size_t part) {
-        return frame.parts.at(part == Showing::kCanvas ? 0 : part).display;
+        return frame.parts.at(part == WindowPictures::kCanvas ? 0 : part).display;
     };
     const ImageHandle first = picture(showing.first), second = picture(showing.second);
-    const shared::Screening screening{spec.size, static_cast<std::uint32_t>(showing.kind),
-                                      (showing.first == Showing::kCanvas ? 1u : 0u) |
-                                          (showing.second == Showing::kCanvas ? 2u : 0u),
-                                      showing.divider, showing.gain};
+    const shared::ScreenParameters screening{
+        spec.size, static_cast<std::uint32_t>(showing.kind),
+        (showing.first == WindowPictures::kCanvas ? 1u : 0u) |
+            (showing.second == WindowPictures::kCanvas ? 2u : 0u),
+        showing.divider, showing.gain};
     const ImageHandle target = frame.graph.import({"window", swapchain.format(), size.x, size.y},
                                                   &images.at(image), std::nullopt,
-                                                  graph::Use::present);
+                                                  graph::ResourceUse::present);
     graph::PassBuilder pass = frame.graph.pass("window");
-    pass.reads(first, graph::Use::sampled);
-    if (!(second == first)) pass.reads(second, graph::Use::sampled);
-    pass.writes(target, graph::Use::colour, graph::Clear{0, 0, 0, 1})
+    pass.reads(first, graph::ResourceUse::sampled);
+    if (!(second == first)) pass.reads(second, graph::ResourceUse::sampled);
+    pass.writes(target, graph::ResourceUse::colour, graph::ClearValue{0, 0, 0, 1})
         .record([&slot, this, first, second, screening, size,
-                 draws = overlay.draws](graph::Commands& commands) {
+                 draws = overlay.draws](graph::PassCommands& commands) {
             commands.use(gpu::RasterState{"screen.vert", "screen.frag", {}});
             commands.bind("first", first);
             commands.bind("second", second);
@@ -171,8 +174,8 @@ void Screen::Impl::add(FrameGraph& frame, const FrameSpec& spec, const Showing& 
                 .vertex = "overlay.vert", .fragment = "overlay.frag", .blended = true});
             commands.bind("Corners", slot.vertices);
             commands.bind("Font", font);
-            commands.push(shared::Overlaying{size, font_size});
-            for (const Overlay::Draw& draw : draws) {
+            commands.push(shared::OverlayParameters{size, font_size});
+            for (const WindowOverlay::OverlayDraw& draw : draws) {
                 const auto [x, y, width, height] = draw.area;
                 if (x >= size.x || y >= size.y) continue;
                 commands.scissor({x, y, std::min(width, size.x - x), std::min(height, size.y - y)});

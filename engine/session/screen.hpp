@@ -8,51 +8,51 @@
 namespace catoptric::app {
 
 /// Triangles over a picture, such as controls and text.
-struct Overlay {
+struct WindowOverlay {
     struct ScreenVertex {
         vec2 position;            ///< pixels of the window from its upper left corner
         vec2 uv;                  ///< position in the picture of the font, each coordinate 0 to 1
         std::uint32_t colour = 0; ///< r | g << 8 | b << 16 | a << 24, as the screen shows them
     };
     /// Consecutive indices, whose triangles are clipped to an area.
-    struct Draw {
+    struct OverlayDraw {
         std::uint32_t first = 0, count = 0;
         std::array<std::uint32_t, 4> area{}; ///< x, y, width, height, pixels within the window
     };
     std::vector<ScreenVertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<Draw> draws;
+    std::vector<OverlayDraw> draws;
 };
 
 /// The pictures of a frame that a window shows. They start in the window's upper left corner, and
 /// one pixel of a picture covers one pixel of the window.
-struct Showing {
-    enum class Arrangement {
+struct WindowPictures {
+    enum class PictureArrangement {
         one,   ///< the first picture
         split, ///< the first picture left of the divider, the second picture right of the divider
         difference ///< difference of the displayed pictures, times `gain`
     };
     static constexpr std::size_t kCanvas = ~std::size_t{0};
 
-    Arrangement kind = Arrangement::one;
+    PictureArrangement kind = PictureArrangement::one;
     std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvas
     float divider = 0;                 ///< pixels from the left
     float gain = 1;
     /// Picture of the caller, of the frame's size, encoded as by measure::to_display; null: none.
     std::shared_ptr<const measure::Picture> canvas;
-    Overlay overlay;
+    WindowOverlay overlay;
 };
 
 /// Images of one window. The engine must have been made with EngineHooks::make_surface. The
 /// engine must outlive the screen, and the screen must outlive frames shown on it. A window has one
 /// screen.
-class Screen {
+class WindowScreen {
 public:
     /// Throws `no_device` if the window accepts no images that the engine can draw.
-    explicit Screen(Engine& engine);
-    ~Screen();
-    Screen(const Screen&) = delete;
-    Screen& operator=(const Screen&) = delete;
+    explicit WindowScreen(Engine& engine);
+    ~WindowScreen();
+    WindowScreen(const WindowScreen&) = delete;
+    WindowScreen& operator=(const WindowScreen&) = delete;
 
     /// Adapts the images to the size of the window; call it before each frame. Makes the images
     /// again if the size changed or they no longer fit. Returns false if nothing can be shown (the

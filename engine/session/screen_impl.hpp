@@ -8,10 +8,10 @@
 
 #include <array>
 
-// Implementation of Screen, only for screen.cpp.
+// Implementation of WindowScreen, only for screen.cpp.
 namespace catoptric::app {
 
-struct Screen::Impl {
+struct WindowScreen::Impl {
     explicit Impl(Access::EngineImpl& engine);
     ~Impl();
     /// Acquires an image. Returns nothing if the window has changed.
@@ -19,21 +19,22 @@ struct Screen::Impl {
     bool present(); ///< returns false if the window has changed
     /// Adds the pass that draws `showing` into the acquired image, and writes the data that the
     /// pass reads. `slot`: index of the buffers to write, which no frame in flight may read.
-    void add(FrameGraph& frame, const FrameSpec& spec, const Showing& showing, std::size_t slot);
+    void add(FrameGraph& frame, const FrameSpec& spec, const WindowPictures& showing,
+             std::size_t slot);
 
     /// Buffers that one frame in flight reads.
-    struct ScreenSlot {
+    struct FrameBuffers {
         gpu::Buffer vertices, indices, canvas;
-        const graph::Runner* runner = nullptr; ///< runner of the frame that reads them
-        graph::Ticket ticket;
+        const graph::GraphRunner* runner = nullptr; ///< runner of the frame that reads them
+        graph::FrameTicket ticket;
     };
 
     gpu::Device& device;
     gpu::Swapchain swapchain;
-    std::vector<graph::Physical> images; ///< images of the swapchain
+    std::vector<graph::PhysicalImage> images; ///< images of the swapchain
     gpu::Buffer font;
     uvec2 font_size{1, 1};
-    std::array<ScreenSlot, 3> slots;
+    std::array<FrameBuffers, 3> slots;
     std::size_t next_slot = 0;
     std::uint32_t image = 0; ///< index of the image acquired last
     uvec2 window{0, 0};

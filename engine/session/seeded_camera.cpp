@@ -24,19 +24,20 @@ constexpr double kNearest = 1.5, kNarrowest = 25, kWidest = 60;
 
 /// Returns a uniform number in [low, high). Distributions of standard libraries differ from each
 /// other.
-double uniform(std::mt19937_64& random, double low, double high) {
+double draw_uniform_number(std::mt19937_64& random, double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-dvec3 on_unit_sphere(std::mt19937_64& random) {
-    const double y = uniform(random, -1, 1), turn = uniform(random, 0, 2 * std::numbers::pi),
+dvec3 draw_unit_vector(std::mt19937_64& random) {
+    const double y = draw_uniform_number(random, -1, 1),
+                 turn = draw_uniform_number(random, 0, 2 * std::numbers::pi),
                  r = std::sqrt(1 - y * y);
     return {r * std::cos(turn), y, r * std::sin(turn)};
 }
 
 /// Appends a number to `text` with `decimals` decimals, and returns the number that this text
 /// stands for.
-double rounded(double value, int decimals, std::string& text) {
+double append_rounded_number(double value, int decimals, std::string& text) {
     std::array<char, 400> digits; // the longest double has 309 before the point
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
                                    std::chars_format::fixed, decimals)
@@ -46,17 +47,17 @@ double rounded(double value, int decimals, std::string& text) {
     return value;
 }
 
-dvec3 rounded(const dvec3& point, int decimals, std::string& text) {
+dvec3 append_rounded_number(const dvec3& point, int decimals, std::string& text) {
     dvec3 result;
     for (int axis = 0; axis < 3; ++axis) {
         if (axis > 0) text += ',';
-        result[axis] = rounded(point[axis], decimals, text);
+        result[axis] = append_rounded_number(point[axis], decimals, text);
     }
     return result;
 }
 
 /// Returns the objects that a camera may aim at: the scene's mirrors, or all objects.
-std::vector<std::size_t> aims_of(const scene::Scene& now) {
+std::vector<std::size_t> list_camera_targets(const scene::Scene& now) {
     std::vector<std::size_t> aims = scene::mirrors(now);
     if (aims.empty())
         for (std::size_t i = 0; i < now.objects.size(); ++i) aims.push_back(i);
@@ -68,33 +69,36 @@ std::vector<std::size_t> aims_of(const scene::Scene& now) {
     return aims;
 }
 
-scene::Camera draw(std::mt19937_64& random, const Bounds<double>& aim,
-                   const Bounds<double>& everything) {
+scene::Camera draw_random_camera(std::mt19937_64& random, const Bounds<double>& aim,
+                                 const Bounds<double>& everything) {
     const double nearest = kNearest * glm::length(aim.extent()) / 2,
                  farthest = std::max(glm::length(everything.extent()), nearest);
     scene::Camera camera;
     for (int axis = 0; axis < 3; ++axis)
-        camera.target[axis] = uniform(random, aim.lo[axis], aim.hi[axis]);
-    const double distance = nearest * std::pow(farthest / nearest, uniform(random, 0, 1));
-    camera.eye = camera.target + distance * on_unit_sphere(random);
+        camera.target[axis] = draw_uniform_number(random, aim.lo[axis], aim.hi[axis]);
+    const double distance = nearest *
+                            std::pow(farthest / nearest, draw_uniform_number(random, 0, 1));
+    camera.eye = camera.target + distance * draw_unit_vector(random);
     const int decimals = std::clamp(
         3 - static_cast<int>(std::floor(std::log10(glm::length(everything.extent())))), 0, 300);
-    camera.eye = rounded(camera.eye, decimals, camera.name);
+    camera.eye = append_rounded_number(camera.eye, decimals, camera.name);
     camera.name += ':';
-    camera.target = rounded(camera.target, decimals, camera.name);
+    camera.target = append_rounded_number(camera.target, decimals, camera.name);
     camera.name += ':';
-    camera.vertical_fov_degrees = rounded(uniform(random, kNarrowest, kWidest), 1, camera.name);
+    camera.vertical_fov_degrees = append_rounded_number(
+        draw_uniform_number(random, kNarrowest, kWidest), 1, camera.name);
     return camera;
 }
 
 /// Counts the rays of the grid that first meet the front of one of the aims.
-std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarchy,
-                       const shared::View& view, const std::vector<std::size_t>& aims) {
+std::size_t count_rays_hitting_targets(const render::Geometry& geometry, const bvh::Bvh& hierarchy,
+                                       const shared::View& view,
+                                       const std::vector<std::size_t>& aims) {
     std::size_t seen = 0;
     for (std::size_t pixel = 0; pixel < std::size_t{kGrid.x} * kGrid.y; ++pixel) {
-        const f32::Ray ray = camera_ray(view, kGrid, pixel);
-        const auto hit = bvh::closest_hit<float>(hierarchy, ray, std::numeric_limits<float>::max(),
-                                                 bvh::kHidden | bvh::kOneSided);
+        const f32::Ray ray = make_camera_ray(view, kGrid, pixel);
+        const auto hit = bvh::find_closest_hit<float>(
+            hierarchy, ray, std::numeric_limits<float>::max(), bvh::kHidden | bvh::kOneSided);
         if (!hit || !std::ranges::binary_search(aims, std::size_t{hit->object})) continue;
         const auto normal = [&](std::uint32_t j) {
             return geometry.vertices[geometry.indices[3 * hit->triangle + j]].normal;
@@ -105,34 +109,37 @@ std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarc
 }
 
 /// A scene at an instant, prepared for rays.
-struct TracedInstant {
-    explicit TracedInstant(const scene::Scene& scene, double seconds)
-        : now(scene::at(scene, seconds)), space(render::space_of(scene)),
+struct TraceableScene {
+    explicit TraceableScene(const scene::Scene& scene, double seconds)
+        : now(scene::scene_at_time(scene, seconds)), space(render::make_scene_units(scene)),
           geometry(render::make_geometry(now, space)),
-          hierarchy(hierarchy_without(geometry, geometry.ranges.size())), aims(aims_of(now)) {}
+          hierarchy(build_bvh_without_object(geometry, geometry.ranges.size())),
+          aims(list_camera_targets(now)) {}
 
-    bool sees_one(const scene::Camera& camera) const {
-        return count_seen(geometry, hierarchy, render::camera_view(camera, space, kGrid, 0),
-                          aims) >= kLeastSeen;
+    bool sees_a_target(const scene::Camera& camera) const {
+        return count_rays_hitting_targets(geometry, hierarchy,
+                                          render::make_camera_view(camera, space, kGrid, 0),
+                                          aims) >= kLeastSeen;
     }
 
     scene::Scene now;
-    render::Space space;
+    render::SceneUnits space;
     render::Geometry geometry;
     bvh::Bvh hierarchy;
     std::vector<std::size_t> aims;
 };
 
-scene::Camera drawn_on(const TracedInstant& stage, std::uint64_t seed) {
+scene::Camera draw_camera_for_seed(const TraceableScene& stage, std::uint64_t seed) {
     const Bounds<double> everything = scene::bounds(stage.now);
     std::mt19937_64 random(seed);
     for (int i = 0; i < kDraws && !stage.aims.empty(); ++i) {
         const scene::Object& aim = stage.now.objects[stage.aims[random() % stage.aims.size()]];
-        scene::Camera camera = draw(random, scene::bounds(stage.now, aim), everything);
+        scene::Camera camera = draw_random_camera(random, scene::bounds(stage.now, aim),
+                                                  everything);
         const dvec3 along = camera.target - camera.eye;
         if (!(std::abs(along.y) <= kMostUpright * glm::length(along)) || along == dvec3(0))
             continue;
-        if (stage.sees_one(camera)) return camera;
+        if (stage.sees_a_target(camera)) return camera;
     }
     fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", stage.now.name,
          "', found none in ", kDraws, " draws from seed ", seed);
@@ -140,16 +147,16 @@ scene::Camera drawn_on(const TracedInstant& stage, std::uint64_t seed) {
 
 } // namespace
 
-std::vector<scene::Camera> seeded_cameras(const scene::Scene& scene, double seconds,
-                                          std::span<const std::uint64_t> seeds) {
-    const TracedInstant stage(scene, seconds);
+std::vector<scene::Camera> make_seeded_cameras(const scene::Scene& scene, double seconds,
+                                               std::span<const std::uint64_t> seeds) {
+    const TraceableScene stage(scene, seconds);
     std::vector<scene::Camera> cameras;
-    for (const std::uint64_t seed : seeds) cameras.push_back(drawn_on(stage, seed));
+    for (const std::uint64_t seed : seeds) cameras.push_back(draw_camera_for_seed(stage, seed));
     return cameras;
 }
 
-scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed) {
-    return seeded_cameras(scene, seconds, std::span(&seed, 1)).front();
+scene::Camera make_seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed) {
+    return make_seeded_cameras(scene, seconds, std::span(&seed, 1)).front();
 }
 
 } // namespace catoptric::app

@@ -20,9 +20,9 @@ namespace catoptric::app {
 /// the camera can be typed. The camera's name is its text, EX,EY,EZ:TX,TY,TZ:FOV. In a scene
 /// without mirrors all objects count as mirrors. Throws `Failure::usage` if 1000 draws see no
 /// mirror.
-scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed);
+scene::Camera make_seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed);
 /// Draws a camera for each seed. Prepares the scene for rays only once.
-std::vector<scene::Camera> seeded_cameras(const scene::Scene& scene, double seconds,
-                                          std::span<const std::uint64_t> seeds);
+std::vector<scene::Camera> make_seeded_cameras(const scene::Scene& scene, double seconds,
+                                               std::span<const std::uint64_t> seeds);
 
 } // namespace catoptric::app

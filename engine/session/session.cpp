@@ -17,20 +17,21 @@ namespace catoptric::app {
 
 namespace {
 
-double milliseconds_since(SteadyClock::time_point start) {
+double compute_milliseconds_since(SteadyClock::time_point start) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
-SceneKey scene_key_of(const FrameSpec& spec) {
+SceneKey make_scene_key(const FrameSpec& spec) {
     return {spec.time, scene::camera_at(spec.camera, spec.time), spec.size, spec.ambient};
 }
 
-bool same(const std::vector<reflect::Plan>& a, const std::vector<reflect::Plan>& b) {
+bool have_equal_plans(const std::vector<reflect::TechniquePlan>& a,
+                      const std::vector<reflect::TechniquePlan>& b) {
     return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.same_as(y); });
 }
 
-void check_spec(const FrameSpec& spec) {
-    check_limit(spec);
+void check_frame_spec(const FrameSpec& spec) {
+    check_capture_limit(spec);
     check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
           spec.size.x, "x", spec.size.y);
 }
@@ -39,21 +40,21 @@ void check_spec(const FrameSpec& spec) {
 
 /// Adds the ambient light to the content hashes. It is no part of a scene, but captures depend on
 /// it.
-void add_ambient(require::Model& model, double ambient) {
+void hash_ambient_light(require::Model& model, double ambient) {
     for (require::MirrorNeeds& mirror : model.mirrors)
         for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
             for (std::uint64_t& content_hash : *content_hashes)
                 content_hash = ContentHash().add(content_hash).add(ambient).value();
 }
 
-std::string name_of(Modelling modelling) {
-    return modelling == Modelling::everything ? "everything" : "required";
+std::string name_of(RenderedWork modelling) {
+    return modelling == RenderedWork::everything ? "everything" : "required";
 }
 
-struct Sequence::Impl {
+struct FrameSequence::Impl {
     graph::RetainedImages leavings;
-    std::vector<reflect::Plan> remembered;
-    Modelling remembered_model = Modelling::everything;
+    std::vector<reflect::TechniquePlan> remembered;
+    RenderedWork remembered_model = RenderedWork::everything;
     std::vector<std::shared_ptr<render::CaptureCache>> kept;
     std::vector<CaptureCost> paces;
     std::vector<double> face_needs;
@@ -62,17 +63,17 @@ struct Sequence::Impl {
     std::uint64_t edits = 0;           ///< number of the scene's edits so far
     std::vector<std::string> texts;
     /// Parsed from `texts`, with the suggestions made for its first frame.
-    std::vector<reflect::Plan> plans;
+    std::vector<reflect::TechniquePlan> plans;
 };
 
-Sequence::Sequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Sequence::Sequence(Sequence&&) noexcept = default;
-Sequence& Sequence::operator=(Sequence&&) noexcept = default;
-Sequence::~Sequence() = default;
+FrameSequence::FrameSequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+FrameSequence::FrameSequence(FrameSequence&&) noexcept = default;
+FrameSequence& FrameSequence::operator=(FrameSequence&&) noexcept = default;
+FrameSequence::~FrameSequence() = default;
 
 void Session::Impl::wait_for_readers(std::size_t of) {
     if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
-        runner.wait(graph::Ticket{read_by[of]});
+        runner.wait(graph::FrameTicket{read_by[of]});
 }
 
 double Session::Impl::update_scene(const SceneKey& wanted) {
@@ -87,39 +88,41 @@ double Session::Impl::update_scene(const SceneKey& wanted) {
     models.clear();
     if (scene::is_animated(scene)) {
         if (!moved) moved = scene;
-        scene::pose(*moved, scene, wanted.time);
+        scene::pose_scene(*moved, scene, wanted.time);
     } else {
-        scene::check_time(wanted.time);
+        scene::check_scene_time(wanted.time);
     }
     resident->update(now(), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     scene_key = wanted;
     ++counts.updates;
-    return milliseconds_since(start);
+    return compute_milliseconds_since(start);
 }
 
-const std::vector<reflect::Plan>& Session::Impl::plans_of(const FrameSpec& spec) {
+const std::vector<reflect::TechniquePlan>& Session::Impl::find_plans(const FrameSpec& spec) {
     if (plans.empty() || texts != spec.techniques) {
         plans = parse_plans(spec.techniques);
-        for (reflect::Plan& plan : plans) plan = resolve_auto(std::move(plan), scene, spec);
+        for (reflect::TechniquePlan& plan : plans)
+            plan = resolve_auto_plan(std::move(plan), scene, spec);
         texts = spec.techniques;
         models.clear();
     }
     return plans;
 }
 
-const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling modelling,
-                                                                     bool is_ablated) {
+const std::shared_ptr<const require::Model>& Session::Impl::find_model(RenderedWork modelling,
+                                                                       bool is_ablated) {
     std::shared_ptr<const require::Model>& model = models[{modelling, is_ablated}];
     if (model) return model;
-    require::Question question{now(), scene_key->camera, scene_key->size};
-    reflect::demand(question, plans);
+    require::ModelInput question{now(), scene_key->camera, scene_key->size};
+    reflect::add_plan_demands(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // ablated lookups read places that a search never would
-    if (modelling == Modelling::required && !requirements) requirements.emplace(scene);
-    require::Model made = modelling == Modelling::everything ? require::everything(question)
-                                                             : requirements->of(question);
-    add_ambient(made, scene_key->ambient);
+    if (modelling == RenderedWork::required && !requirements) requirements.emplace(scene);
+    require::Model made = modelling == RenderedWork::everything
+                              ? require::make_everything_model(question)
+                              : requirements->model_for(question);
+    hash_ambient_light(made, scene_key->ambient);
     model = std::make_shared<const require::Model>(std::move(made));
     return model;
 }
@@ -130,9 +133,9 @@ Session::~Session() = default;
 
 const scene::Scene& Session::scene() const { return impl_->scene; }
 
-Counts Access::counts(const Session& session) {
+SessionCounters Access::counts(const Session& session) {
     const Session::Impl& self = *session.impl_;
-    Counts counts = self.counts;
+    SessionCounters counts = self.counts;
     counts.plans = self.runner.plans_made();
     counts.memory_bytes = self.runner.memory_bytes();
     counts.uploads = self.resident->uploads();
@@ -141,7 +144,7 @@ Counts Access::counts(const Session& session) {
     return counts;
 }
 
-Setup Access::setup(const Session& session) {
+SetupTimes Access::setup(const Session& session) {
     const render::GpuScene& resident = *session.impl_->resident;
     return {resident.first_upload_ms(), resident.first_build_ms()};
 }
@@ -149,15 +152,16 @@ Setup Access::setup(const Session& session) {
 Frame Session::frame(const FrameSpec& spec) { return Access::frame(*this, spec, {}); }
 
 Frame Access::frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks) {
-    return submit(session, spec, hooks, [](FrameGraph&) { return graph::ExternalSync{}; });
+    return submit(session, spec, hooks, [](FrameGraph&) { return graph::ExternalSemaphores{}; });
 }
 
 Frame Access::submit(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
-                     const std::function<graph::ExternalSync(FrameGraph&)>& finish) {
+                     const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
     Session::Impl& self = *session.impl_;
-    check_spec(spec);
-    const std::vector<reflect::Plan>& plans = self.plans_of(spec);
-    const bool follows = same(self.remembered, plans) && self.remembered_model == spec.model;
+    check_frame_spec(spec);
+    const std::vector<reflect::TechniquePlan>& plans = self.find_plans(spec);
+    const bool follows = have_equal_plans(self.remembered, plans) &&
+                         self.remembered_model == spec.model;
     if (!spec.keeps_history && !follows) {
         self.runner.forget();
         self.kept.clear();
@@ -167,29 +171,30 @@ Frame Access::submit(Session& session, const FrameSpec& spec, const FrameHooks& 
     double waited_ms = 0;
     {
         const Stopwatch watch(waited_ms);
-        self.catch_up(spec);
+        self.wait_for_needed_results(spec);
     }
-    const double update_ms = self.update_scene(scene_key_of(spec));
+    const double update_ms = self.update_scene(make_scene_key(spec));
     const SteadyClock::time_point start = SteadyClock::now();
-    const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
-                                                                      hooks.ablated != 0);
-    FrameGraph frame = declare(spec, hooks, plans, self.mirrors, *self.resident,
-                               self.runner.history(), self.keeping(spec, *model, follows));
-    const double declare_ms = milliseconds_since(start);
+    const std::shared_ptr<const require::Model> model = self.find_model(spec.model,
+                                                                        hooks.ablated != 0);
+    FrameGraph frame = declare_frame_graph(spec, hooks, plans, self.mirrors, *self.resident,
+                                           self.runner.history(),
+                                           self.find_capture_histories(spec, *model, follows));
+    const double declare_ms = compute_milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
     const SteadyClock::time_point trees = SteadyClock::now();
     self.resident->prepare();
-    const double hierarchy_ms = milliseconds_since(trees);
-    const graph::ExternalSync outside = finish(frame);
-    const graph::Ticket ticket = self.runner.submit(frame.graph,
-                                                    spec.timing == Timing::isolated
-                                                        ? graph::PassTiming::isolated
-                                                        : graph::PassTiming::pipelined,
-                                                    spec.keeps_history, outside);
+    const double hierarchy_ms = compute_milliseconds_since(trees);
+    const graph::ExternalSemaphores outside = finish(frame);
+    const graph::FrameTicket ticket = self.runner.submit(frame.graph,
+                                                         spec.timing == PassTimingMode::isolated
+                                                             ? graph::PassTiming::isolated
+                                                             : graph::PassTiming::pipelined,
+                                                         spec.keeps_history, outside);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
-    if (!spec.keeps_history) self.keep(frame, ticket);
-    if (!spec.keeps_history && spec.budget_ms > 0) self.time(frame, ticket);
+    if (!spec.keeps_history) self.store_captures(frame, ticket);
+    if (!spec.keeps_history && spec.budget_ms > 0) self.mark_for_timing(frame, ticket);
     ++self.counts.frames;
     return Frame(std::make_shared<Frame::Impl>(Frame::Impl{session.impl_,
                                                            ticket,
@@ -207,9 +212,9 @@ Frame Access::submit(Session& session, const FrameSpec& spec, const FrameHooks& 
 void Session::change(const scene::Edit& edit) {
     Impl& self = *impl_;
     scene::Scene edited = self.scene;
-    scene::apply(edited, edit);
+    scene::apply_edit(edited, edit);
     // If the units of the edited scene are unchanged, resident data and history stay.
-    if (render::space_of(edited) != render::space_of(self.scene)) {
+    if (render::make_scene_units(edited) != render::make_scene_units(self.scene)) {
         auto made = std::make_unique<render::GpuScene>(self.engine.device, edited,
                                                        self.read_by.size());
         self.runner.forget(); // waits for frames in flight; captured distances were in other units
@@ -219,7 +224,7 @@ void Session::change(const scene::Edit& edit) {
     }
     self.scene = std::move(edited);
     self.moved.reset();
-    self.mirrors = mirror_names(self.scene);
+    self.mirrors = list_mirror_names(self.scene);
     self.scene_key.reset();
     ++self.edits;
     self.texts.clear(); // another plan may be suggested
@@ -233,20 +238,20 @@ void Session::forget() {
     impl_->scene_key.reset();
 }
 
-Sequence Access::suspend(Session& session) {
+FrameSequence Access::suspend(Session& session) {
     Session::Impl& self = *session.impl_;
-    self.measure();
-    auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
+    self.read_capture_times();
+    auto sequence = std::make_unique<FrameSequence::Impl>(FrameSequence::Impl{
         self.runner.suspend(), std::exchange(self.remembered, {}), self.remembered_model,
         std::exchange(self.kept, {}), std::exchange(self.paces, {}), self.resident->face_needs(),
         self.scene_key, self.units, self.edits, std::exchange(self.texts, {}),
         std::exchange(self.plans, {})});
     self.models.clear();
     self.resident->forget_face_needs();
-    return Sequence(std::move(sequence));
+    return FrameSequence(std::move(sequence));
 }
 
-void Access::resume(Session& session, Sequence sequence) {
+void Access::resume(Session& session, FrameSequence sequence) {
     Session::Impl& self = *session.impl_;
     if (sequence.impl_->units != self.units) {
         session.forget();
@@ -268,21 +273,23 @@ void Access::resume(Session& session, Sequence sequence) {
 
 std::string Access::plan(Session& session, const FrameSpec& spec, PlanFormat format) {
     Session::Impl& self = *session.impl_;
-    check_spec(spec);
-    const std::vector<reflect::Plan>& plans = self.plans_of(spec);
-    self.update_scene(scene_key_of(spec));
-    const std::shared_ptr<const require::Model> model = self.model_of(spec.model, false);
+    check_frame_spec(spec);
+    const std::vector<reflect::TechniquePlan>& plans = self.find_plans(spec);
+    self.update_scene(make_scene_key(spec));
+    const std::shared_ptr<const require::Model> model = self.find_model(spec.model, false);
     std::vector<reflect::CaptureHistory> keeping(plans.size(),
                                                  {*model, nullptr, &self.comparisons});
-    FrameGraph frame = declare(spec, {}, plans, self.mirrors, *self.resident, {}, keeping);
+    FrameGraph frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident, {},
+                                           keeping);
     // If captures are kept, only the second frame compares them. The plan is that of the frame
     // after it, when nothing has changed.
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
         for (std::size_t i = 0; i < plans.size(); ++i) {
             keeping[i].before = frame.parts[i].outputs.kept;
-            if (k > 0 && keeping[i].before) render::find_unchanged(*keeping[i].before);
+            if (k > 0 && keeping[i].before) render::mark_all_unchanged(*keeping[i].before);
         }
-        frame = declare(spec, {}, plans, self.mirrors, *self.resident, frame.graph.left(), keeping);
+        frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident,
+                                    frame.graph.history_for_next_frame(), keeping);
     }
     const graph::GraphPlan& plan = self.runner.compiled(frame.graph);
     switch (format) {
@@ -308,16 +315,17 @@ FrameTimes Access::clear_cubes(Session& session) {
             const graph::ImageHandle depth = graph.image(
                 {name + ".depth", Format::d32f, kEdge, kEdge, 6, true});
             graph.pass(name)
-                .writes(cubes.layers(6 * cube, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
-                .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
+                .writes(cubes.layers(6 * cube, 6), graph::ResourceUse::colour,
+                        graph::ClearValue{0, 0, 0, 1})
+                .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
                 .layers(6)
-                .record([](graph::Commands&) {});
+                .record([](graph::PassCommands&) {});
         }
         graph.mark_output(cubes);
     }
     ++self.counts.frames;
     self.last = self.runner.submit(graph, graph::PassTiming::isolated);
-    return to_times(self.runner.wait(*self.last));
+    return to_public_frame_times(self.runner.wait(*self.last));
 }
 
 } // namespace catoptric::app

@@ -19,11 +19,11 @@ namespace catoptric::app {
 
 /// How passes are timed. isolated: passes do not overlap, and their times add up. pipelined: passes
 /// may overlap, and only the time of the whole frame is valid.
-enum class Timing { isolated, pipelined };
+enum class PassTimingMode { isolated, pipelined };
 
 /// The work that a frame renders. everything: the capture of each mirror, six faces, every frame.
 /// required: only what the picture needs. Both give the same picture unless documented otherwise.
-enum class Modelling { everything, required };
+enum class RenderedWork { everything, required };
 
 /// What one frame shows and how it is rendered.
 struct FrameSpec {
@@ -38,11 +38,11 @@ struct FrameSpec {
     double ambient = 0.05;
     double exposure = 0;    ///< stops
     std::uint64_t seed = 1; ///< seed of sample patterns that are not a regular grid
-    Timing timing = Timing::isolated;
-    Modelling model = Modelling::everything;
+    PassTimingMode timing = PassTimingMode::isolated;
+    RenderedWork model = RenderedWork::everything;
     /// Largest number of mirrors whose captures a frame draws again, per technique; 0: all. Needs
-    /// Modelling::required. The other captures keep their contents. Each of them is drawn in one of
-    /// the next ceil(captured mirrors / most_captures) frames. Mirrors that come into view are
+    /// RenderedWork::required. The other captures keep their contents. Each of them is drawn in one
+    /// of the next ceil(captured mirrors / most_captures) frames. Mirrors that come into view are
     /// drawn in addition. A frame with `keeps_history` draws all captures. Each frame waits for the
     /// one before.
     std::uint32_t most_captures = 0;
@@ -50,7 +50,8 @@ struct FrameSpec {
     /// first frame draws all captures. Later frames draw as many as fit by the session's
     /// measurements, at least one. Therefore pictures depend on the speed of the device.
     double budget_ms = 0;
-    bool with_lookup = false; ///< also record where mirrors looked (Part::lookup); costs time
+    bool with_lookup =
+        false; ///< also record where mirrors looked (TechniqueResult::lookup); costs time
     /// A frame that keeps the history unchanged: the next frame has the history that this one had.
     bool keeps_history = false;
 };
@@ -90,16 +91,18 @@ struct CaptureBudget {
 
     /// Returns the number of frames within which each waiting capture is drawn, as long as `most`
     /// does not change.
-    std::uint32_t round() const { return most > 0 ? (mirrors + most - 1) / most : 1; }
+    std::uint32_t frames_per_update_cycle() const {
+        return most > 0 ? (mirrors + most - 1) / most : 1;
+    }
 };
 
 /// Results of one technique or plan in a frame.
-struct Part {
+struct TechniqueResult {
     std::string label;              ///< technique or plan as it was asked for
     std::string prefix;             ///< of its passes' names; empty if the frame has only one part
     std::vector<PlanEntry> plan;    ///< technique of each mirror
     std::vector<std::string> notes; ///< deviations from what was asked for, a sentence each
-    Modelling model = Modelling::everything;
+    RenderedWork model = RenderedWork::everything;
     std::vector<CulledWork> left_out;    ///< work that the model left out
     std::optional<CaptureBudget> slices; ///< only if captures are kept under a limit
     int scene_passes = 0;
@@ -140,8 +143,8 @@ public:
     /// Returns linear radiance, the cheapest result to read.
     CATOPTRIC_API measure::Picture hdr(std::size_t part = 0) const;
     /// Returns all results of one technique.
-    CATOPTRIC_API Part read(std::size_t part = 0) const;
-    CATOPTRIC_API std::vector<Part> read_all() const;
+    CATOPTRIC_API TechniqueResult read(std::size_t part = 0) const;
+    CATOPTRIC_API std::vector<TechniqueResult> read_all() const;
 
 private:
     friend struct Access; // internal
@@ -169,9 +172,9 @@ public:
     /// specification.
     CATOPTRIC_API Frame frame(const FrameSpec& spec);
     /// Edits the scene; the next frame shows the edit. History stays unless the edit changes the
-    /// scene's units on the device (render::space_of). The units change if the scene becomes much
-    /// larger or smaller, or if objects that determine its origin move (an outermost object, small
-    /// mirrors). Throws `usage` for an object or material that does not exist.
+    /// scene's units on the device (render::make_scene_units). The units change if the scene
+    /// becomes much larger or smaller, or if objects that determine its origin move (an outermost
+    /// object, small mirrors). Throws `usage` for an object or material that does not exist.
     CATOPTRIC_API void change(const scene::Edit& edit);
     /// Makes a cut: the next frame begins without history.
     CATOPTRIC_API void forget();

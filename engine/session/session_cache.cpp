@@ -9,10 +9,12 @@ namespace catoptric::app {
 
 namespace {
 
-bool is_limited(const FrameSpec& spec) { return spec.most_captures > 0 || spec.budget_ms > 0; }
+bool has_capture_limit(const FrameSpec& spec) {
+    return spec.most_captures > 0 || spec.budget_ms > 0;
+}
 
 /// Returns the milliseconds of passes that draw, keep and compare captures.
-double capture_ms(const graph::GraphFrameTimes& times, const std::string& prefix) {
+double sum_capture_milliseconds(const graph::GraphFrameTimes& times, const std::string& prefix) {
     double ms = 0;
     for (const graph::GraphPassTime& pass : times.passes)
         if (pass.name.starts_with(prefix + "capture")) ms += pass.end_ms - pass.begin_ms;
@@ -21,9 +23,9 @@ double capture_ms(const graph::GraphFrameTimes& times, const std::string& prefix
 
 } // namespace
 
-void check_limit(const FrameSpec& spec) {
+void check_capture_limit(const FrameSpec& spec) {
     const bool is_limited = spec.most_captures > 0 || spec.budget_ms != 0;
-    check(!is_limited || spec.model == Modelling::required, Failure::usage,
+    check(!is_limited || spec.model == RenderedWork::required, Failure::usage,
           "a limit of captures that a frame draws is of the model required, not of everything");
     check(spec.most_captures == 0 || spec.budget_ms == 0, Failure::usage,
           "captures that a frame draws are limited by number (", spec.most_captures,
@@ -34,20 +36,22 @@ void check_limit(const FrameSpec& spec) {
 }
 
 std::vector<reflect::CaptureHistory>
-Session::Impl::keeping(const FrameSpec& spec, const require::Model& model, bool follows) {
+Session::Impl::find_capture_histories(const FrameSpec& spec, const require::Model& model,
+                                      bool follows) {
     std::vector<reflect::CaptureHistory> keeping(
         plans.size(), {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
     for (std::size_t i = 0; i < plans.size(); ++i) keeping[i].most = most_captures(spec, i, model);
     for (std::size_t i = 0; follows && i < kept.size(); ++i) {
         keeping[i].before = kept[i];
-        render::learn(kept[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
+        render::read_finished_comparisons(
+            kept[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
     }
     return keeping;
 }
 
-void Session::Impl::keep(const FrameGraph& frame, graph::Ticket ticket) {
+void Session::Impl::store_captures(const FrameGraph& frame, graph::FrameTicket ticket) {
     kept.clear();
-    for (const Declared& part : frame.parts) {
+    for (const TechniquePasses& part : frame.parts) {
         kept.push_back(part.outputs.kept);
         if (!kept.back()) continue;
         kept.back()->frame = ticket.frame;
@@ -55,40 +59,42 @@ void Session::Impl::keep(const FrameGraph& frame, graph::Ticket ticket) {
     }
 }
 
-void Session::Impl::catch_up(const FrameSpec& spec) {
+void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
     const auto must_learn = [&](const std::shared_ptr<render::CaptureCache>& one) {
-        return one && render::must_learn(*one, is_limited(spec));
+        return one && render::must_read_comparisons(*one, has_capture_limit(spec));
     };
     const auto learns = std::ranges::find_if(kept, must_learn);
     if (learns != kept.end() && !runner.has_ended({(*learns)->frame}))
         runner.wait({(*learns)->frame});
-    measure();
+    read_capture_times();
 }
 
-void Session::Impl::measure() {
+void Session::Impl::read_capture_times() {
     if (!timed) return;
     // Frames that keep the history unchanged may have overwritten its times.
     if (last->frame < timed->ticket.frame + read_by.size()) {
         const graph::GraphFrameTimes& times = runner.wait(timed->ticket);
         paces.resize(timed->drawn.size());
         for (std::size_t i = 0; i < paces.size(); ++i)
-            paces[i].add(capture_ms(times, timed->drawn[i].first), timed->drawn[i].second);
+            paces[i].add(sum_capture_milliseconds(times, timed->drawn[i].first),
+                         timed->drawn[i].second);
     }
     timed.reset();
 }
 
 std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t part,
                                            const require::Model& model) const {
-    if (spec.keeps_history || !is_limited(spec)) return 0;
+    if (spec.keeps_history || !has_capture_limit(spec)) return 0;
     if (spec.budget_ms == 0) return spec.most_captures;
     const auto captured = static_cast<std::uint32_t>(
         std::ranges::count_if(model.mirrors, &require::MirrorNeeds::is_captured));
-    return part < paces.size() ? paces[part].fitting(spec.budget_ms, captured) : captured;
+    return part < paces.size() ? paces[part].count_affordable_captures(spec.budget_ms, captured)
+                               : captured;
 }
 
-void Session::Impl::time(const FrameGraph& frame, graph::Ticket ticket) {
+void Session::Impl::mark_for_timing(const FrameGraph& frame, graph::FrameTicket ticket) {
     timed = {ticket, {}};
-    for (const Declared& part : frame.parts)
+    for (const TechniquePasses& part : frame.parts)
         timed->drawn.emplace_back(part.prefix, part.slices ? part.slices->drawn : 0);
 }
 

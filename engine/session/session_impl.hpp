@@ -36,7 +36,7 @@ struct Session::Impl {
           comparisons(shared.device,
                       [this](std::uint64_t frame) { return runner.has_ended({frame}); }),
           runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
-        mirrors = mirror_names(scene);
+        mirrors = list_mirror_names(scene);
     }
 
     /// Returns the scene at the instant of `scene_key`. A scene that is not animated is not copied.
@@ -49,63 +49,64 @@ struct Session::Impl {
     /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
     /// after a cut, and after an edit. Until then, `auto` keeps the plan suggested for the first
     /// frame.
-    const std::vector<reflect::Plan>& plans_of(const FrameSpec& spec);
+    const std::vector<reflect::TechniquePlan>& find_plans(const FrameSpec& spec);
     /// Returns the model of the scene at its present instant.
-    const std::shared_ptr<const require::Model>& model_of(Modelling modelling, bool is_ablated);
+    const std::shared_ptr<const require::Model>& find_model(RenderedWork modelling,
+                                                            bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
-    std::vector<reflect::CaptureHistory> keeping(const FrameSpec& spec, const require::Model& model,
-                                                 bool follows);
+    std::vector<reflect::CaptureHistory>
+    find_capture_histories(const FrameSpec& spec, const require::Model& model, bool follows);
     /// Waits for results of earlier frames that this frame needs.
-    void catch_up(const FrameSpec& spec);
+    void wait_for_needed_results(const FrameSpec& spec);
     /// Returns how many mirrors' captures the frame draws again at most; 0: all.
     std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
                                 const require::Model& model) const;
     /// Reads how long captures took in the last submitted frame under a budget. Waits for that
     /// frame.
-    void measure();
-    /// Marks a submitted frame as the one that `measure` reads.
-    void time(const FrameGraph& frame, graph::Ticket ticket);
+    void read_capture_times();
+    /// Marks a submitted frame as the one that `read_capture_times` reads.
+    void mark_for_timing(const FrameGraph& frame, graph::FrameTicket ticket);
     /// Stores the captures of a submitted frame for the next one.
-    void keep(const FrameGraph& frame, graph::Ticket ticket);
+    void store_captures(const FrameGraph& frame, graph::FrameTicket ticket);
 
     Access::EngineImpl& engine;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
-    render::Comparisons comparisons;
-    graph::Runner runner;
+    render::ComparisonBuffers comparisons;
+    graph::GraphRunner runner;
     std::vector<std::string> mirrors; ///< names of the mirrors
     std::optional<SceneKey> scene_key;
     /// `scene` at the instant of `scene_key`, if it is animated.
     std::optional<scene::Scene> moved;
     std::vector<std::string> texts;
-    std::vector<reflect::Plan> plans;      ///< parsed from `texts`
-    std::vector<reflect::Plan> remembered; ///< plans whose history the runner has
-    Modelling remembered_model = Modelling::everything;
+    std::vector<reflect::TechniquePlan> plans;      ///< parsed from `texts`
+    std::vector<reflect::TechniquePlan> remembered; ///< plans whose history the runner has
+    RenderedWork remembered_model = RenderedWork::everything;
     /// Captures of `remembered`, by technique.
     std::vector<std::shared_ptr<render::CaptureCache>> kept;
     std::vector<CaptureCost> paces; ///< costs of captures, by technique
     /// A frame under a budget whose times were not read yet. `drawn`: for each technique, the
     /// prefix of its passes' names and the number of mirrors it drew.
-    struct Timed {
-        graph::Ticket ticket;
+    struct TimedFrame {
+        graph::FrameTicket ticket;
         std::vector<std::pair<std::string, std::uint32_t>> drawn;
     };
-    std::optional<Timed> timed;
-    std::optional<require::Requirements> requirements; ///< computed at first use
+    std::optional<TimedFrame> timed;
+    std::optional<require::ModelBuilder> requirements; ///< computed at first use
     /// Models of `scene_key` and `plans`.
-    std::map<std::pair<Modelling, bool>, std::shared_ptr<const require::Model>> models;
-    std::optional<graph::Ticket> last; ///< ticket of the frame submitted last
+    std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::Model>> models;
+    std::optional<graph::FrameTicket> last; ///< ticket of the frame submitted last
     /// For each copy of the scene data, the last frame that reads the copy.
     std::vector<std::uint64_t> read_by;
     std::size_t copy = 0;    ///< copy that frames read now
     std::uint64_t units = 0; ///< number of changes of the scene's units on the device
     std::uint64_t edits = 0; ///< number of edits of the scene
-    Counts counts;
+    SessionCounters counts;
 };
 
 struct Frame::Impl {
     std::shared_ptr<Access::SessionImpl> session;
-    graph::Ticket ticket;
+    graph::FrameTicket ticket;
     FrameSpec spec;
     FrameHooks hooks;
     FrameGraph frame;
@@ -113,8 +114,8 @@ struct Frame::Impl {
     double update_ms = 0, declare_ms = 0, hierarchy_ms = 0, waited_ms = 0;
     mutable std::optional<FrameTimes> times; ///< set once the frame was waited for
 
-    graph::Runner& runner() const { return session->runner; }
-    const Declared& part(std::size_t index) const { return frame.parts.at(index); }
+    graph::GraphRunner& runner() const { return session->runner; }
+    const TechniquePasses& part(std::size_t index) const { return frame.parts.at(index); }
     const graph::GraphPlan& plan() const { return runner().compiled(frame.graph); }
     /// Checks that no later frame was submitted, because it overwrites images that outlive a frame.
     void check_last() const {
@@ -125,9 +126,9 @@ struct Frame::Impl {
 };
 
 /// Throws `usage` for an invalid limit of captures.
-void check_limit(const FrameSpec& spec);
+void check_capture_limit(const FrameSpec& spec);
 
 /// Returns the runner's times under the names that callers know.
-FrameTimes to_times(const graph::GraphFrameTimes& times);
+FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times);
 
 } // namespace catoptric::app

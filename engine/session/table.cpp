@@ -9,9 +9,9 @@ namespace catoptric::app {
 
 std::vector<TechniqueInfo> techniques() {
     std::vector<TechniqueInfo> infos;
-    for (const reflect::Technique* row : reflect::techniques()) {
+    for (const reflect::Technique* row : reflect::list_techniques()) {
         TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
-        const Settings defaults(row->knobs);
+        const KnobSettings defaults(row->knobs);
         for (const catoptric::Knob& knob : row->knobs)
             info.knobs.push_back({std::string(knob.name),
                                   std::string(knob.help),
@@ -25,9 +25,9 @@ std::vector<TechniqueInfo> techniques() {
     return infos;
 }
 
-std::vector<Setting> settings_of(const reflect::Choice& choice) {
+std::vector<Setting> list_settings(const reflect::TechniqueChoice& choice) {
     std::vector<Setting> settings;
-    const Settings defaults(choice.technique->knobs);
+    const KnobSettings defaults(choice.technique->knobs);
     for (const catoptric::Knob& knob : choice.technique->knobs) {
         const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob);
         const std::string value = choice.settings.text(knob);
@@ -39,12 +39,12 @@ std::vector<Setting> settings_of(const reflect::Choice& choice) {
 }
 
 TechniqueChoice parse_technique(const std::string& text) {
-    const reflect::Plan plan = read_plan(text);
+    const reflect::TechniquePlan plan = read_plan(text);
     if (plan.is_auto) return {plan.label, plan.label, plan.file_name(), {}};
     if (!plan.is_technique) return {"plan", plan.label, plan.file_name(), {}};
-    const reflect::Choice& choice = plan.rules.front().choice;
+    const reflect::TechniqueChoice& choice = plan.rules.front().choice;
     return {std::string(choice.technique->name), choice.label, choice.file_name(),
-            settings_of(choice)};
+            list_settings(choice)};
 }
 
 } // namespace catoptric::app

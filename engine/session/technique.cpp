@@ -16,24 +16,24 @@ namespace catoptric::app {
 namespace {
 
 /// Storage that a row of the technique table points into.
-struct Kept {
+struct TechniqueStorage {
     Search search;
     std::vector<Knob> knobs;
     std::vector<std::string_view> compared;
     reflect::Technique row;
 };
 
-bool is_word(const std::string& name) {
+bool is_technique_word(const std::string& name) {
     const auto fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     };
     return !name.empty() && std::ranges::all_of(name, fits);
 }
 
-void check_search(const Search& search) {
-    check(is_word(search.name), Failure::usage, "technique '", search.name,
+void check_search_definition(const Search& search) {
+    check(is_technique_word(search.name), Failure::usage, "technique '", search.name,
           "': wanted a name of small letters, digits and '_'");
-    for (const reflect::Technique* row : reflect::techniques())
+    for (const reflect::Technique* row : reflect::list_techniques())
         check(row->name != search.name, Failure::usage, "there is a technique '", search.name,
               "' already");
     check(search.name != reflect::kAuto, Failure::usage, "'", search.name,
@@ -43,7 +43,7 @@ void check_search(const Search& search) {
               "technique '", search.name, "': wanted rows of its own to compare, found '", row,
               "'");
     for (const SearchKnob& knob : search.knobs) {
-        check(is_word(knob.name), Failure::usage, "technique '", search.name, "': knob '",
+        check(is_technique_word(knob.name), Failure::usage, "technique '", search.name, "': knob '",
               knob.name, "': wanted a name of small letters, digits and '_'");
         const double most = std::numeric_limits<std::uint32_t>::max();
         check(knob.is_real ||
@@ -60,7 +60,7 @@ void check_search(const Search& search) {
 
 /// Returns the search's own knobs, then those of all searches. Those of continuing searches come
 /// only if the search continues.
-std::vector<Knob> knobs_of(const Search& search) {
+std::vector<Knob> list_search_knobs(const Search& search) {
     constexpr std::array<std::string_view, 3> kOfContinuing{"continue", "captures", "mirrors"};
     std::vector<Knob> knobs;
     const auto check_new = [&](std::string_view name) {
@@ -92,12 +92,12 @@ RegisteredShaders::RegisteredShaders(std::span<const Shader> builds) {
 }
 
 void add_search(Search search) {
-    static std::deque<Kept> all; // a deque, because rows must not move in memory
-    check_search(search);
-    static_cast<void>(knobs_of(search)); // throws before anything is stored
-    Kept& row = all.emplace_back();
+    static std::deque<TechniqueStorage> all; // a deque, because rows must not move in memory
+    check_search_definition(search);
+    static_cast<void>(list_search_knobs(search)); // throws before anything is stored
+    TechniqueStorage& row = all.emplace_back();
     row.search = std::move(search);
-    row.knobs = knobs_of(row.search);
+    row.knobs = list_search_knobs(row.search);
     if (row.search.compared.empty()) row.search.compared.push_back(row.search.name);
     row.compared.assign(row.search.compared.begin(), row.search.compared.end());
     row.row = {.name = row.search.name,
@@ -105,12 +105,12 @@ void add_search(Search search) {
                .order = row.search.order,
                .knobs = row.knobs,
                .compared = row.compared,
-               .scene_passes = reflect::feedback_passes,
-               .capture = reflect::capture_options,
+               .scene_passes = reflect::count_feedback_passes,
+               .capture = reflect::make_capture_options,
                .in_captures = "reflect/parallax.frag",
                .reads_whole_cubes = true, // the search may look anywhere
                .search = row.search.shader.c_str()};
-    reflect::Registered{row.row};
+    reflect::RegisteredTechnique{row.row};
 }
 
 } // namespace catoptric::app

@@ -18,7 +18,7 @@ constexpr std::array<std::uint64_t, 2> kEvents{PERF_COUNT_HW_CPU_CYCLES,
                                                PERF_COUNT_HW_INSTRUCTIONS};
 
 /// Opens a counter of the calling thread in user mode. Returns -1 and sets errno on failure.
-int open_counter(std::uint64_t event, bool of_threads_to_come) {
+int open_perf_counter(std::uint64_t event, bool of_threads_to_come) {
     perf_event_attr wanted{};
     wanted.size = sizeof wanted;
     wanted.type = PERF_TYPE_HARDWARE;
@@ -33,7 +33,7 @@ int open_counter(std::uint64_t event, bool of_threads_to_come) {
 
 /// Returns the count. It is scaled up if the counter had to share the processor's hardware
 /// counters.
-std::optional<double> read_counter(int counter) {
+std::optional<double> read_perf_counter(int counter) {
     struct {
         std::uint64_t value, enabled, running;
     } found{};
@@ -44,27 +44,27 @@ std::optional<double> read_counter(int counter) {
     return value * static_cast<double>(found.enabled) / static_cast<double>(found.running);
 }
 
-double thread_seconds() {
+double read_thread_seconds() {
     timespec used{};
     ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-std::optional<double> difference(const std::optional<double>& after,
-                                 const std::optional<double>& before) {
+std::optional<double> subtract_counts(const std::optional<double>& after,
+                                      const std::optional<double>& before) {
     return after && before ? std::optional(*after - *before) : std::nullopt;
 }
 
 } // namespace
 
-Usage Usage::operator-(const Usage& before) const {
-    return {cpu_ms - before.cpu_ms, difference(cycles, before.cycles),
-            difference(instructions, before.instructions)};
+ProcessorUsage ProcessorUsage::operator-(const ProcessorUsage& before) const {
+    return {cpu_ms - before.cpu_ms, subtract_counts(cycles, before.cycles),
+            subtract_counts(instructions, before.instructions)};
 }
 
-UsageMeter::UsageMeter(Of of) : of_(of) {
+UsageMeter::UsageMeter(CountedThreads of) : of_(of) {
     for (std::size_t i = 0; i < kEvents.size(); ++i) {
-        counters_[i] = open_counter(kEvents[i], of == Of::process);
+        counters_[i] = open_perf_counter(kEvents[i], of == CountedThreads::process);
         if (counters_[i] < 0 && uncounted_.empty())
             uncounted_ = "perf_event_open: " + std::generic_category().message(errno);
     }
@@ -75,9 +75,10 @@ UsageMeter::~UsageMeter() {
         if (counter >= 0) ::close(counter);
 }
 
-Usage UsageMeter::read() const {
-    const double seconds = of_ == Of::process ? process_seconds() : thread_seconds();
-    return {1e3 * seconds, read_counter(counters_[0]), read_counter(counters_[1])};
+ProcessorUsage UsageMeter::read() const {
+    const double seconds = of_ == CountedThreads::process ? read_process_seconds()
+                                                          : read_thread_seconds();
+    return {1e3 * seconds, read_perf_counter(counters_[0]), read_perf_counter(counters_[1])};
 }
 
 } // namespace catoptric::app

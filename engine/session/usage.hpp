@@ -10,17 +10,17 @@
 namespace catoptric::app {
 
 /// Processor time; and cycles and instructions in user mode, if the system counts them.
-struct Usage {
+struct ProcessorUsage {
     double cpu_ms = 0;
     std::optional<double> cycles, instructions;
 
-    Usage operator-(const Usage& before) const;
+    ProcessorUsage operator-(const ProcessorUsage& before) const;
 };
 
 /// Meter of the processor time that threads have used.
 class UsageMeter {
 public:
-    enum class Of : std::uint8_t {
+    enum class CountedThreads : std::uint8_t {
         /// Only the thread that made the meter is measured, and only that thread may read the
         /// meter.
         caller,
@@ -29,18 +29,18 @@ public:
         /// Therefore make the meter before other threads begin.
         process
     };
-    explicit UsageMeter(Of of);
+    explicit UsageMeter(CountedThreads of);
     ~UsageMeter();
     UsageMeter(const UsageMeter&) = delete;
     UsageMeter& operator=(const UsageMeter&) = delete;
 
     /// Returns the usage so far. Costs a few microseconds.
-    Usage read() const;
+    ProcessorUsage read() const;
     /// Returns why cycles are not counted, in words; empty: they are.
     const std::string& uncounted() const { return uncounted_; }
 
 private:
-    Of of_;
+    CountedThreads of_;
     std::array<int, 2> counters_{-1, -1}; ///< file descriptors: cycles, instructions
     std::string uncounted_;
 };

@@ -20,36 +20,38 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-struct Required {
+struct RequiredWork {
     scene::Scene now;
     require::Model model;
-    require::Suggestion suggestion;
+    require::PlanSuggestion suggestion;
 };
 
 /// Returns the feature of reflectors in the picture whose reflections only ray tracing draws.
-std::optional<measure::UnsupportedFeatureFacts> not_drawn(const Request& request) {
+std::optional<measure::UnsupportedFeatureFacts> find_undrawn_reflections(const Request& request) {
     constexpr std::string_view kId = "smooth-dielectric";
     const auto gap = std::ranges::find(request.scene.unsupported, kId,
                                        &scene::UnsupportedFeature::id);
     if (gap == request.scene.unsupported.end()) return std::nullopt;
-    const std::vector<int> seen = objects_seen(request, small_size(request.size));
-    return measure::UnsupportedFeatureFacts{gap->id, gap->count, gap->first,
-                                            share_of(seen, request.scene, gap->materials)};
+    const std::vector<int> seen = find_visible_objects(request,
+                                                       compute_thumbnail_size(request.size));
+    return measure::UnsupportedFeatureFacts{
+        gap->id, gap->count, gap->first, compute_pixel_share(seen, request.scene, gap->materials)};
 }
 
-Required required(const Request& request) {
-    Required required{.now = scene::at(request.scene, request.time), .model = {}, .suggestion = {}};
+RequiredWork find_required_work(const Request& request) {
+    RequiredWork required{
+        .now = scene::scene_at_time(request.scene, request.time), .model = {}, .suggestion = {}};
     const scene::Camera camera = scene::camera_at(request.camera, request.time);
-    const require::Question question{required.now, camera, request.size};
-    required.model = require::required(question);
-    required.suggestion = require::suggest(question);
+    const require::ModelInput question{required.now, camera, request.size};
+    required.model = require::make_required_model(question);
+    required.suggestion = require::suggest_plan(question);
     return required;
 }
 
-OrderedJson mirror_of(const Required& required, const std::string& name, std::size_t i) {
+OrderedJson describe_mirror(const RequiredWork& required, const std::string& name, std::size_t i) {
     const require::MirrorNeeds& needs = required.model.mirrors[i];
     OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
-    if (needs.is_captured) faces = split(require::names_of(needs.faces), " ");
+    if (needs.is_captured) faces = split_text(require::list_face_names(needs.faces), " ");
     for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
     return {{"mirror", i + 1},
             {"name", name},
@@ -67,37 +69,39 @@ constexpr const char* kRemedy =
 
 } // namespace
 
-std::string why_text(const Request& request, const std::optional<CaptureBudget>& slices) {
-    const auto [now, model, suggestion] = required(request);
-    const std::vector<std::string> names = mirror_names(now);
+std::string explain_culling_as_text(const Request& request,
+                                    const std::optional<CaptureBudget>& slices) {
+    const auto [now, model, suggestion] = find_required_work(request);
+    const std::vector<std::string> names = list_mirror_names(now);
     std::string text = require::to_text(model, now);
-    if (const auto gap = not_drawn(request))
+    if (const auto gap = find_undrawn_reflections(request))
         text += std::string("not drawn\n  ") + kNotDrawn + ": " +
-                report::fixed(100 * *gap->pixel_share, 1) +
-                " % of the picture (first: " + printable(gap->first) + ")\n    why: " + kRemedy +
-                "\n";
+                report::format_fixed(100 * *gap->pixel_share, 1) +
+                " % of the picture (first: " + escape_control_characters(gap->first) +
+                ")\n    why: " + kRemedy + "\n";
     if (slices) text += to_text(*slices) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
-        text += "  mirror " + std::to_string(i + 1) + " " + in_quotes(names[i]) + ": " +
+        text += "  mirror " + std::to_string(i + 1) + " " + quote_printable(names[i]) + ": " +
                 suggestion.reasons[i] + "\n";
     return text + require::to_text(suggestion.candidates);
 }
 
-std::string why_json(const Request& request, const std::optional<CaptureBudget>& slices) {
-    const Required required = app::required(request);
-    const std::vector<std::string> names = mirror_names(required.now);
+std::string explain_culling_as_json(const Request& request,
+                                    const std::optional<CaptureBudget>& slices) {
+    const RequiredWork required = app::find_required_work(request);
+    const std::vector<std::string> names = list_mirror_names(required.now);
     OrderedJson document{
         {"schema", "catoptric/why/1"},       {"mirrors", OrderedJson::array()},
         {"lights", OrderedJson::array()},    {"left_out", OrderedJson::array()},
         {"not_drawn", OrderedJson::array()}, {"suggested", required.suggestion.plan},
         {"candidates", OrderedJson::array()}};
-    for (const require::Candidate& candidate : required.suggestion.candidates)
+    for (const require::PlanCandidate& candidate : required.suggestion.candidates)
         document["candidates"].push_back(
             {{"name", candidate.name}, {"cost", candidate.cost}, {"flip", candidate.error}});
     for (std::size_t i = 0; i < names.size(); ++i)
-        document["mirrors"].push_back(mirror_of(required, names[i], i));
+        document["mirrors"].push_back(describe_mirror(required, names[i], i));
     for (std::size_t i = 0; i < required.model.lights.size(); ++i)
         document["lights"].push_back({{"light", i + 1}, {"map", required.model.lights[i].has_map}});
     for (const require::CulledWork& thing : required.model.left_out)
@@ -105,21 +109,22 @@ std::string why_json(const Request& request, const std::optional<CaptureBudget>&
                                         {"why", thing.why},
                                         {"saves", thing.saves},
                                         {"error", thing.error}});
-    if (const auto gap = not_drawn(request))
+    if (const auto gap = find_undrawn_reflections(request))
         document["not_drawn"].push_back({{"what", kNotDrawn},
                                          {"why", kRemedy},
                                          {"first", gap->first},
                                          {"pixel_share", *gap->pixel_share}});
     document["captures"] = slices ? OrderedJson{{"mirrors", slices->mirrors},
                                                 {"most", slices->most},
-                                                {"oldest_frames", slices->round() - 1},
-                                                {"round_frames", slices->round()},
+                                                {"oldest_frames",
+                                                 slices->frames_per_update_cycle() - 1},
+                                                {"round_frames", slices->frames_per_update_cycle()},
                                                 {"said", to_text(*slices)}}
                                   : OrderedJson();
     return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-std::optional<CaptureBudget> measured_slices(Engine& engine, const Request& request) {
+std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request) {
     constexpr int kCuts = 5; // cuts: the first frames compile what they use
     Session session(engine, request.scene);
     FrameSpec spec = request;

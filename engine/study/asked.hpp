@@ -10,7 +10,7 @@ namespace catoptric::app {
 
 /// Returns the rows that each technique of the table proposes (reflect::Technique::compared), and
 /// `auto`. Leaves out rows that fit no mirror of the scene as `base` shows it.
-std::vector<std::string> default_techniques(const Request& base);
+std::vector<std::string> list_default_techniques(const Request& base);
 /// Throws `bad_data` if the scene has no mirror. The message says how to make one.
 void check_has_mirror(const scene::Scene& scene);
 
@@ -21,6 +21,6 @@ void check_rows(const std::vector<std::string>& techniques);
 
 /// Applies all checks above. Also refuses plans that do not fit the mirrors, and rows that are
 /// asked for in both models and in one frame.
-void check_asked(const CompareRequest& request);
+void check_compare_request(const CompareRequest& request);
 
 } // namespace catoptric::app

@@ -31,21 +31,22 @@ namespace catoptric::app {
 namespace {
 
 /// A cause that the technique's own shader can ablate, with or without the others.
-struct Player {
+struct AblatableCause {
     const char* name;
     std::uint32_t mends; ///< sum of shared::kAblate...
 };
 
-constexpr Player kPlayers[] = {{"direction", shared::kAblateDistance | shared::kAblateDirection},
-                               {"hidden target", shared::kAblateHidden},
-                               {"texels", shared::kAblateTexels},
-                               {"mirror in mirror", shared::kAblateMirrors | shared::kAblateOwn},
-                               {"shadow map", shared::kAblateShadows}};
+constexpr AblatableCause kPlayers[] = {
+    {"direction", shared::kAblateDistance | shared::kAblateDirection},
+    {"hidden target", shared::kAblateHidden},
+    {"texels", shared::kAblateTexels},
+    {"mirror in mirror", shared::kAblateMirrors | shared::kAblateOwn},
+    {"shadow map", shared::kAblateShadows}};
 constexpr std::size_t kPlayerCount = std::size(kPlayers);
 constexpr std::uint32_t kEveryPlayer = (1U << kPlayerCount) - 1;
 
 /// Returns the causes that a coalition ablates, a sum of shared::kAblate...; bit i: player i.
-std::uint32_t ablated_by(std::uint32_t coalition) {
+std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
     std::uint32_t ablated = 0;
     for (std::size_t i = 0; i < kPlayerCount; ++i)
         if ((coalition >> i & 1U) != 0) ablated |= kPlayers[i].mends;
@@ -60,7 +61,7 @@ struct HistorySource {
 };
 
 /// Returns the technique with distances stored as 32-bit floats.
-std::string with_full_distance(const std::string& technique) {
+std::string use_float_distances(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
     const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
         return setting.name == "distance" && setting.text != "r32f";
@@ -80,12 +81,13 @@ constexpr int kSettled = 16; // frames; deeper bounces are below a rounding of t
 
 /// Returns the row's own frames, or frames that are settled at the instant of its last picture.
 /// Returns the settled ones if there is no difference.
-HistorySource history_of(const Request& base, const std::string& technique, bool is_settled) {
+HistorySource choose_history_source(const Request& base, const std::string& technique,
+                                    bool is_settled) {
     const bool may_lag = base.animate || base.total() <= kSettled;
     return {technique, is_settled || !may_lag};
 }
 
-Request request_for(const Request& base, const HistorySource& history) {
+Request make_history_request(const Request& base, const HistorySource& history) {
     Request request = base;
     if (!base.animate || history.is_settled) {
         request.time = base.instant(base.total());
@@ -94,39 +96,42 @@ Request request_for(const Request& base, const HistorySource& history) {
     request.frames = 1;
     request.warmup = history.is_settled ? kSettled : base.total() - 1;
     request.techniques = {history.technique};
-    request.model = Modelling::required; // gives the same pictures, and their times are not used
+    request.model = RenderedWork::required; // gives the same pictures, and their times are not used
     return request;
 }
 
-using MirrorValues = std::vector<double>;
+using MirrorPixelValues = std::vector<double>;
 
-MirrorValues minus(const MirrorValues& from, const MirrorValues& what) {
-    MirrorValues left(from.size());
+MirrorPixelValues subtract_values(const MirrorPixelValues& from, const MirrorPixelValues& what) {
+    MirrorPixelValues left(from.size());
     std::ranges::transform(from, what, left.begin(), std::minus());
     return left;
 }
 
 /// Returns the values where `chosen` equals `told`, and 0 elsewhere.
-MirrorValues only_where(const std::vector<bool>& chosen, bool told, MirrorValues values) {
+MirrorPixelValues keep_values_where_equal(const std::vector<bool>& chosen, bool told,
+                                          MirrorPixelValues values) {
     for (std::size_t i = 0; i < values.size(); ++i)
         if (chosen[i] != told) values[i] = 0;
     return values;
 }
 
 /// Histories that pictures of a row use; some may be equal.
-struct Histories {
+struct HistorySources {
     HistorySource row, row_settled;
     HistorySource stored, settled; ///< with distances stored as 32-bit floats
 };
 
-Histories histories_of(const Request& base, const std::string& technique) {
-    const std::string full = with_full_distance(technique);
-    return {history_of(base, technique, false), history_of(base, technique, true),
-            history_of(base, full, false), history_of(base, full, true)};
+HistorySources choose_history_sources(const Request& base, const std::string& technique) {
+    const std::string full = use_float_distances(technique);
+    return {choose_history_source(base, technique, false),
+            choose_history_source(base, technique, true), choose_history_source(base, full, false),
+            choose_history_source(base, full, true)};
 }
 
 /// Returns the coalitions whose picture is needed with each history.
-std::map<HistorySource, std::vector<std::uint32_t>> wanted_of(const Histories& histories) {
+std::map<HistorySource, std::vector<std::uint32_t>>
+list_needed_ablations(const HistorySources& histories) {
     std::map<HistorySource, std::vector<std::uint32_t>> wanted;
     for (const HistorySource& history : {histories.row, histories.row_settled, histories.stored})
         wanted[history] = {0};
@@ -138,36 +143,38 @@ std::map<HistorySource, std::vector<std::uint32_t>> wanted_of(const Histories& h
 }
 
 /// Squared errors of the mirrors' pixels.
-struct CoalitionErrors {
-    measure::Shapley shapley; ///< with the history `settled`
+struct AblationErrors {
+    measure::ShapleyValues shapley; ///< with the history `settled`
     /// Of coalitions that are read one by one.
-    std::map<std::pair<HistorySource, std::uint32_t>, MirrorValues> kept;
+    std::map<std::pair<HistorySource, std::uint32_t>, MirrorPixelValues> kept;
     measure::Mask off; ///< pixels that are off in the row's own picture
 };
 
-std::vector<measure::PixelCause> parts_of(const Histories& histories, const CoalitionErrors& errors,
-                                          const std::vector<bool>& disagree) {
+std::vector<measure::PixelCause> compute_cause_shares(const HistorySources& histories,
+                                                      const AblationErrors& errors,
+                                                      const std::vector<bool>& disagree) {
     const auto of = [&](const HistorySource& history,
-                        std::uint32_t coalition = 0) -> const MirrorValues& {
+                        std::uint32_t coalition = 0) -> const MirrorPixelValues& {
         return errors.kept.at({history, coalition});
     };
-    const MirrorValues &row = of(histories.row), &left = of(histories.settled, kEveryPlayer),
-                       format = minus(row, of(histories.stored));
-    std::vector<measure::PixelCause> parts{{"storage format", format, format},
-                                           {"last frame",
-                                            minus(of(histories.stored), of(histories.settled)),
-                                            minus(row, of(histories.row_settled))}};
+    const MirrorPixelValues &row = of(histories.row), &left = of(histories.settled, kEveryPlayer),
+                            format = subtract_values(row, of(histories.stored));
+    std::vector<measure::PixelCause> parts{
+        {"storage format", format, format},
+        {"last frame", subtract_values(of(histories.stored), of(histories.settled)),
+         subtract_values(row, of(histories.row_settled))}};
     for (std::size_t i = 0; i < kPlayerCount; ++i)
-        parts.push_back({kPlayers[i].name, minus(MirrorValues(row.size()), errors.shapley.worth(i)),
-                         minus(row, of(histories.row, 1U << i))});
-    parts.push_back(
-        {"silhouettes", only_where(disagree, true, left), only_where(disagree, true, row)});
-    parts.push_back({"rest", only_where(disagree, false, left), {}});
+        parts.push_back({kPlayers[i].name,
+                         subtract_values(MirrorPixelValues(row.size()), errors.shapley.worth(i)),
+                         subtract_values(row, of(histories.row, 1U << i))});
+    parts.push_back({"silhouettes", keep_values_where_equal(disagree, true, left),
+                     keep_values_where_equal(disagree, true, row)});
+    parts.push_back({"rest", keep_values_where_equal(disagree, false, left), {}});
     return parts;
 }
 
 /// Ablation removes a row's errors against the default reference only.
-void check_explains(const std::string& reference) {
+void check_reference_is_default(const std::string& reference) {
     const TechniqueChoice found = parse_technique(reference), wanted = parse_technique(kReference);
     check(found.technique == wanted.technique && found.settings == wanted.settings, Failure::usage,
           "--causes: wanted the default reference, ", kReference,
@@ -177,17 +184,18 @@ void check_explains(const std::string& reference) {
 void add_causes(const StudyInput& input) {
     const CompareRequest& request = input.request;
     std::vector<report::Row>& rows = input.comparison.rows;
-    std::optional<CauseFinder> finder;
+    std::optional<ErrorCauseFinder> finder;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::string& text = request.base.techniques[i];
         // A plan's error belongs to no single search.
         const bool is_plan = !read_plan(text).is_technique;
-        const bool is_twin = request.both_models && rows[i].model == name_of(Modelling::required);
+        const bool is_twin = request.both_models &&
+                             rows[i].model == name_of(RenderedWork::required);
         if (!rows[i].lookup || is_plan || is_twin) continue;
         tell_row(request.watcher, "causes of " + text, i, rows.size());
         if (!finder)
-            finder.emplace(input.session, request.base, input.truth.at("1").part.hdr,
-                           input.truth.hits(), request.watcher);
+            finder.emplace(input.session, request.base, input.truth.find_reference("1").part.hdr,
+                           input.truth.find_mirror_hits(), request.watcher);
         rows[i].causes = std::make_shared<report::Causes>(finder->find(text));
         input.tell();
     }
@@ -197,19 +205,19 @@ const Registered kCauses{
     {.name = "causes",
      .help = "also split each row's error by cause; draws at least 32 more pictures per row",
      .order = 20,
-     .check_reference = check_explains,
+     .check_reference = check_reference_is_default,
      .run = add_causes}};
 
 } // namespace
 
-void last_pictures(Session& session, const Request& request,
-                   const std::vector<std::uint32_t>& ablated, const VisitPicture& visit,
-                   const Watcher& watcher) {
+void render_ablated_pictures(Session& session, const Request& request,
+                             const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
+                             const Watcher& watcher) {
     Frames frames(session, request);
     for (int k = 1; k < request.total(); ++k) frames.next(), check_stopped(watcher);
     FrameSpec aside = request;
     aside.time = request.instant(request.total());
-    aside.timing = Timing::pipelined;
+    aside.timing = PassTimingMode::pipelined;
     aside.keeps_history = true;
     for (std::size_t entry = 0; entry < ablated.size(); ++entry) {
         visit(entry, Access::frame(session, aside, {.ablated = ablated[entry]}).hdr());
@@ -217,50 +225,52 @@ void last_pictures(Session& session, const Request& request,
     }
 }
 
-CauseFinder::CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
-                         const std::vector<std::uint32_t>& hits, const Watcher& watcher)
+ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
+                                   const measure::Picture& truth,
+                                   const std::vector<std::uint32_t>& hits, const Watcher& watcher)
     : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
-      pixels_(measure::mirror_pixels(hits)) {
+      pixels_(measure::list_mirror_pixels(hits)) {
     // This technique follows no ray through other mirrors. Its lookup therefore names the mirror
     // that the rasteriser draws.
-    Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none", false});
+    Request request = make_history_request(base, {"naive:bounces=1,face=1,shadow=none", false});
     request.warmup = 0, request.time = base.instant(base.total()), request.animate = false;
     request.with_lookup = true;
-    const Result result = run(session, request);
+    const RunResult result = run(session, request);
     for (const std::size_t place : pixels_) {
         const vec4& looked = result.parts.front().lookup[place];
         const std::uint32_t drawn = looked.w > 0
                                         ? (static_cast<std::uint32_t>(looked.w) - 1) / 8 + 1
                                         : 0;
-        disagree_.push_back(drawn != measure::first_mirror(hits[place]).number());
+        disagree_.push_back(drawn != measure::first_mirror_of_hit(hits[place]).number());
     }
 }
 
-report::Causes CauseFinder::find(const std::string& technique) const {
-    const Histories histories = histories_of(base_, technique);
-    CoalitionErrors found{
-        measure::Shapley(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
-    for (const auto& [history, coalitions] : wanted_of(histories)) {
+report::Causes ErrorCauseFinder::find(const std::string& technique) const {
+    const HistorySources histories = choose_history_sources(base_, technique);
+    AblationErrors found{
+        measure::ShapleyValues(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
+    for (const auto& [history, coalitions] : list_needed_ablations(histories)) {
         std::vector<std::uint32_t> ablated;
-        std::ranges::transform(coalitions, std::back_inserter(ablated), ablated_by);
+        std::ranges::transform(coalitions, std::back_inserter(ablated), combine_ablation_flags);
         const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
             const std::uint32_t coalition = coalitions[entry];
-            MirrorValues errors;
+            MirrorPixelValues errors;
             for (const std::size_t place : pixels_) {
-                const vec3 shown = measure::exposed(picture.pixels[place], base_.exposure),
-                           truth = measure::exposed(truth_.pixels[place], base_.exposure);
+                const vec3 shown = measure::apply_exposure(picture.pixels[place], base_.exposure),
+                           truth = measure::apply_exposure(truth_.pixels[place], base_.exposure);
                 errors.push_back(measure::squared_error(shown, truth));
                 if (history == histories.row && coalition == 0)
-                    found.off[place] = measure::is_off(shown, truth);
+                    found.off[place] = measure::differs_visibly(shown, truth);
             }
             if (history == histories.settled) found.shapley.add(coalition, errors);
             if (std::popcount(coalition) <= 1 || coalition == kEveryPlayer)
                 found.kept[{history, coalition}] = std::move(errors);
         };
-        last_pictures(session_, request_for(base_, history), ablated, judge, watcher_);
+        render_ablated_pictures(session_, make_history_request(base_, history), ablated, judge,
+                                watcher_);
     }
-    return measure::sum_up(hits_, found.off, found.kept.at({histories.row, 0}),
-                           parts_of(histories, found, disagree_));
+    return measure::sum_up_error_causes(hits_, found.off, found.kept.at({histories.row, 0}),
+                                        compute_cause_shares(histories, found, disagree_));
 }
 
 } // namespace catoptric::app

@@ -10,24 +10,24 @@
 namespace catoptric::app {
 
 /// Receives a picture, and the index of the list entry that the picture shows.
-using VisitPicture = std::function<void(std::size_t entry, const measure::Picture& picture)>;
+using PictureVisitor = std::function<void(std::size_t entry, const measure::Picture& picture)>;
 
 /// Renders the last frame of the request's first technique, once for each entry of `ablated`, as
 /// linear pictures. Each picture is a frame that keeps the history unchanged, after the request's
 /// earlier frames. An entry is a sum of causes of error to remove (shared::kAblate...); 0 is the
 /// frame itself. The session shows the request's scene.
-void last_pictures(Session& session, const Request& request,
-                   const std::vector<std::uint32_t>& ablated, const VisitPicture& visit,
-                   const Watcher& watcher = {});
+void render_ablated_pictures(Session& session, const Request& request,
+                             const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
+                             const Watcher& watcher = {});
 
 /// Splits the error of rows that look into captures by cause, against the default reference.
-class CauseFinder {
+class ErrorCauseFinder {
 public:
     /// `truth`: the reference's picture. `hits`: what its camera rays met (see measure/masks.hpp).
     /// The session must show the scene of `base`. All objects passed by reference must outlive the
     /// finder.
-    CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
-                const std::vector<std::uint32_t>& hits, const Watcher& watcher = {});
+    ErrorCauseFinder(Session& session, const Request& base, const measure::Picture& truth,
+                     const std::vector<std::uint32_t>& hits, const Watcher& watcher = {});
 
     /// Finds how much each cause contributes to the error of `technique`. Five causes share their
     /// joint error by Shapley values, per pixel, from pictures of all 32 sets of ablated causes.

@@ -32,18 +32,18 @@ namespace catoptric::app {
 
 namespace {
 
-bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
+bool is_same_choice(const TechniqueChoice& a, const TechniqueChoice& b) {
     return a.technique == b.technique && a.settings == b.settings;
 }
 
 /// Compares the bits, so that a NaN equals itself.
-bool same_pixels(const measure::Picture& a, const measure::Picture& b) {
+bool have_equal_pixels(const measure::Picture& a, const measure::Picture& b) {
     return std::ranges::equal(std::as_bytes(std::span(a.pixels)),
                               std::as_bytes(std::span(b.pixels)));
 }
 
 /// Returns the present time in UTC: "2026-11-24T03:05:10Z".
-std::string utc_now() {
+std::string format_current_utc_time() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
     ::gmtime_r(&now, &utc);
@@ -53,25 +53,25 @@ std::string utc_now() {
 
 /// Measures rows in rounds, one by one or together in each frame. Judges each against the reference
 /// at its sample count.
-class Comparer {
+class RowComparer {
 public:
-    Comparer(Engine& engine, const CompareRequest& request)
+    RowComparer(Engine& engine, const CompareRequest& request)
         : engine_(engine), request_(request), compiled_before_(Access::compiled(engine)),
           session_(engine, request.base.scene),
           truths_(session_, request_.base, request_.reference, request_.watcher),
           judge_(session_, truths_, request_.base, request_.watcher) {
         if (request_.base.techniques.empty())
-            request_.base.techniques = default_techniques(request_.base);
-        check_asked(request_); // refuses a bad request before any work
+            request_.base.techniques = list_default_techniques(request_.base);
+        check_compare_request(request_); // refuses a bad request before any work
         for (const StudyChoice& choice : asked_studies())
             if (const Study& study = find_study(choice.name); study.prepare != nullptr)
                 study.prepare(request_, choice.count, comparison_);
     }
 
     report::Comparison run() {
-        settle_exposure(session_, request_.base);
+        resolve_auto_exposure(session_, request_.base);
         list_rows();
-        start();
+        prepare_comparison();
         try {
             fill_reference();
             measure_rounds();
@@ -82,16 +82,16 @@ public:
                           .count = choice.count,
                           .truth = truths_,
                           .comparison = comparison_,
-                          .tell = [this] { tell(); }});
+                          .tell = [this] { report_progress(); }});
             comparison_.complete = true;
         } catch (const Error& error) {
-            if (comparison_.rows.empty() && !is_stop(error.failure)) throw;
+            if (comparison_.rows.empty() && !is_stop_signal(error.failure)) throw;
             comparison_.stopped = error;
         } catch (const std::bad_alloc&) {
             if (comparison_.rows.empty()) throw;
             comparison_.stopped = Error(Failure::exhausted, "out of memory");
         }
-        fill_circumstances();
+        fill_run_circumstances();
         return std::move(comparison_);
     }
 
@@ -101,34 +101,35 @@ private:
         const std::vector<std::string> asked = std::exchange(texts, {});
         for (const std::string& text : asked) {
             texts.push_back(text);
-            models_.push_back(request_.both_models ? Modelling::everything : request_.base.model);
+            models_.push_back(request_.both_models ? RenderedWork::everything
+                                                   : request_.base.model);
             if (!request_.both_models) continue;
             texts.push_back(text);
-            models_.push_back(Modelling::required);
+            models_.push_back(RenderedWork::required);
         }
     }
 
-    void start() {
+    void prepare_comparison() {
         const Request& base = request_.base;
         comparison_.version = version();
         comparison_.commit = commit();
-        comparison_.date = utc_now();
+        comparison_.date = format_current_utc_time();
         comparison_.command = request_.command;
         comparison_.images = request_.images;
         comparison_.complete = false;
         comparison_.asked = base.techniques.size();
-        comparison_.device = facts_of(engine_);
-        comparison_.scene = scene_facts(base);
+        comparison_.device = make_device_facts(engine_);
+        comparison_.scene = make_scene_facts(base);
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
         comparison_.warmup = base.warmup;
-        comparison_.rounds = rounds_of(base.frames, request_.rounds);
-        comparison_.load_start = machine_load();
+        comparison_.rounds = choose_round_count(base.frames, request_.rounds);
+        comparison_.load_start = read_machine_load();
         comparison_.time = base.time;
         comparison_.ambient = base.ambient;
         comparison_.exposure = base.exposure;
-        comparison_.timing = base.timing == Timing::isolated ? "isolated" : "pipelined";
+        comparison_.timing = base.timing == PassTimingMode::isolated ? "isolated" : "pipelined";
         comparison_.model = request_.both_models ? "both" : name_of(base.model);
         comparison_.together = request_.together;
         for (const StudyChoice& choice : asked_studies())
@@ -147,36 +148,37 @@ private:
     }
 
     /// Fills facts that are known only after rows were measured.
-    void fill_circumstances() {
-        const Setup setup = Access::setup(session_);
-        const Compiled compiled = Access::compiled(engine_);
-        constexpr const char* kCacheUse[] = {"none", "made", "used"}; // indexed by CacheUse
+    void fill_run_circumstances() {
+        const SetupTimes setup = Access::setup(session_);
+        const CompiledPipelines compiled = Access::compiled(engine_);
+        constexpr const char* kCacheUse[] = {"none", "made",
+                                             "used"}; // indexed by PipelineCacheState
         comparison_.setup = {request_.base.load_ms,
                              setup.upload_ms,
                              setup.hierarchy_ms,
                              compiled.ms - compiled_before_.ms,
                              compiled.pipelines - compiled_before_.pipelines,
                              kCacheUse[static_cast<std::size_t>(Access::cache_use(engine_))]};
-        comparison_.load_end = machine_load();
+        comparison_.load_end = read_machine_load();
         comparison_.warnings = request_.base.scene.warnings;
         for (const std::vector<std::string>& warnings : row_warnings_)
             comparison_.warnings.insert(comparison_.warnings.end(), warnings.begin(),
                                         warnings.end());
-        comparison_.pareto = measure::front_of(comparison_.rows);
+        comparison_.pareto = measure::find_front(comparison_.rows);
     }
 
     /// Measures the cost of clearing the cubes of all mirrors without drawing, for as many frames
     /// as a row has.
-    void measure_clear(int round) {
+    void measure_cube_clear_cost(int round) {
         const int warmup = round == 0 ? request_.base.warmup : 0;
-        const int frames = frames_of_round(request_.base.frames, comparison_.rounds, round);
+        const int frames = count_frames_of_round(request_.base.frames, comparison_.rounds, round);
         std::vector<double>& samples = clear_ms_.emplace_back();
         for (int k = 0; k < warmup + frames; ++k) {
             const FrameTimes times = Access::clear_cubes(session_);
             if (k >= warmup) samples.push_back(times.passes_ms);
             check_stopped(request_.watcher);
         }
-        comparison_.clear_ms = measure::summarise(clear_ms_);
+        comparison_.clear_ms = measure::summarise_samples(clear_ms_);
     }
 
     void fill_reference() {
@@ -184,24 +186,26 @@ private:
         comparison_.reference_technique = choice.technique;
         comparison_.reference_label = choice.label;
         comparison_.reference_settings = choice.settings;
-        comparison_.reference_gpu_ms = measure::summarise(truths_.at("1").gpu_ms);
-        comparison_.reference_display = truths_.at("1").part.display;
+        comparison_.reference_gpu_ms = measure::summarise_samples(
+            truths_.find_reference("1").gpu_ms);
+        comparison_.reference_display = truths_.find_reference("1").part.display;
     }
 
-    void judge(std::size_t index, const Part& part, int number) {
-        row_warnings_[index] = judge_.judge(comparison_.rows[index],
-                                            request_.base.techniques[index], part, number);
+    void judge_row(std::size_t index, const TechniqueResult& part, int number) {
+        row_warnings_[index] = judge_.judge_row(comparison_.rows[index],
+                                                request_.base.techniques[index], part, number);
     }
 
-    void add(const std::string& text, const Part& part) {
-        report::Row row = make_row(text, part);
+    void add_row(const std::string& text, const TechniqueResult& part) {
+        report::Row row = make_row_description(text, part);
         // If all rows share a frame, the host's work is that of all rows and belongs to none.
         row.moves = request_.base.animate && !request_.together &&
                     scene::is_animated(request_.base.scene);
-        const std::string samples = sample_count(parse_technique(text));
-        row.is_reference = same(parse_technique(text),
-                                parse_technique(reference_at(request_.reference, samples)));
-        if (request_.both_models && part.model == Modelling::required) {
+        const std::string samples = find_sample_count(parse_technique(text));
+        row.is_reference = is_same_choice(
+            parse_technique(text),
+            parse_technique(set_reference_samples(request_.reference, samples)));
+        if (request_.both_models && part.model == RenderedWork::required) {
             row.label += ", model=required";
             row.image += "-required";
         }
@@ -210,14 +214,14 @@ private:
         prefixes_.push_back(part.prefix);
     }
 
-    void tell() {
-        fill_circumstances();
+    void report_progress() {
+        fill_run_circumstances();
         if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
     /// Returns the rows whose frames are measured one by one; with `together` one group of all
     /// rows.
-    std::vector<std::vector<std::string>> lanes() const {
+    std::vector<std::vector<std::string>> group_rows_for_frames() const {
         const std::vector<std::string>& texts = request_.base.techniques;
         if (request_.together) return {texts};
         std::vector<std::vector<std::string>> lanes;
@@ -226,15 +230,15 @@ private:
     }
 
     void measure_rounds() {
-        const HeldThreads held;
+        const PinnedThreads held;
         comparison_.device.held_threads = static_cast<int>(held.count());
         for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
         runs_.clear(); // frees also the device memory of their histories
     }
 
     void measure_round(int round) {
-        measure_clear(round);
-        const std::vector<std::vector<std::string>> all = lanes();
+        measure_cube_clear_cost(round);
+        const std::vector<std::vector<std::string>> all = group_rows_for_frames();
         // Reverses every second round. No row then always follows the same other, whose work may
         // still have an effect.
         for (std::size_t place = 0; place < all.size(); ++place) {
@@ -248,7 +252,7 @@ private:
                      static_cast<std::size_t>(round) * all.size() + place, rounds * all.size());
             measure(lane, all[lane], round);
         }
-        if (round > 0) tell();
+        if (round > 0) report_progress();
     }
 
     /// Measures a round. Judges rows after the first round, and again by their last picture if it
@@ -259,34 +263,37 @@ private:
             Request request = request_.base;
             request.techniques = texts;
             request.model = models_[lane];
-            runs_.push_back(std::make_unique<RowRun>(session_, request, request_.watcher));
+            runs_.push_back(std::make_unique<RowMeasurement>(session_, request, request_.watcher));
         }
-        RowRun& run = *runs_[lane];
-        run.measure(frames_of_round(request_.base.frames, comparison_.rounds, round));
-        const std::vector<Part> parts = first || last ? run.parts() : std::vector<Part>();
+        RowMeasurement& run = *runs_[lane];
+        run.measure(count_frames_of_round(request_.base.frames, comparison_.rounds, round));
+        const std::vector<TechniqueResult> parts = first || last ? run.parts()
+                                                                 : std::vector<TechniqueResult>();
         run.suspend();
         for (std::size_t i = 0; i < texts.size(); ++i) {
             const std::size_t index = lane + i;
-            if (first) add(texts[i], parts[i]);
+            if (first) add_row(texts[i], parts[i]);
             report::Row& row = comparison_.rows[index];
-            fill_times(row, run.rounds(), prefixes_[index], comparison_.device.type == "cpu");
+            fill_row_times(row, run.rounds(), prefixes_[index], comparison_.device.type == "cpu");
             row.noisy = run.is_noisy();
-            row.waited = run.waited();
+            row.waited = run.mean_waited_share();
             const bool changed = last && !first &&
-                                 (request_.base.animate || !same_pixels(row.hdr, parts[i].hdr));
-            if (first || changed) judge(index, parts[i], run.number());
-            if (first) tell();
+                                 (request_.base.animate ||
+                                  !have_equal_pixels(row.hdr, parts[i].hdr));
+            if (first || changed) judge_row(index, parts[i], run.number());
+            if (first) report_progress();
         }
     }
 
     Engine& engine_;
     CompareRequest request_;
-    Compiled compiled_before_; ///< by the engine before this comparison
-    Session session_;          ///< shared by all rows
+    CompiledPipelines compiled_before_; ///< by the engine before this comparison
+    Session session_;                   ///< shared by all rows
     ReferenceCache truths_;
     RowJudge judge_;
-    std::vector<Modelling> models_;             ///< models of the rows
-    std::vector<std::unique_ptr<RowRun>> runs_; ///< one per row, or one for all rows together
+    std::vector<RenderedWork> models_; ///< models of the rows
+    std::vector<std::unique_ptr<RowMeasurement>>
+        runs_;                                  ///< one per row, or one for all rows together
     std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
     std::vector<std::vector<double>> clear_ms_; ///< by round
     std::vector<std::vector<std::string>> row_warnings_;
@@ -296,7 +303,7 @@ private:
 } // namespace
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {
-    return Comparer(engine, request).run();
+    return RowComparer(engine, request).run();
 }
 
 } // namespace catoptric::app

@@ -15,16 +15,16 @@
 
 namespace catoptric::app {
 
-std::vector<std::string> default_techniques(const Request& base) {
+std::vector<std::string> list_default_techniques(const Request& base) {
     const scene::SceneAt at_time(base.scene, base.time);
     const scene::Scene& now = *at_time;
     std::vector<scene::FlatFaces> flats;
     for (const std::size_t object : scene::mirrors(now))
-        flats.push_back(scene::flat_faces(now.meshes[now.objects[object].mesh],
-                                          now.objects[object].world_from_object));
-    const double tolerance = scene::flat_tolerance(base.camera, base.size);
+        flats.push_back(scene::find_flat_faces(now.meshes[now.objects[object].mesh],
+                                               now.objects[object].world_from_object));
+    const double tolerance = scene::compute_flat_tolerance(base.camera, base.size);
     std::vector<std::string> rows;
-    for (const reflect::Technique* technique : reflect::techniques())
+    for (const reflect::Technique* technique : reflect::list_techniques())
         if (!technique->unfit || std::ranges::any_of(flats, [&](const auto& flat) {
                 return technique->unfit(flat, tolerance).empty();
             }))
@@ -36,8 +36,8 @@ std::vector<std::string> default_techniques(const Request& base) {
 void check_has_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     std::string lines;
-    for (const std::string& option : mirror_options(scene)) lines += "\n  " + option;
-    fail(Failure::bad_data, "scene ", in_quotes(scene.name),
+    for (const std::string& option : suggest_mirror_options(scene)) lines += "\n  " + option;
+    fail(Failure::bad_data, "scene ", quote_printable(scene.name),
          ": wanted a mirror, whose reflections are what is compared, found none; make one with "
          "--mirror PATTERN[=REFLECTANCE]",
          lines.empty() ? "" : ", such as" + lines);
@@ -49,21 +49,21 @@ void check_rounds(int rounds) {
 }
 
 void check_rows(const std::vector<std::string>& techniques) {
-    std::vector<reflect::Plan> plans;
+    std::vector<reflect::TechniquePlan> plans;
     for (const std::string& text : techniques) {
-        reflect::Plan plan = read_plan(text);
-        for (const reflect::Plan& other : plans)
+        reflect::TechniquePlan plan = read_plan(text);
+        for (const reflect::TechniquePlan& other : plans)
             check(!plan.same_as(other), Failure::usage, "technique '", text,
                   "' is asked for twice");
         plans.push_back(std::move(plan));
     }
 }
 
-void check_asked(const CompareRequest& request) {
+void check_compare_request(const CompareRequest& request) {
     check_rows(request.base.techniques);
     for (const std::string& text : request.base.techniques)
-        if (const reflect::Plan plan = read_plan(text); !plan.is_auto)
-            reflect::assign(plan, mirror_names(request.base.scene));
+        if (const reflect::TechniquePlan plan = read_plan(text); !plan.is_auto)
+            reflect::assign_mirrors(plan, list_mirror_names(request.base.scene));
     check_has_mirror(request.base.scene);
     check_rounds(request.rounds);
     for (const StudyChoice& choice : request.studies) check_study(choice, request.reference);

@@ -16,21 +16,22 @@ namespace catoptric::app {
 
 namespace {
 
-using Rounds = std::vector<std::vector<FrameTimes>>;
+using FrameTimesByRound = std::vector<std::vector<FrameTimes>>;
 
 template <typename Value>
-measure::Summary over_frames(const Rounds& rounds, Value&& value) {
+measure::SampleSummary summarise_over_frames(const FrameTimesByRound& rounds, Value&& value) {
     std::vector<std::vector<double>> samples;
     for (const std::vector<FrameTimes>& round : rounds) {
         samples.emplace_back();
         for (const FrameTimes& frame : round) samples.back().push_back(value(frame));
     }
-    return measure::summarise(samples);
+    return measure::summarise_samples(samples);
 }
 
-report::HostParts host_parts(const Rounds& rounds) {
+report::HostTimeParts summarise_host_times(const FrameTimesByRound& rounds) {
     const auto part = [&](double HostTimes::*which) {
-        return over_frames(rounds, [&](const FrameTimes& frame) { return frame.host.*which; })
+        return summarise_over_frames(rounds,
+                                     [&](const FrameTimes& frame) { return frame.host.*which; })
             .median;
     };
     return {part(&HostTimes::update), part(&HostTimes::hierarchy), part(&HostTimes::compile),
@@ -38,7 +39,7 @@ report::HostParts host_parts(const Rounds& rounds) {
 }
 
 /// Returns the frames whose passes are kept one by one (kDetailedFrames).
-Rounds with_passes(Rounds rounds) {
+FrameTimesByRound keep_frames_with_passes(FrameTimesByRound rounds) {
     for (std::vector<FrameTimes>& round : rounds)
         std::erase_if(round, [](const FrameTimes& frame) { return frame.passes.empty(); });
     std::erase_if(rounds, [](const std::vector<FrameTimes>& round) { return round.empty(); });
@@ -47,7 +48,7 @@ Rounds with_passes(Rounds rounds) {
 
 /// Returns the names of all passes that occur in some frame, in order of execution. Frames differ
 /// in their passes, because captures that are kept are not rendered again.
-std::vector<std::string> names_of_passes(const Rounds& rounds) {
+std::vector<std::string> list_pass_names(const FrameTimesByRound& rounds) {
     std::vector<std::string> names;
     for (const std::vector<FrameTimes>& round : rounds)
         for (const FrameTimes& frame : round)
@@ -68,7 +69,7 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
                          const std::vector<std::uint32_t>& hits) {
     std::size_t pixels = 0, black = 0, wanted_black = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!measure::first_mirror(hits[i])) continue;
+        if (!measure::first_mirror_of_hit(hits[i])) continue;
         ++pixels;
         black += picture.pixels[i] == vec3(0);
         wanted_black += truth.pixels[i] == vec3(0);
@@ -80,44 +81,46 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 
 } // namespace
 
-std::vector<float> flip_map_of(const Part& part, const Part& truth, double exposure) {
+std::vector<float> compute_flip_map(const TechniqueResult& part, const TechniqueResult& truth,
+                                    double exposure) {
     return measure::flip(measure::to_unrounded_display(part.hdr, exposure),
                          measure::to_unrounded_display(truth.hdr, exposure));
 }
 
-measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,
-                          const std::vector<std::uint32_t>& hits, std::size_t mirrors,
-                          double exposure) {
-    const measure::Picture found = measure::exposed(part.hdr, exposure),
-                           wanted = measure::exposed(truth.hdr, exposure);
+measure::Errors compute_masked_errors(const TechniqueResult& part, const TechniqueResult& truth,
+                                      std::span<const float> flip_map,
+                                      const std::vector<std::uint32_t>& hits, std::size_t mirrors,
+                                      double exposure) {
+    const measure::Picture found = measure::apply_exposure(part.hdr, exposure),
+                           wanted = measure::apply_exposure(truth.hdr, exposure);
     const auto against = [&](const measure::Mask& mask) {
         return measure::difference(found, wanted, mask, flip_map);
     };
-    measure::Errors errors{against(measure::mirrors(hits)),
-                           against(measure::first_order(hits)),
-                           against(measure::mirror_in_mirror(hits)),
-                           against(measure::non_mirror(hits)),
-                           against(measure::all_pixels(hits)),
-                           against(measure::dielectrics(hits)),
+    measure::Errors errors{against(measure::mask_mirror_pixels(hits)),
+                           against(measure::mask_first_order_pixels(hits)),
+                           against(measure::mask_mirror_in_mirror(hits)),
+                           against(measure::mask_non_mirror_pixels(hits)),
+                           against(measure::mask_all_pixels(hits)),
+                           against(measure::mask_smooth_dielectrics(hits)),
                            {}};
     for (std::size_t i = 0; i < mirrors; ++i)
-        errors.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
+        errors.error_per_mirror.push_back(against(measure::mask_one_mirror(hits, MirrorId::at(i))));
     return errors;
 }
 
-void fill_errors(report::Row& row, const Part& part, const Part& truth,
-                 const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
+void fill_row_errors(report::Row& row, const TechniqueResult& part, const TechniqueResult& truth,
+                     const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
     row.hdr = part.hdr;
     row.display = part.display;
-    row.flip_map = flip_map_of(part, truth, exposure);
-    static_cast<measure::Errors&>(row) = errors_of(part, truth, row.flip_map, hits, mirrors,
-                                                   exposure);
+    row.flip_map = compute_flip_map(part, truth, exposure);
+    static_cast<measure::Errors&>(row) = compute_masked_errors(part, truth, row.flip_map, hits,
+                                                               mirrors, exposure);
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
-    row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
-    row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
+    row.mean = measure::mean_of(part.hdr, measure::ValueRange::unclamped);
+    row.mean_clamped = measure::mean_of(part.hdr, measure::ValueRange::clamped);
 }
 
-report::Row make_row(const std::string& text, const Part& part) {
+report::Row make_row_description(const std::string& text, const TechniqueResult& part) {
     const TechniqueChoice choice = parse_technique(text);
     report::Row row;
     row.technique = choice.technique;
@@ -132,7 +135,7 @@ report::Row make_row(const std::string& text, const Part& part) {
     row.scene_draws = part.scene_draws;
     row.memory_bytes = part.memory_bytes;
     if (part.rays)
-        row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
+        row.rays = report::RayCounters{part.rays->primary, part.rays->mirror, part.rays->shadow};
     row.traced_fraction = part.traced_fraction;
     if (part.auto_face)
         row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
@@ -140,38 +143,40 @@ report::Row make_row(const std::string& text, const Part& part) {
 }
 
 /// If the row is alone in its frames, its time runs from the first to the last timestamp.
-void fill_times(report::Row& row, const Rounds& rounds, const std::string& prefix,
-                bool on_processor) {
+void fill_row_times(report::Row& row, const FrameTimesByRound& rounds, const std::string& prefix,
+                    bool on_processor) {
     const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
-    const Rounds detailed = with_passes(rounds);
-    row.gpu_ms = prefix.empty()
-                     ? over_frames(rounds, [](const FrameTimes& frame) { return frame.gpu_ms; })
-                     : over_frames(detailed, [&](const FrameTimes& frame) {
-                           double sum = 0;
-                           for (const PassTime& pass : frame.passes)
-                               sum += mine(pass) ? pass.ms() : 0;
-                           return sum;
-                       });
+    const FrameTimesByRound detailed = keep_frames_with_passes(rounds);
+    row.gpu_ms = prefix.empty() ? summarise_over_frames(
+                                      rounds, [](const FrameTimes& frame) { return frame.gpu_ms; })
+                                : summarise_over_frames(detailed, [&](const FrameTimes& frame) {
+                                      double sum = 0;
+                                      for (const PassTime& pass : frame.passes)
+                                          sum += mine(pass) ? pass.ms() : 0;
+                                      return sum;
+                                  });
     const auto summary = [&](double FrameTimes::*which) {
-        return over_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
+        return summarise_over_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
     };
     row.wait_ms = summary(&FrameTimes::wait_ms);
     row.cpu_record_ms = summary(&FrameTimes::record_ms);
     row.wall_ms = summary(&FrameTimes::wall_ms);
     if (on_processor) row.cpu_ms = summary(&FrameTimes::cpu_ms);
-    row.closure = over_frames(
+    row.closure = summarise_over_frames(
         rounds, [](const FrameTimes& frame) { return frame.passes_ms / frame.wall_ms; });
-    row.host_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.host.sum(); });
-    row.frame_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.frame_ms(); });
-    row.host_parts = host_parts(rounds);
+    row.host_ms = summarise_over_frames(rounds,
+                                        [](const FrameTimes& frame) { return frame.host.sum(); });
+    row.frame_ms = summarise_over_frames(rounds,
+                                         [](const FrameTimes& frame) { return frame.frame_ms(); });
+    row.host_parts = summarise_host_times(rounds);
     row.passes.clear();
-    for (const std::string& name : names_of_passes(detailed))
+    for (const std::string& name : list_pass_names(detailed))
         if (name.starts_with(prefix))
-            row.passes.push_back({name, over_frames(detailed, [&](const FrameTimes& frame) {
-                                      const auto pass = std::ranges::find(frame.passes, name,
-                                                                          &PassTime::name);
-                                      return pass == frame.passes.end() ? 0 : pass->ms();
-                                  })});
+            row.passes.push_back(
+                {name, summarise_over_frames(detailed, [&](const FrameTimes& frame) {
+                     const auto pass = std::ranges::find(frame.passes, name, &PassTime::name);
+                     return pass == frame.passes.end() ? 0 : pass->ms();
+                 })});
 }
 
 } // namespace catoptric::app

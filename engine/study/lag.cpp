@@ -46,7 +46,7 @@ struct LagInstants {
     }
 };
 
-void check_speeds(const std::vector<double>& speeds) {
+void check_lag_speeds(const std::vector<double>& speeds) {
     check(!speeds.empty(), Failure::usage, "lag: wanted at least one speed, found none");
     const double fastest = std::ranges::max(speeds);
     for (const double speed : speeds) {
@@ -59,8 +59,8 @@ void check_speeds(const std::vector<double>& speeds) {
 
 /// Returns a path with as many instants as the fastest speed has frames, or as are allowed. Returns
 /// one instant if nothing moves.
-LagInstants path_of(const LagRequest& request) {
-    check_speeds(request.speeds);
+LagInstants plan_lag_instants(const LagRequest& request) {
+    check_lag_speeds(request.speeds);
     check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
           request.most_instants);
     LagInstants path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
@@ -73,36 +73,39 @@ LagInstants path_of(const LagRequest& request) {
 }
 
 /// Returns all figures of the difference. `exposure`: stops.
-measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
-                          const measure::Mask& mask, double exposure) {
-    return measure::difference(measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
+measure::Difference compute_difference(const measure::Picture& a, const measure::Picture& b,
+                                       const measure::Mask& mask, double exposure) {
+    return measure::difference(measure::apply_exposure(a, exposure),
+                               measure::apply_exposure(b, exposure), mask,
                                measure::flip(measure::to_unrounded_display(a, exposure),
                                              measure::to_unrounded_display(b, exposure)));
 }
 
 /// Returns the difference without FLIP, which takes longer than all other figures.
-measure::Difference apart_without_flip(const measure::Picture& a, const measure::Picture& b,
-                                       const measure::Mask& mask, double exposure) {
-    return measure::difference(measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
+measure::Difference compute_difference_without_flip(const measure::Picture& a,
+                                                    const measure::Picture& b,
+                                                    const measure::Mask& mask, double exposure) {
+    return measure::difference(measure::apply_exposure(a, exposure),
+                               measure::apply_exposure(b, exposure), mask,
                                std::vector<float>(a.pixels.size(), 0.0f));
 }
 
-bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
+bool have_equal_bytes(const measure::Picture& a, const measure::Picture& b) {
     return a.pixels.size() == b.pixels.size() &&
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
 }
 
 /// A technique's picture of an instant, after nothing changes any more.
-struct Still {
-    Part part;
+struct StillPicture {
+    TechniqueResult part;
     int frames = 0;     ///< frames until the picture stopped changing
     bool rests = false; ///< false: the picture still changed at the cap
 };
 
-class LagMeter {
+class LagMeasurement {
 public:
-    LagMeter(Session& session, const LagRequest& request, report::Lag& lag)
-        : session_(session), request_(request), lag_(lag), path_(path_of(request)),
+    LagMeasurement(Session& session, const LagRequest& request, report::LagResults& lag)
+        : session_(session), request_(request), lag_(lag), path_(plan_lag_instants(request)),
           mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
         check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
         for (const std::string& text : request_.base.techniques)
@@ -114,7 +117,7 @@ public:
         lag_.path = path_.length();
         lag_.jump_from = path_.start + path_.length() / 2;
         lag_.frame_cap = kFrameCap;
-        begin("reference " + request_.reference, 0, path_.count * kFrameCap);
+        begin_row("reference " + request_.reference, 0, path_.count * kFrameCap);
         for (int i = 0; i < path_.count; ++i) add_instant(path_.instant(i));
         for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) {
             add_technique(i);
@@ -125,24 +128,25 @@ public:
 
 private:
     /// The mirrors' pixels and the reference at one instant.
-    struct Instant {
+    struct InstantReference {
         double seconds = 0;
         measure::Mask mirrors;
         measure::Picture reference;
     };
 
-    void begin(const std::string& label, std::size_t index, int frames) {
+    void begin_row(const std::string& label, std::size_t index, int frames) {
         tell_row(request_.watcher, label, index, request_.base.techniques.size() + 1);
         frames_done_ = 0;
         frames_expected_ = frames;
     }
 
     /// Renders a frame of the current row.
-    Frame frame(const std::string& technique, double seconds) {
+    Frame render_frame(const std::string& technique, double seconds) {
         FrameSpec spec = request_.base;
         spec.techniques = {technique};
         spec.time = seconds;
-        spec.model = Modelling::required; // gives the same pictures, and their times are not used
+        spec.model =
+            RenderedWork::required; // gives the same pictures, and their times are not used
         const Frame made = session_.frame(spec);
         tell_frame(request_.watcher, ++frames_done_, frames_expected_);
         return made;
@@ -153,14 +157,14 @@ private:
         frames_done_ = frames_before;
     }
 
-    Still still(const std::string& technique, double seconds) {
+    StillPicture render_still_picture(const std::string& technique, double seconds) {
         const int before = frames_done_;
         begin_run(before);
-        Still still;
+        StillPicture still;
         int unchanged = 0;
         for (int k = 1; k <= kFrameCap && !still.rests; ++k) {
-            Part part = frame(technique, seconds).read();
-            unchanged = same_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
+            TechniqueResult part = render_frame(technique, seconds).read();
+            unchanged = have_equal_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
             still.part = std::move(part);
             still.frames = k - unchanged;
             // Light that passes from mirror to mirror takes a frame per mirror. Until it arrives,
@@ -172,96 +176,100 @@ private:
     }
 
     void add_instant(double seconds) {
-        const Part reference = still(request_.reference, seconds).part;
+        const TechniqueResult reference = render_still_picture(request_.reference, seconds).part;
         const bool traces = !reference.hits.empty();
         instants_.push_back(
             {seconds,
-             measure::mirrors(traces ? reference.hits
-                                     : still("raytrace:depth=1", seconds).part.hits),
+             measure::mask_mirror_pixels(
+                 traces ? reference.hits
+                        : render_still_picture("raytrace:depth=1", seconds).part.hits),
              reference.hdr});
     }
 
     void add_technique(std::size_t index) {
         const std::string& text = request_.base.techniques[index];
         const std::string label = parse_technique(text).label;
-        begin("lag of " + label, index + 1, frames_of_row());
+        begin_row("lag of " + label, index + 1, count_frames_of_row());
         report::LagRow row;
         row.label = label;
         stills_.clear();
-        for (const Instant& instant : instants_)
+        for (const InstantReference& instant : instants_)
             if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
-        row.after_black = settle(text, 0);
-        row.after_jump = settle(text, kFrameCap);
+        row.after_black = measure_settling(text, 0);
+        row.after_jump = measure_settling(text, kFrameCap);
         lag_.rows.push_back(std::move(row)); // keeps partial results if a signal comes
         for (const double speed : request_.speeds)
-            lag_.rows.back().speeds.push_back(at_speed(text, speed));
+            lag_.rows.back().speeds.push_back(measure_lag_at_speed(text, speed));
     }
 
-    measure::Difference full(const measure::Picture& a, const measure::Picture& b,
-                             const Instant& instant) const {
-        return apart(a, b, instant.mirrors, request_.base.exposure);
+    measure::Difference compute_masked_difference(const measure::Picture& a,
+                                                  const measure::Picture& b,
+                                                  const InstantReference& instant) const {
+        return compute_difference(a, b, instant.mirrors, request_.base.exposure);
     }
 
     /// Returns false if the technique reads nothing of the frame before.
-    bool add_still(report::LagRow& row, const std::string& text, const Instant& instant) {
-        const Still found = still(text, instant.seconds);
+    bool add_still(report::LagRow& row, const std::string& text, const InstantReference& instant) {
+        const StillPicture found = render_still_picture(text, instant.seconds);
         if (!found.part.remembers) return false;
         stills_.push_back(found.part.hdr);
         row.still_frames = std::max(row.still_frames, found.frames);
         row.restless_stills += !found.rests;
-        row.still_reference_errors.push_back(full(stills_.back(), instant.reference, instant));
+        row.still_reference_errors.push_back(
+            compute_masked_difference(stills_.back(), instant.reference, instant));
         return true;
     }
 
     /// Compares frames at the first instant with its still, after `before` frames at another
     /// instant.
-    report::Settling settle(const std::string& text, int before) {
-        report::Settling settling;
+    report::SettlingAfterCut measure_settling(const std::string& text, int before) {
+        report::SettlingAfterCut settling;
         begin_run(frames_done_);
-        for (int k = 0; k < before; ++k) frame(text, lag_.jump_from);
+        for (int k = 0; k < before; ++k) render_frame(text, lag_.jump_from);
         for (int k = 0; k < kFrameCap; ++k) {
-            const measure::Difference error = apart_without_flip(
-                frame(text, path_.start).hdr(), stills_.front(), instants_.front().mirrors,
+            const measure::Difference error = compute_difference_without_flip(
+                render_frame(text, path_.start).hdr(), stills_.front(), instants_.front().mirrors,
                 request_.base.exposure);
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
         }
-        settling.rmse_settled = measure::settled_from(settling.rmse, measure::kLagBound);
-        settling.max_settled = measure::settled_from(settling.max, measure::kLagBound);
+        settling.rmse_settled = measure::find_settled_frame(settling.rmse, measure::kLagBound);
+        settling.max_settled = measure::find_settled_frame(settling.max, measure::kLagBound);
         return settling;
     }
 
-    report::LagAtSpeed at_speed(const std::string& text, double speed) {
+    report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed) {
         report::LagAtSpeed lag{.speed = speed};
-        const int between = path_.frames(speed), count = frames_at(speed) - kWarmup;
+        const int between = path_.frames(speed), count = count_frames_at_speed(speed) - kWarmup;
         begin_run(frames_done_);
         for (int k = -kWarmup; k < count; ++k) {
-            const Frame moving = frame(text, path_.seconds(speed, k));
+            const Frame moving = render_frame(text, path_.seconds(speed, k));
             if (k < 0 || k % between != 0) continue;
             const auto i = static_cast<std::size_t>(k / between);
             const measure::Picture picture = moving.hdr();
-            lag.errors.push_back(full(picture, stills_[i], instants_[i]));
-            lag.reference_errors.push_back(full(picture, instants_[i].reference, instants_[i]));
+            lag.errors.push_back(compute_masked_difference(picture, stills_[i], instants_[i]));
+            lag.reference_errors.push_back(
+                compute_masked_difference(picture, instants_[i].reference, instants_[i]));
         }
         return lag;
     }
 
-    int frames_at(double speed) const {
+    int count_frames_at_speed(double speed) const {
         return kWarmup + (path_.count - 1) * path_.frames(speed) + 1;
     }
     /// Counts every still with the largest number of frames.
-    int frames_of_row() const {
+    int count_frames_of_row() const {
         int frames = path_.count * kFrameCap + 3 * kFrameCap;
-        for (const double speed : request_.speeds) frames += frames_at(speed);
+        for (const double speed : request_.speeds) frames += count_frames_at_speed(speed);
         return frames;
     }
 
     Session& session_;
     LagRequest request_;
-    report::Lag& lag_;
+    report::LagResults& lag_;
     LagInstants path_;
     int mirrors_ = 0;
-    std::vector<Instant> instants_;
+    std::vector<InstantReference> instants_;
     std::vector<measure::Picture> stills_;      ///< of the current technique, one per instant
     int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
 };
@@ -276,7 +284,7 @@ void add_lag(const StudyInput& input) {
                  .reference = input.request.reference,
                  .watcher = input.request.watcher,
                  .on_finished_row = input.tell},
-                *(input.comparison.lag = std::make_shared<report::Lag>()));
+                *(input.comparison.lag = std::make_shared<report::LagResults>()));
 }
 
 const Registered kLagStudy{
@@ -288,9 +296,9 @@ const Registered kLagStudy{
 
 } // namespace
 
-void measure_lag(Session& session, const LagRequest& request, report::Lag& lag) {
+void measure_lag(Session& session, const LagRequest& request, report::LagResults& lag) {
     lag.complete = false;
-    LagMeter(session, request, lag).run();
+    LagMeasurement(session, request, lag).run();
 }
 
 } // namespace catoptric::app

@@ -26,6 +26,6 @@ struct LagRequest {
 /// results into `lag` as they come, and sets `lag.complete` at the end. An exception (`usage`, a
 /// signal, a failure of the engine) leaves the results so far in `lag`. Costs about 2300 frames per
 /// technique for a path of four seconds.
-void measure_lag(Session& session, const LagRequest& request, report::Lag& lag);
+void measure_lag(Session& session, const LagRequest& request, report::LagResults& lag);
 
 } // namespace catoptric::app

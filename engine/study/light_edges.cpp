@@ -12,7 +12,7 @@ namespace catoptric::app {
 namespace {
 
 /// Returns the texels along an edge of each mirror's capture; 0: the mirror has no capture.
-std::vector<std::uint32_t> faces_of(const report::Row& row) {
+std::vector<std::uint32_t> list_capture_edges(const report::Row& row) {
     std::vector<std::uint32_t> faces;
     for (const PlanEntry& entry : row.plan) {
         const auto face = std::ranges::find(entry.settings, "face", &Setting::name);
@@ -28,22 +28,23 @@ std::vector<std::uint32_t> faces_of(const report::Row& row) {
 
 } // namespace
 
-measure::LightEdges light_edges_of(const report::Row& row, const Part& truth,
-                                   const std::vector<std::uint32_t>& hits,
-                                   const std::vector<vec4>& lookup, const Oracle& oracle,
-                                   double exposure) {
-    measure::Mask there = oracle.at_light_edges(lookup, faces_of(row));
-    measure::Mask elsewhere = measure::mirrors(hits);
+measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
+                                                    const TechniqueResult& truth,
+                                                    const std::vector<std::uint32_t>& hits,
+                                                    const std::vector<vec4>& lookup,
+                                                    const LookupOracle& oracle, double exposure) {
+    measure::Mask there = oracle.find_pixels_at_light_edges(lookup, list_capture_edges(row));
+    measure::Mask elsewhere = measure::mask_mirror_pixels(hits);
     for (std::size_t i = 0; i < there.size(); ++i) {
         there[i] = there[i] & elsewhere[i];
         elsewhere[i] = elsewhere[i] & static_cast<std::uint8_t>(~there[i]);
     }
-    const measure::Picture found = measure::exposed(row.hdr, exposure),
-                           wanted = measure::exposed(truth.hdr, exposure);
+    const measure::Picture found = measure::apply_exposure(row.hdr, exposure),
+                           wanted = measure::apply_exposure(truth.hdr, exposure);
     const auto over = [&](const measure::Mask& mask) {
         return measure::difference(found, wanted, mask, row.flip_map);
     };
-    return measure::light_edges(over(there), over(elsewhere));
+    return measure::split_error_by_light_edges(over(there), over(elsewhere));
 }
 
 } // namespace catoptric::app

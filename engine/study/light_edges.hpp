@@ -11,11 +11,12 @@ namespace catoptric::app {
 
 /// Returns the row's error over the mirrors, split by whether its mirrors looked at the outline of
 /// a light. `row`: with its errors and its plan. `truth`: picture that the row was judged against.
-/// `hits`: of the same picture (measure/masks.hpp). `lookup`: see Part::lookup, at the oracle's
-/// instant. `exposure`: stops. Costs nine rays per mirror pixel.
-measure::LightEdges light_edges_of(const report::Row& row, const Part& truth,
-                                   const std::vector<std::uint32_t>& hits,
-                                   const std::vector<vec4>& lookup, const Oracle& oracle,
-                                   double exposure);
+/// `hits`: of the same picture (measure/masks.hpp). `lookup`: see TechniqueResult::lookup, at the
+/// oracle's instant. `exposure`: stops. Costs nine rays per mirror pixel.
+measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
+                                                    const TechniqueResult& truth,
+                                                    const std::vector<std::uint32_t>& hits,
+                                                    const std::vector<vec4>& lookup,
+                                                    const LookupOracle& oracle, double exposure);
 
 } // namespace catoptric::app

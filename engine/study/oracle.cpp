@@ -20,8 +20,8 @@ constexpr float kFar = std::numeric_limits<float>::max();
 
 /// Returns the ray that a mirror reflects from the point where `ray` met it, as
 /// shaders/lib/whitted.glsl does.
-f32::Ray reflected(const render::Geometry& geometry, const f32::Ray& ray,
-                   const bvh::RayHit<float>& hit) {
+f32::Ray reflect_ray_at_hit(const render::Geometry& geometry, const f32::Ray& ray,
+                            const bvh::RayHit<float>& hit) {
     const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
         return geometry.vertices[geometry.indices[3 * hit.triangle + j]];
     };
@@ -38,54 +38,55 @@ f32::Ray reflected(const render::Geometry& geometry, const f32::Ray& ray,
 
 } // namespace
 
-Oracle::Oracle(const Request& request) {
+LookupOracle::LookupOracle(const Request& request) {
     const scene::SceneAt at_time(request.scene, request.time);
     const scene::Scene& now = *at_time;
-    const render::Space space = render::space_of(request.scene);
+    const render::SceneUnits space = render::make_scene_units(request.scene);
     geometry_ = render::make_geometry(now, space);
     mirror_objects_ = scene::mirrors(now);
     for (const scene::Object& object : now.objects)
-        emits_.push_back(scene::glows(now.materials[object.material]));
-    everything_ = hierarchy_without(geometry_, geometry_.ranges.size());
+        emits_.push_back(scene::is_visibly_emissive(now.materials[object.material]));
+    everything_ = build_bvh_without_object(geometry_, geometry_.ranges.size());
     for (const std::size_t object : mirror_objects_) {
         centres_.push_back(space.point(scene::bounds(now, now.objects[object]).centre()));
-        without_.push_back(hierarchy_without(geometry_, object));
+        without_.push_back(build_bvh_without_object(geometry_, object));
     }
-    trace(request);
+    trace_request(request);
 }
 
-void Oracle::trace(const Request& request) {
-    const render::Space space = render::space_of(request.scene);
-    const shared::View view = render::camera_view(scene::camera_at(request.camera, request.time),
-                                                  space, request.size, 0,
-                                                  render::bounds_of(geometry_));
+void LookupOracle::trace_request(const Request& request) {
+    const render::SceneUnits space = render::make_scene_units(request.scene);
+    const shared::View view = render::make_camera_view(
+        scene::camera_at(request.camera, request.time), space, request.size, 0,
+        render::geometry_bounds(geometry_));
     const auto mirror_of = [&](std::uint32_t object) {
         return static_cast<std::uint32_t>(std::ranges::find(mirror_objects_, object) -
                                           mirror_objects_.begin());
     };
     for (std::size_t pixel = 0; pixel < std::size_t{request.size.x} * request.size.y; ++pixel) {
-        const f32::Ray ray = camera_ray(view, request.size, pixel);
-        const auto hit = bvh::closest_hit<float>(everything_, ray, kFar,
-                                                 bvh::kHidden | bvh::kOneSided);
+        const f32::Ray ray = make_camera_ray(view, request.size, pixel);
+        const auto hit = bvh::find_closest_hit<float>(everything_, ray, kFar,
+                                                      bvh::kHidden | bvh::kOneSided);
         if (!hit || mirror_of(hit->object) == mirror_objects_.size()) continue;
-        const f32::Ray onward = reflected(geometry_, ray, *hit);
-        const auto met = bvh::closest_hit<float>(everything_, onward, kFar);
+        const f32::Ray onward = reflect_ray_at_hit(geometry_, ray, *hit);
+        const auto met = bvh::find_closest_hit<float>(everything_, onward, kFar);
         if (met && mirror_of(met->object) < mirror_objects_.size()) continue;
-        OraclePixel target{pixel, mirror_of(hit->object),
-                           met ? static_cast<int>(met->object) : kNothing, dvec3(onward.direction)};
+        FirstOrderPixel target{pixel, mirror_of(hit->object),
+                               met ? static_cast<int>(met->object) : kNothing,
+                               dvec3(onward.direction)};
         if (met) target.place = dvec3(onward.origin) + double{met->t} * dvec3(onward.direction);
         targets_.push_back(target);
     }
 }
 
-int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer,
-                            bool left_out) const {
+int LookupOracle::find_captured_object(std::uint32_t mirror, const vec3& direction,
+                                       bool second_layer, bool left_out) const {
     const bvh::Bvh& tree = without_[mirror];
     f32::Ray ray{centres_[mirror], direction, 0};
     // The second layer is the next surface behind the first that faces the centre.
     bool behind_first = !second_layer;
-    for (auto hit = bvh::closest_hit<float>(tree, ray, kFar); hit;
-         hit = bvh::closest_hit<float>(tree, ray, kFar)) {
+    for (auto hit = bvh::find_closest_hit<float>(tree, ray, kFar); hit;
+         hit = bvh::find_closest_hit<float>(tree, ray, kFar)) {
         const vec4* corner = &tree.triangles[3 * hit->place];
         const bool faces = dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])),
                                ray.direction) < 0;
@@ -100,9 +101,10 @@ int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool se
     return kNothing;
 }
 
-std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup, bool left_out) const {
-    std::vector<measure::LookedUp> judged;
-    for (const OraclePixel& target : targets_) {
+std::vector<measure::LookupDirectionError>
+LookupOracle::judge_lookups(const std::vector<vec4>& lookup, bool left_out) const {
+    std::vector<measure::LookupDirectionError> judged;
+    for (const FirstOrderPixel& target : targets_) {
         const vec4& pixel = lookup[target.pixel];
         const int code = static_cast<int>(pixel.w) - 1;
         if (code < 0) continue;
@@ -113,7 +115,7 @@ std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup, bo
         const bool leaves = state == kMiss ||
                             (state == kUnknown && second); // as kLeaves in shaders/lib/probe.glsl
         const int object = leaves ? kNothing
-                                  : captured_object(capture, direction, second, left_out);
+                                  : find_captured_object(capture, direction, second, left_out);
         const dvec3 wanted = target.object == kNothing ? target.place
                                                        : target.place - dvec3(centres_[capture]);
         judged.push_back({measure::angle_degrees(dvec3(direction), wanted), object != target.object,
@@ -122,8 +124,9 @@ std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup, bo
     return judged;
 }
 
-measure::Mask Oracle::at_light_edges(const std::vector<vec4>& lookup,
-                                     const std::vector<std::uint32_t>& faces) const {
+measure::Mask
+LookupOracle::find_pixels_at_light_edges(const std::vector<vec4>& lookup,
+                                         const std::vector<std::uint32_t>& faces) const {
     measure::Mask found(lookup.size(), 0);
     for (std::size_t pixel = 0; pixel < lookup.size(); ++pixel) {
         if (!(lookup[pixel].w > 0)) continue;
@@ -138,7 +141,7 @@ measure::Mask Oracle::at_light_edges(const std::vector<vec4>& lookup,
             vec3 beside = place;
             beside[(axis + 1) % 3] += texel * static_cast<float>(i % 3 - 1);
             beside[(axis + 2) % 3] += texel * static_cast<float>(i / 3 - 1);
-            const int object = captured_object(mirror, normalize(beside), false, false);
+            const int object = find_captured_object(mirror, normalize(beside), false, false);
             lights += object != kNothing && emits_[static_cast<std::size_t>(object)];
         }
         found[pixel] = lights > 0 && lights < 9 ? 255 : 0;

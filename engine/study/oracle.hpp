@@ -13,25 +13,25 @@ namespace catoptric::app {
 /// Finds what rays really meet in a request's scene at its instant, on the CPU with the device's
 /// own mathematics. The result tells where a mirror pixel should have looked, and what the pixel
 /// looked at instead.
-class Oracle {
+class LookupOracle {
 public:
     /// Traces a ray through every pixel centre. Costs about a microsecond per ray.
-    explicit Oracle(const Request& request);
+    explicit LookupOracle(const Request& request);
 
     /// Judges the first-order mirror pixels of `lookup`, a row-major picture of where mirrors
     /// looked (shaders/lib/mirror.glsl). Each pixel is judged in the capture that the row looked
     /// into. `left_out`: captures lack the mirrors that are exact spheres.
-    std::vector<measure::LookedUp> judge(const std::vector<vec4>& lookup,
-                                         bool left_out = false) const;
+    std::vector<measure::LookupDirectionError> judge_lookups(const std::vector<vec4>& lookup,
+                                                             bool left_out = false) const;
 
     /// Returns the pixels that looked within one texel of a light's outline. `faces`: texels along
     /// an edge of each mirror's capture, entry n-1 of mirror n.
-    measure::Mask at_light_edges(const std::vector<vec4>& lookup,
-                                 const std::vector<std::uint32_t>& faces) const;
+    measure::Mask find_pixels_at_light_edges(const std::vector<vec4>& lookup,
+                                             const std::vector<std::uint32_t>& faces) const;
 
 private:
     /// A mirror pixel whose reflected ray meets no second mirror.
-    struct OraclePixel {
+    struct FirstOrderPixel {
         std::size_t pixel = 0;
         std::uint32_t mirror = 0; ///< number of the mirror, from 0
         int object = -1;          ///< object that the reflected ray meets; -1: none
@@ -40,11 +40,11 @@ private:
     };
     static constexpr int kNothing = -1;
 
-    void trace(const Request& request);
+    void trace_request(const Request& request);
     /// Returns the object that the capture of `mirror` shows in a direction, in its first or second
     /// layer.
-    int captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer,
-                        bool left_out) const;
+    int find_captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer,
+                             bool left_out) const;
 
     render::Geometry geometry_;
     std::vector<bool> emits_; ///< whether each object emits light
@@ -52,7 +52,7 @@ private:
     std::vector<vec3> centres_; ///< centres of the captures
     bvh::Bvh everything_;
     std::vector<bvh::Bvh> without_; ///< entry n: all objects but mirror n
-    std::vector<OraclePixel> targets_;
+    std::vector<FirstOrderPixel> targets_;
 };
 
 } // namespace catoptric::app

@@ -13,15 +13,15 @@ namespace catoptric::app {
 
 /// Picture that a row is judged against: the reference at the row's own sample count.
 struct ReferencePicture {
-    Part part;
+    TechniqueResult part;
     std::vector<double> gpu_ms;
 };
 
 /// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
-std::string sample_count(const TechniqueChoice& choice);
+std::string find_sample_count(const TechniqueChoice& choice);
 /// Returns the text of the reference with `samples` set, or the text unchanged if it has no such
 /// knob.
-std::string reference_at(const std::string& reference, const std::string& samples);
+std::string set_reference_samples(const std::string& reference, const std::string& samples);
 
 /// The reference of a comparison, rendered once for each sample count and instant on demand.
 class ReferenceCache {
@@ -34,19 +34,21 @@ public:
 
     /// Returns the reference of a row's last frame. Valid as long as the cache. Throws as the
     /// watcher does.
-    const ReferencePicture& at(const std::string& samples) { return at(samples, base_.total()); }
+    const ReferencePicture& find_reference(const std::string& samples) {
+        return find_reference(samples, base_.total());
+    }
     /// Returns the reference of a row's frame `number`, from 1.
-    const ReferencePicture& at(const std::string& samples, int number);
+    const ReferencePicture& find_reference(const std::string& samples, int number);
     /// Returns what one ray through each pixel centre meets: first mirror | second mirror << 16.
     /// Valid as long as the cache.
-    const std::vector<std::uint32_t>& hits() { return hits(base_.total()); }
-    const std::vector<std::uint32_t>& hits(int number);
+    const std::vector<std::uint32_t>& find_mirror_hits() { return find_mirror_hits(base_.total()); }
+    const std::vector<std::uint32_t>& find_mirror_hits(int number);
 
 private:
     /// Returns the frame that is rendered for frame `number`. All frames of a still scene are
     /// equal, so the last frame is rendered for each of them.
-    int frame_of(int number) const { return base_.animate ? number : base_.total(); }
-    Result rendered(const std::string& technique, int number) const;
+    int choose_frame_to_render(int number) const { return base_.animate ? number : base_.total(); }
+    RunResult render_reference(const std::string& technique, int number) const;
 
     Session& session_;
     const Request& base_;

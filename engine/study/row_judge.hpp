@@ -21,19 +21,19 @@ public:
     /// Fills the row's picture and all its figures from `part`, the row's frame `number`. Returns
     /// warnings for the user. The session begins another sequence. Costs a frame that records where
     /// mirrors looked, and nine rays per mirror pixel.
-    std::vector<std::string> judge(report::Row& row, const std::string& text, const Part& part,
-                                   int number);
+    std::vector<std::string> judge_row(report::Row& row, const std::string& text,
+                                       const TechniqueResult& part, int number);
 
 private:
-    Request still(int number) const;
-    Part looked_up(const std::string& text, int number);
-    const Oracle& oracle_of(int number);
+    Request make_still_request(int number) const;
+    TechniqueResult render_lookups(const std::string& text, int number);
+    const LookupOracle& find_oracle(int number);
 
     Session& session_;
     ReferenceCache& truths_;
     const Request& base_;
     const Watcher& watcher_;
-    std::optional<Oracle> oracle_;
+    std::optional<LookupOracle> oracle_;
     int oracle_frame_ = 0; ///< frame whose instant `oracle_` describes
 };
 

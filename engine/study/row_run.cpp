@@ -12,39 +12,40 @@ namespace catoptric::app {
 namespace {
 
 /// Returns the seconds since about the start of the program.
-double elapsed_seconds() {
+double measure_elapsed_seconds() {
     static const SteadyClock::time_point kStart = SteadyClock::now();
     return std::chrono::duration<double>(SteadyClock::now() - kStart).count();
 }
 
 } // namespace
 
-int frames_of_round(int frames, int rounds, int index) {
+int count_frames_of_round(int frames, int rounds, int index) {
     return frames / rounds + (index < frames % rounds ? 1 : 0);
 }
 
-int rounds_of(int frames, int asked) { return std::min(frames, asked); }
+int choose_round_count(int frames, int asked) { return std::min(frames, asked); }
 
-RowRun::RowRun(Session& session, Request request, const Watcher& watcher)
+RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher& watcher)
     : request_(std::move(request)), watcher_(watcher), frames_(session, request_) {}
 
-void RowRun::measure(int frames) {
+void RowMeasurement::measure(int frames) {
     const auto render = [&](int count) {
         for (int k = 0; k < count && frames_.next(); ++k)
             tell_frame(watcher_, frames_.number(), request_.total());
     };
     if (rounds_.empty()) {
-        noisy_ = !processor_use() &&
-                 app::is_noisy(machine_load(), process_seconds(), elapsed_seconds());
+        noisy_ = !read_processor_use() &&
+                 app::is_timing_noisy(read_machine_load(), read_process_seconds(),
+                                      measure_elapsed_seconds());
         render(request_.warmup);
     }
     const std::size_t before = frames_.times().size();
-    const std::optional<ProcessorUse> start = processor_use();
+    const std::optional<ProcessorUse> start = read_processor_use();
     render(frames);
-    if (const std::optional<ProcessorUse> end = processor_use(); start && end) {
-        waiting_ += waiting_between(*start, *end);
-        waited_ = waited_share(waiting_);
-        noisy_ = app::is_noisy(waited_);
+    if (const std::optional<ProcessorUse> end = read_processor_use(); start && end) {
+        waiting_ += compute_waiting_times(*start, *end);
+        waited_ = compute_waited_share(waiting_);
+        noisy_ = app::is_timing_noisy(waited_);
     }
     rounds_.emplace_back(frames_.times().begin() + static_cast<std::ptrdiff_t>(before),
                          frames_.times().end());

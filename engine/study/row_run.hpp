@@ -14,21 +14,21 @@ namespace catoptric::app {
 
 /// Returns the number of frames in round `index` of `rounds`. Frames are spread evenly; the first
 /// rounds get one more if needed. `frames` must be at least `rounds`.
-int frames_of_round(int frames, int rounds, int index);
+int count_frames_of_round(int frames, int rounds, int index);
 /// Returns the number of rounds: `asked`, but at most one per frame.
-int rounds_of(int frames, int asked);
+int choose_round_count(int frames, int asked);
 
 /// A row under measurement: one technique, or several in each frame. Its history, frame number and
 /// clock continue from round to round as if nothing ran in between.
-class RowRun {
+class RowMeasurement {
 public:
     /// The session shows the request's scene. The session and the watcher must outlive this object.
-    RowRun(Session& session, Request request, const Watcher& watcher);
+    RowMeasurement(Session& session, Request request, const Watcher& watcher);
 
     /// Measures `frames` frames. The first call renders the warm-up before them.
     void measure(int frames);
     /// Returns the results of the last frame. Call before `suspend`.
-    std::vector<Part> parts() const { return frames_.result().parts; }
+    std::vector<TechniqueResult> parts() const { return frames_.result().parts; }
     /// Frees the session for other frames until the next `measure`.
     void suspend() { frames_.suspend(); }
 
@@ -36,7 +36,7 @@ public:
     int number() const { return frames_.number(); }
     const std::vector<std::vector<FrameTimes>>& rounds() const { return rounds_; }
     /// Returns waited_share over all rounds; NaN if the system does not report waiting.
-    double waited() const { return waited_; }
+    double mean_waited_share() const { return waited_; }
     /// Returns whether the row's threads had to wait for a processor that others had.
     bool is_noisy() const { return noisy_; }
 
@@ -45,7 +45,7 @@ private:
     const Watcher& watcher_;
     Frames frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
-    Waiting waiting_; ///< sum over all rounds
+    WaitingTimes waiting_; ///< sum over all rounds
     double waited_ = std::numeric_limits<double>::quiet_NaN();
     bool noisy_ = false;
 };

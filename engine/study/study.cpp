@@ -21,7 +21,7 @@ std::vector<Study>& study_table() {
 Registered::Registered(Study study) {
     for (measure::Metric metric : study.metrics) {
         metric.study = study.name;
-        const measure::Registered registers(std::move(metric));
+        const measure::RegisteredMetric registers(std::move(metric));
     }
     study.part.name = study.name;
     if (study.part.tables != nullptr) const report::RegisteredPart registers(study.part);
@@ -44,7 +44,7 @@ const Study& find_study(std::string_view name) {
         if (study.name == name) return study;
         names.emplace_back(study.name);
     }
-    fail(Failure::usage, "no study '", name, "'", did_you_mean(name, names));
+    fail(Failure::usage, "no study '", name, "'", suggest_name(name, names));
 }
 
 void check_study(const StudyChoice& choice, const std::string& reference) {

@@ -25,12 +25,12 @@ constexpr int kGap = 4; // columns between two pictures
 
 /// Returns the instant at `share` of the period after `start`, rounded to about a thousandth of the
 /// period.
-double instant_of(double start, double period, double share) {
+double compute_view_instant(double start, double period, double share) {
     const double parts = std::pow(10, 3 - std::floor(std::log10(period))); // steps per second
     return std::floor((start + period * share) * parts) / parts;
 }
 
-scene::Camera camera_of(const measure::CameraFacts& facts) {
+scene::Camera make_camera_from_facts(const measure::CameraFacts& facts) {
     return {facts.name,
             facts.eye,
             facts.target,
@@ -40,9 +40,9 @@ scene::Camera camera_of(const measure::CameraFacts& facts) {
 }
 
 /// Returns a request for the picture from a view, as `render` takes it.
-Request request_at(const Request& base, const measure::View& view) {
+Request make_view_request(const Request& base, const measure::View& view) {
     Request request = base;
-    request.camera = camera_of(view.camera);
+    request.camera = make_camera_from_facts(view.camera);
     request.time = view.time;
     request.animate = false;
     request.warmup = 0;
@@ -51,7 +51,7 @@ Request request_at(const Request& base, const measure::View& view) {
     return request;
 }
 
-measure::Picture beside(const measure::Picture& left, const measure::Picture& right) {
+measure::Picture place_side_by_side(const measure::Picture& left, const measure::Picture& right) {
     measure::Picture both(left.width + kGap + right.width, left.height);
     std::ranges::fill(both.pixels, vec3(1));
     for (int y = 0; y < left.height; ++y) {
@@ -61,14 +61,14 @@ measure::Picture beside(const measure::Picture& left, const measure::Picture& ri
     return both;
 }
 
-void add_view(report::Row& row, const Part& part, const Part& truth,
-              const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
-    const std::vector<float> flip_map = flip_map_of(part, truth, exposure);
-    row.views.push_back(errors_of(part, truth, flip_map, hits, mirrors, exposure));
+void add_view_errors(report::Row& row, const TechniqueResult& part, const TechniqueResult& truth,
+                     const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
+    const std::vector<float> flip_map = compute_flip_map(part, truth, exposure);
+    row.views.push_back(compute_masked_errors(part, truth, flip_map, hits, mirrors, exposure));
     const double flip = row.views.back().error.flip;
     // A view without judged pixels is never the worst.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
-        row.worst = {row.views.size() - 1, beside(part.display, truth.display)};
+        row.worst = {row.views.size() - 1, place_side_by_side(part.display, truth.display)};
 }
 
 void check_view_count(std::string_view option, int count) {
@@ -97,13 +97,13 @@ const Registered kViewsStudy{
      .check_count = check_view_count,
      .prepare =
          [](const CompareRequest& request, int count, report::Comparison& comparison) {
-             comparison.views = drawn_views(request.base, count);
+             comparison.views = draw_random_views(request.base, count);
          },
      .run = add_views}};
 
 } // namespace
 
-std::vector<measure::View> drawn_views(const Request& request, int count) {
+std::vector<measure::View> draw_random_views(const Request& request, int count) {
     check_view_count("views", count);
     std::vector<measure::View> views(count > 1 ? static_cast<std::size_t>(count) : 0);
     if (views.empty()) return views;
@@ -114,13 +114,13 @@ std::vector<measure::View> drawn_views(const Request& request, int count) {
         view.seed = random() >> 32; // short enough to type, and exact in every JSON
         seeds.push_back(view.seed);
         const double share = static_cast<double>(random() >> 32) * 0x1p-32;
-        view.time = period > 0 ? instant_of(request.time, period, share) : request.time;
+        view.time = period > 0 ? compute_view_instant(request.time, period, share) : request.time;
     }
     std::vector<scene::Camera> cameras;
-    if (!(period > 0)) cameras = seeded_cameras(request.scene, request.time, seeds);
+    if (!(period > 0)) cameras = make_seeded_cameras(request.scene, request.time, seeds);
     for (std::size_t i = 0; i < views.size(); ++i)
-        views[i].camera = facts_of(
-            period > 0 ? seeded_camera(request.scene, views[i].time, seeds[i]) : cameras[i]);
+        views[i].camera = make_device_facts(
+            period > 0 ? make_seeded_camera(request.scene, views[i].time, seeds[i]) : cameras[i]);
     return views;
 }
 
@@ -132,22 +132,23 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
     for (std::size_t i = 0; i < count; ++i) {
         const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
-        Request at_view = request_at(request.base, comparison.views[i]);
+        Request at_view = make_view_request(request.base, comparison.views[i]);
         ReferenceCache truths(session, at_view, request.reference, request.watcher);
         tell_row(request.watcher, label + ": reference", i * pictures, count * pictures);
-        const std::vector<std::uint32_t> hits = truths.hits();
+        const std::vector<std::uint32_t> hits = truths.find_mirror_hits();
         for (std::size_t k = 0; k < texts.size(); ++k) {
             tell_row(request.watcher, label + ": " + comparison.rows[k].label, i * pictures + k + 1,
                      count * pictures);
             Request one = at_view;
             one.techniques = {texts[k]};
-            one.model = comparison.rows[k].model == name_of(Modelling::required)
-                            ? Modelling::required
-                            : Modelling::everything;
-            const Result result = run(session, one, request.watcher);
-            add_view(comparison.rows[k], result.parts.front(),
-                     truths.at(sample_count(parse_technique(texts[k]))).part, hits, mirrors,
-                     request.base.exposure);
+            one.model = comparison.rows[k].model == name_of(RenderedWork::required)
+                            ? RenderedWork::required
+                            : RenderedWork::everything;
+            const RunResult result = run(session, one, request.watcher);
+            add_view_errors(
+                comparison.rows[k], result.parts.front(),
+                truths.find_reference(find_sample_count(parse_technique(texts[k]))).part, hits,
+                mirrors, request.base.exposure);
         }
         if (request.on_finished_view) request.on_finished_view();
     }

@@ -12,7 +12,7 @@ namespace catoptric::app {
 /// from `request.time` on, rounded so that it can be typed. Returns no views for a count of 1.
 /// Throws `usage` for other counts that give no confidence interval of the median
 /// (measure::kFewest), and if no camera sees a mirror.
-std::vector<measure::View> drawn_views(const Request& request, int count);
+std::vector<measure::View> draw_random_views(const Request& request, int count);
 
 struct ViewsRequest {
     const Request&

@@ -22,16 +22,16 @@ using measure::BenchmarkRound;
 /// Sums over the iterations of one round.
 struct RoundSums {
     double real_ms = 0, host_ms = 0;
-    Usage process, caller;
+    ProcessorUsage process, caller;
     std::map<std::string, double> counters;
 
-    void add(const Iteration& iteration) {
+    void add(const IterationFigures& iteration) {
         host_ms += iteration.host_ms;
         for (const auto& [name, value] : iteration.counters) counters[name] += value;
     }
 };
 
-BenchmarkRound shared_out(int iterations, double real_ms, const Usage& usage) {
+BenchmarkRound divide_by_iterations(int iterations, double real_ms, const ProcessorUsage& usage) {
     const double count = iterations;
     const auto each = [&](const std::optional<double>& sum) {
         return sum ? std::optional(*sum / count) : std::nullopt;
@@ -46,12 +46,12 @@ BenchmarkRound shared_out(int iterations, double real_ms, const Usage& usage) {
 
 class BenchmarkRunner {
 public:
-    BenchmarkRunner(const std::vector<Subject>& subjects, const UsageMeter& meter,
+    BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
                     const BenchOptions& options)
         : subjects_(subjects), meter_(meter), options_(options),
-          rounds_(rounds_of(options.iterations, options.rounds)) {
+          rounds_(choose_round_count(options.iterations, options.rounds)) {
         std::set<std::string> names;
-        for (const Subject& subject : subjects) {
+        for (const BenchmarkSubject& subject : subjects) {
             check(names.insert(subject.name).second, Failure::usage, "benchmark '", subject.name,
                   "' is asked for twice");
             list_.push_back({subject.name, {}});
@@ -61,7 +61,7 @@ public:
 
     std::vector<Benchmark> run() {
         for (std::size_t i = 0; i < subjects_.size(); ++i) warm_up(i);
-        const HeldThreads held;
+        const PinnedThreads held;
         for (int round = 0; round < rounds_; ++round)
             for (std::size_t place = 0; place < subjects_.size(); ++place)
                 // Reverses every second round. No subject then always follows the same other, whose
@@ -78,13 +78,13 @@ private:
         tell_row(options_.watcher, subjects_[index].name + doing, done_, steps);
     }
 
-    void end(const Subject& subject) {
+    void end(const BenchmarkSubject& subject) {
         if (subject.leave) subject.leave();
         ++done_;
     }
 
     void warm_up(std::size_t index) {
-        const Subject& subject = subjects_[index];
+        const BenchmarkSubject& subject = subjects_[index];
         tell(index, ", warm-up");
         for (int k = 1; k <= subject.warmup; ++k) {
             subject.work();
@@ -94,11 +94,11 @@ private:
     }
 
     void measure(std::size_t index, int round) {
-        const Subject& subject = subjects_[index];
+        const BenchmarkSubject& subject = subjects_[index];
         tell(index, ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
-        const int iterations = frames_of_round(options_.iterations, rounds_, round);
+        const int iterations = count_frames_of_round(options_.iterations, rounds_, round);
         RoundSums sums;
-        const Usage process = meter_.read(), caller = caller_meter_.read();
+        const ProcessorUsage process = meter_.read(), caller = caller_meter_.read();
         {
             const Stopwatch watch(sums.real_ms);
             for (int k = 0; k < iterations; ++k) sums.add(subject.work());
@@ -110,22 +110,23 @@ private:
     }
 
     void keep(std::size_t index, int iterations, const RoundSums& sums) {
-        BenchmarkRound round = shared_out(iterations, sums.real_ms, sums.process);
+        BenchmarkRound round = divide_by_iterations(iterations, sums.real_ms, sums.process);
         for (const auto& [name, sum] : sums.counters) round.counters[name] = sum / iterations;
         list_[index].rounds.push_back(std::move(round));
-        callers_[index].rounds.push_back(shared_out(iterations, sums.host_ms, sums.caller));
+        callers_[index].rounds.push_back(
+            divide_by_iterations(iterations, sums.host_ms, sums.caller));
     }
 
-    const std::vector<Subject>& subjects_;
+    const std::vector<BenchmarkSubject>& subjects_;
     const UsageMeter& meter_;
-    const UsageMeter caller_meter_{UsageMeter::Of::caller};
+    const UsageMeter caller_meter_{UsageMeter::CountedThreads::caller};
     const BenchOptions& options_;
     int rounds_;
     std::size_t done_ = 0;
     std::vector<Benchmark> list_, callers_;
 };
 
-std::string date() {
+std::string current_date() {
     const std::time_t now = std::time(nullptr);
     std::tm local{};
     ::localtime_r(&now, &local);
@@ -135,38 +136,39 @@ std::string date() {
 
 } // namespace
 
-Subject subject_of(std::string name, std::function<void()> work, int warmup) {
+BenchmarkSubject make_subject(std::string name, std::function<void()> work, int warmup) {
     return {.name = std::move(name),
             .work =
                 [work = std::move(work)] {
                     work();
-                    return Iteration();
+                    return IterationFigures();
                 },
             .warmup = warmup,
             .leave = {},
             .caller = {}};
 }
 
-std::vector<measure::Benchmark> measure_rounds(const std::vector<Subject>& subjects,
-                                               const UsageMeter& meter,
-                                               const BenchOptions& options) {
+std::vector<measure::Benchmark> measure_in_rounds(const std::vector<BenchmarkSubject>& subjects,
+                                                  const UsageMeter& meter,
+                                                  const BenchOptions& options) {
     return BenchmarkRunner(subjects, meter, options).run();
 }
 
-measure::BenchmarkRun bench(const std::vector<Subject>& subjects, const UsageMeter& meter,
-                            const BenchOptions& options, const measure::DeviceFacts& device,
-                            std::vector<std::string> command) {
+measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
+                                     const UsageMeter& meter, const BenchOptions& options,
+                                     const measure::DeviceFacts& device,
+                                     std::vector<std::string> command) {
     measure::BenchmarkRun run;
-    run.version = version(), run.commit = commit(), run.date = date();
+    run.version = version(), run.commit = commit(), run.date = current_date();
     run.command = std::move(command);
     run.device = device;
     run.processors = static_cast<int>(std::thread::hardware_concurrency());
     run.uncounted = meter.uncounted();
-    run.load = machine_load();
-    const std::optional<ProcessorUse> before = processor_use();
-    run.benchmarks = measure_rounds(subjects, meter, options);
-    if (const std::optional<ProcessorUse> after = processor_use(); before && after)
-        run.noisy = is_noisy(waited_share(waiting_between(*before, *after)));
+    run.load = read_machine_load();
+    const std::optional<ProcessorUse> before = read_processor_use();
+    run.benchmarks = measure_in_rounds(subjects, meter, options);
+    if (const std::optional<ProcessorUse> after = read_processor_use(); before && after)
+        run.noisy = is_timing_noisy(compute_waited_share(compute_waiting_times(*before, *after)));
     return run;
 }
 

@@ -14,16 +14,16 @@
 namespace catoptric::app {
 
 /// Figures that one iteration reports. A round stores their mean.
-struct Iteration {
-    double host_ms = 0; ///< wall-clock time of the work that Subject::caller names
+struct IterationFigures {
+    double host_ms = 0; ///< wall-clock time of the work that BenchmarkSubject::caller names
     std::map<std::string, double> counters;
 };
 
 /// Work that a benchmark repeats.
-struct Subject {
+struct BenchmarkSubject {
     std::string name;
-    std::function<Iteration()> work; ///< runs one iteration; its costs are measured
-    int warmup = 1;                  ///< iterations before the first round, not measured
+    std::function<IterationFigures()> work; ///< runs one iteration; its costs are measured
+    int warmup = 1;                         ///< iterations before the first round, not measured
     /// Called after the warm-up and after each round, not measured; may be empty.
     std::function<void()> leave;
     /// Name of a second benchmark, which holds the work of the calling thread alone. Empty: none.
@@ -31,7 +31,7 @@ struct Subject {
 };
 
 /// Makes a subject of work that reports no figures of its own.
-Subject subject_of(std::string name, std::function<void()> work, int warmup = 1);
+BenchmarkSubject make_subject(std::string name, std::function<void()> work, int warmup = 1);
 
 struct BenchOptions {
     int iterations = 20; ///< of each subject over all rounds; frames_of_round distributes them
@@ -41,14 +41,15 @@ struct BenchOptions {
 
 /// Measures every subject in rounds, after all subjects have warmed up. Every second round visits
 /// the subjects in reverse order. Costs what the work costs. `meter`: counts the whole process.
-std::vector<measure::Benchmark> measure_rounds(const std::vector<Subject>& subjects,
-                                               const UsageMeter& meter,
-                                               const BenchOptions& options);
+std::vector<measure::Benchmark> measure_in_rounds(const std::vector<BenchmarkSubject>& subjects,
+                                                  const UsageMeter& meter,
+                                                  const BenchOptions& options);
 
-/// Measures as measure_rounds does and adds the program's version, the device and the
+/// Measures as measure_in_rounds does and adds the program's version, the device and the
 /// circumstances. `command`: the program's command line.
-measure::BenchmarkRun bench(const std::vector<Subject>& subjects, const UsageMeter& meter,
-                            const BenchOptions& options, const measure::DeviceFacts& device,
-                            std::vector<std::string> command);
+measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
+                                     const UsageMeter& meter, const BenchOptions& options,
+                                     const measure::DeviceFacts& device,
+                                     std::vector<std::string> command);
 
 } // namespace catoptric::app

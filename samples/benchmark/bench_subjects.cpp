@@ -14,18 +14,18 @@ namespace {
 
 /// Frames of one technique. Their history continues from round to round as if nothing ran in
 /// between.
-class FrameWork {
+class FrameBenchmark {
 public:
-    FrameWork(std::shared_ptr<Session> session, Request request)
+    FrameBenchmark(std::shared_ptr<Session> session, Request request)
         : session_(std::move(session)), request_(std::move(request)) {}
 
-    Iteration next() {
+    IterationFigures next() {
         // Only now, because Frames begins with a cut.
         if (!frames_) frames_.emplace(*session_, request_);
         check(frames_->next(), Failure::internal, "a benchmark went on after its last frame");
         const FrameTimes& times = frames_->frame().times();
-        Iteration iteration{times.host.sum(),
-                            {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
+        IterationFigures iteration{times.host.sum(),
+                                   {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
         if (rays_) iteration.counters["rays"] = *rays_;
         return iteration;
     }
@@ -49,34 +49,35 @@ private:
 
 } // namespace
 
-Subject session_subject(Engine& engine, const scene::Scene& scene) {
-    return subject_of("session/" + scene.name,
-                      [&engine, scene] { const Session session(engine, scene); });
+BenchmarkSubject make_session_subject(Engine& engine, const scene::Scene& scene) {
+    return make_subject("session/" + scene.name,
+                        [&engine, scene] { const Session session(engine, scene); });
 }
 
-Subject hierarchy_subject(const scene::Scene& scene) {
+BenchmarkSubject make_hierarchy_subject(const scene::Scene& scene) {
     const auto geometry = std::make_shared<render::Geometry>(
-        render::make_geometry(scene::at(scene, 0), render::space_of(scene)));
+        render::make_geometry(scene::scene_at_time(scene, 0), render::make_scene_units(scene)));
     const auto triangles = static_cast<double>(geometry->indices.size() / 3);
     return {.name = "hierarchy/" + scene.name,
             .work =
                 [geometry, triangles] {
-                    hierarchy_without(*geometry, geometry->ranges.size());
-                    return Iteration{0, {{"triangles", triangles}}};
+                    build_bvh_without_object(*geometry, geometry->ranges.size());
+                    return IterationFigures{0, {{"triangles", triangles}}};
                 },
             .warmup = 1,
             .leave = {},
             .caller = {}};
 }
 
-Subject frame_subject(std::shared_ptr<Session> session, Request request, int iterations) {
+BenchmarkSubject make_frame_subject(std::shared_ptr<Session> session, Request request,
+                                    int iterations) {
     const std::string place = request.scene.name + "/" + std::to_string(request.size.x) + "x" +
                               std::to_string(request.size.y) + "/" +
                               parse_technique(request.techniques.front()).label;
     const int warmup = request.warmup;
     request.frames = iterations;
     request.scene = scene::Scene(); // the session has its own copy
-    const auto work = std::make_shared<FrameWork>(std::move(session), std::move(request));
+    const auto work = std::make_shared<FrameBenchmark>(std::move(session), std::move(request));
     return {.name = "frame/" + place,
             .work = [work] { return work->next(); },
             .warmup = warmup,

@@ -10,8 +10,8 @@ namespace catoptric::app {
 /// Technique that variants are measured with. It consists of the tracer's shader alone.
 inline constexpr const char* kTunedTechnique = "raytrace:depth=4";
 
-struct Tuned {
-    std::vector<measure::Tried> tried; ///< in the table's order
+struct TuningResult {
+    std::vector<measure::TriedVariant> tried; ///< in the table's order
     /// Other processes were at work and may have caused the ratios.
     bool noisy = false;
 };
@@ -20,6 +20,7 @@ struct Tuned {
 /// technique is kTunedTechnique. Every round has some frames of each variant. All variants share
 /// one session, because the threads of several software devices would disturb each other. Leaves
 /// the engine with the default choices.
-Tuned tune(Engine& engine, const Request& request, const BenchOptions& options);
+TuningResult tune_shader_variants(Engine& engine, const Request& request,
+                                  const BenchOptions& options);
 
 } // namespace catoptric::app

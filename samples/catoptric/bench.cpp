@@ -56,7 +56,7 @@ constexpr const char* kFlatScene = "flat"; // `planar` needs a flat mirror
 constexpr const char* kFlatTechnique = "planar";
 
 struct BenchArguments {
-    Common common; ///< options for all scenes
+    CommonOptions common; ///< options for all scenes
     std::vector<std::string> scenes;
     std::vector<std::string> techniques;
     std::string output;
@@ -68,13 +68,13 @@ struct BenchArguments {
 };
 
 /// A scene and the techniques to measure.
-struct SceneAsked {
-    Common common;
+struct SceneSelection {
+    CommonOptions common;
     std::vector<std::string> techniques;
 };
 
-std::vector<SceneAsked> asked_of(const BenchArguments& options) {
-    std::vector<SceneAsked> list;
+std::vector<SceneSelection> list_requested_scenes(const BenchArguments& options) {
+    std::vector<SceneSelection> list;
     std::vector<std::string> scenes = options.scenes;
     if (scenes.empty()) scenes.push_back(options.common.scene);
     for (const std::string& scene : scenes) {
@@ -89,28 +89,28 @@ std::vector<SceneAsked> asked_of(const BenchArguments& options) {
     return list;
 }
 
-int frames_of(const BenchArguments& options) {
+int choose_frame_count(const BenchArguments& options) {
     return options.common.frames.value_or(app::Request().frames);
 }
 
-void load_again(const Common& common) {
+void reload_scene(const CommonOptions& common) {
     app::resolve_scene(common.scene, {.load = load_options(common),
                                       .overrides = common.overrides,
                                       .use_scene_file = common.use_scene_file});
 }
 
 /// Adds the subjects to measure for one scene.
-void add_subjects(app::Engine& engine, const SceneAsked& asked, app::Request request,
-                  int iterations, std::vector<app::Subject>& subjects) {
-    const Common common = asked.common;
+void add_benchmark_subjects(app::Engine& engine, const SceneSelection& asked, app::Request request,
+                            int iterations, std::vector<app::BenchmarkSubject>& subjects) {
+    const CommonOptions common = asked.common;
     subjects.push_back(
-        app::subject_of("load/" + request.scene.name, [common] { load_again(common); }));
-    subjects.push_back(app::session_subject(engine, request.scene));
-    subjects.push_back(app::hierarchy_subject(request.scene));
+        app::make_subject("load/" + request.scene.name, [common] { reload_scene(common); }));
+    subjects.push_back(app::make_session_subject(engine, request.scene));
+    subjects.push_back(app::make_hierarchy_subject(request.scene));
     const auto session = std::make_shared<app::Session>(engine, request.scene);
     for (const std::string& technique : asked.techniques) {
         request.techniques = {technique};
-        subjects.push_back(app::frame_subject(session, request, iterations));
+        subjects.push_back(app::make_frame_subject(session, request, iterations));
     }
 }
 
@@ -118,45 +118,48 @@ void check_output(const BenchArguments& options, const std::vector<std::filesyst
                   const std::string& read) {
     if (options.output.empty()) return;
     check_file_can_be_made(options.output);
-    check_apart({kStdout, options.output}, inputs, read);
+    check_outputs_differ_from_inputs({kStdout, options.output}, inputs, read);
 }
 
 /// Writes the result to stdout, and also to a file if the user asks for one.
-void put_result(const BenchArguments& options, const std::string& json, const std::string& table) {
-    put(options.common.manners.json ? json : table);
+void write_result(const BenchArguments& options, const std::string& json,
+                  const std::string& table) {
+    print_result(options.common.manners.json ? json : table);
     if (options.output.empty()) return;
     write_file(options.output, json);
-    note(options.common.manners, "written: " + options.output);
+    print_note(options.common.manners, "written: " + options.output);
 }
 
-int measure(const BenchArguments& options) {
+int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
-    const app::UsageMeter meter(app::UsageMeter::Of::process);
+    const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
     check(!options.common.both_models, Failure::usage, kOneModel);
-    check_no_scene(options.techniques);
+    check_techniques_hold_no_scene(options.techniques);
     app::check_rows(options.techniques);
-    const std::vector<SceneAsked> list = asked_of(options);
+    const std::vector<SceneSelection> list = list_requested_scenes(options);
     std::vector<app::Request> requests;
     std::vector<std::filesystem::path> inputs;
-    for (const SceneAsked& asked : list) {
+    for (const SceneSelection& asked : list) {
         requests.push_back(make_request(asked.common));
         const std::vector<std::filesystem::path>& files = requests.back().scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
     check_output(options, inputs, ", which the scene is read from");
-    app::Engine engine(engine_options(options.common.device));
-    introduce(engine, options.common.manners);
-    const int iterations = frames_of(options);
-    std::vector<app::Subject> subjects;
+    app::Engine engine(make_engine_options(options.common.device));
+    print_device_and_warnings(engine, options.common.manners);
+    const int iterations = choose_frame_count(options);
+    std::vector<app::BenchmarkSubject> subjects;
     for (std::size_t i = 0; i < list.size(); ++i)
-        add_subjects(engine, list[i], std::move(requests[i]), iterations, subjects);
-    Progress progress(options.common.manners);
-    const measure::BenchmarkRun run = app::bench(
+        add_benchmark_subjects(engine, list[i], std::move(requests[i]), iterations, subjects);
+    ProgressPrinter progress(options.common.manners);
+    const measure::BenchmarkRun run = app::run_benchmarks(
         subjects, meter,
-        {.iterations = iterations, .rounds = options.rounds, .watcher = watcher_of(progress)},
-        app::facts_of(engine), options.command);
+        {.iterations = iterations,
+         .rounds = options.rounds,
+         .watcher = make_progress_watcher(progress)},
+        app::make_device_facts(engine), options.command);
     progress.clear();
-    put_result(options, report::to_json(run), bench_table(run));
+    write_result(options, report::to_json(run), make_bench_table(run));
     if (options.common.device.validate) engine.check_validation();
     return 0;
 }
@@ -165,24 +168,25 @@ int measure(const BenchArguments& options) {
 void warn_of_circumstances(const measure::BenchmarkRun& before,
                            const measure::BenchmarkRun& after) {
     if (before.device.name != after.device.name || before.device.driver != after.device.driver)
-        warn("the devices differ: " + before.device.name + ", " + before.device.driver + " and " +
-             after.device.name + ", " + after.device.driver);
+        print_warning("the devices differ: " + before.device.name + ", " + before.device.driver +
+                      " and " + after.device.name + ", " + after.device.driver);
     if (before.noisy.value_or(false) || after.noisy.value_or(false))
-        warn("others were at work beside what was measured; times are not to be trusted");
+        print_warning("others were at work beside what was measured; times are not to be trusted");
 }
 
-int judge(const BenchArguments& options, const measure::BenchmarkRun& before,
-          const measure::BenchmarkRun& after) {
+int judge_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
+                  const measure::BenchmarkRun& after) {
     warn_of_circumstances(before, after);
-    const measure::Changes changes = measure::compare(before, after);
+    const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(before, after);
     if (options.against.empty() &&
-        std::ranges::any_of(changes.list, [](const measure::Change& change) {
-            return change.cost != measure::Cost::cycles;
+        std::ranges::any_of(changes.list, [](const measure::BenchmarkChange& change) {
+            return change.cost != measure::CostKind::cycles;
         }))
-        warn("the files hold times, not cycles: what the machine did otherwise when the second was "
-             "measured is in the ratios; --against measures two programs in turn");
-    put_result(options, report::to_json(changes), changes_table(changes));
-    const std::string slower = slower_text(changes);
+        print_warning(
+            "the files hold times, not cycles: what the machine did otherwise when the second was "
+            "measured is in the ratios; --against measures two programs in turn");
+    write_result(options, report::to_json(changes), make_changes_table(changes));
+    const std::string slower = describe_slower_benchmarks(changes);
     check(slower.empty(), Failure::threshold, "slower: ", slower);
     return 0;
 }
@@ -195,30 +199,33 @@ int compare_benchmark_files(const BenchArguments& options) {
     std::vector<measure::BenchmarkRun> runs;
     for (const std::string& file : files)
         runs.push_back(report::read_benchmarks(read_file(file), file));
-    return judge(options, runs[0], runs[1]);
+    return judge_changes(options, runs[0], runs[1]);
 }
 
-int run_against(const BenchArguments& options) {
+int run_against_program(const BenchArguments& options) {
     app::check_rounds(options.rounds);
     check_output(options, {options.against}, ", which is run");
     const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
-    const int frames = std::max(1, (frames_of(options) + options.rounds - 1) / options.rounds);
+    const int frames = std::max(1, (choose_frame_count(options) + options.rounds - 1) /
+                                       options.rounds);
     const std::vector<std::string> words(options.command.begin() + 2, options.command.end());
-    Progress progress(options.common.manners);
-    const std::array runs = bench_in_turn({options.against, own}, words_for_round(words, frames),
-                                          options.rounds, watcher_of(progress));
+    ProgressPrinter progress(options.common.manners);
+    const std::array runs = bench_programs_in_turn({options.against, own},
+                                                   command_words_for_round(words, frames),
+                                                   options.rounds, make_progress_watcher(progress));
     progress.clear();
-    return judge(options, runs[0], runs[1]);
+    return judge_changes(options, runs[0], runs[1]);
 }
 
-int tune(const BenchArguments& options) {
+int run_tuning(const BenchArguments& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
           "--tune: wanted at most one SCENE and no --techniques, since ", app::kTunedTechnique,
           " is what is measured");
     check(!options.common.both_models, Failure::usage, kOneModel);
-    Common common = options.common;
+    CommonOptions common = options.common;
     if (!options.scenes.empty()) common.scene = options.scenes.front();
-    return tune_device(common, std::min(options.rounds, frames_of(options)), options.output);
+    return run_device_tuning(common, std::min(options.rounds, choose_frame_count(options)),
+                             options.output);
 }
 
 int run_bench(const BenchArguments& options) {
@@ -227,18 +234,18 @@ int run_bench(const BenchArguments& options) {
                                       {options.tunes && compares, "--tune and --compare"},
                                       {options.tunes && in_turn, "--tune and --against"}})
         check(!both, Failure::usage, names, ": wanted one of them, found both");
-    if (options.tunes) return tune(options);
+    if (options.tunes) return run_tuning(options);
     return compares  ? compare_benchmark_files(options)
-           : in_turn ? run_against(options)
-                     : measure(options);
+           : in_turn ? run_against_program(options)
+                     : run_measurement(options);
 }
 
 } // namespace
 
-void add_bench(CommandLine& program, std::vector<std::string> command) {
+void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<BenchArguments>();
     options->command = std::move(command);
-    Verb& verb = program.add(
+    CommandVerb& verb = program.add(
         "bench", "measure times of frames and scenes; compare with another run or build");
     verb.examples(kBenchExamples);
     verb.arguments(
@@ -259,7 +266,7 @@ void add_bench(CommandLine& program, std::vector<std::string> command) {
         "number of rounds, in each of which all benchmarks run; from 6 on medians have an interval "
         "(6)",
         [options](const std::string& text) {
-            options->rounds = static_cast<int>(parse_whole("--rounds", text, 1, 10000));
+            options->rounds = static_cast<int>(parse_integer("--rounds", text, 1, 10000));
         });
     verb.option("--compare", "OLD NEW",
                 "compare two result files instead of measuring; exit code 1 if NEW is slower",
@@ -273,8 +280,8 @@ void add_bench(CommandLine& program, std::vector<std::string> command) {
               "find the shader variants that suit the device; write a profile to the user's "
               "configuration or to -o FILE",
               options->tunes);
-    add_common_without_scene(verb, options->common);
-    verb.does([options] { return run_bench(*options); });
+    add_common_options_without_scene(verb, options->common);
+    verb.set_action([options] { return run_bench(*options); });
 }
 
 } // namespace catoptric::cli

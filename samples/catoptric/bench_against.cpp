@@ -13,19 +13,20 @@ namespace catoptric::cli {
 
 namespace {
 
-struct Own {
+struct OwnOption {
     std::string_view name;
     bool has_value;
 };
 /// Options of `bench --against` that are not passed on to the rounds.
-constexpr std::array kOwn{Own{"--against", true},  Own{"--rounds", true}, Own{"--frames", true},
-                          Own{"--output", true},   Own{"-o", true},       Own{"--progress", true},
-                          Own{"--json", false},    Own{"--quiet", false}, Own{"-q", false},
-                          Own{"--verbose", false}, Own{"-v", false}};
+constexpr std::array kOwn{
+    OwnOption{"--against", true},  OwnOption{"--rounds", true}, OwnOption{"--frames", true},
+    OwnOption{"--output", true},   OwnOption{"-o", true},       OwnOption{"--progress", true},
+    OwnOption{"--json", false},    OwnOption{"--quiet", false}, OwnOption{"-q", false},
+    OwnOption{"--verbose", false}, OwnOption{"-v", false}};
 
 /// Returns how many words this option and its value take; 0 if the option is passed on.
-std::size_t words_taken(const std::string& word) {
-    for (const Own& own : kOwn) {
+std::size_t count_option_words(const std::string& word) {
+    for (const OwnOption& own : kOwn) {
         if (word == own.name) return own.has_value ? 2 : 1;
         const bool is_long = own.name.starts_with("--");
         // "--rounds=8", "-oFILE"
@@ -38,10 +39,11 @@ std::size_t words_taken(const std::string& word) {
 
 } // namespace
 
-std::vector<std::string> words_for_round(const std::vector<std::string>& words, int frames) {
+std::vector<std::string> command_words_for_round(const std::vector<std::string>& words,
+                                                 int frames) {
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < words.size();) {
-        const std::size_t taken = words_taken(words[i]);
+        const std::size_t taken = count_option_words(words[i]);
         if (taken == 0) kept.push_back(words[i]);
         i += std::max<std::size_t>(taken, 1);
     }
@@ -51,9 +53,10 @@ std::vector<std::string> words_for_round(const std::vector<std::string>& words, 
     return kept;
 }
 
-std::array<measure::BenchmarkRun, 2> bench_in_turn(const std::array<std::string, 2>& programs,
-                                                   const std::vector<std::string>& words,
-                                                   int rounds, const app::Watcher& watcher) {
+std::array<measure::BenchmarkRun, 2>
+bench_programs_in_turn(const std::array<std::string, 2>& programs,
+                       const std::vector<std::string>& words, int rounds,
+                       const app::Watcher& watcher) {
     static const std::atomic<int> kGoOn{0};
     std::array<measure::BenchmarkRun, 2> runs;
     for (int round = 0; round < rounds; ++round)
@@ -67,8 +70,9 @@ std::array<measure::BenchmarkRun, 2> bench_in_turn(const std::array<std::string,
             std::vector<std::string> command{program, "bench"};
             command.insert(command.end(), words.begin(), words.end());
             const measure::BenchmarkRun found = report::read_benchmarks(
-                output_of(command, watcher.stop ? *watcher.stop : kGoOn), program + ": its stdout");
-            runs[which] = round == 0 ? found : joined(runs[which], found);
+                run_and_read_output(command, watcher.stop ? *watcher.stop : kGoOn),
+                program + ": its stdout");
+            runs[which] = round == 0 ? found : join_benchmark_runs(runs[which], found);
             tell_frame(watcher, 1, 1);
         }
     return runs;

@@ -14,70 +14,72 @@ namespace catoptric::cli {
 namespace {
 
 using measure::Benchmark;
+using measure::BenchmarkChange;
 using measure::BenchmarkRun;
-using measure::Change;
-using measure::Cost;
+using measure::CostKind;
 
-using Cells = std::vector<std::vector<std::string>>;
+using TableCells = std::vector<std::vector<std::string>>;
 
-std::string benchmark_figure(double value) { return fmt::format("{:.3f}", value); }
+std::string format_benchmark_number(double value) { return fmt::format("{:.3f}", value); }
 
 /// Adds the median and its interval, in `unit`.
-void add(std::vector<std::string>& cells, const std::vector<double>& values, double unit = 1) {
-    cells.push_back(benchmark_figure(measure::percentile(values, .5) / unit));
-    cells.push_back(interval_text(measure::median_interval(values), unit));
+void add_median_cells(std::vector<std::string>& cells, const std::vector<double>& values,
+                      double unit = 1) {
+    cells.push_back(format_benchmark_number(measure::compute_percentile(values, .5) / unit));
+    cells.push_back(format_interval(measure::median_interval(values), unit));
 }
 
-std::vector<std::string> cells_of(const Benchmark& benchmark, bool counted) {
-    std::vector<std::string> cells{printable(benchmark.name)};
-    add(cells, costs_of(benchmark, Cost::real_time));
-    add(cells, costs_of(benchmark, Cost::cpu_time));
+std::vector<std::string> benchmark_cells(const Benchmark& benchmark, bool counted) {
+    std::vector<std::string> cells{escape_control_characters(benchmark.name)};
+    add_median_cells(cells, list_round_costs(benchmark, CostKind::real_time));
+    add_median_cells(cells, list_round_costs(benchmark, CostKind::cpu_time));
     if (!counted) return cells;
-    add(cells, costs_of(benchmark, Cost::cycles), 1e6);
+    add_median_cells(cells, list_round_costs(benchmark, CostKind::cycles), 1e6);
     std::vector<double> instructions;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         instructions.push_back(round.instructions.value_or(0));
-    cells.push_back(benchmark_figure(measure::percentile(instructions, .5) / 1e6));
+    cells.push_back(format_benchmark_number(measure::compute_percentile(instructions, .5) / 1e6));
     return cells;
 }
 
 /// Returns a cost as text, in millions of cycles or in milliseconds.
-std::string cost_text(double cost, Cost of) {
-    return benchmark_figure(of == Cost::cycles ? cost / 1e6 : cost);
+std::string format_cost(double cost, CostKind of) {
+    return format_benchmark_number(of == CostKind::cycles ? cost / 1e6 : cost);
 }
 
 /// Returns the kinds of cost that the list compares.
-std::string costs_text(const measure::Changes& changes) {
+std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
     std::string text;
-    for (const Cost cost : {Cost::cycles, Cost::cpu_time, Cost::real_time})
-        if (std::ranges::find(changes.list, cost, &Change::cost) != changes.list.end())
+    for (const CostKind cost : {CostKind::cycles, CostKind::cpu_time, CostKind::real_time})
+        if (std::ranges::find(changes.list, cost, &BenchmarkChange::cost) != changes.list.end())
             text += (text.empty() ? "" : " or ") + name_of(cost) +
-                    (cost == Cost::cycles ? " in user mode, millions" : ", ms");
+                    (cost == CostKind::cycles ? " in user mode, millions" : ", ms");
     return text;
 }
 
-std::string list_text(const char* title, const std::vector<std::string>& names) {
+std::string format_name_list(const char* title, const std::vector<std::string>& names) {
     std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + printable(name);
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + escape_control_characters(name);
     return names.empty() ? "" : fmt::format("{}: {}\n", title, text);
 }
 
 } // namespace
 
-std::string interval_text(const measure::Interval& interval, double unit) {
+std::string format_interval(const measure::Interval& interval, double unit) {
     if (!interval.is_known()) return "-";
     return fmt::format("[{:.3f} - {:.3f}]", interval.low / unit, interval.high / unit);
 }
 
-std::string bench_table(const BenchmarkRun& run) {
+std::string make_bench_table(const BenchmarkRun& run) {
     const bool counted = run.uncounted.empty();
-    Cells cells{{"benchmark", "ms", "[95 %]", "cpu ms", "[95 %]"}};
+    TableCells cells{{"benchmark", "ms", "[95 %]", "cpu ms", "[95 %]"}};
     if (counted)
         for (const char* title : {"Mcycles", "[95 %]", "Minstr"}) cells.front().emplace_back(title);
     std::size_t rounds = 0;
     for (const Benchmark& benchmark : run.benchmarks) {
         rounds = std::max(rounds, benchmark.rounds.size());
-        cells.push_back(cells_of(benchmark, counted));
+        cells.push_back(benchmark_cells(benchmark, counted));
     }
     const std::string caution =
         run.noisy.value_or(false)
@@ -89,30 +91,31 @@ std::string bench_table(const BenchmarkRun& run) {
                        counted ? "cycles and instructions in user mode of all threads"
                                : "cycles are not counted (" + run.uncounted +
                                      "), processor time takes their place") +
-           aligned(cells);
+           align_columns(cells);
 }
 
-std::string changes_table(const measure::Changes& changes) {
-    Cells cells{{"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
-    for (const Change& change : changes.list)
-        cells.push_back({printable(change.name), cost_text(change.medians[0], change.cost),
-                         cost_text(change.medians[1], change.cost),
-                         benchmark_figure(change.ratio.median), interval_text(change.ratio.ci95),
-                         benchmark_figure(change.real_ratio.median),
-                         interval_text(change.real_ratio.ci95), name_of(change.outcome())});
+std::string make_changes_table(const measure::BenchmarkChanges& changes) {
+    TableCells cells{{"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
+    for (const BenchmarkChange& change : changes.list)
+        cells.push_back(
+            {escape_control_characters(change.name), format_cost(change.medians[0], change.cost),
+             format_cost(change.medians[1], change.cost),
+             format_benchmark_number(change.ratio.median), format_interval(change.ratio.ci95),
+             format_benchmark_number(change.real_ratio.median),
+             format_interval(change.real_ratio.ci95), name_of(change.outcome())});
     return (changes.list.empty()
                 ? "nothing is in both\n"
-                : "compared by " + costs_text(changes) + "\n" + aligned(cells, 7)) +
-           list_text("only before", changes.only_before) +
-           list_text("only after", changes.only_after);
+                : "compared by " + list_cost_kinds(changes) + "\n" + align_columns(cells, 7)) +
+           format_name_list("only before", changes.only_before) +
+           format_name_list("only after", changes.only_after);
 }
 
-std::string slower_text(const measure::Changes& changes) {
+std::string describe_slower_benchmarks(const measure::BenchmarkChanges& changes) {
     std::string text;
-    for (const Change& change : changes.list)
-        if (change.outcome() == Change::Outcome::slower)
+    for (const BenchmarkChange& change : changes.list)
+        if (change.outcome() == BenchmarkChange::ChangeOutcome::slower)
             text += fmt::format("{}{} {:.3f} {}", text.empty() ? "" : ", ", change.name,
-                                change.ratio.median, interval_text(change.ratio.ci95));
+                                change.ratio.median, format_interval(change.ratio.ci95));
     return text;
 }
 

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Returns the path of the profile. Checks before the measurement that the file can be written.
-fs::path place_of(const std::string& output, const app::DeviceInfo& device,
-                  const std::vector<fs::path>& inputs) {
+fs::path choose_profile_path(const std::string& output, const app::DeviceInfo& device,
+                             const std::vector<fs::path>& inputs) {
     fs::path place = output;
     if (output.empty()) {
         const fs::path folder = app::profile_folder();
@@ -32,53 +32,58 @@ fs::path place_of(const std::string& output, const app::DeviceInfo& device,
               "no folder for the device's profile: wanted XDG_CONFIG_HOME or HOME to be an "
               "absolute path; -o FILE writes it elsewhere");
         report::create_folder(folder); // fail before the measurement
-        place = folder / app::profile_name(device);
+        place = folder / app::make_profile_file_name(device);
     } else {
         check_file_can_be_made(place);
     }
-    check_apart({kStdout, place}, inputs);
+    check_outputs_differ_from_inputs({kStdout, place}, inputs);
     return place;
 }
 
 } // namespace
 
-std::string tuned_table(const app::DeviceInfo& device, const std::vector<measure::Tried>& tried) {
+std::string make_tuning_table(const app::DeviceInfo& device,
+                              const std::vector<measure::TriedVariant>& tried) {
     std::vector<std::vector<std::string>> cells{
         {"variant", "choice", "default", "ratio", "[95 %]", ""}};
-    for (const measure::Tried& one : tried) {
-        const measure::Ratio ratio = one.ratio();
+    for (const measure::TriedVariant& one : tried) {
+        const measure::CostRatio ratio = one.ratio();
         cells.push_back({one.variant, one.choice, one.standard, fmt::format("{:.3f}", ratio.median),
-                         interval_text(ratio.ci95), one.is_taken() ? "taken" : "not taken"});
+                         format_interval(ratio.ci95), one.is_taken() ? "taken" : "not taken"});
     }
     return fmt::format("{}, {}; {}, {} rounds; device time over the default's\n", device.name,
-                       device.driver, printable(tried.front().benchmark), tried.front().ms.size()) +
-           aligned(cells, 5);
+                       device.driver, escape_control_characters(tried.front().benchmark),
+                       tried.front().ms.size()) +
+           align_columns(cells, 5);
 }
 
-int tune_device(const Common& common, int rounds, const std::string& output) {
+int run_device_tuning(const CommonOptions& common, int rounds, const std::string& output) {
     app::check_rounds(rounds);
     check(common.device.profile.empty(), Failure::usage,
           "--tune and --device-profile: wanted one of them, found both");
     app::Request request = make_request(common);
     request.techniques = {app::kTunedTechnique};
-    app::EngineOptions opened = engine_options(common.device);
+    app::EngineOptions opened = make_engine_options(common.device);
     opened.profiles.clear(); // tuning starts from the defaults
     app::Engine engine(opened);
-    introduce(engine, common.manners);
+    print_device_and_warnings(engine, common.manners);
     const app::DeviceInfo& device = engine.device();
-    const fs::path place = place_of(output, device, request.scene.files);
+    const fs::path place = choose_profile_path(output, device, request.scene.files);
 
-    Progress progress(common.manners);
-    const app::Tuned tuned = app::tune(
+    ProgressPrinter progress(common.manners);
+    const app::TuningResult tuned = app::tune_shader_variants(
         engine, request,
-        {.iterations = request.frames, .rounds = rounds, .watcher = watcher_of(progress)});
+        {.iterations = request.frames,
+         .rounds = rounds,
+         .watcher = make_progress_watcher(progress)});
     progress.clear();
     if (tuned.noisy)
-        warn("others were at work beside what was measured; what is taken may be their doing");
-    const std::string text = app::profile_text(device, tuned.tried);
-    put(common.manners.json ? text : tuned_table(device, tuned.tried));
+        print_warning(
+            "others were at work beside what was measured; what is taken may be their doing");
+    const std::string text = app::make_profile_text(device, tuned.tried);
+    print_result(common.manners.json ? text : make_tuning_table(device, tuned.tried));
     write_file(place, text);
-    note(common.manners, "written: " + place.string());
+    print_note(common.manners, "written: " + place.string());
     if (common.device.validate) engine.check_validation();
     return 0;
 }

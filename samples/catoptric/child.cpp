@@ -19,14 +19,14 @@ namespace {
 
 constexpr int kLook = 100; // milliseconds between two checks of `stop`
 
-std::string reason(int error) { return std::generic_category().message(error); }
+std::string describe_errno(int error) { return std::generic_category().message(error); }
 
 /// A started program. The destructor ends the program and waits for its end.
-class Child {
+class ChildProcess {
 public:
-    explicit Child(const std::vector<std::string>& command) : name_(command.front()) {
+    explicit ChildProcess(const std::vector<std::string>& command) : name_(command.front()) {
         std::array<int, 2> ends{};
-        check(::pipe2(ends.data(), O_CLOEXEC) == 0, Failure::io, "a pipe: ", reason(errno));
+        check(::pipe2(ends.data(), O_CLOEXEC) == 0, Failure::io, "a pipe: ", describe_errno(errno));
         std::vector<char*> words;
         for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
         words.push_back(nullptr);
@@ -39,17 +39,18 @@ public:
         ::close(ends[1]);
         out_ = ends[0];
         if (error != 0) ::close(out_);
-        check(error == 0, Failure::missing_input, name_, ": cannot be run: ", reason(error));
+        check(error == 0, Failure::missing_input, name_,
+              ": cannot be run: ", describe_errno(error));
     }
-    ~Child() {
+    ~ChildProcess() {
         ::close(out_);
         if (process_ > 0) {
             ::kill(process_, SIGTERM);
             wait();
         }
     }
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
 
     /// Returns all output of the program until it closes its stdout.
     std::string read(const app::Watcher& watcher) const {
@@ -61,7 +62,8 @@ public:
             std::array<char, 1 << 16> block{};
             const ssize_t count = ::read(out_, block.data(), block.size());
             if (count < 0 && errno == EINTR) continue;
-            check(count >= 0, Failure::io, name_, ": reading what it writes: ", reason(errno));
+            check(count >= 0, Failure::io, name_,
+                  ": reading what it writes: ", describe_errno(errno));
             if (count == 0) return text;
             text.append(block.data(), static_cast<std::size_t>(count));
         }
@@ -90,8 +92,9 @@ private:
 
 } // namespace
 
-std::string output_of(const std::vector<std::string>& command, const std::atomic<int>& stop) {
-    Child child(command);
+std::string run_and_read_output(const std::vector<std::string>& command,
+                                const std::atomic<int>& stop) {
+    ChildProcess child(command);
     app::Watcher watcher;
     watcher.stop = &stop;
     std::string text = child.read(watcher);

@@ -23,7 +23,7 @@ constexpr std::size_t kHelpIndent = 28; ///< column of the descriptions of optio
 
 /// Returns `text` in lines of at most kHelpWidth columns. The first line starts in column `indent`;
 /// the others are indented to it.
-std::string wrapped(const std::string& text, std::size_t indent) {
+std::string wrap_help_text(const std::string& text, std::size_t indent) {
     std::istringstream words(text);
     std::string lines, word;
     std::size_t column = indent;
@@ -43,22 +43,22 @@ std::string wrapped(const std::string& text, std::size_t indent) {
 }
 
 /// Returns `left` with `help` beside it, or below it if `left` is too wide.
-std::string help_entry(const std::string& left, const std::string& help) {
+std::string format_help_entry(const std::string& left, const std::string& help) {
     const std::string start = "  " + left;
     const bool fits = start.size() + 2 <= kHelpIndent;
     return start +
            (fits ? std::string(kHelpIndent - start.size(), ' ')
                  : "\n" + std::string(kHelpIndent, ' ')) +
-           wrapped(help, kHelpIndent) + "\n";
+           wrap_help_text(help, kHelpIndent) + "\n";
 }
 
 /// Returns the text with each paragraph in lines of kHelpWidth columns. Lines that begin with a
 /// blank, and the heading above them, stay as they are.
-std::string paragraphs(const std::string& text) {
+std::string wrap_paragraphs(const std::string& text) {
     std::istringstream lines(text);
     std::string result, line, prose;
     const auto end_paragraph = [&] {
-        if (!prose.empty()) result += wrapped(std::exchange(prose, {}), 0) + "\n";
+        if (!prose.empty()) result += wrap_help_text(std::exchange(prose, {}), 0) + "\n";
     };
     while (std::getline(lines, line)) {
         if (!line.empty() && line.front() != ' ' && !line.ends_with(':')) {
@@ -76,25 +76,25 @@ std::string paragraphs(const std::string& text) {
 class HelpFormatter : public CLI::Formatter {
 public:
     std::string make_option(const CLI::Option* option, bool is_positional) const override {
-        return help_entry(make_option_name(option, is_positional) + make_option_opts(option),
-                          make_option_desc(option));
+        return format_help_entry(make_option_name(option, is_positional) + make_option_opts(option),
+                                 make_option_desc(option));
     }
     std::string make_subcommand(const CLI::App* verb) const override {
-        return help_entry(verb->get_name(), verb->get_description());
+        return format_help_entry(verb->get_name(), verb->get_description());
     }
     std::string make_footer(const CLI::App* app) const override {
-        return app->get_footer().empty() ? "" : paragraphs(app->get_footer());
+        return app->get_footer().empty() ? "" : wrap_paragraphs(app->get_footer());
     }
 };
 
 /// Returns the help without repeated empty lines.
-std::string tidy(std::string text) {
+std::string remove_repeated_empty_lines(std::string text) {
     for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     return text;
 }
 
 /// Refuses unknown words. CLI11 lets them pass, because this function suggests the nearest name.
-void refuse_extras(const CLI::App& verb) {
+void refuse_unknown_words(const CLI::App& verb) {
     std::vector<std::string> names;
     for (const CLI::Option* option : verb.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -103,14 +103,14 @@ void refuse_extras(const CLI::App& verb) {
         if (!extra.starts_with('-') || extra == "--") continue;
         const std::string name = extra.substr(0, extra.find('='));
         fail(Failure::usage, "'", verb.get_name(), "' has no option '", name, "'",
-             did_you_mean(name, names));
+             suggest_name(name, names));
     }
     check(extras.empty(), Failure::usage, "'", verb.get_name(),
           "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
 }
 
 /// Returns the option of `app` or of the last verb whose name starts the parser's message.
-const CLI::Option* option_named(const CLI::App& app, const std::string& words) {
+const CLI::Option* find_option_in_message(const CLI::App& app, const std::string& words) {
     const CLI::Option* longest = nullptr;
     std::vector<const CLI::App*> apps{&app};
     for (const CLI::App* verb : app.get_subcommands()) apps.push_back(verb);
@@ -124,11 +124,11 @@ const CLI::Option* option_named(const CLI::App& app, const std::string& words) {
 }
 
 /// Returns the parser's refusal in this program's words.
-std::string refusal(const CLI::App& app, const CLI::ParseError& error) {
-    const CLI::Option* option = option_named(app, error.what());
+std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+    const CLI::Option* option = find_option_in_message(app, error.what());
     if (option == nullptr) return "wanted one verb with options and arguments of its own";
     const std::string name = option->get_name(), type = option->get_type_name();
-    const auto found = [&] { return ", found '" + join(option->results()) + "'"; };
+    const auto found = [&] { return ", found '" + join_with_commas(option->results()) + "'"; };
     if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
         return "wanted " + name + ", " + option->get_description() + ", found nothing";
     if (option->get_expected_max() == 0) return name + ": wanted no value" + found();
@@ -141,41 +141,41 @@ std::string refusal(const CLI::App& app, const CLI::ParseError& error) {
 
 } // namespace
 
-void Verb::examples(const std::string& text) { app_.footer(text); }
+void CommandVerb::examples(const std::string& text) { app_.footer(text); }
 
-void Verb::heading(const std::string& text) { app_.option_defaults()->group(text); }
+void CommandVerb::heading(const std::string& text) { app_.option_defaults()->group(text); }
 
-void Verb::argument(const std::string& name, const std::string& help, std::string& value,
-                    Need need) {
-    app_.add_option(name, value, help)->type_name("")->required(need == Need::required);
+void CommandVerb::argument(const std::string& name, const std::string& help, std::string& value,
+                           ArgumentNeed need) {
+    app_.add_option(name, value, help)->type_name("")->required(need == ArgumentNeed::required);
 }
 
-void Verb::arguments(const std::string& name, const std::string& help,
-                     std::vector<std::string>& values) {
+void CommandVerb::arguments(const std::string& name, const std::string& help,
+                            std::vector<std::string>& values) {
     app_.add_option(name, values, help)->type_name("");
 }
 
-void Verb::flag(const std::string& names, const std::string& help, bool& value) {
+void CommandVerb::flag(const std::string& names, const std::string& help, bool& value) {
     app_.add_flag(names, value, help);
 }
 
-void Verb::option(const std::string& names, const std::string& type, const std::string& help,
-                  std::string& value) {
+void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
+                         std::string& value) {
     app_.add_option(names, value, help)->type_name(type);
 }
 
-void Verb::option(const std::string& names, const std::string& type, const std::string& help,
-                  std::vector<std::string>& values) {
+void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
+                         std::vector<std::string>& values) {
     app_.add_option(names, values, help)->type_name(type);
 }
 
-void Verb::option(const std::string& names, const std::string& type, const std::string& help,
-                  const Take& take) {
+void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
+                         const TakeValue& take) {
     app_.add_option_function<std::string>(names, take, help)->type_name(type);
 }
 
-void Verb::repeated(const std::string& names, const std::string& type, const std::string& help,
-                    const Take& take) {
+void CommandVerb::repeated(const std::string& names, const std::string& type,
+                           const std::string& help, const TakeValue& take) {
     const auto take_all = [take](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) take(text);
     };
@@ -184,8 +184,8 @@ void Verb::repeated(const std::string& names, const std::string& type, const std
         ->allow_extra_args(false);
 }
 
-void Verb::option_without_value(const std::string& names, const std::string& help,
-                                const std::function<void()>& take) {
+void CommandVerb::option_without_value(const std::string& names, const std::string& help,
+                                       const std::function<void()>& take) {
     app_.add_flag_callback(names, take, help);
 }
 
@@ -203,19 +203,19 @@ CommandLine::CommandLine(const std::string& name, const std::string& summary,
 
 CommandLine::~CommandLine() = default;
 
-Verb& CommandLine::add(const std::string& name, const std::string& summary) {
+CommandVerb& CommandLine::add(const std::string& name, const std::string& summary) {
     CLI::App* app = app_->add_subcommand(name, summary);
     app->group("Verbs");
     app->set_help_flag("-h,--help", "print this help");
-    app->allow_extras(); // refuse_extras has the better message
-    return *verbs_.emplace_back(std::make_unique<Verb>(*app));
+    app->allow_extras(); // refuse_unknown_words has the better message
+    return *verbs_.emplace_back(std::make_unique<CommandVerb>(*app));
 }
 
-Verb& CommandLine::whole() {
+CommandVerb& CommandLine::single_verb() {
     app_->require_subcommand(0);
     app_->allow_extras();
     is_whole_ = true;
-    return *verbs_.emplace_back(std::make_unique<Verb>(*app_));
+    return *verbs_.emplace_back(std::make_unique<CommandVerb>(*app_));
 }
 
 /// Replaces "help" by "--help", and "help VERB" by "VERB --help".
@@ -237,13 +237,13 @@ void CommandLine::check_verb(const std::string& word) const {
     const std::vector<std::string> flags{"-h", "--help", "-V", "--version"};
     for (const auto& known : {names, flags})
         if (std::ranges::find(known, word) != known.end()) return;
-    fail(Failure::usage, "wanted a verb (", join(names), "), found '", word, "'",
-         did_you_mean(word, word.starts_with('-') ? flags : names));
+    fail(Failure::usage, "wanted a verb (", join_with_commas(names), "), found '", word, "'",
+         suggest_name(word, word.starts_with('-') ? flags : names));
 }
 
 std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     if (words.empty() && !is_whole_) {
-        std::cerr << tidy(app_->help()) << std::flush;
+        std::cerr << remove_repeated_empty_lines(app_->help()) << std::flush;
         return [] { return static_cast<int>(Failure::usage); };
     }
     words = without_help_verb(std::move(words));
@@ -256,12 +256,13 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     } catch (const CLI::ParseError& error) {
         std::ostringstream text, ignored;
         if (app_->exit(error, text, ignored) == 0) // the user asked for help or version
-            return [text = tidy(text.str())] { return put(text), 0; };
-        fail(Failure::usage, refusal(*app_, error), " (try '", program, " --help')");
+            return
+                [text = remove_repeated_empty_lines(text.str())] { return print_result(text), 0; };
+        fail(Failure::usage, describe_parse_error(*app_, error), " (try '", program, " --help')");
     }
     const auto verb = std::ranges::find_if(
-        verbs_, [](const std::unique_ptr<Verb>& one) { return one->app_.parsed(); });
-    refuse_extras((*verb)->app_);
+        verbs_, [](const std::unique_ptr<CommandVerb>& one) { return one->app_.parsed(); });
+    refuse_unknown_words((*verb)->app_);
     return (*verb)->run_;
 }
 

@@ -15,11 +15,11 @@ namespace catoptric::cli {
 
 /// A verb with its options, arguments and action. Parsing fills the variables of the options, so
 /// these must outlive the verb.
-class Verb {
+class CommandVerb {
 public:
-    using Take = std::function<void(const std::string&)>;
+    using TakeValue = std::function<void(const std::string&)>;
 
-    explicit Verb(CLI::App& app) : app_(app) {}
+    explicit CommandVerb(CLI::App& app) : app_(app) {}
 
     /// Sets the examples that follow the help.
     void examples(const std::string& text);
@@ -27,8 +27,9 @@ public:
     /// order of their first use, kCommonOptions first.
     void heading(const std::string& text);
 
-    enum class Need : std::uint8_t { optional, required };
-    void argument(const std::string& name, const std::string& help, std::string& value, Need need);
+    enum class ArgumentNeed : std::uint8_t { optional, required };
+    void argument(const std::string& name, const std::string& help, std::string& value,
+                  ArgumentNeed need);
     /// Adds an argument of any number of words.
     void arguments(const std::string& name, const std::string& help,
                    std::vector<std::string>& values);
@@ -42,15 +43,15 @@ public:
     /// Adds an option whose text is passed to `take` during parsing. `CommandLine::parse` passes
     /// exceptions of `take` on.
     void option(const std::string& names, const std::string& type, const std::string& help,
-                const Take& take);
+                const TakeValue& take);
     /// Adds an option that may be given several times. Each use calls `take`.
     void repeated(const std::string& names, const std::string& type, const std::string& help,
-                  const Take& take);
+                  const TakeValue& take);
     void option_without_value(const std::string& names, const std::string& help,
                               const std::function<void()>& take);
 
     /// Sets the action that is called after the whole line is parsed. It returns the exit code.
-    void does(std::function<int()> run) { run_ = std::move(run); }
+    void set_action(std::function<int()> run) { run_ = std::move(run); }
 
 private:
     friend class CommandLine;
@@ -71,10 +72,10 @@ public:
     CommandLine& operator=(const CommandLine&) = delete;
 
     /// Adds a verb, which lives as long as this object.
-    Verb& add(const std::string& name, const std::string& summary);
+    CommandVerb& add(const std::string& name, const std::string& summary);
     /// Returns a single verb in place of a list of verbs. It takes all words as options and
     /// arguments.
-    Verb& whole();
+    CommandVerb& single_verb();
 
     /// Parses the words after the program's name and returns the function to call. The function
     /// runs a verb, or prints help ("help", "help VERB", "--help") or the version. Without words,
@@ -87,7 +88,7 @@ private:
     std::vector<std::string> without_help_verb(std::vector<std::string> words) const;
 
     std::unique_ptr<CLI::App> app_;
-    std::vector<std::unique_ptr<Verb>> verbs_;
+    std::vector<std::unique_ptr<CommandVerb>> verbs_;
     bool is_whole_ = false;
 };
 

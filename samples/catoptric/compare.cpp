@@ -40,7 +40,7 @@ SCENE comes before --techniques; several scenes make one report with a section a
 gets report.html, report.md, report.json, rows.csv and images/.)";
 
 struct CompareOptions {
-    Common common; ///< options for all scenes
+    CommonOptions common; ///< options for all scenes
     std::vector<std::string> scenes;
     std::string folder;
     std::vector<std::string> techniques;
@@ -52,7 +52,7 @@ struct CompareOptions {
 };
 
 /// Returns the scenes that the user asked for, or the built-in scene if there are none.
-std::vector<std::string> scenes_of(const CompareOptions& options) {
+std::vector<std::string> list_scenes_to_compare(const CompareOptions& options) {
     return options.scenes.empty() ? std::vector{options.common.scene} : options.scenes;
 }
 
@@ -67,10 +67,10 @@ void check_rounds(const CompareOptions& options) {
 /// Returns the request for one scene, with the options for all scenes.
 app::CompareRequest make_compare_request(const CompareOptions& options, const std::string& scene) {
     app::CompareRequest request;
-    Common common = options.common;
+    CommonOptions common = options.common;
     common.scene = scene;
     request.base = make_request(common, app::check_has_mirror);
-    const bool keeps = common.both_models || request.base.model == app::Modelling::required;
+    const bool keeps = common.both_models || request.base.model == app::RenderedWork::required;
     if (keeps && !common.animate && !common.warmup) request.base.warmup = app::Request().total();
     request.base.techniques = options.techniques;
     request.both_models = options.common.both_models;
@@ -86,46 +86,47 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
 /// scene at once.
 std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
     check_rounds(options);
-    check_no_scene(options.techniques);
+    check_techniques_hold_no_scene(options.techniques);
     app::check_rows(options.techniques);
     for (const app::StudyChoice& choice : options.studies)
         app::check_study(choice, options.common.reference);
     std::vector<app::CompareRequest> requests;
-    const std::vector<std::string> scenes = scenes_of(options);
+    const std::vector<std::string> scenes = list_scenes_to_compare(options);
     for (const std::string& scene : scenes) {
         app::CompareRequest request = make_compare_request(options, scene);
         if (scenes.size() > 1)
-            request.images = report::images_folder(requests.size(), request.base.scene.name);
+            request.images = report::scene_images_folder(requests.size(), request.base.scene.name);
         requests.push_back(std::move(request));
     }
     return requests;
 }
 
-std::vector<std::string> rows_of(const app::CompareRequest& request) {
+std::vector<std::string> list_requested_rows(const app::CompareRequest& request) {
     const app::Request& base = request.base;
-    return base.techniques.empty() ? app::default_techniques(base) : base.techniques;
+    return base.techniques.empty() ? app::list_default_techniques(base) : base.techniques;
 }
 
-void check_places(const CompareOptions& options, const std::vector<app::CompareRequest>& requests) {
+void check_output_places(const CompareOptions& options,
+                         const std::vector<app::CompareRequest>& requests) {
     std::vector<std::filesystem::path> outputs{kStdout}, inputs;
     for (const app::CompareRequest& request : requests) {
         std::vector<std::string> images;
-        for (const std::string& text : rows_of(request)) {
+        for (const std::string& text : list_requested_rows(request)) {
             images.push_back(app::parse_technique(text).file_name);
             if (request.both_models) images.push_back(images.back() + "-required");
         }
         const bool is_first = &request == &requests.front();
-        for (const std::filesystem::path& file : report::files_of(images, request.images))
+        for (const std::filesystem::path& file : report::list_report_files(images, request.images))
             if (is_first || file.has_parent_path()) // the documents cover all scenes
                 outputs.push_back(std::filesystem::path(options.folder) / file);
         const std::vector<std::filesystem::path>& files = request.base.scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
-    check_apart(outputs, inputs);
+    check_outputs_differ_from_inputs(outputs, inputs);
 }
 
 /// Returns the labels of rows with pixels that are NaN or infinite.
-std::vector<std::string> broken_rows(const report::Comparison& comparison) {
+std::vector<std::string> find_broken_rows(const report::Comparison& comparison) {
     std::vector<std::string> broken;
     for (const report::Row& row : comparison.rows)
         if (row.error_all.nonfinite > 0)
@@ -135,7 +136,7 @@ std::vector<std::string> broken_rows(const report::Comparison& comparison) {
 }
 
 /// Returns the phase of a run that was stopped after all its rows were measured.
-std::string phase_of(const report::Comparison& comparison) {
+std::string describe_stopped_phase(const report::Comparison& comparison) {
     if (comparison.lag) return ", while their lag was measured";
     const bool in_views = !comparison.views.empty() && comparison.rows.size() == comparison.asked;
     return in_views ? ", while their views were rendered" : "";
@@ -145,50 +146,53 @@ std::string phase_of(const report::Comparison& comparison) {
 void check_not_stopped(const CompareOptions& options, const report::Comparison& comparison) {
     if (comparison.stopped)
         fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
-                        phase_of(comparison), options.folder);
+                        describe_stopped_phase(comparison), options.folder);
 }
 
 /// Writes the reports of one or several scenes.
-class Output {
+class CompareOutput {
 public:
-    Output(const CompareOptions& options, std::size_t count)
+    CompareOutput(const CompareOptions& options, std::size_t count)
         : options_(options), one_(options.folder, options.csv),
-          several_(options.folder, scenes_of(options), options.csv), is_one_(count == 1) {}
+          several_(options.folder, list_scenes_to_compare(options), options.csv),
+          is_one_(count == 1) {}
 
     void write(std::size_t index, const report::Comparison& comparison) {
         is_one_ ? one_.write(comparison) : several_.write(index, comparison);
     }
     /// Prints the table of one finished scene.
     void show(const report::Comparison& comparison) const {
-        const Manners& manners = options_.common.manners;
+        const OutputOptions& manners = options_.common.manners;
         for (const std::string& warning : comparison.warnings)
-            detail(manners, "warning: " + warning);
+            print_detail(manners, "warning: " + warning);
         for (const report::Row& row : comparison.rows)
-            for (const std::string& what : measure::notes_of(comparison, row))
-                note(manners, row.label + ": " + what);
+            for (const std::string& what : measure::list_row_notes(comparison, row))
+                print_note(manners, row.label + ": " + what);
         if (!manners.json)
-            put((is_one_ ? "" : printable(comparison.scene.name) + "\n") +
-                compare_table(comparison));
+            print_result((is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
+                         make_compare_table(comparison));
         else if (is_one_)
-            put(report::to_json(comparison));
+            print_result(report::to_json(comparison));
     }
     /// Prints the document of all scenes at the end.
     void show_all() const {
-        if (options_.common.manners.json && !is_one_) put(report::to_json(several_.scenes()));
+        if (options_.common.manners.json && !is_one_)
+            print_result(report::to_json(several_.scenes()));
     }
 
 private:
     const CompareOptions& options_;
-    report::Writer one_;
-    report::ScenesWriter several_;
+    report::ReportWriter one_;
+    report::MultiSceneWriter several_;
     bool is_one_;
 };
 
 /// Measures one scene and writes the report on all scenes so far.
-report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request, std::size_t index,
-                               Progress& progress, Output& output) {
-    const std::size_t row_count = rows_of(request).size();
-    request.watcher = watcher_of(progress);
+report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& request,
+                                 std::size_t index, ProgressPrinter& progress,
+                                 CompareOutput& output) {
+    const std::size_t row_count = list_requested_rows(request).size();
+    request.watcher = make_progress_watcher(progress);
     tell_row(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
         output.write(index, so_far);
@@ -202,29 +206,30 @@ report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request
 }
 
 int run_compare(const CompareOptions& options) {
-    const Manners& manners = options.common.manners;
-    require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
+    const OutputOptions& manners = options.common.manners;
+    require_option(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
     check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
-    check_places(options, requests);
-    image_codecs(); // fail before rendering if the codecs are missing
-    app::Engine engine(engine_options(options.common.device));
-    introduce(engine, options.common.manners);
+    check_output_places(options, requests);
+    get_image_codecs(); // fail before rendering if the codecs are missing
+    app::Engine engine(make_engine_options(options.common.device));
+    print_device_and_warnings(engine, options.common.manners);
     report::create_folder(options.folder);
     for (const app::CompareRequest& request : requests)
         report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
 
-    Progress progress(manners, Progress::OffTerminal::tenths);
-    Output output(options, requests.size());
+    ProgressPrinter progress(manners, ProgressPrinter::ProgressOffTerminal::tenths);
+    CompareOutput output(options, requests.size());
     std::vector<std::string> broken;
     for (std::size_t i = 0; i < requests.size(); ++i) {
-        const report::Comparison comparison = compare_one(engine, requests[i], i, progress, output);
+        const report::Comparison comparison = compare_scene(engine, requests[i], i, progress,
+                                                            output);
         if (comparison.stopped || i + 1 == requests.size()) output.show_all();
         if (!comparison.stopped && i + 1 == requests.size())
-            note(manners, "written: " + options.folder);
+            print_note(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
-        for (const std::string& row : broken_rows(comparison)) broken.push_back(row);
+        for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
@@ -237,7 +242,7 @@ enum class StudyOption : std::uint8_t { number, flag };
 
 /// Adds the options of all studies whose option is of this kind. `options` must outlive the
 /// parsing.
-void add_studies(Verb& verb, CompareOptions& options, StudyOption kind) {
+void add_studies(CommandVerb& verb, CompareOptions& options, StudyOption kind) {
     for (const app::Study& study : app::studies()) {
         const std::string option = "--" + std::string(study.name), help(study.help);
         const auto choose = [&options, &study](int count) {
@@ -249,7 +254,7 @@ void add_studies(Verb& verb, CompareOptions& options, StudyOption kind) {
             continue;
         }
         verb.option(option, std::string(study.number), help, [=, &study](const std::string& text) {
-            const auto count = static_cast<int>(parse_whole(option, text, study.low, study.high));
+            const auto count = static_cast<int>(parse_integer(option, text, study.low, study.high));
             if (study.check_count != nullptr) study.check_count(option, count);
             choose(count);
         });
@@ -258,11 +263,11 @@ void add_studies(Verb& verb, CompareOptions& options, StudyOption kind) {
 
 } // namespace
 
-void add_compare(CommandLine& program, std::vector<std::string> command) {
+void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<CompareOptions>();
     options->command = std::move(command);
-    Verb& verb = program.add("compare",
-                             "compare techniques with the reference: time and error in one table");
+    CommandVerb& verb = program.add(
+        "compare", "compare techniques with the reference: time and error in one table");
     verb.examples(kCompareExamples);
     verb.arguments(
         "SCENE",
@@ -283,16 +288,16 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
                 "number of rounds, in each of which all rows are measured; from 6 to --frames (6)",
                 [options](const std::string& text) {
                     options->rounds = static_cast<int>(
-                        parse_whole("--rounds", text, app::kRounds, 10000));
+                        parse_integer("--rounds", text, app::kRounds, 10000));
                 });
     add_studies(verb, *options, StudyOption::flag);
-    add_common_without_scene(verb, options->common);
+    add_common_options_without_scene(verb, options->common);
     verb.option("--csv", "COLUMNS", "columns of rows.csv: table (as in the report) or all (table)",
                 [options](const std::string& text) {
-                    const bool all = parse_choice("--csv", text, {"table", "all"}) == 1;
+                    const bool all = parse_choice_index("--csv", text, {"table", "all"}) == 1;
                     options->csv = all ? report::CsvColumns::all : report::CsvColumns::table;
                 });
-    verb.does([options] { return run_compare(*options); });
+    verb.set_action([options] { return run_compare(*options); });
 }
 
 } // namespace catoptric::cli

@@ -31,13 +31,14 @@ per degree; if one of them is a PNG, both are rounded to 8 bits.
 Exit code 1 if a figure is over its threshold, or if a threshold is given and a pixel is not finite.)";
 
 struct DiffOptions {
-    Manners manners;
+    OutputOptions manners;
     std::string a, b, mask;
     double exposure = 0;
     std::optional<double> most_flip, most_rmse;
 };
 
-void judge(DiffFacts& facts, const char* option, double value, std::optional<double> most) {
+void check_threshold(DiffFacts& facts, const char* option, double value,
+                     std::optional<double> most) {
     if (!most) return;
     // NaN (no pixel to judge) exceeds every threshold.
     if (!(value <= *most))
@@ -46,7 +47,7 @@ void judge(DiffFacts& facts, const char* option, double value, std::optional<dou
 }
 
 DiffFacts compare_files(const DiffOptions& options) {
-    const measure::FileDifference found = measure::difference_of_files(
+    const measure::FileDifference found = measure::compare_picture_files(
         options.a, options.b, options.mask, options.exposure);
     DiffFacts facts{options.a,
                     options.b,
@@ -60,21 +61,21 @@ DiffFacts compare_files(const DiffOptions& options) {
                     found.a_clamped,
                     found.b_clamped,
                     {}};
-    judge(facts, "flip", facts.difference.flip, options.most_flip);
-    judge(facts, "rmse", facts.difference.rmse, options.most_rmse);
+    check_threshold(facts, "flip", facts.difference.flip, options.most_flip);
+    check_threshold(facts, "rmse", facts.difference.rmse, options.most_rmse);
     if ((options.most_flip || options.most_rmse) && facts.difference.nonfinite > 0)
         facts.over.push_back(fmt::format("{} pixels are not finite", facts.difference.nonfinite));
     return facts;
 }
 
-std::string mean_text(const char* name, const measure::Mean& mean, const measure::Mean& clamped) {
+std::string format_mean(const char* name, const measure::Mean& mean, const measure::Mean& clamped) {
     return fmt::format("mean {}  {:.6f} {:.6f} {:.6f}  clamped {:.6f} {:.6f} {:.6f}\n", name,
                        mean.rgb.x, mean.rgb.y, mean.rgb.z, clamped.rgb.x, clamped.rgb.y,
                        clamped.rgb.z);
 }
 
-std::string value_text(const measure::Value& value) {
-    if (measure::is_nothing(value)) return "none";
+std::string format_metric_value(const measure::MetricValue& value) {
+    if (measure::is_missing_value(value)) return "none";
     if (const auto* place = std::get_if<measure::PixelPosition>(&value))
         return fmt::format("({}, {})", place->x, place->y);
     const double number = std::get<double>(value);
@@ -82,31 +83,32 @@ std::string value_text(const measure::Value& value) {
                                         : fmt::format("{:.6f}", number);
 }
 
-std::string text_of(const DiffFacts& facts) {
+std::string format_diff_facts(const DiffFacts& facts) {
     std::string text;
-    for (const measure::Metric& quantity : measure::difference_metrics())
+    for (const measure::Metric& quantity : measure::list_difference_metrics())
         text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
-                            value_text(measure::value_of(quantity, facts.difference)),
+                            format_metric_value(measure::metric_value(quantity, facts.difference)),
                             quantity.unit.empty() ? "" : " ", quantity.unit);
-    return text + mean_text("A", facts.a_mean, facts.a_clamped) +
-           mean_text("B", facts.b_mean, facts.b_clamped);
+    return text + format_mean("A", facts.a_mean, facts.a_clamped) +
+           format_mean("B", facts.b_mean, facts.b_clamped);
 }
 
 int run_diff(const DiffOptions& options) {
     const DiffFacts facts = compare_files(options);
-    put(options.manners.json ? diff_json(facts) : text_of(facts));
-    check(facts.over.empty(), Failure::threshold, join(facts.over));
+    print_result(options.manners.json ? make_diff_json(facts) : format_diff_facts(facts));
+    check(facts.over.empty(), Failure::threshold, join_with_commas(facts.over));
     return 0;
 }
 
 } // namespace
 
-void add_diff(CommandLine& program) {
+void add_diff_verb(CommandLine& program) {
     const auto options = std::make_shared<DiffOptions>();
-    Verb& verb = program.add("diff", "compare two pictures");
+    CommandVerb& verb = program.add("diff", "compare two pictures");
     verb.examples(kDiffExamples);
-    verb.argument("A", "picture, .exr, .hdr or .png", options->a, Verb::Need::required);
-    verb.argument("B", "picture of the same size", options->b, Verb::Need::required);
+    verb.argument("A", "picture, .exr, .hdr or .png", options->a,
+                  CommandVerb::ArgumentNeed::required);
+    verb.argument("B", "picture of the same size", options->b, CommandVerb::ArgumentNeed::required);
     verb.option("--mask", "M", "PNG of the same size; only pixels that are not black count",
                 options->mask);
     verb.option("--max-flip", "X", "largest FLIP allowed; exit code 1 above it",
@@ -120,8 +122,8 @@ void add_diff(CommandLine& program) {
     verb.option("--exposure", "STOPS",
                 "exposure: light is multiplied by 2^STOPS before the comparison (0)",
                 [options](const std::string& text) { options->exposure = parse_stops(text); });
-    add_manners(verb, options->manners);
-    verb.does([options] { return run_diff(*options); });
+    add_output_options(verb, options->manners);
+    verb.set_action([options] { return run_diff(*options); });
 }
 
 } // namespace catoptric::cli

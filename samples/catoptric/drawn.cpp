@@ -7,7 +7,7 @@
 
 namespace catoptric::cli {
 
-void add_drawn(Verb& verb, Drawn& drawn) {
+void add_technique_options(CommandVerb& verb, TechniqueOption& drawn) {
     verb.option(
         "--technique", "T",
         "technique of all mirrors, name[:knob=value,...], see 'list techniques'; excludes --plan",
@@ -19,13 +19,13 @@ void add_drawn(Verb& verb, Drawn& drawn) {
         drawn.plan);
 }
 
-std::string checked(const Drawn& drawn, const std::string& verb) {
+std::string check_technique_choice(const TechniqueOption& drawn, const std::string& verb) {
     const auto& [technique, plan] = drawn;
     check(technique.empty() || plan.empty(), Failure::usage,
           "--technique and --plan: wanted one of them, found both");
     if (plan.empty()) {
-        require_given(!technique.empty(), verb, "--technique T",
-                      "see 'catoptric list techniques'; or --plan");
+        require_option(!technique.empty(), verb, "--technique T",
+                       "see 'catoptric list techniques'; or --plan");
         check(app::parse_technique(technique).technique != "plan", Failure::usage,
               "--technique: wanted one technique for all mirrors, found '", technique,
               "'; --plan takes several");

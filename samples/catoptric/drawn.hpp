@@ -7,16 +7,16 @@
 namespace catoptric::cli {
 
 /// The choice of techniques of a verb: one technique for all mirrors, or a plan.
-struct Drawn {
+struct TechniqueOption {
     std::string technique, plan;
 };
 
 /// Adds --technique and --plan. `drawn` must outlive the parsing.
-void add_drawn(Verb& verb, Drawn& drawn);
+void add_technique_options(CommandVerb& verb, TechniqueOption& drawn);
 
 /// Returns the technique or plan that was given, as app::FrameSpec::techniques takes it. Throws
 /// `usage` if none or both were given or the text is invalid, and as reading a plan's file does
 /// (session/plan_file.hpp).
-std::string checked(const Drawn& drawn, const std::string& verb);
+std::string check_technique_choice(const TechniqueOption& drawn, const std::string& verb);
 
 } // namespace catoptric::cli

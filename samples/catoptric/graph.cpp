@@ -30,14 +30,14 @@ passes with reasons, and the memory that images share. The frame follows another
 maps that are left out, with reasons, and the plan that suits the picture.)";
 
 struct GraphOptions {
-    Common common;
-    Drawn drawn;
+    CommonOptions common;
+    TechniqueOption drawn;
     std::string technique; ///< technique or plan, checked
     std::optional<app::PlanFormat> format;
     bool why = false;
 };
 
-app::PlanFormat format_of(const GraphOptions& options) {
+app::PlanFormat choose_plan_format(const GraphOptions& options) {
     const app::PlanFormat asked = options.common.manners.json ? app::PlanFormat::json
                                                               : app::PlanFormat::text;
     const app::PlanFormat format = options.format.value_or(asked);
@@ -48,66 +48,66 @@ app::PlanFormat format_of(const GraphOptions& options) {
     return format;
 }
 
-void put_why(const app::Request& request, app::PlanFormat format,
-             const std::optional<app::CaptureBudget>& slices) {
-    put(format == app::PlanFormat::json ? app::why_json(request, slices)
-                                        : app::why_text(request, slices));
+void print_culling_report(const app::Request& request, app::PlanFormat format,
+                          const std::optional<app::CaptureBudget>& slices) {
+    print_result(format == app::PlanFormat::json ? app::explain_culling_as_json(request, slices)
+                                                 : app::explain_culling_as_text(request, slices));
 }
 
 int run_graph(const GraphOptions& options) {
-    const app::PlanFormat format = format_of(options);
+    const app::PlanFormat format = choose_plan_format(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
     const bool is_limited = options.common.budget_ms > 0;
-    check_budget(options.common);
+    check_budget_option(options.common);
     check(!is_limited || options.why, Failure::usage,
           "--budget-ms: wanted --why, since the plan is that of a frame at rest");
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
-    check_apart({kStdout}, request.scene.files);
+    check_outputs_differ_from_inputs({kStdout}, request.scene.files);
     if (options.why && !is_limited) {
-        put_why(request, format, std::nullopt);
+        print_culling_report(request, format, std::nullopt);
         return 0;
     }
-    app::Engine engine(engine_options(options.common.device));
-    introduce(engine, options.common.manners);
+    app::Engine engine(make_engine_options(options.common.device));
+    print_device_and_warnings(engine, options.common.manners);
     if (options.why) {
-        request.model = app::Modelling::required;
-        put_why(request, format, app::measured_slices(engine, request));
+        request.model = app::RenderedWork::required;
+        print_culling_report(request, format, app::measure_capture_budget(engine, request));
         return 0;
     }
     app::Session session(engine, request.scene);
     std::string plan = app::Access::plan(session, request, format);
     if (!plan.ends_with('\n')) plan += '\n';
-    put(plan);
+    print_result(plan);
     if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 
 } // namespace
 
-void add_graph(CommandLine& program) {
+void add_graph_verb(CommandLine& program) {
     const auto options = std::make_shared<GraphOptions>();
-    Verb& verb = program.add("graph", "print the passes of a technique's frame");
+    CommandVerb& verb = program.add("graph", "print the passes of a technique's frame");
     verb.examples(kGraphExamples);
-    add_drawn(verb, options->drawn);
-    verb.option(
-        "--format", "F", "output format: text, dot or json (text)",
-        [options](const std::string& text) {
-            constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
-                                                    app::PlanFormat::json};
-            options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
-        });
+    add_technique_options(verb, options->drawn);
+    verb.option("--format", "F", "output format: text, dot or json (text)",
+                [options](const std::string& text) {
+                    constexpr app::PlanFormat kFormats[] = {
+                        app::PlanFormat::text, app::PlanFormat::dot, app::PlanFormat::json};
+                    options->format =
+                        kFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
+                });
     verb.flag("--why",
               "print what the picture requires and what is left out, with reasons, instead of the "
               "frame's passes; needs no device, except with --budget-ms",
               options->why);
-    add_budget(verb, options->common);
-    add_common(verb, options->common);
-    verb.does([options] {
+    add_budget_option(verb, options->common);
+    add_common_options(verb, options->common);
+    verb.set_action([options] {
         const bool is_given = !options->drawn.technique.empty() || !options->drawn.plan.empty();
         if (is_given || !options->why || options->common.budget_ms > 0)
-            options->technique = checked(options->drawn, "graph");
+            options->technique = check_technique_choice(options->drawn, "graph");
         return run_graph(*options);
     });
 }

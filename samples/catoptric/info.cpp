@@ -29,16 +29,17 @@ constexpr const char* kInfoExamples = R"(Examples:
   catoptric info room.glb
   catoptric info room.glb --mirror 'wall mirror' --write)";
 
-InfoFacts gather(const DeviceAsked& device) {
+InfoFacts gather_info_facts(const DeviceOptions& device) {
     InfoFacts facts;
     try {
-        app::EngineOptions options = engine_options(device);
+        app::EngineOptions options = make_engine_options(device);
         options.cache.clear(); // `info` compiles no shaders
         const app::Engine engine(options);
         facts.device = engine.device();
-        facts.lanes = app::lanes_of(engine);
-        if (const std::string text = app::width_warning(engine); !text.empty()) warn(text);
-        if (!facts.device->warning.empty()) warn(facts.device->warning);
+        facts.lanes = app::count_shader_lanes(engine);
+        if (const std::string text = app::warn_of_vector_width(engine); !text.empty())
+            print_warning(text);
+        if (!facts.device->warning.empty()) print_warning(facts.device->warning);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
         facts.why_no_device = error.what();
@@ -46,7 +47,7 @@ InfoFacts gather(const DeviceAsked& device) {
     std::vector<std::string> techniques, scenes;
     for (const app::TechniqueInfo& technique : app::techniques())
         techniques.push_back(technique.name);
-    for (const scene::BuiltIn& scene : scene::built_in_scenes()) scenes.push_back(scene.name);
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes()) scenes.push_back(scene.name);
     facts.features = {{"techniques", techniques},
                       {"scenes", scenes},
                       {"scene_files", {"glb", "gltf", "obj"}},
@@ -56,7 +57,7 @@ InfoFacts gather(const DeviceAsked& device) {
     return facts;
 }
 
-std::string text_of(const InfoFacts& facts) {
+std::string format_info_facts(const InfoFacts& facts) {
     std::string text = fmt::format("catoptric {} ({})\n", app::version(), app::commit());
     if (facts.device) {
         const app::DeviceInfo& device = *facts.device;
@@ -73,35 +74,36 @@ std::string text_of(const InfoFacts& facts) {
         text += fmt::format("{:<14} none: {}\n", "device", facts.why_no_device);
     }
     for (const auto& [group, names] : facts.features)
-        text += fmt::format("{:<14} {}\n", group, join(names));
+        text += fmt::format("{:<14} {}\n", group, join_with_commas(names));
     return text;
 }
 
 struct InfoOptions {
-    Common common; ///< without a scene, `info` describes the program
+    CommonOptions common; ///< without a scene, `info` describes the program
     bool writes = false, replaces = false;
 };
 
 /// Returns the exposure that the scene is shown with, in stops; none if no device can measure it.
 /// Moves the scene out of the request.
-std::optional<double> exposure_of(app::Request& request, const InfoOptions& options) {
+std::optional<double> find_shown_exposure(app::Request& request, const InfoOptions& options) {
     if (!request.auto_exposure) return request.exposure;
     constexpr std::size_t kMostTriangles =
         500'000; // building a BVH over more costs as much as a picture
     if (const std::size_t count = scene::triangle_count(request.scene); count > kMostTriangles) {
-        note(options.common.manners, fmt::format("exposure not told: wanted at most {} triangles, "
-                                                 "found {}; render chooses it",
-                                                 kMostTriangles, count));
+        print_note(options.common.manners,
+                   fmt::format("exposure not told: wanted at most {} triangles, "
+                               "found {}; render chooses it",
+                               kMostTriangles, count));
         return std::nullopt;
     }
     try {
-        app::Engine engine(engine_options(options.common.device));
-        introduce(engine, options.common.manners);
+        app::Engine engine(make_engine_options(options.common.device));
+        print_device_and_warnings(engine, options.common.manners);
         app::Session session(engine, std::move(request.scene));
-        return app::auto_exposure(session, request);
+        return app::measure_auto_exposure(session, request);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
-        note(options.common.manners, std::string("exposure not told: ") + error.what());
+        print_note(options.common.manners, std::string("exposure not told: ") + error.what());
         return std::nullopt;
     }
 }
@@ -112,8 +114,8 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
     const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
           "--write: wanted a scene's file, beside which to write, found the built-in ",
-          in_quotes(scene.name));
-    const std::filesystem::path path = scene::scene_file_of(options.common.scene);
+          quote_printable(scene.name));
+    const std::filesystem::path path = scene::scene_file_path(options.common.scene);
     std::error_code error;
     check(options.replaces ||
               !std::filesystem::exists(std::filesystem::symlink_status(path, error)),
@@ -123,53 +125,53 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
         overrides.environment = scene.environment && scene.environment->studio ? "studio" : "none";
     if (wanted.is_camera_seeded)
         overrides.camera = request.camera.name; // the name holds the camera's numbers
-    write_file(path, scene::scene_file_text(overrides, options.common.scene));
-    note(options.common.manners, "written: " + path.string());
+    write_file(path, scene::write_scene_file_text(overrides, options.common.scene));
+    print_note(options.common.manners, "written: " + path.string());
 }
 
-int about_scene(const InfoOptions& options) {
-    Asked asked = make_asked(options.common);
+int print_scene_info(const InfoOptions& options) {
+    ResolvedRequest asked = make_resolved_request(options.common);
     app::Request& request = asked.request;
     if (options.writes) write_scene_file(options, asked.wanted, request);
-    SceneWords words{.info = app::scene_info(request)};
+    SceneInfoFacts words{.info = app::make_scene_info(request)};
     words.warnings = request.scene.warnings;
     words.auto_exposure = request.auto_exposure;
-    words.exposure = exposure_of(request, options); // moves the scene away
+    words.exposure = find_shown_exposure(request, options); // moves the scene away
     words.ambient = request.ambient;
     if (asked.wanted.scene_file) words.scene_file = asked.wanted.scene_file->string();
-    put(options.common.manners.json ? scene_json(words) : scene_text(words));
+    print_result(options.common.manners.json ? make_scene_json(words) : format_scene_info(words));
     return 0;
 }
 
 int run_info(const InfoOptions& options) {
     check(options.writes || !options.replaces, Failure::usage, "--force: wanted --write beside it");
-    if (!options.common.scene.empty()) return about_scene(options);
+    if (!options.common.scene.empty()) return print_scene_info(options);
     check(!options.writes, Failure::usage, "--write: wanted a SCENE");
-    const InfoFacts facts = gather(options.common.device);
-    put(options.common.manners.json ? info_json(facts) : text_of(facts));
+    const InfoFacts facts = gather_info_facts(options.common.device);
+    print_result(options.common.manners.json ? make_info_json(facts) : format_info_facts(facts));
     return 0;
 }
 
 } // namespace
 
-void add_info(CommandLine& program) {
+void add_info_verb(CommandLine& program) {
     const auto options = std::make_shared<InfoOptions>();
     options->common.scene.clear();
-    Verb& verb = program.add("info",
-                             "print the contents of a scene, or version, device and features");
+    CommandVerb& verb = program.add(
+        "info", "print the contents of a scene, or version, device and features");
     verb.examples(kInfoExamples);
     verb.argument(
         "SCENE",
         "built-in scene or .glb, .gltf or .obj file; without SCENE: information on program and "
         "device",
-        options->common.scene, Verb::Need::optional);
+        options->common.scene, CommandVerb::ArgumentNeed::optional);
     verb.flag("--write", "store the given scene options in SCENE.catoptric.json", options->writes);
     verb.flag("--force", "let --write replace an existing file", options->replaces);
-    add_device(verb, options->common.device);
-    add_view(verb, options->common);
-    add_scene_overrides(verb, options->common);
-    add_manners(verb, options->common.manners);
-    verb.does([options] { return run_info(*options); });
+    add_device_options(verb, options->common.device);
+    add_view_options(verb, options->common);
+    add_scene_override_options(verb, options->common);
+    add_output_options(verb, options->common.manners);
+    verb.set_action([options] { return run_info(*options); });
 }
 
 } // namespace catoptric::cli

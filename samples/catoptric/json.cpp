@@ -19,14 +19,14 @@ namespace {
 
 using report::Json;
 
-std::string written(const Json& document) {
+std::string serialise_json(const Json& document) {
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 Json to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
 Json to_json(const app::DeviceInfo& device) {
-    Json row = report::device_json(app::facts_of(device));
+    Json row = report::make_device_json(app::make_device_facts(device));
     row["id"] = device.id;
     row["usable"] = device.missing.empty();
     if (!device.missing.empty()) row["missing"] = device.missing;
@@ -34,9 +34,9 @@ Json to_json(const app::DeviceInfo& device) {
 }
 
 /// Returns the times in the format of report.json.
-Json times_of(const app::Result& result, const app::DeviceInfo& device) {
+Json make_times_json(const app::RunResult& result, const app::DeviceInfo& device) {
     report::Row row;
-    app::fill_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
+    app::fill_row_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
     const std::vector<app::PassTime>& last = result.frames.back().passes;
     std::erase_if(row.passes,
                   [&](const report::PassFacts& pass) { // passes that only other frames had
@@ -45,7 +45,7 @@ Json times_of(const app::Result& result, const app::DeviceInfo& device) {
     return report::times_json(row);
 }
 
-Json left_out_json(const app::Part& part) {
+Json make_culled_work_json(const app::TechniqueResult& part) {
     Json list = Json::array();
     for (const auto& [what, why, saves, error] : part.left_out)
         list.push_back({{"what", what}, {"why", why}, {"saves", saves}, {"error", error}});
@@ -53,19 +53,19 @@ Json left_out_json(const app::Part& part) {
 }
 
 /// Returns how many captures a frame draws again, and how old their contents can be.
-Json slices_json(const std::optional<app::CaptureBudget>& slices, double budget_ms) {
+Json make_capture_budget_json(const std::optional<app::CaptureBudget>& slices, double budget_ms) {
     if (!slices) return nullptr;
     return {{"budget_ms", budget_ms},
             {"mirrors", slices->mirrors},
             {"most", slices->most},
             {"drawn", slices->drawn},
             {"waiting", slices->waiting},
-            {"oldest_frames", slices->round() - 1},
-            {"round_frames", slices->round()},
+            {"oldest_frames", slices->frames_per_update_cycle() - 1},
+            {"round_frames", slices->frames_per_update_cycle()},
             {"said", app::to_text(*slices)}};
 }
 
-Json settings_json(const std::vector<Setting>& list) {
+Json make_settings_json(const std::vector<Setting>& list) {
     Json settings = Json::object();
     for (const Setting& setting : list)
         settings[setting.name] = setting.number ? Json(std::stoll(setting.text))
@@ -74,38 +74,38 @@ Json settings_json(const std::vector<Setting>& list) {
 }
 
 /// Returns which direction is better, in one word; null if neither is.
-Json better_json(measure::Better better) {
+Json make_better_json(measure::BetterDirection better) {
     switch (better) {
-    case measure::Better::less: return "less";
-    case measure::Better::more: return "more";
-    case measure::Better::neither: break;
+    case measure::BetterDirection::less: return "less";
+    case measure::BetterDirection::more: return "more";
+    case measure::BetterDirection::neither: break;
     }
     return nullptr;
 }
 
 } // namespace
 
-std::string diff_json(const DiffFacts& facts) {
+std::string make_diff_json(const DiffFacts& facts) {
     Json document{{"schema", "catoptric/diff/1"}, {"a", facts.a}, {"b", facts.b}};
     document["mask"] = facts.mask.empty() ? Json() : Json(facts.mask);
     document["size"] = {facts.size.x, facts.size.y};
     document["exposure"] = facts.exposure;
     document["flip_source"] = facts.flip_source;
-    for (const measure::Metric& quantity : measure::difference_metrics())
+    for (const measure::Metric& quantity : measure::list_difference_metrics())
         document[std::string(quantity.name)] = report::value_json(
-            measure::value_of(quantity, facts.difference));
+            measure::metric_value(quantity, facts.difference));
     document["mean"] = {{"a", to_json(facts.a_mean.rgb)}, {"b", to_json(facts.b_mean.rgb)}};
     document["mean_clamped"] = {{"a", to_json(facts.a_clamped.rgb)},
                                 {"b", to_json(facts.b_clamped.rgb)}};
     document["over"] = facts.over;
-    return written(document);
+    return serialise_json(document);
 }
 
-std::string render_json(const app::Request& request, const app::DeviceInfo& device,
-                        const app::Result& result, const std::string& output) {
-    const app::Part& part = result.parts.front();
+std::string make_render_json(const app::Request& request, const app::DeviceInfo& device,
+                             const app::RunResult& result, const std::string& output) {
+    const app::TechniqueResult& part = result.parts.front();
     const app::TechniqueChoice choice = app::parse_technique(request.techniques.front());
-    using measure::Range;
+    using measure::ValueRange;
     Json document{
         {"schema", "catoptric/render/1"}, {"version", app::version()}, {"commit", app::commit()}};
     document["output"] = output;
@@ -118,19 +118,19 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["settled"] = request.until_settled ? Json(result.settled) : Json();
     document["time"] = request.time;
     document["exposure"] = request.exposure;
-    document["timing"] = request.timing == app::Timing::isolated ? "isolated" : "pipelined";
+    document["timing"] = request.timing == app::PassTimingMode::isolated ? "isolated" : "pipelined";
     document["technique"] = choice.technique;
     document["label"] = choice.label;
-    document["settings"] = settings_json(choice.settings);
+    document["settings"] = make_settings_json(choice.settings);
     document["plan"] = report::plan_json(part.plan);
     document["notes"] = part.notes;
     document["model"] = name_of(part.model);
-    document["left_out"] = left_out_json(part);
-    document["captures"] = slices_json(part.slices, request.budget_ms);
+    document["left_out"] = make_culled_work_json(part);
+    document["captures"] = make_capture_budget_json(part.slices, request.budget_ms);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // The frames of a still picture compile shaders at first use, so their times mean nothing.
-    const Json times = times_of(result, device);
+    const Json times = make_times_json(result, device);
     for (const auto& [name, value] : times.items())
         document[name] = request.until_settled ? Json() : value;
     document["memory_bytes"] = part.memory_bytes;
@@ -138,12 +138,12 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
         document["rays"] = {{"primary", part.rays->primary},
                             {"mirror", part.rays->mirror},
                             {"shadow", part.rays->shadow}};
-    document["mean"] = to_json(measure::mean_of(part.hdr, Range::unclamped).rgb);
-    document["mean_clamped"] = to_json(measure::mean_of(part.hdr, Range::clamped).rgb);
-    return written(document);
+    document["mean"] = to_json(measure::mean_of(part.hdr, ValueRange::unclamped).rgb);
+    document["mean_clamped"] = to_json(measure::mean_of(part.hdr, ValueRange::clamped).rgb);
+    return serialise_json(document);
 }
 
-std::string trace_json(const app::FrameTimes& frame, const std::string& process) {
+std::string make_trace_json(const app::FrameTimes& frame, const std::string& process) {
     Json events = Json::array();
     const auto name_of = [&](const char* what, const std::string& name) {
         events.push_back(
@@ -159,16 +159,16 @@ std::string trace_json(const app::FrameTimes& frame, const std::string& process)
                           {"dur", 1000 * pass.ms()},
                           {"pid", 1},
                           {"tid", 1}});
-    return written({{"traceEvents", events}, {"displayTimeUnit", "ms"}});
+    return serialise_json({{"traceEvents", events}, {"displayTimeUnit", "ms"}});
 }
 
-std::string devices_json(const std::vector<app::DeviceInfo>& devices) {
+std::string make_devices_json(const std::vector<app::DeviceInfo>& devices) {
     Json rows = Json::array();
     for (const app::DeviceInfo& device : devices) rows.push_back(to_json(device));
-    return written({{"schema", "catoptric/list/1"}, {"devices", rows}});
+    return serialise_json({{"schema", "catoptric/list/1"}, {"devices", rows}});
 }
 
-std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
+std::string make_techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
     Json rows = Json::array();
     for (const app::TechniqueInfo& technique : techniques) {
         Json knobs = Json::array();
@@ -185,27 +185,28 @@ std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
         rows.push_back(
             {{"name", technique.name}, {"summary", technique.summary}, {"knobs", knobs}});
     }
-    return written({{"schema", "catoptric/list/1"}, {"techniques", rows}});
+    return serialise_json({{"schema", "catoptric/list/1"}, {"techniques", rows}});
 }
 
-std::string named_json(const std::string& kind, const std::vector<Named>& named) {
+std::string make_named_list_json(const std::string& kind, const std::vector<NamedEntry>& named) {
     Json rows = Json::array();
-    for (const Named& row : named) rows.push_back({{"name", row.name}, {"summary", row.summary}});
-    return written({{"schema", "catoptric/list/1"}, {kind, rows}});
+    for (const NamedEntry& row : named)
+        rows.push_back({{"name", row.name}, {"summary", row.summary}});
+    return serialise_json({{"schema", "catoptric/list/1"}, {kind, rows}});
 }
 
-std::string metrics_json() {
+std::string make_metrics_json() {
     Json rows = Json::array();
-    for (const measure::Metric& quantity : measure::metrics())
+    for (const measure::Metric& quantity : measure::list_metrics())
         rows.push_back({{"name", quantity.name},
                         {"summary", quantity.help},
                         {"unit", quantity.unit},
                         {"mask", quantity.mask},
-                        {"better", better_json(quantity.better)}});
-    return written({{"schema", "catoptric/list/1"}, {"metrics", rows}});
+                        {"better", make_better_json(quantity.better)}});
+    return serialise_json({{"schema", "catoptric/list/1"}, {"metrics", rows}});
 }
 
-std::string info_json(const InfoFacts& facts) {
+std::string make_info_json(const InfoFacts& facts) {
     Json document{
         {"schema", "catoptric/info/1"}, {"version", app::version()}, {"commit", app::commit()}};
     document["device"] = facts.device ? to_json(*facts.device) : Json();
@@ -214,7 +215,7 @@ std::string info_json(const InfoFacts& facts) {
     Json features = Json::object();
     for (const auto& [group, names] : facts.features) features[group] = names;
     document["features"] = features;
-    return written(document);
+    return serialise_json(document);
 }
 
 } // namespace catoptric::cli

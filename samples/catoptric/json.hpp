@@ -21,25 +21,25 @@ struct DiffFacts {
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< quantities that exceed their threshold, in words
 };
-std::string diff_json(const DiffFacts& facts);
+std::string make_diff_json(const DiffFacts& facts);
 
-std::string render_json(const app::Request& request, const app::DeviceInfo& device,
-                        const app::Result& result, const std::string& output);
+std::string make_render_json(const app::Request& request, const app::DeviceInfo& device,
+                             const app::RunResult& result, const std::string& output);
 
 /// Returns the passes of one frame in Chrome's trace-event format (chrome://tracing, Perfetto).
-std::string trace_json(const app::FrameTimes& frame, const std::string& process);
+std::string make_trace_json(const app::FrameTimes& frame, const std::string& process);
 
-std::string devices_json(const std::vector<app::DeviceInfo>& devices);
-std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques);
+std::string make_devices_json(const std::vector<app::DeviceInfo>& devices);
+std::string make_techniques_json(const std::vector<app::TechniqueInfo>& techniques);
 
-struct Named {
+struct NamedEntry {
     std::string name, summary;
 };
 /// Returns {"schema": "catoptric/list/1", KIND: [{"name", "summary"}]}.
-std::string named_json(const std::string& kind, const std::vector<Named>& rows);
+std::string make_named_list_json(const std::string& kind, const std::vector<NamedEntry>& rows);
 
 /// Returns the table of metrics: {"name", "summary", "unit", "mask", "better"}.
-std::string metrics_json();
+std::string make_metrics_json();
 
 struct InfoFacts {
     std::optional<app::DeviceInfo> device;
@@ -48,10 +48,10 @@ struct InfoFacts {
     /// Name of each group of features, and its features.
     std::vector<std::pair<std::string, std::vector<std::string>>> features;
 };
-std::string info_json(const InfoFacts& facts);
+std::string make_info_json(const InfoFacts& facts);
 
 /// Facts that `info SCENE` reports.
-struct SceneWords {
+struct SceneInfoFacts {
     app::SceneInfo info;
     std::optional<double> exposure; ///< stops; none: unknown
     bool auto_exposure = false;
@@ -59,6 +59,6 @@ struct SceneWords {
     std::string scene_file; ///< scene file that was read; empty: none
     std::vector<std::string> warnings;
 };
-std::string scene_json(const SceneWords& words);
+std::string make_scene_json(const SceneInfoFacts& words);
 
 } // namespace catoptric::cli

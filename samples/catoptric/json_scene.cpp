@@ -12,46 +12,48 @@ namespace {
 
 using report::Json;
 
-Json colour_json(const vec3& colour) {
-    return {scene::as_typed(colour.x), scene::as_typed(colour.y), scene::as_typed(colour.z)};
+Json make_colour_json(const vec3& colour) {
+    return {scene::float_to_typed_double(colour.x), scene::float_to_typed_double(colour.y),
+            scene::float_to_typed_double(colour.z)};
 }
 
-Json material_json(const app::MaterialInfo& material) {
+Json make_material_json(const app::MaterialInfo& material) {
     Json json{{"name", material.name},
               {"kind", material.kind},
               {"objects", material.objects},
-              {"albedo", colour_json(material.albedo)}};
+              {"albedo", make_colour_json(material.albedo)}};
     for (std::size_t i = 0; i < material.factors.size(); ++i)
-        json[std::string(scene::kMaterialFactors[i].name)] = scene::as_typed(material.factors[i]);
-    json["f0"] = colour_json(material.f0);
-    json["light"] = material.light == vec3(0) ? Json() : colour_json(material.light);
+        json[std::string(scene::kMaterialFactors[i].name)] = scene::float_to_typed_double(
+            material.factors[i]);
+    json["f0"] = make_colour_json(material.f0);
+    json["light"] = material.light == vec3(0) ? Json() : make_colour_json(material.light);
     json["glows"] = material.glows, json["masked"] = material.is_masked;
     json["two_sided"] = material.is_two_sided, json["textures"] = material.textures;
     return json;
 }
 
-Json shape_json(const scene::Shape& shape) {
+Json make_shape_json(const scene::MirrorShape& shape) {
     Json json{{"kind", scene::name_of(shape.kind)}, {"closed", shape.is_closed}};
     json["sphere"] = nullptr;
     if (shape.fit)
         json["sphere"] = {{"centre", report::point_json(shape.fit->centre)},
-                          {"radius", report::number(shape.fit->radius)},
-                          {"tolerance", report::number(shape.tolerance)}};
+                          {"radius", report::number_json(shape.fit->radius)},
+                          {"tolerance", report::number_json(shape.tolerance)}};
     return json;
 }
 
-Json mirror_json(const app::MirrorInfo& mirror) {
+Json make_mirror_json(const app::MirrorInfo& mirror) {
     return {{"mirror", mirror.number},
             {"name", mirror.name},
-            {"shape", shape_json(mirror.shape)},
-            {"screen_share", report::number(mirror.screen_share)},
+            {"shape", make_shape_json(mirror.shape)},
+            {"screen_share", report::number_json(mirror.screen_share)},
             {"capture_centre", report::point_json(mirror.capture_centre)},
-            {"reflectance", colour_json(mirror.reflectance)},
+            {"reflectance", make_colour_json(mirror.reflectance)},
             {"constant", mirror.is_constant}};
 }
 
 template <typename List, typename ToJson>
-Json list_json(const List& list, ToJson&& to_json) {
+Json make_list_json(const List& list, ToJson&& to_json) {
     Json json = Json::array();
     for (const auto& item : list) json.push_back(to_json(item));
     return json;
@@ -59,7 +61,7 @@ Json list_json(const List& list, ToJson&& to_json) {
 
 } // namespace
 
-std::string scene_json(const SceneWords& words) {
+std::string make_scene_json(const SceneInfoFacts& words) {
     const app::SceneInfo& info = words.info;
     const report::SceneFacts& facts = info.facts;
     Json document{
@@ -75,15 +77,15 @@ std::string scene_json(const SceneWords& words) {
     document["bytes"] = {{"geometry", info.geometry_bytes},
                          {"images", info.image_bytes},
                          {"files", info.file_bytes}};
-    document["materials"] = list_json(info.materials, material_json);
-    document["mirrors"] = list_json(info.mirrors, mirror_json);
+    document["materials"] = make_list_json(info.materials, make_material_json);
+    document["mirrors"] = make_list_json(info.mirrors, make_mirror_json);
     document["mirror_options"] = info.mirror_options;
     document["lights"] = report::lights_json(facts.lights);
     document["environment"] = report::environment_json(facts.environment);
-    document["cameras"] = list_json(info.cameras, report::camera_json);
+    document["cameras"] = make_list_json(info.cameras, report::camera_json);
     document["camera"] = report::camera_json(facts.camera);
-    document["ambient"] = report::number(words.ambient);
-    document["exposure"] = words.exposure ? report::number(*words.exposure) : Json();
+    document["ambient"] = report::number_json(words.ambient);
+    document["exposure"] = words.exposure ? report::number_json(*words.exposure) : Json();
     document["auto_exposure"] = words.auto_exposure;
     document["gaps"] = report::unsupported_json(facts.unsupported);
     document["warnings"] = words.warnings;

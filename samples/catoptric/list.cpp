@@ -26,7 +26,7 @@ constexpr const char* kListExamples = R"(Examples:
 
 const std::vector<std::string> kKinds{"techniques", "scenes", "devices", "metrics"};
 
-std::string knob_text(const app::KnobInfo& knob) {
+std::string describe_knob(const app::KnobInfo& knob) {
     const std::string range = knob.choices.empty()
                                   ? fmt::format("{:.0f} to {:.0f}{}", knob.low, knob.high,
                                                 knob.special.empty() ? "" : " or " + knob.special)
@@ -37,43 +37,44 @@ std::string knob_text(const app::KnobInfo& knob) {
 constexpr const char* kAutoSummary =
     "Chooses a technique for each mirror from what the picture shows, and gives the reasons.";
 
-std::string technique_line(const std::string& name, const std::string& summary) {
+std::string format_technique_line(const std::string& name, const std::string& summary) {
     return fmt::format("{:<12} {}\n", name, summary);
 }
 
 /// Returns one line per technique.
-std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
+std::string format_technique_list(const std::vector<app::TechniqueInfo>& techniques) {
     std::string text;
     for (const app::TechniqueInfo& technique : techniques)
-        text += technique_line(technique.name, technique.summary);
-    return text + technique_line("auto", kAutoSummary) +
+        text += format_technique_line(technique.name, technique.summary);
+    return text + format_technique_line("auto", kAutoSummary) +
            "\nKnobs of a technique: catoptric list techniques NAME\n";
 }
 
 /// Returns the text of one technique with its knobs.
-std::string technique_text(const app::TechniqueInfo& technique) {
-    std::string text = technique_line(technique.name, technique.summary);
-    for (const app::KnobInfo& knob : technique.knobs) text += knob_text(knob);
+std::string describe_technique(const app::TechniqueInfo& technique) {
+    std::string text = format_technique_line(technique.name, technique.summary);
+    for (const app::KnobInfo& knob : technique.knobs) text += describe_knob(knob);
     return text;
 }
 
 /// Returns only the technique of this name. Throws `usage` for an unknown name, with the nearest.
-std::vector<app::TechniqueInfo> only(std::vector<app::TechniqueInfo> techniques,
-                                     const std::string& name) {
+std::vector<app::TechniqueInfo> keep_named_technique(std::vector<app::TechniqueInfo> techniques,
+                                                     const std::string& name) {
     if (name == "auto") return {{.name = "auto", .summary = kAutoSummary}};
     std::vector<std::string> names;
     for (const app::TechniqueInfo& technique : techniques) names.push_back(technique.name);
-    return {techniques[parse_choice("list techniques", name, names)]};
+    return {techniques[parse_choice_index("list techniques", name, names)]};
 }
 
-std::string techniques_listing(const std::string& name, bool json) {
+std::string list_techniques_as(const std::string& name, bool json) {
     std::vector<app::TechniqueInfo> techniques = app::techniques();
-    if (!name.empty()) techniques = only(std::move(techniques), name);
-    if (json) return techniques_json(techniques);
-    return name.empty() ? techniques_text(techniques) : technique_text(techniques.front());
+    if (!name.empty()) techniques = keep_named_technique(std::move(techniques), name);
+    if (json) return make_techniques_json(techniques);
+    return name.empty() ? format_technique_list(techniques)
+                        : describe_technique(techniques.front());
 }
 
-std::string devices_text(const std::vector<app::DeviceInfo>& devices) {
+std::string format_device_list(const std::vector<app::DeviceInfo>& devices) {
     std::string text;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const app::DeviceInfo& device = devices[i];
@@ -85,72 +86,74 @@ std::string devices_text(const std::vector<app::DeviceInfo>& devices) {
     return text;
 }
 
-std::string named_text(const std::vector<Named>& rows) {
+std::string format_named_list(const std::vector<NamedEntry>& rows) {
     std::string text;
-    for (const Named& row : rows) text += fmt::format("{:<24} {}\n", row.name, row.summary);
+    for (const NamedEntry& row : rows) text += fmt::format("{:<24} {}\n", row.name, row.summary);
     return text;
 }
 
-std::vector<Named> scenes() {
-    std::vector<Named> rows;
-    for (const scene::BuiltIn& scene : scene::built_in_scenes())
+std::vector<NamedEntry> list_built_in_scenes() {
+    std::vector<NamedEntry> rows;
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes())
         rows.push_back({scene.name, scene.summary});
     return rows;
 }
 
 /// Returns unit, pixels and better direction of a metric, as far as they exist.
-std::string facts_of(const measure::Metric& quantity) {
+std::string describe_metric(const measure::Metric& quantity) {
     std::vector<std::string> facts;
     if (!quantity.unit.empty()) facts.emplace_back(quantity.unit);
     if (quantity.mask == "each")
         facts.emplace_back("over each mask and mirror");
     else if (!quantity.mask.empty())
         facts.push_back("over " + std::string(quantity.mask));
-    if (quantity.better != measure::Better::neither)
-        facts.emplace_back(quantity.better == measure::Better::less ? "less is better"
-                                                                    : "more is better");
-    return facts.empty() ? "" : " (" + join(facts) + ")";
+    if (quantity.better != measure::BetterDirection::neither)
+        facts.emplace_back(quantity.better == measure::BetterDirection::less ? "less is better"
+                                                                             : "more is better");
+    return facts.empty() ? "" : " (" + join_with_commas(facts) + ")";
 }
 
-std::string metrics_text() {
+std::string format_metric_list() {
     std::string text;
-    for (const measure::Metric& quantity : measure::metrics())
-        text += fmt::format("{:<32} {}{}\n", quantity.name, quantity.help, facts_of(quantity));
+    for (const measure::Metric& quantity : measure::list_metrics())
+        text += fmt::format("{:<32} {}{}\n", quantity.name, quantity.help,
+                            describe_metric(quantity));
     return text;
 }
 
-std::string listing(const std::string& kind, const std::string& name, bool json) {
+std::string make_listing(const std::string& kind, const std::string& name, bool json) {
     check(name.empty() || kind == "techniques", Failure::usage, "'list ", kind,
           "' wanted no further argument, found '", name, "'");
-    if (kind == "techniques") return techniques_listing(name, json);
+    if (kind == "techniques") return list_techniques_as(name, json);
     if (kind == "devices") {
         const std::vector<app::DeviceInfo> devices = app::devices(app::profile_folder());
         for (const app::DeviceInfo& device : devices)
-            if (!device.warning.empty()) warn(device.warning);
-        return json ? devices_json(devices) : devices_text(devices);
+            if (!device.warning.empty()) print_warning(device.warning);
+        return json ? make_devices_json(devices) : format_device_list(devices);
     }
-    if (kind == "metrics") return json ? metrics_json() : metrics_text();
-    return json ? named_json(kind, scenes()) : named_text(scenes());
+    if (kind == "metrics") return json ? make_metrics_json() : format_metric_list();
+    return json ? make_named_list_json(kind, list_built_in_scenes())
+                : format_named_list(list_built_in_scenes());
 }
 
 } // namespace
 
-void add_list(CommandLine& program) {
+void add_list_verb(CommandLine& program) {
     struct ListOptions {
-        Manners manners;
+        OutputOptions manners;
         std::string kind, name;
     };
     const auto options = std::make_shared<ListOptions>();
-    Verb& verb = program.add("list", "techniques, scenes, devices or metrics");
+    CommandVerb& verb = program.add("list", "techniques, scenes, devices or metrics");
     verb.examples(kListExamples);
     verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
-                  Verb::Need::required);
+                  CommandVerb::ArgumentNeed::required);
     verb.argument("NAME", "name of a technique, to list its knobs", options->name,
-                  Verb::Need::optional);
-    add_manners(verb, options->manners);
-    verb.does([options] {
-        parse_choice("list", options->kind, kKinds);
-        put(listing(options->kind, options->name, options->manners.json));
+                  CommandVerb::ArgumentNeed::optional);
+    add_output_options(verb, options->manners);
+    verb.set_action([options] {
+        parse_choice_index("list", options->kind, kKinds);
+        print_result(make_listing(options->kind, options->name, options->manners.json));
         return 0;
     });
 }

@@ -18,7 +18,9 @@ void return_freed_memory() {
 }
 
 /// Runs before all constructors of the program. In `main`, signals would be handled too late.
-[[gnu::constructor(101)]] void begin() { catoptric::cli::answer_signals("catoptric"); }
+[[gnu::constructor(101)]] void run_before_constructors() {
+    catoptric::cli::exit_on_signals("catoptric");
+}
 
 } // namespace
 

@@ -23,16 +23,18 @@ namespace {
 
 constexpr std::int64_t kMostFrames = 1'000'000;
 
-void add_numbers(Verb& verb, Common& common) {
+void add_number_options(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kMeasuringOptions);
     verb.option("--frames", "N", "number of measured frames, at least 1 (20)",
                 [&](const std::string& text) {
-                    common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
+                    common.frames = static_cast<int>(
+                        parse_integer("--frames", text, 1, kMostFrames));
                 });
     verb.option("--warmup", "N",
                 "frames before the measured ones (8; 28 with compare --model required or both)",
                 [&](const std::string& text) {
-                    common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
+                    common.warmup = static_cast<int>(
+                        parse_integer("--warmup", text, 0, kMostFrames));
                 });
     verb.flag(
         "--animate",
@@ -40,17 +42,18 @@ void add_numbers(Verb& verb, Common& common) {
         common.animate);
 }
 
-void take_model(const std::string& text, Common& common) {
-    const std::size_t choice = parse_choice("--model", text, {"everything", "required", "both"});
+void parse_model_option(const std::string& text, CommonOptions& common) {
+    const std::size_t choice = parse_choice_index("--model", text,
+                                                  {"everything", "required", "both"});
     common.both_models = choice == 2;
-    common.model = choice == 1 ? app::Modelling::required : app::Modelling::everything;
+    common.model = choice == 1 ? app::RenderedWork::required : app::RenderedWork::everything;
 }
 
-void add_choices(Verb& verb, Common& common) {
+void add_choice_options(CommandVerb& verb, CommonOptions& common) {
     verb.option("--model", "M",
                 "everything: draw all captures in each frame; required: draw only what the picture "
                 "requires (default of render); both: compare shows both (everything)",
-                [&](const std::string& text) { take_model(text, common); });
+                [&](const std::string& text) { parse_model_option(text, common); });
     verb.option("--reference", "T",
                 "technique of the reference picture of compare (raytrace:depth=16)",
                 [&](const std::string& text) {
@@ -64,41 +67,44 @@ void add_choices(Verb& verb, Common& common) {
         "isolated: passes run one after the other, so their times add up; pipelined: passes may "
         "overlap (isolated)",
         [&](const std::string& text) {
-            const bool isolated = parse_choice("--timing", text, {"isolated", "pipelined"}) == 0;
-            common.timing = isolated ? app::Timing::isolated : app::Timing::pipelined;
+            const bool isolated = parse_choice_index("--timing", text, {"isolated", "pipelined"}) ==
+                                  0;
+            common.timing = isolated ? app::PassTimingMode::isolated
+                                     : app::PassTimingMode::pipelined;
         });
 }
 
-scene::Camera choose_camera(const Common& common, app::ResolvedScene& wanted) {
+scene::Camera choose_camera(const CommonOptions& common, app::ResolvedScene& wanted) {
     if (wanted.is_camera_seeded) {
-        scene::Camera camera = app::seeded_camera(wanted.scene, common.time, common.seed);
-        note(common.manners,
-             "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
+        scene::Camera camera = app::make_seeded_camera(wanted.scene, common.time, common.seed);
+        print_note(common.manners,
+                   "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
         return camera;
     }
-    return app::camera_of(wanted, double(common.size.x) / double(common.size.y));
+    return app::choose_camera(wanted, double(common.size.x) / double(common.size.y));
 }
 
 /// Warns of a scene without a mirror, with options that add one.
 void warn_of_no_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
-    const std::vector<std::string> options = app::mirror_options(scene, 1);
-    warn("scene " + in_quotes(scene.name) + " has no mirror" +
-         (options.empty() ? "" : "; try " + options.front()));
+    const std::vector<std::string> options = app::suggest_mirror_options(scene, 1);
+    print_warning("scene " + quote_printable(scene.name) + " has no mirror" +
+                  (options.empty() ? "" : "; try " + options.front()));
 }
 
 } // namespace
 
-scene::FileOptions load_options(const Common& common) {
+scene::FileOptions load_options(const CommonOptions& common) {
     return {.root = common.root,
-            .budget = scene::budget_for(common.scene, common.budget, scene::free_memory())};
+            .budget = scene::choose_load_budget(common.scene, common.budget,
+                                                scene::read_free_memory())};
 }
 
 double parse_stops(const std::string& text) {
     return parse_real("--exposure", text, -scene::kMostStops, scene::kMostStops);
 }
 
-void add_manners(Verb& verb, Manners& manners) {
+void add_output_options(CommandVerb& verb, OutputOptions& manners) {
     verb.heading("Output");
     verb.flag("--json", "print one JSON document on stdout instead of text", manners.json);
     verb.flag("-q,--quiet", "print no progress and no information on stderr", manners.quiet);
@@ -107,11 +113,11 @@ void add_manners(Verb& verb, Manners& manners) {
                 "when to show progress: auto (on a terminal), always or never (auto)",
                 [&](const std::string& text) {
                     manners.progress = static_cast<ProgressMode>(
-                        parse_choice("--progress", text, {"auto", "always", "never"}));
+                        parse_choice_index("--progress", text, {"auto", "always", "never"}));
                 });
 }
 
-void add_device(Verb& verb, DeviceAsked& device) {
+void add_device_options(CommandVerb& verb, DeviceOptions& device) {
     verb.heading(kDeviceOptions);
     verb.option(
         "--device", "D",
@@ -124,24 +130,24 @@ void add_device(Verb& verb, DeviceAsked& device) {
         device.profile);
 }
 
-void add_validate(Verb& verb, DeviceAsked& device) {
+void add_validate_option(CommandVerb& verb, DeviceOptions& device) {
     verb.heading(kDeviceOptions);
     verb.flag("--validate", "run with the Vulkan validation layer; any message fails the run",
               device.validate);
 }
 
-void add_view(Verb& verb, Common& common) {
+void add_view_options(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kCommonOptions);
     verb.option("--size", "WxH", "size of the picture in pixels (512x512)",
                 [&](const std::string& text) { common.size = parse_size("--size", text); });
-    add_camera(verb, common);
+    add_camera_options(verb, common);
     verb.option("--time", "SECONDS", "instant of the scene's motion (0)",
                 [&](const std::string& text) { common.time = parse_real("--time", text); });
     verb.option("--seed", "N", "seed of --camera seeded, --views and irregular sample patterns (1)",
                 [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
 }
 
-void add_budget(Verb& verb, Common& common) {
+void add_budget_option(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kMeasuringOptions);
     verb.option(
         "--budget-ms", "MS",
@@ -154,45 +160,46 @@ void add_budget(Verb& verb, Common& common) {
         });
 }
 
-void check_budget(const Common& common) {
-    check(common.budget_ms == 0 || common.model != app::Modelling::everything, Failure::usage,
+void check_budget_option(const CommonOptions& common) {
+    check(common.budget_ms == 0 || common.model != app::RenderedWork::everything, Failure::usage,
           "--budget-ms and --model everything: wanted --model required, which keeps captures");
 }
 
-void add_common_without_scene(Verb& verb, Common& common) {
-    add_view(verb, common);
-    add_numbers(verb, common);
-    add_choices(verb, common);
-    add_scene_overrides(verb, common);
-    add_device(verb, common.device);
-    add_validate(verb, common.device);
-    add_manners(verb, common.manners);
+void add_common_options_without_scene(CommandVerb& verb, CommonOptions& common) {
+    add_view_options(verb, common);
+    add_number_options(verb, common);
+    add_choice_options(verb, common);
+    add_scene_override_options(verb, common);
+    add_device_options(verb, common.device);
+    add_validate_option(verb, common.device);
+    add_output_options(verb, common.manners);
 }
 
-void add_common(Verb& verb, Common& common) {
+void add_common_options(CommandVerb& verb, CommonOptions& common) {
     verb.argument(
         "SCENE", "built-in scene (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)",
-        common.scene, Verb::Need::optional);
-    add_common_without_scene(verb, common);
+        common.scene, CommandVerb::ArgumentNeed::optional);
+    add_common_options_without_scene(verb, common);
 }
 
-void require_given(bool given, const std::string& verb, const std::string& option,
-                   const std::string& what) {
+void require_option(bool given, const std::string& verb, const std::string& option,
+                    const std::string& what) {
     check(given, Failure::usage, "'", verb, "' needs ", option, ": ", what);
 }
 
-void check_no_scene(const std::vector<std::string>& techniques) {
+void check_techniques_hold_no_scene(const std::vector<std::string>& techniques) {
     for (const std::string& text : techniques) {
         bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
-        for (const scene::BuiltIn& built_in : scene::built_in_scenes())
+        for (const scene::BuiltInScene& built_in : scene::built_in_scenes())
             scene |= built_in.name == text;
         check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
               "'; SCENE comes before --techniques");
     }
 }
 
-Asked make_asked(const Common& common, const std::function<void(const scene::Scene&)>& check) {
-    Asked asked;
+ResolvedRequest make_resolved_request(const CommonOptions& common,
+                                      const std::function<void(const scene::Scene&)>& check) {
+    ResolvedRequest asked;
     app::Request& request = asked.request;
     request.seed = common.seed;
     double load_ms = 0;
@@ -204,17 +211,17 @@ Asked make_asked(const Common& common, const std::function<void(const scene::Sce
     }
     request.load_ms = load_ms;
     if (check) check(asked.wanted.scene);
-    for (const std::string& warning : asked.wanted.scene.warnings) warn(warning);
+    for (const std::string& warning : asked.wanted.scene.warnings) print_warning(warning);
     request.camera = choose_camera(common, asked.wanted);
-    for (const std::string& sentence : asked.wanted.said) note(common.manners, sentence);
+    for (const std::string& sentence : asked.wanted.said) print_note(common.manners, sentence);
     if (!check) warn_of_no_mirror(asked.wanted.scene);
     request.size = common.size;
     request.frames = common.frames.value_or(request.frames);
     request.warmup = common.warmup.value_or(request.warmup);
     request.time = common.time;
     request.animate = common.animate;
-    request.ambient = app::ambient_of(asked.wanted);
-    const std::optional<double> exposure = app::exposure_of(asked.wanted);
+    request.ambient = app::choose_ambient_light(asked.wanted);
+    const std::optional<double> exposure = app::find_exposure(asked.wanted);
     request.exposure = exposure.value_or(0);
     request.auto_exposure = !exposure;
     request.timing = common.timing;
@@ -224,12 +231,12 @@ Asked make_asked(const Common& common, const std::function<void(const scene::Sce
     return asked;
 }
 
-app::Request make_request(const Common& common,
+app::Request make_request(const CommonOptions& common,
                           const std::function<void(const scene::Scene&)>& check) {
-    return make_asked(common, check).request;
+    return make_resolved_request(common, check).request;
 }
 
-app::EngineOptions engine_options(const DeviceAsked& device) {
+app::EngineOptions make_engine_options(const DeviceOptions& device) {
     const bool by_default = device.profile == kNoProfile;
     return {.device = device.name,
             .validate = device.validate,
@@ -238,11 +245,12 @@ app::EngineOptions engine_options(const DeviceAsked& device) {
             .cache = app::cache_folder()};
 }
 
-void introduce(const app::Engine& engine, const Manners& manners) {
-    detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
-    if (!engine.warning().empty()) warn(engine.warning());
-    if (const std::string text = app::width_warning(engine); !text.empty()) warn(text);
-    if (!engine.device().warning.empty()) warn(engine.device().warning);
+void print_device_and_warnings(const app::Engine& engine, const OutputOptions& manners) {
+    print_detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    if (!engine.warning().empty()) print_warning(engine.warning());
+    if (const std::string text = app::warn_of_vector_width(engine); !text.empty())
+        print_warning(text);
+    if (!engine.device().warning.empty()) print_warning(engine.device().warning);
 }
 
 } // namespace catoptric::cli

@@ -17,7 +17,7 @@
 namespace catoptric::cli {
 
 /// The device to open, and how to open it.
-struct DeviceAsked {
+struct DeviceOptions {
     std::string name;      ///< index or part of a name; empty: the fastest kind of device
     std::string profile;   ///< a file, or kNoProfile; empty: the user's profile, if any
     bool validate = false; ///< opens the device with the validation layer
@@ -26,8 +26,8 @@ struct DeviceAsked {
 inline constexpr const char* kNoProfile = "none";
 
 /// The options that all rendering verbs share. The help states the same defaults.
-struct Common {
-    Manners manners;
+struct CommonOptions {
+    OutputOptions manners;
     std::string scene = "cornell-mirrors";
     scene::BudgetOverride budget; ///< limits for loading the scene
     std::string root; ///< folder in which files of the scene may lie as well; empty: none
@@ -41,11 +41,11 @@ struct Common {
         overrides; ///< scene overrides: mirrors, lights, environment, camera, exposure ...
     bool use_scene_file = true;
     std::string reference = "raytrace:depth=16";
-    DeviceAsked device;
-    std::optional<app::Modelling> model; ///< none: default of the verb
-    bool both_models = false;            ///< `compare` only: measures each row with both models
-    double budget_ms = 0;                ///< time for captures per frame, milliseconds; 0: no limit
-    app::Timing timing = app::Timing::isolated;
+    DeviceOptions device;
+    std::optional<app::RenderedWork> model; ///< none: default of the verb
+    bool both_models = false;               ///< `compare` only: measures each row with both models
+    double budget_ms = 0; ///< time for captures per frame, milliseconds; 0: no limit
+    app::PassTimingMode timing = app::PassTimingMode::isolated;
 };
 
 /// Headings of the help, after kCommonOptions.
@@ -53,53 +53,54 @@ inline constexpr const char* kMeasuringOptions = "Frames, times and errors";
 inline constexpr const char* kDeviceOptions = "Device";
 
 /// Adds --json, --quiet, -v and --progress.
-void add_manners(Verb& verb, Manners& manners);
-/// Adds SCENE, all common options, and the options of `add_manners`. `common` must outlive the
-/// parsing.
-void add_common(Verb& verb, Common& common);
-/// Adds all common options without SCENE, and the options of `add_manners`.
-void add_common_without_scene(Verb& verb, Common& common);
+void add_output_options(CommandVerb& verb, OutputOptions& manners);
+/// Adds SCENE, all common options, and the options of `add_output_options`. `common` must outlive
+/// the parsing.
+void add_common_options(CommandVerb& verb, CommonOptions& common);
+/// Adds all common options without SCENE, and the options of `add_output_options`.
+void add_common_options_without_scene(CommandVerb& verb, CommonOptions& common);
 /// Adds the scene overrides under their own heading: --root to --no-scene-file.
-void add_scene_overrides(Verb& verb, Common& common);
+void add_scene_override_options(CommandVerb& verb, CommonOptions& common);
 /// Adds --device and --device-profile. `device` must outlive the parsing.
-void add_device(Verb& verb, DeviceAsked& device);
+void add_device_options(CommandVerb& verb, DeviceOptions& device);
 /// Adds --validate.
-void add_validate(Verb& verb, DeviceAsked& device);
+void add_validate_option(CommandVerb& verb, DeviceOptions& device);
 /// Adds --size, --camera, --exposure, --time and --seed.
-void add_view(Verb& verb, Common& common);
+void add_view_options(CommandVerb& verb, CommonOptions& common);
 /// Adds --camera and --exposure.
-void add_camera(Verb& verb, Common& common);
+void add_camera_options(CommandVerb& verb, CommonOptions& common);
 /// Returns the options for loading the scene.
-scene::FileOptions load_options(const Common& common);
+scene::FileOptions load_options(const CommonOptions& common);
 /// Returns an exposure in stops, from -64 to 64. Throws `usage` for other text.
 double parse_stops(const std::string& text);
 
 /// Adds --budget-ms.
-void add_budget(Verb& verb, Common& common);
+void add_budget_option(CommandVerb& verb, CommonOptions& common);
 /// Throws `usage` for a capture budget with --model everything, which draws all captures.
-void check_budget(const Common& common);
+void check_budget_option(const CommonOptions& common);
 
 /// Throws `usage` with the message that `verb` needs `option`, unless `given`.
-void require_given(bool given, const std::string& verb, const std::string& option,
-                   const std::string& what);
+void require_option(bool given, const std::string& verb, const std::string& option,
+                    const std::string& what);
 
 /// Throws `usage` if the list of --techniques contains a scene. The option takes all words that
 /// follow it.
-void check_no_scene(const std::vector<std::string>& techniques);
+void check_techniques_hold_no_scene(const std::vector<std::string>& techniques);
 
 /// Returns the request to the engine, without techniques: scene, camera and numbers. Messages of
 /// the loader and additions to the scene go to stderr. `check`, if given, may refuse the scene
 /// before any other message. Without it, a scene without a mirror causes a warning.
-app::Request make_request(const Common& common,
+app::Request make_request(const CommonOptions& common,
                           const std::function<void(const scene::Scene&)>& check = {});
 /// A request, with the resolved scene from which it was made.
-struct Asked {
+struct ResolvedRequest {
     app::Request request;
     app::ResolvedScene wanted; ///< without its scene, which is in `request`
 };
-Asked make_asked(const Common& common, const std::function<void(const scene::Scene&)>& check = {});
-app::EngineOptions engine_options(const DeviceAsked& device);
+ResolvedRequest make_resolved_request(const CommonOptions& common,
+                                      const std::function<void(const scene::Scene&)>& check = {});
+app::EngineOptions make_engine_options(const DeviceOptions& device);
 /// Prints the device and the engine's warnings to stderr.
-void introduce(const app::Engine& engine, const Manners& manners);
+void print_device_and_warnings(const app::Engine& engine, const OutputOptions& manners);
 
 } // namespace catoptric::cli

@@ -20,18 +20,18 @@ namespace {
 
 /// Returns the printable form of `text`, which may quote a file or a name. Our own further lines
 /// are indented. Therefore a quoted name cannot start a line that looks like a message.
-std::string message_text(std::string_view text) {
+std::string make_printable(std::string_view text) {
     std::string shown;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find("\n  ", begin), text.size());
-        shown += printable(text.substr(begin, end - begin));
+        shown += escape_control_characters(text.substr(begin, end - begin));
         if (end < text.size()) shown += "\n";
         begin = end + 1;
     }
     return shown;
 }
 
-void write_all(std::string_view bytes) {
+void write_all_to_stdout(std::string_view bytes) {
     errno = 0;
     const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stdout);
     if (written == bytes.size() && std::fflush(stdout) == 0) return;
@@ -41,7 +41,7 @@ void write_all(std::string_view bytes) {
          " bytes: ", std::generic_category().message(error));
 }
 
-void check_writable(const fs::path& folder, const fs::path& path) {
+void check_folder_is_writable(const fs::path& folder, const fs::path& path) {
     const bool writable = ::access(folder.c_str(), W_OK | X_OK) == 0;
     const int error = errno; // saved before any other call
     check(writable, Failure::cannot_create, path.string(), ": cannot be created in ",
@@ -49,17 +49,17 @@ void check_writable(const fs::path& folder, const fs::path& path) {
 }
 
 /// Returns the folder that a new entry `path` would lie in.
-fs::path parent_of(const fs::path& path) {
+fs::path parent_folder(const fs::path& path) {
     const fs::path named = path.has_filename() ? path : path.parent_path(); // "out/" means "out"
     return named.has_parent_path() ? named.parent_path() : fs::path(".");
 }
 
-void check_parent(const fs::path& path) {
+void check_parent_folder(const fs::path& path) {
     std::error_code error;
-    const fs::path parent = parent_of(path);
+    const fs::path parent = parent_folder(path);
     check(fs::is_directory(parent, error), Failure::cannot_create, path.string(),
           ": cannot be created: there is no folder ", parent.string());
-    check_writable(parent, path);
+    check_folder_is_writable(parent, path);
 }
 
 } // namespace
@@ -76,24 +76,26 @@ void prepare_streams() {
     }
 }
 
-void put(std::string_view result) { write_all(printable(result, "\n")); }
+void print_result(std::string_view result) {
+    write_all_to_stdout(escape_control_characters(result, "\n"));
+}
 
-void put_bytes(std::string_view result) { write_all(result); }
+void print_bytes(std::string_view result) { write_all_to_stdout(result); }
 
-void say(const std::string& text) {
-    const std::string whole = message_text(text) + "\n";
+void print_message(const std::string& text) {
+    const std::string whole = make_printable(text) + "\n";
     std::fwrite(whole.data(), 1, whole.size(), stderr); // a failure here cannot be reported
 }
 
-void note(const Manners& manners, const std::string& text) {
-    if (!manners.quiet) say(text);
+void print_note(const OutputOptions& manners, const std::string& text) {
+    if (!manners.quiet) print_message(text);
 }
 
-void detail(const Manners& manners, const std::string& text) {
-    if (manners.verbose && !manners.quiet) say(text);
+void print_detail(const OutputOptions& manners, const std::string& text) {
+    if (manners.verbose && !manners.quiet) print_message(text);
 }
 
-void warn(const std::string& text) { say("catoptric: warning: " + text); }
+void print_warning(const std::string& text) { print_message("catoptric: warning: " + text); }
 
 void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
                      const std::string& where, const fs::path& folder) {
@@ -107,18 +109,18 @@ void check_file_can_be_made(const fs::path& path) {
     std::error_code error;
     check(!path.empty() && path.has_filename() && !fs::is_directory(path, error),
           Failure::cannot_create, path.string(), ": wanted a file name, found a folder");
-    check_parent(path);
+    check_parent_folder(path);
 }
 
 void check_folder_can_be_made(const fs::path& path) {
     check(!path.empty(), Failure::cannot_create, "wanted the name of a folder, found none");
     std::error_code error;
     fs::path there = path; // the path, or its nearest existing parent
-    while (!fs::exists(fs::symlink_status(there, error))) there = parent_of(there);
+    while (!fs::exists(fs::symlink_status(there, error))) there = parent_folder(there);
     check(fs::is_directory(there, error), Failure::cannot_create, path.string(),
           ": cannot be created: wanted ", there == path ? "" : there.string() + " to be ",
           "a folder, found a file");
-    check_writable(there, path);
+    check_folder_is_writable(there, path);
 }
 
 } // namespace catoptric::cli

@@ -11,7 +11,7 @@ namespace catoptric::cli {
 enum class ProgressMode { automatic, always, never };
 
 /// How a verb writes its output. Only the result goes to stdout.
-struct Manners {
+struct OutputOptions {
     bool json = false;
     bool quiet = false;
     bool verbose = false;
@@ -25,17 +25,20 @@ void prepare_streams();
 /// Writes the result, text or JSON, to stdout and flushes it. Removes characters that a terminal
 /// might obey (`printable`, of whole lines). Throws `Failure::io`, without a message if the reader
 /// has gone.
-void put(std::string_view result);
-/// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `put` does.
-void put_bytes(std::string_view result);
-/// Writes one message to stderr, with the same characters removed as by `put`. In a message of
-/// several lines, all lines but the first begin with two spaces. Other line breaks are escaped.
-void say(const std::string& text);
+void print_result(std::string_view result);
+/// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `print_result`
+/// does.
+void print_bytes(std::string_view result);
+/// Writes one message to stderr, with the same characters removed as by `print_result`. In a
+/// message of several lines, all lines but the first begin with two spaces. Other line breaks are
+/// escaped.
+void print_message(const std::string& text);
 
-/// Writes a line to stderr: `note` unless --quiet, `detail` only with -v, `warn` always.
-void note(const Manners& manners, const std::string& text);
-void detail(const Manners& manners, const std::string& text);
-void warn(const std::string& text);
+/// Writes a line to stderr: `print_note` unless --quiet, `print_detail` only with -v,
+/// `print_warning` always.
+void print_note(const OutputOptions& manners, const std::string& text);
+void print_detail(const OutputOptions& manners, const std::string& text);
+void print_warning(const std::string& text);
 
 /// Throws the error that ended a run early, with the number of finished rows and their folder.
 /// `folder` is empty if there is none. The message has `where` after the rows.

@@ -9,7 +9,7 @@ namespace {
 
 const std::string kSceneGroup = "The scene";
 
-void add_surfaces(Verb& verb, scene::SceneOverrides& overrides) {
+void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
     const auto mirror = [&](const std::string& text) {
         overrides.mirrors.push_back(scene::read_mirror_override("--mirror", text));
     };
@@ -33,7 +33,7 @@ void add_surfaces(Verb& verb, scene::SceneOverrides& overrides) {
                               [&] { overrides.dielectric_mirrors = true; });
 }
 
-void add_surroundings(Verb& verb, scene::SceneOverrides& overrides) {
+void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
     verb.option(
         "--environment", "E",
         "picture around the scene that also lights it: FILE.exr, .hdr or .png (equirectangular), "
@@ -59,11 +59,12 @@ void add_surroundings(Verb& verb, scene::SceneOverrides& overrides) {
         [&](const std::string& text) { overrides.ambient = parse_real("--ambient", text, 0); });
 }
 
-void add_place(Verb& verb, scene::SceneOverrides& overrides) {
+void add_scale_and_axis_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
     verb.option("--up", "AXIS", "axis that points up in the file, y or z; z is turned to y (y)",
                 [&](const std::string& text) {
-                    overrides.up = parse_choice("--up", text, {"y", "z"}) == 1 ? scene::Up::z
-                                                                               : scene::Up::y;
+                    overrides.up = parse_choice_index("--up", text, {"y", "z"}) == 1
+                                       ? scene::UpAxis::z
+                                       : scene::UpAxis::y;
                 });
     verb.option("--animation", "NAME", "animation of a glTF file to play, or none (the first)",
                 [&](const std::string& text) { overrides.animation = text; });
@@ -71,7 +72,7 @@ void add_place(Verb& verb, scene::SceneOverrides& overrides) {
 
 } // namespace
 
-void add_camera(Verb& verb, Common& common) {
+void add_camera_options(CommandVerb& verb, CommonOptions& common) {
     scene::SceneOverrides& overrides = common.overrides;
     verb.option(
         "--camera", "C",
@@ -91,7 +92,7 @@ void add_camera(Verb& verb, Common& common) {
         });
 }
 
-void add_scene_overrides(Verb& verb, Common& common) {
+void add_scene_override_options(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kSceneGroup);
     verb.option("--root", "DIR",
                 "additional folder for files that SCENE names (only the scene's own folder)",
@@ -103,7 +104,7 @@ void add_scene_overrides(Verb& verb, Common& common) {
                               std::optional<std::uint64_t>& most) {
         verb.option(option, "N", help, [option, &most](const std::string& text) {
             constexpr std::int64_t kMost = std::int64_t{1} << 40;
-            most = static_cast<std::uint64_t>(parse_whole(option, text, 1, kMost));
+            most = static_cast<std::uint64_t>(parse_integer(option, text, 1, kMost));
         });
     };
     add_most("--max-bytes", "limit for the bytes of the scene's files (an eighth of free memory)",
@@ -113,9 +114,9 @@ void add_scene_overrides(Verb& verb, Common& common) {
         "limit for the triangles of the scene's meshes, with three vertices each (follows from "
         "file size and free memory)",
         common.budget.triangles);
-    add_surfaces(verb, common.overrides);
-    add_surroundings(verb, common.overrides);
-    add_place(verb, common.overrides);
+    add_surface_options(verb, common.overrides);
+    add_environment_options(verb, common.overrides);
+    add_scale_and_axis_options(verb, common.overrides);
     verb.option_without_value("--no-scene-file", "ignore SCENE.catoptric.json",
                               [&] { common.use_scene_file = false; });
 }

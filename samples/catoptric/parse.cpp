@@ -13,13 +13,13 @@ namespace {
 
 /// Reads the whole of `text` as a number. Returns false if any text is left over.
 template <typename Number>
-bool read(const std::string& text, Number& value) {
+bool parse_whole_text(const std::string& text, Number& value) {
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     return error == std::errc{} && stop == end;
 }
 
-std::string range_text(double low, double high) {
+std::string format_range(double low, double high) {
     constexpr double kLimit = std::numeric_limits<double>::max();
     std::ostringstream text;
     text.precision(15);
@@ -32,47 +32,49 @@ std::string range_text(double low, double high) {
 
 uvec2 parse_size(const std::string& option, const std::string& text) {
     constexpr std::uint32_t kMost = 1U << 20; // larger than any device allows
-    const std::vector<std::string> parts = split(text, "x");
+    const std::vector<std::string> parts = split_text(text, "x");
     uvec2 size{0, 0};
-    const bool numbers = parts.size() == 2 && read(parts[0], size.x) && read(parts[1], size.y);
+    const bool numbers = parts.size() == 2 && parse_whole_text(parts[0], size.x) &&
+                         parse_whole_text(parts[1], size.y);
     const bool in_range = size.x >= 1 && size.y >= 1 && size.x <= kMost && size.y <= kMost;
     check(numbers && in_range, Failure::usage, option,
           ": wanted WxH, such as 512x512, both from 1 to ", kMost, ", found '", text, "'");
     return size;
 }
 
-std::int64_t parse_whole(const std::string& option, const std::string& text, std::int64_t low,
-                         std::int64_t high) {
+std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
+                           std::int64_t high) {
     std::int64_t value = 0;
-    check(read(text, value) && value >= low && value <= high, Failure::usage, option,
+    check(parse_whole_text(text, value) && value >= low && value <= high, Failure::usage, option,
           ": wanted a whole number from ", low, " to ", high, ", found '", text, "'");
     return value;
 }
 
 std::uint64_t parse_seed(const std::string& option, const std::string& text) {
     std::uint64_t value = 0;
-    check(read(text, value), Failure::usage, option, ": wanted a whole number from 0 to ",
-          std::numeric_limits<std::uint64_t>::max(), ", found '", text, "'");
+    check(parse_whole_text(text, value), Failure::usage, option,
+          ": wanted a whole number from 0 to ", std::numeric_limits<std::uint64_t>::max(),
+          ", found '", text, "'");
     return value;
 }
 
 double parse_real(const std::string& option, const std::string& text, double low, double high) {
     double value = 0;
     // NaN and infinities fail this comparison.
-    check(read(text, value) && value >= low && value <= high, Failure::usage, option,
-          ": wanted a finite number", range_text(low, high), ", found '", text, "'");
+    check(parse_whole_text(text, value) && value >= low && value <= high, Failure::usage, option,
+          ": wanted a finite number", format_range(low, high), ", found '", text, "'");
     return value;
 }
 
-std::size_t parse_choice(const std::string& option, const std::string& text,
-                         const std::vector<std::string>& choices) {
+std::size_t parse_choice_index(const std::string& option, const std::string& text,
+                               const std::vector<std::string>& choices) {
     const auto found = std::ranges::find(choices, text);
-    check(found != choices.end(), Failure::usage, option, ": wanted one of ", join(choices),
-          ", found '", text, "'", did_you_mean(text, choices));
+    check(found != choices.end(), Failure::usage, option, ": wanted one of ",
+          join_with_commas(choices), ", found '", text, "'", suggest_name(text, choices));
     return static_cast<std::size_t>(found - choices.begin());
 }
 
-std::string join(const std::vector<std::string>& parts) {
+std::string join_with_commas(const std::vector<std::string>& parts) {
     std::string text;
     for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
     return text;

@@ -14,8 +14,8 @@ namespace catoptric::cli {
 /// Returns a size such as "640x480", both edges at least 1.
 uvec2 parse_size(const std::string& option, const std::string& text);
 
-std::int64_t parse_whole(const std::string& option, const std::string& text, std::int64_t low,
-                         std::int64_t high);
+std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
+                           std::int64_t high);
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 
 /// Returns a finite number in [low, high].
@@ -24,10 +24,10 @@ double parse_real(const std::string& option, const std::string& text,
                   double high = std::numeric_limits<double>::max());
 
 /// Returns the index of `text` in `choices`. The error message suggests the nearest choice.
-std::size_t parse_choice(const std::string& option, const std::string& text,
-                         const std::vector<std::string>& choices);
+std::size_t parse_choice_index(const std::string& option, const std::string& text,
+                               const std::vector<std::string>& choices);
 
 /// Returns the parts separated by commas: "a, b, c".
-std::string join(const std::vector<std::string>& parts);
+std::string join_with_commas(const std::vector<std::string>& parts);
 
 } // namespace catoptric::cli

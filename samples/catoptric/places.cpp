@@ -26,13 +26,13 @@ public:
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;
         if (is_there && !S_ISREG(status.st_mode)) return nullptr;
-        if (const auto found = paths_.find(real_path(path)); found != paths_.end())
+        if (const auto found = paths_.find(resolve_real_path(path)); found != paths_.end())
             return &found->second;
         const auto found = numbers_.find({status.st_dev, status.st_ino});
         return is_there && found != numbers_.end() ? &found->second : nullptr;
     }
     void add(const KnownFile& file) {
-        paths_.emplace(real_path(file.path), file);
+        paths_.emplace(resolve_real_path(file.path), file);
         struct stat status {};
         if (::stat(file.path.c_str(), &status) == 0)
             numbers_.emplace(std::pair(status.st_dev, status.st_ino), file);
@@ -45,8 +45,9 @@ private:
 
 } // namespace
 
-void check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs,
-                 const std::string& read) {
+void check_outputs_differ_from_inputs(const std::vector<fs::path>& outputs,
+                                      const std::vector<fs::path>& inputs,
+                                      const std::string& read) {
     KnownFiles files;
     for (const fs::path& input : inputs) files.add({input, true});
     for (const fs::path& output : outputs) {

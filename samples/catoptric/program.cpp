@@ -25,54 +25,55 @@ Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 6
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
 76 device lost; 129, 130, 143 stopped by a signal (finished rows are kept, also after 75 and 76))";
 
-void say_failure(const std::string& name, const std::string& message) {
-    if (!message.empty()) say(name + ": " + message);
+void print_failure(const std::string& name, const std::string& message) {
+    if (!message.empty()) print_message(name + ": " + message);
 }
 
-int run_program_checked(int argc, char** argv) {
+int run_program_and_check_streams(int argc, char** argv) {
     const std::vector<std::string> words(argv, argv + argc);
     CommandLine program(
         "catoptric", "Measures the cost and the error of each way of rendering reflections.",
         "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
-    add_compare(program, words);
-    add_render(program);
-    add_stress(program, words);
-    add_bench(program, words);
-    add_diff(program);
-    add_graph(program);
-    add_list(program);
-    add_info(program);
+    add_compare_verb(program, words);
+    add_render_verb(program);
+    add_stress_verb(program, words);
+    add_bench_verb(program, words);
+    add_diff_verb(program);
+    add_graph_verb(program);
+    add_list_verb(program);
+    add_info_verb(program);
     return program.parse({words.begin() + std::min(argc, 1), words.end()})();
 }
 
 /// Runs the work, and prints errors to stderr. Returns the exit code.
-int exit_code(const std::string& name, const std::function<int()>& work) {
+int run_and_get_exit_code(const std::string& name, const std::function<int()>& work) {
     try {
         return work();
     } catch (const Error& error) {
-        say_failure(name, error.what());
+        print_failure(name, error.what());
         return static_cast<int>(error.failure);
     } catch (const std::bad_alloc&) {
-        say_failure(name, "out of memory");
+        print_failure(name, "out of memory");
         return static_cast<int>(Failure::exhausted);
     } catch (const std::exception& error) {
-        say_failure(name, std::string("internal error: ") + error.what());
+        print_failure(name, std::string("internal error: ") + error.what());
         return static_cast<int>(Failure::internal);
     }
 }
 
 } // namespace
 
-int run_guarded(const std::string& name, const std::function<int()>& work) {
+int run_other_program_guarded(const std::string& name, const std::function<int()>& work) {
     prepare_streams();
-    const int code = exit_code(name, work);
-    if (app::any_abandoned())
+    const int code = run_and_get_exit_code(name, work);
+    if (app::has_abandoned_device())
         std::_Exit(code); // destroying objects that a driver still uses is unsafe
     return code;
 }
 
 int run_program(int argc, char** argv) {
-    return run_guarded("catoptric", [&] { return run_program_checked(argc, argv); });
+    return run_other_program_guarded("catoptric",
+                                     [&] { return run_program_and_check_streams(argc, argv); });
 }
 
 } // namespace catoptric::cli

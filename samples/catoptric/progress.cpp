@@ -32,32 +32,32 @@ std::size_t terminal_columns() {
 
 } // namespace
 
-app::Watcher watcher_of(Progress& progress) {
+app::Watcher make_progress_watcher(ProgressPrinter& progress) {
     return {.on_row = [&](const std::string& label, std::size_t index,
                           std::size_t count) { progress.row(label, index, count); },
             .on_frame = [&](int number, int total) { progress.frame(number, total); },
             .stop = &stop_on_signals()};
 }
 
-std::string duration_text(double seconds) {
+std::string format_duration(double seconds) {
     const auto whole = std::llround(std::clamp(seconds, 0.0, 3.6e8));
     const long long hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
     return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest)
                      : fmt::format("{}:{:02}", minutes, rest);
 }
 
-Progress::Progress(const Manners& manners, OffTerminal off_terminal)
+ProgressPrinter::ProgressPrinter(const OutputOptions& manners, ProgressOffTerminal off_terminal)
     : active_(!manners.quiet && (manners.progress == ProgressMode::always ||
                                  (manners.progress == ProgressMode::automatic && is_terminal()))),
       rewrites_(is_terminal()),
       in_tenths_(!active_ && !manners.quiet && manners.progress == ProgressMode::automatic &&
-                 off_terminal == OffTerminal::tenths) {}
+                 off_terminal == ProgressOffTerminal::tenths) {}
 
-Progress::~Progress() { clear(); }
+ProgressPrinter::~ProgressPrinter() { clear(); }
 
-void Progress::row(const std::string& label, std::size_t index, std::size_t count) {
+void ProgressPrinter::row(const std::string& label, std::size_t index, std::size_t count) {
     if (index == 0) start_ = SteadyClock::now(), tenths_ = 0; // a new list of rows begins
-    label_ = printable(label);
+    label_ = escape_control_characters(label);
     index_ = index;
     count_ = std::max<std::size_t>(count, 1);
     shown_at_ = {};
@@ -65,7 +65,7 @@ void Progress::row(const std::string& label, std::size_t index, std::size_t coun
     if (in_tenths_) show_tenth();
 }
 
-void Progress::show_tenth() {
+void ProgressPrinter::show_tenth() {
     const std::size_t tenths = 10 * index_ / count_;
     if (tenths <= tenths_) return;
     tenths_ = tenths;
@@ -74,12 +74,12 @@ void Progress::show_tenth() {
     std::fflush(stderr);
 }
 
-std::string Progress::time_left(double done) const {
+std::string ProgressPrinter::time_left(double done) const {
     const double elapsed = std::chrono::duration<double>(SteadyClock::now() - start_).count();
-    return duration_text(elapsed * (1 - done) / done);
+    return format_duration(elapsed * (1 - done) / done);
 }
 
-void Progress::frame(int number, int total) {
+void ProgressPrinter::frame(int number, int total) {
     if (!active_ || !rewrites_) return;
     const SteadyClock::time_point now = SteadyClock::now();
     if (now - shown_at_ < std::chrono::milliseconds(100)) return;
@@ -92,14 +92,14 @@ void Progress::frame(int number, int total) {
                      time_left(done)));
 }
 
-void Progress::clear() {
+void ProgressPrinter::clear() {
     if (shown_width_ == 0) return;
     fmt::print(stderr, "\r{}\r", std::string(shown_width_, ' '));
     std::fflush(stderr);
     shown_width_ = 0;
 }
 
-void Progress::show(const std::string& text) {
+void ProgressPrinter::show(const std::string& text) {
     const std::string cut = text.substr(0, terminal_columns() - 1);
     const std::size_t left_over = shown_width_ > cut.size() ? shown_width_ - cut.size() : 0;
     fmt::print(stderr, "\r{}{}", cut, std::string(left_over, ' '));

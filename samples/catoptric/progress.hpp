@@ -13,18 +13,19 @@ namespace catoptric::cli {
 /// Writes progress to stderr, such as "[3/14] reuse  frame 12/28  about 0:35 left". On a terminal,
 /// the line is rewritten in place. Elsewhere, or with TERM=dumb, --progress always writes one line
 /// per row. Uses no colours and no escape sequences.
-class Progress {
+class ProgressPrinter {
 public:
     /// Output if stderr is no terminal and --progress is automatic.
-    enum class OffTerminal : std::uint8_t {
+    enum class ProgressOffTerminal : std::uint8_t {
         nothing,
         tenths, ///< a line per finished tenth of the rows: "30 % done, ..."
     };
-    explicit Progress(const Manners& manners, OffTerminal off_terminal = OffTerminal::nothing);
+    explicit ProgressPrinter(const OutputOptions& manners,
+                             ProgressOffTerminal off_terminal = ProgressOffTerminal::nothing);
     /// Removes the line.
-    ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
+    ~ProgressPrinter();
+    ProgressPrinter(const ProgressPrinter&) = delete;
+    ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
     /// Reports that row `index` (from 0) of `count` begins.
     void row(const std::string& label, std::size_t index, std::size_t count);
@@ -53,9 +54,9 @@ private:
 
 /// Returns a watcher that shows every row and frame, and stops the work at the first signal
 /// (signals.hpp). `progress` must outlive it.
-app::Watcher watcher_of(Progress& progress);
+app::Watcher make_progress_watcher(ProgressPrinter& progress);
 
 /// Returns a duration as text: "0:07", "12:40", "3:02:10".
-std::string duration_text(double seconds);
+std::string format_duration(double seconds);
 
 } // namespace catoptric::cli

@@ -46,33 +46,33 @@ frame is written, numbered from 1.
 EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.)";
 
 struct RenderOptions {
-    Common common;
-    Drawn drawn;
+    CommonOptions common;
+    TechniqueOption drawn;
     std::string technique; ///< technique or plan, checked
     std::string output;
     std::string trace;
     std::string profile;
 };
 
-bool is_stdout(const RenderOptions& options) { return options.output == "-"; }
-bool is_exr(const RenderOptions& options) { return options.output.ends_with(".exr"); }
+bool writes_to_stdout(const RenderOptions& options) { return options.output == "-"; }
+bool writes_exr(const RenderOptions& options) { return options.output.ends_with(".exr"); }
 
 constexpr int kMostPictures = 100'000; ///< limit of a sequence
 
 /// Returns whether only a picture is wanted, without times or a certain number of frames.
-bool is_still(const RenderOptions& options) {
-    const Common& common = options.common;
+bool wants_only_picture(const RenderOptions& options) {
+    const CommonOptions& common = options.common;
     return !common.animate && !common.frames && !common.warmup && options.trace.empty() &&
            options.profile.empty();
 }
 
 /// Returns the files that pictures are written to; none if the picture goes to stdout.
-std::vector<std::string> pictures_of(const RenderOptions& options) {
-    if (is_stdout(options)) return {};
+std::vector<std::string> list_output_files(const RenderOptions& options) {
+    if (writes_to_stdout(options)) return {};
     const std::optional<FileSequence> sequence = FileSequence::find(options.output);
     if (!sequence) return {options.output};
     const int frames = options.common.frames.value_or(app::Request().frames);
-    check(!is_still(options), Failure::usage, "-o ", options.output,
+    check(!wants_only_picture(options), Failure::usage, "-o ", options.output,
           ": wanted --frames or --animate with a sequence of pictures, found neither");
     check(frames <= kMostPictures, Failure::usage, "-o ", options.output, ": wanted at most ",
           kMostPictures, " pictures, found --frames ", frames);
@@ -84,48 +84,48 @@ std::vector<std::string> pictures_of(const RenderOptions& options) {
 void check_output(const RenderOptions& options) {
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a picture has one");
-    check_budget(options.common);
-    require_given(!options.output.empty(), "render", "-o OUT",
-                  "a name ending in .exr or .png, or - for stdout");
-    check(!is_stdout(options) || !options.common.manners.json, Failure::usage,
+    check_budget_option(options.common);
+    require_option(!options.output.empty(), "render", "-o OUT",
+                   "a name ending in .exr or .png, or - for stdout");
+    check(!writes_to_stdout(options) || !options.common.manners.json, Failure::usage,
           "-o - and --json: stdout has room for one of them");
-    if (!is_stdout(options)) {
-        check_file_can_be_made(pictures_of(options).front());
-        check(is_exr(options) || options.output.ends_with(".png"), Failure::usage,
+    if (!writes_to_stdout(options)) {
+        check_file_can_be_made(list_output_files(options).front());
+        check(writes_exr(options) || options.output.ends_with(".png"), Failure::usage,
               "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
     }
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) check_file_can_be_made(file);
 }
 
-void check_places(const RenderOptions& options, const scene::Scene& scene) {
+void check_picture_places(const RenderOptions& options, const scene::Scene& scene) {
     std::vector<std::filesystem::path> outputs;
-    if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
-    for (const std::string& file : pictures_of(options)) outputs.emplace_back(file);
+    if (writes_to_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
+    for (const std::string& file : list_output_files(options)) outputs.emplace_back(file);
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) outputs.push_back(file);
-    check_apart(outputs, scene.files);
+    check_outputs_differ_from_inputs(outputs, scene.files);
 }
 
 app::Request make_render_request(const RenderOptions& options) {
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
-    request.model = options.common.model.value_or(app::Modelling::required);
-    if (!is_still(options)) return request;
+    request.model = options.common.model.value_or(app::RenderedWork::required);
+    if (!wants_only_picture(options)) return request;
     request.frames += request.warmup; // the same number as `compare` renders
     request.warmup = 0;
     request.until_settled = true;
     return request;
 }
 
-void write_picture(const app::Part& part, const std::string& file) {
+void write_picture(const app::TechniqueResult& part, const std::string& file) {
     if (file.ends_with(".exr")) return measure::write_exr(part.hdr, file);
     measure::write_png(part.display, file);
 }
 
 /// Renders all frames. In a sequence, each measured frame is written to its file.
-void render(app::Frames& frames, const std::vector<std::string>& files, int warmup,
-            const app::Watcher& watcher) {
+void render_all_frames(app::Frames& frames, const std::vector<std::string>& files, int warmup,
+                       const app::Watcher& watcher) {
     check_stopped(watcher);
     while (frames.next()) {
         const int measured = frames.number() - warmup;
@@ -135,85 +135,85 @@ void render(app::Frames& frames, const std::vector<std::string>& files, int warm
     }
 }
 
-std::vector<double> gpu_times(const app::Result& result) {
+std::vector<double> list_gpu_times(const app::RunResult& result) {
     std::vector<double> ms;
     for (const app::FrameTimes& frame : result.frames) ms.push_back(frame.gpu_ms);
     return ms;
 }
 
-void describe(const RenderOptions& options, const app::Request& request,
-              const app::Result& result) {
-    const Manners& manners = options.common.manners;
-    const app::Part& part = result.parts.front();
-    for (const std::string& what : part.notes) note(manners, part.label + ": " + what);
-    const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);
-    const std::string output = is_stdout(options) ? "stdout" : options.output;
+void print_render_summary(const RenderOptions& options, const app::Request& request,
+                          const app::RunResult& result) {
+    const OutputOptions& manners = options.common.manners;
+    const app::TechniqueResult& part = result.parts.front();
+    for (const std::string& what : part.notes) print_note(manners, part.label + ": " + what);
+    const measure::Mean mean = measure::mean_of(part.hdr, measure::ValueRange::clamped);
+    const std::string output = writes_to_stdout(options) ? "stdout" : options.output;
     std::string frames = fmt::format("{} frame{}", result.frames.size(),
                                      result.frames.size() == 1 ? "" : "s");
     if (request.until_settled && !result.settled) frames += " (the next would still differ)";
     if (!request.until_settled) {
-        const measure::Summary ms = measure::summarise(gpu_times(result));
+        const measure::SampleSummary ms = measure::summarise_samples(list_gpu_times(result));
         frames = fmt::format("{:.4g} ms [{:.4g} - {:.4g}]", ms.median, ms.p05, ms.p95);
     }
-    note(manners, fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}", part.label,
-                              part.scene_passes, frames, mean.all, output));
-    if (part.slices) detail(manners, app::to_text(*part.slices));
+    print_note(manners, fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}", part.label,
+                                    part.scene_passes, frames, mean.all, output));
+    if (part.slices) print_detail(manners, app::to_text(*part.slices));
     if (request.until_settled) return;
     for (const app::PassTime& pass : result.frames.back().passes)
-        detail(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
+        print_detail(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
 }
 
 void warn_of_nonfinite(const measure::Picture& picture) {
     const auto broken = std::ranges::count_if(picture.pixels, [](const vec3& pixel) {
         return !std::isfinite(pixel.x) || !std::isfinite(pixel.y) || !std::isfinite(pixel.z);
     });
-    if (broken > 0) warn(fmt::format("{} pixels are not finite", broken));
+    if (broken > 0) print_warning(fmt::format("{} pixels are not finite", broken));
 }
 
 int run_render(const RenderOptions& options) {
-    const Manners& manners = options.common.manners;
+    const OutputOptions& manners = options.common.manners;
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output(options);
     app::Request request = make_render_request(options);
-    check_places(options, request.scene);
-    if (is_exr(options)) image_codecs(); // fail before rendering if the codecs are missing
-    app::Engine engine(engine_options(options.common.device));
-    introduce(engine, options.common.manners);
+    check_picture_places(options, request.scene);
+    if (writes_exr(options)) get_image_codecs(); // fail before rendering if the codecs are missing
+    app::Engine engine(make_engine_options(options.common.device));
+    print_device_and_warnings(engine, options.common.manners);
 
-    Progress progress(manners);
-    const app::Watcher watcher = watcher_of(progress);
+    ProgressPrinter progress(manners);
+    const app::Watcher watcher = make_progress_watcher(progress);
     tell_row(watcher, choice.label, 0, 1);
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
     app::Session session(engine, std::move(scene));
-    app::settle_exposure(session, request);
+    app::resolve_auto_exposure(session, request);
     app::Frames frames(session, request);
-    const std::vector<std::string> files = pictures_of(options);
-    render(frames, files, request.warmup, watcher);
-    const app::Result result = frames.result();
+    const std::vector<std::string> files = list_output_files(options);
+    render_all_frames(frames, files, request.warmup, watcher);
+    const app::RunResult result = frames.result();
     progress.clear();
 
     warn_of_nonfinite(result.parts.front().hdr);
-    if (files.empty()) put_bytes(measure::png_bytes(result.parts.front().display));
+    if (files.empty()) print_bytes(measure::encode_picture_png(result.parts.front().display));
     if (files.size() == 1) write_picture(result.parts.front(), files.front());
     if (!options.trace.empty())
-        write_file(options.trace,
-                   trace_json(result.frames.back(), choice.label + " on " + engine.device().name));
-    const std::string document = render_json(request, engine.device(), result, options.output);
+        write_file(options.trace, make_trace_json(result.frames.back(),
+                                                  choice.label + " on " + engine.device().name));
+    const std::string document = make_render_json(request, engine.device(), result, options.output);
     if (!options.profile.empty()) write_file(options.profile, document);
-    if (manners.json) put(document);
-    describe(options, request, result);
+    if (manners.json) print_result(document);
+    print_render_summary(options, request, result);
     if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 
 } // namespace
 
-void add_render(CommandLine& program) {
+void add_render_verb(CommandLine& program) {
     const auto options = std::make_shared<RenderOptions>();
-    Verb& verb = program.add("render", "render one picture by one technique or plan");
+    CommandVerb& verb = program.add("render", "render one picture by one technique or plan");
     verb.examples(kRenderExamples);
-    add_drawn(verb, options->drawn);
+    add_technique_options(verb, options->drawn);
     verb.option(
         "-o,--output", "OUT",
         "picture file OUT.exr or OUT.png, frame-{n:4}.png for one per frame, or - for a PNG on "
@@ -226,10 +226,10 @@ void add_render(CommandLine& program) {
     verb.option("--profile", "P.json",
                 "file for the times of frames, passes and host, as printed by --json",
                 options->profile);
-    add_budget(verb, options->common);
-    add_common(verb, options->common);
-    verb.does([options] {
-        options->technique = checked(options->drawn, "render");
+    add_budget_option(verb, options->common);
+    add_common_options(verb, options->common);
+    verb.set_action([options] {
+        options->technique = check_technique_choice(options->drawn, "render");
         return run_render(*options);
     });
 }

@@ -14,37 +14,37 @@ namespace {
 
 using SceneCells = std::vector<std::vector<std::string>>;
 
-std::string point_text(const dvec3& p) {
+std::string format_point(const dvec3& p) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", p.x, p.y, p.z);
 }
 
 /// Returns a colour as text: one number if all channels are equal, else three.
-std::string colour_text(const vec3& c) {
+std::string format_colour(const vec3& c) {
     return c.x == c.y && c.y == c.z ? fmt::format("{:.3g}", c.x)
                                     : fmt::format("{:.3g} {:.3g} {:.3g}", c.x, c.y, c.z);
 }
 
-std::string bytes_text(std::uint64_t bytes) {
+std::string format_bytes(std::uint64_t bytes) {
     return bytes < 1'000'000 ? fmt::format("{:.1f} kB", 1e-3 * static_cast<double>(bytes))
                              : fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
 }
 
-std::string line(const std::string& name, const std::string& value) {
+std::string format_info_line(const std::string& name, const std::string& value) {
     return fmt::format("{:<12} {}\n", name, value);
 }
 
 /// Returns a table under its title; empty if it has no rows.
-std::string table(const std::string& title, const SceneCells& cells) {
-    return cells.size() < 2 ? "" : "\n" + title + "\n" + aligned(cells, 0);
+std::string format_titled_table(const std::string& title, const SceneCells& cells) {
+    return cells.size() < 2 ? "" : "\n" + title + "\n" + align_columns(cells, 0);
 }
 
 /// The first factors, metallic and roughness, have columns of their own.
 constexpr std::size_t kFactorColumns = 2;
 
-std::string how(const app::MaterialInfo& material) {
+std::string describe_surface_kind(const app::MaterialInfo& material) {
     std::string text;
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
-    if (material.light != vec3(0)) add("lights " + colour_text(material.light));
+    if (material.light != vec3(0)) add("lights " + format_colour(material.light));
     if (material.light == vec3(0) && material.glows) add("glows, lights nothing");
     if (material.is_masked) add("cut by alpha");
     if (!material.is_two_sided) add("front only");
@@ -56,7 +56,7 @@ std::string how(const app::MaterialInfo& material) {
     return text.empty() ? "-" : text;
 }
 
-SceneCells materials(const app::SceneInfo& info) {
+SceneCells list_material_cells(const app::SceneInfo& info) {
     constexpr std::size_t kMost = 50;
     SceneCells cells{
         {"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
@@ -66,15 +66,16 @@ SceneCells materials(const app::SceneInfo& info) {
                              "", "", "", "", "", ""});
             break;
         }
-        cells.push_back({printable(material.name), material.kind, std::to_string(material.objects),
-                         colour_text(material.albedo), fmt::format("{:.3g}", material.factors[0]),
-                         fmt::format("{:.3g}", material.factors[1]), colour_text(material.f0),
-                         how(material)});
+        cells.push_back({escape_control_characters(material.name), material.kind,
+                         std::to_string(material.objects), format_colour(material.albedo),
+                         fmt::format("{:.3g}", material.factors[0]),
+                         fmt::format("{:.3g}", material.factors[1]), format_colour(material.f0),
+                         describe_surface_kind(material)});
     }
     return cells;
 }
 
-std::string shape_text(const scene::Shape& shape) {
+std::string describe_shape(const scene::MirrorShape& shape) {
     std::string text = scene::name_of(shape.kind);
     text += shape.is_closed ? ", closed" : ", open";
     if (shape.fit)
@@ -82,64 +83,67 @@ std::string shape_text(const scene::Shape& shape) {
     return text;
 }
 
-SceneCells mirrors(const app::SceneInfo& info) {
+SceneCells list_mirror_cells(const app::SceneInfo& info) {
     SceneCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
     for (const app::MirrorInfo& mirror : info.mirrors)
-        cells.push_back({std::to_string(mirror.number), printable(mirror.name),
-                         shape_text(mirror.shape),
+        cells.push_back({std::to_string(mirror.number), escape_control_characters(mirror.name),
+                         describe_shape(mirror.shape),
                          fmt::format("{:.1f} %", 100 * mirror.screen_share),
-                         colour_text(mirror.reflectance) + (mirror.is_constant ? "" : " and up"),
-                         point_text(mirror.capture_centre)});
+                         format_colour(mirror.reflectance) + (mirror.is_constant ? "" : " and up"),
+                         format_point(mirror.capture_centre)});
     return cells;
 }
 
-SceneCells lights(const report::SceneFacts& facts) {
+SceneCells list_light_cells(const report::SceneFacts& facts) {
     SceneCells cells{{"light", "name", "at", "towards", "emits", "area"}};
     for (const report::LightFacts& light : facts.lights)
-        cells.push_back({light.kind, light.name.empty() ? "-" : printable(light.name),
-                         light.is_parallel ? "-" : point_text(light.position),
-                         light.direction == dvec3(0) ? "-" : point_text(light.direction),
-                         colour_text(vec3(light.emission)),
+        cells.push_back({light.kind,
+                         light.name.empty() ? "-" : escape_control_characters(light.name),
+                         light.is_parallel ? "-" : format_point(light.position),
+                         light.direction == dvec3(0) ? "-" : format_point(light.direction),
+                         format_colour(vec3(light.emission)),
                          light.kind == "mesh" ? fmt::format("{:.4g}", light.area) : "-"});
     return cells;
 }
 
-std::string lens_text(const measure::CameraFacts& camera) {
+std::string describe_lens(const measure::CameraFacts& camera) {
     return camera.orthographic_height > 0
                ? fmt::format("{:.4g} high, orthographic", camera.orthographic_height)
                : fmt::format("{:.4g} degrees", camera.vertical_fov_degrees);
 }
 
-std::string camera_text(const measure::CameraFacts& camera) {
-    return fmt::format("{}: from {} to {}, {}", in_quotes(camera.name), point_text(camera.eye),
-                       point_text(camera.target), lens_text(camera));
+std::string describe_camera(const measure::CameraFacts& camera) {
+    return fmt::format("{}: from {} to {}, {}", quote_printable(camera.name),
+                       format_point(camera.eye), format_point(camera.target),
+                       describe_lens(camera));
 }
 
-std::string environment_text(const report::SceneFacts& facts) {
+std::string describe_environment(const report::SceneFacts& facts) {
     if (!facts.environment) return "none";
     const report::EnvironmentFacts& environment = *facts.environment;
-    std::string text = printable(environment.name);
+    std::string text = escape_control_characters(environment.name);
     if (environment.scale != 1) text += fmt::format(", times {:.4g}", environment.scale);
     if (environment.rotation_degrees != 0)
         text += fmt::format(", turned by {:.4g} degrees", environment.rotation_degrees);
     return text;
 }
 
-std::string exposure_text(const SceneWords& words) {
+std::string describe_exposure(const SceneInfoFacts& words) {
     if (!words.exposure) return "auto; not told";
     // The exposure that `render` finds, for the camera that is given or added.
-    const std::string how = words.auto_exposure ? " (auto, by camera " +
-                                                      in_quotes(words.info.facts.camera.name) + ")"
-                                                : "";
+    const std::string how = words.auto_exposure
+                                ? " (auto, by camera " +
+                                      quote_printable(words.info.facts.camera.name) + ")"
+                                : "";
     return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }
 
-SceneCells unsupported(const report::SceneFacts& facts) {
-    const report::Table table = report::unsupported_table(facts);
+SceneCells list_unsupported_cells(const report::SceneFacts& facts) {
+    const report::ReportTable table = report::make_unsupported_table(facts);
     SceneCells cells{{"gap", "count", "pixels", "first", "instead"}};
     for (const std::vector<std::string>& row : table.rows) {
         cells.push_back(row);
-        cells.back()[3] = printable(cells.back()[3]);
+        cells.back()[3] = escape_control_characters(cells.back()[3]);
         if (facts.unsupported[cells.size() - 2].pixel_share) cells.back()[2] += " %";
     }
     return cells;
@@ -147,34 +151,38 @@ SceneCells unsupported(const report::SceneFacts& facts) {
 
 } // namespace
 
-std::string scene_text(const SceneWords& words) {
+std::string format_scene_info(const SceneInfoFacts& words) {
     const app::SceneInfo& info = words.info;
     const report::SceneFacts& facts = info.facts;
-    std::string text = line("scene", printable(facts.name) + ", hash " + facts.hash);
-    if (!words.scene_file.empty()) text += line("scene file", printable(words.scene_file));
-    text += line("triangles",
-                 fmt::format("{} shown, {} stored", facts.triangles, info.stored_triangles));
-    text += line("objects", fmt::format("{} of {} meshes, {} of them instances", info.objects,
-                                        info.meshes, info.instances));
-    text += line("bytes",
-                 fmt::format("geometry {}, images {}, files {}", bytes_text(info.geometry_bytes),
-                             bytes_text(info.image_bytes), bytes_text(info.file_bytes)));
-    text += line("environment", environment_text(facts));
-    text += line("ambient", fmt::format("{:.4g}", words.ambient));
-    text += line("exposure", exposure_text(words));
-    text += line("camera", camera_text(facts.camera));
+    std::string text = format_info_line("scene", escape_control_characters(facts.name) + ", hash " +
+                                                     facts.hash);
+    if (!words.scene_file.empty())
+        text += format_info_line("scene file", escape_control_characters(words.scene_file));
+    text += format_info_line(
+        "triangles", fmt::format("{} shown, {} stored", facts.triangles, info.stored_triangles));
+    text += format_info_line("objects", fmt::format("{} of {} meshes, {} of them instances",
+                                                    info.objects, info.meshes, info.instances));
+    text += format_info_line(
+        "bytes", fmt::format("geometry {}, images {}, files {}", format_bytes(info.geometry_bytes),
+                             format_bytes(info.image_bytes), format_bytes(info.file_bytes)));
+    text += format_info_line("environment", describe_environment(facts));
+    text += format_info_line("ambient", fmt::format("{:.4g}", words.ambient));
+    text += format_info_line("exposure", describe_exposure(words));
+    text += format_info_line("camera", describe_camera(facts.camera));
     for (std::size_t i = 0; i < info.cameras.size(); ++i)
-        text += line(i == 0 ? "cameras" : "",
-                     fmt::format("{} {}", i, camera_text(info.cameras[i])));
-    text += table("Materials", materials(info)) + table("Mirrors", mirrors(info)) +
-            table("Lights", lights(facts));
+        text += format_info_line(i == 0 ? "cameras" : "",
+                                 fmt::format("{} {}", i, describe_camera(info.cameras[i])));
+    text += format_titled_table("Materials", list_material_cells(info)) +
+            format_titled_table("Mirrors", list_mirror_cells(info)) +
+            format_titled_table("Lights", list_light_cells(facts));
     if (info.mirrors.empty()) {
         text += info.mirror_options.empty()
                     ? "\nNo mirror\n"
                     : "\nNo mirror; the smoothest surfaces become one with\n";
         for (const std::string& option : info.mirror_options) text += "  " + option + "\n";
     }
-    return text + table("Added, approximated, left out", unsupported(facts));
+    return text +
+           format_titled_table("Added, approximated, left out", list_unsupported_cells(facts));
 }
 
 } // namespace catoptric::cli

@@ -24,7 +24,7 @@ static_assert(std::atomic<int>::is_always_lock_free &&
                   std::atomic<const char*>::is_always_lock_free,
               "a signal handler may only store without a lock");
 
-std::int64_t now() {
+std::int64_t monotonic_milliseconds() {
     timespec time{};
     ::clock_gettime(CLOCK_MONOTONIC, &time); // allowed in a signal handler
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
@@ -32,7 +32,7 @@ std::int64_t now() {
 
 /// Ends the program with its sentence and exit code, using only calls that are allowed in a signal
 /// handler.
-[[noreturn]] void leave(int number) {
+[[noreturn]] void exit_from_signal(int number) {
     const char digits[] = {static_cast<char>('0' + number / 10),
                            static_cast<char>('0' + number % 10), '\n'};
     const char* const name = program.load();
@@ -51,13 +51,13 @@ std::int64_t now() {
     ::_exit(128 + number);
 }
 
-void on_signal(int number) {
-    if (!is_looked_at.load()) leave(number);
+void handle_signal(int number) {
+    if (!is_looked_at.load()) exit_from_signal(number);
     const int error = errno;
     std::int64_t never = 0;
-    if (first_at.compare_exchange_strong(never, now())) {
+    if (first_at.compare_exchange_strong(never, monotonic_milliseconds())) {
         number_of_signal.store(number);
-    } else if (now() - first_at.load() > kRepeat) {
+    } else if (monotonic_milliseconds() - first_at.load() > kRepeat) {
         std::signal(number, SIG_DFL);
         std::raise(number); // delivered when this handler returns
     }
@@ -66,10 +66,10 @@ void on_signal(int number) {
 
 } // namespace
 
-void answer_signals(const char* name) {
+void exit_on_signals(const char* name) {
     program = name;
     struct sigaction action {};
-    action.sa_handler = on_signal;
+    action.sa_handler = handle_signal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     for (const int signal : {SIGHUP, SIGINT, SIGTERM}) sigaddset(&action.sa_mask, signal);
@@ -81,7 +81,7 @@ void answer_signals(const char* name) {
 }
 
 const std::atomic<int>& stop_on_signals() {
-    if (!is_looked_at.exchange(true)) answer_signals(program);
+    if (!is_looked_at.exchange(true)) exit_on_signals(program);
     return number_of_signal;
 }
 

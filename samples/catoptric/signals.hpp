@@ -8,7 +8,7 @@ namespace catoptric::cli {
 /// stderr after `program`, and its exit code is 128 + number. The string `program` must stay valid.
 /// A signal that is already ignored (nohup) stays ignored. May be called before static objects are
 /// constructed.
-void answer_signals(const char* program);
+void exit_on_signals(const char* program);
 
 /// Makes the first of these signals be stored instead, so that work can end after its frame.
 /// Returns the stored number; 0 before a signal. Further signals within a second count as the same

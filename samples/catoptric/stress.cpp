@@ -27,16 +27,16 @@ constexpr const char* kStressExamples = R"(Examples:
 Exit code 1 if a row fails.)";
 
 struct StressOptions {
-    Manners manners;
+    OutputOptions manners;
     std::string folder;
     std::vector<std::string> only;
     uvec2 size{256, 256};
     std::uint64_t seed = 1;
-    DeviceAsked device;
+    DeviceOptions device;
     std::vector<std::string> command;
 };
 
-std::string table_of(const report::Stress& stress) {
+std::string make_stress_text(const report::StressResults& stress) {
     std::vector<std::vector<std::string>> cells{
         {"id", "verdict", "measured", "threshold", "seconds", "what"}};
     for (const report::StressRow& row : stress.rows) {
@@ -46,7 +46,7 @@ std::string table_of(const report::Stress& stress) {
                          worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
                          fmt::format("{:.1f}", row.seconds), worst ? worst->what : row.remark});
     }
-    return aligned(cells, 5);
+    return align_columns(cells, 5);
 }
 
 int run_stress(const StressOptions& options) {
@@ -60,40 +60,42 @@ int run_stress(const StressOptions& options) {
         std::error_code none_yet; // failure pictures of earlier runs may be replaced
         for (const auto& entry : std::filesystem::directory_iterator(folder / "images", none_yet))
             outputs.push_back(entry.path());
-        check_apart(outputs, {});
+        check_outputs_differ_from_inputs(outputs, {});
     }
-    app::Engine engine(engine_options(options.device));
-    introduce(engine, options.manners);
+    app::Engine engine(make_engine_options(options.device));
+    print_device_and_warnings(engine, options.manners);
     if (!options.folder.empty())
         report::create_folder(std::filesystem::path(options.folder) / "images");
-    Progress progress(options.manners);
+    ProgressPrinter progress(options.manners);
     report::StressWriter writer(options.folder);
-    const auto write = [&](const report::Stress& so_far) {
+    const auto write = [&](const report::StressResults& so_far) {
         if (!options.folder.empty()) writer.write(so_far);
     };
-    const report::Stress found = stress::run(engine, {.only = options.only,
-                                                      .size = options.size,
-                                                      .seed = options.seed,
-                                                      .command = options.command,
-                                                      .watcher = watcher_of(progress),
-                                                      .on_finished_row = write});
+    const report::StressResults found = stress::run_stress_properties(
+        engine, {.only = options.only,
+                 .size = options.size,
+                 .seed = options.seed,
+                 .command = options.command,
+                 .watcher = make_progress_watcher(progress),
+                 .on_finished_row = write});
     progress.clear();
     if (!found.rows.empty()) write(found); // an earlier table is worth more than an empty one
-    put(options.manners.json ? report::to_json(found) : table_of(found));
+    print_result(options.manners.json ? report::to_json(found) : make_stress_text(found));
     if (found.stopped)
         fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);
-    if (!options.folder.empty()) note(options.manners, "written: " + options.folder);
-    for (const std::string& part : found.not_run()) note(options.manners, "not run: " + part);
+    if (!options.folder.empty()) print_note(options.manners, "written: " + options.folder);
+    for (const std::string& part : found.not_run()) print_note(options.manners, "not run: " + part);
     if (options.device.validate) engine.check_validation();
     return found.failed() ? static_cast<int>(Failure::threshold) : 0;
 }
 
 } // namespace
 
-void add_stress(CommandLine& program, std::vector<std::string> command) {
+void add_stress_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<StressOptions>();
     options->command = std::move(command);
-    Verb& verb = program.add("stress", "measure properties of extreme scenes against thresholds");
+    CommandVerb& verb = program.add("stress",
+                                    "measure properties of extreme scenes against thresholds");
     verb.examples(kStressExamples);
     verb.option("-o,--output", "DIR",
                 "folder for stress.json, stress.html, stress.md and pictures of failed properties",
@@ -103,10 +105,10 @@ void add_stress(CommandLine& program, std::vector<std::string> command) {
                 [options](const std::string& text) { options->size = parse_size("--size", text); });
     verb.option("--seed", "N", "seed from which the scenes are made (1)",
                 [options](const std::string& text) { options->seed = parse_seed("--seed", text); });
-    add_device(verb, options->device);
-    add_validate(verb, options->device);
-    add_manners(verb, options->manners);
-    verb.does([options] { return run_stress(*options); });
+    add_device_options(verb, options->device);
+    add_validate_option(verb, options->device);
+    add_output_options(verb, options->manners);
+    verb.set_action([options] { return run_stress(*options); });
 }
 
 } // namespace catoptric::cli

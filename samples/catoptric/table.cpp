@@ -14,25 +14,27 @@ namespace catoptric::cli {
 
 namespace {
 
-std::string milliseconds(double ms) { return fmt::format("{:.3f}", ms); }
+std::string format_milliseconds(double ms) { return fmt::format("{:.3f}", ms); }
 
 /// Returns a number with five decimals, or a dash if it is not finite.
-std::string figure(double value) {
+std::string format_five_decimals(double value) {
     return std::isfinite(value) ? fmt::format("{:.5f}", value) : "-";
 }
 
-std::string percent(double share) {
+std::string format_percent(double share) {
     return std::isfinite(share) ? fmt::format("{:.2f}", 100 * share) : "-";
 }
 
-std::string spread(const measure::Summary& ms) {
+std::string format_spread(const measure::SampleSummary& ms) {
     if (!ms.ci95.is_known()) return "-";
-    return fmt::format("[{} - {}]", milliseconds(ms.ci95.low), milliseconds(ms.ci95.high));
+    return fmt::format("[{} - {}]", format_milliseconds(ms.ci95.low),
+                       format_milliseconds(ms.ci95.high));
 }
 
 } // namespace
 
-std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t text_from) {
+std::string align_columns(const std::vector<std::vector<std::string>>& rows,
+                          std::size_t text_from) {
     std::vector<std::size_t> widths;
     for (const auto& row : rows) {
         widths.resize(std::max(widths.size(), row.size()));
@@ -50,28 +52,29 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
     return text;
 }
 
-std::string compare_table(const report::Comparison& comparison) {
+std::string make_compare_table(const report::Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{
         {"technique", "R", "ms", "[95 %]", "place", "flip", "off %", "mae", "rmse", "mean"}};
     const bool has_notes = std::ranges::any_of(comparison.rows, [&](const report::Row& row) {
-        return !measure::notes_of(comparison, row).empty();
+        return !measure::list_row_notes(comparison, row).empty();
     });
     if (has_notes) rows.front().emplace_back("not as asked");
     const std::size_t notes_at = rows.front().size() - (has_notes ? 1 : 0);
     for (const report::Row& row : comparison.rows) {
-        const measure::PlaceRange places = measure::places_in_time(comparison, row);
+        const measure::RankRange places = measure::find_time_places(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
-                        milliseconds(row.gpu_ms.median), spread(row.gpu_ms),
+                        format_milliseconds(row.gpu_ms.median), format_spread(row.gpu_ms),
                         places.first == places.last
                             ? std::to_string(places.first)
                             : fmt::format("{}-{}", places.first, places.last),
-                        figure(row.error.flip), percent(row.error.off), figure(row.error.mae),
-                        figure(row.error.rmse), figure(row.mean_clamped.all)});
+                        format_five_decimals(row.error.flip), format_percent(row.error.off),
+                        format_five_decimals(row.error.mae), format_five_decimals(row.error.rmse),
+                        format_five_decimals(row.mean_clamped.all)});
         if (has_notes)
             rows.back().push_back(
-                fmt::format("{}", fmt::join(measure::notes_of(comparison, row), "; ")));
+                fmt::format("{}", fmt::join(measure::list_row_notes(comparison, row), "; ")));
     }
-    const std::size_t noisy = measure::noisy_rows(comparison).size();
+    const std::size_t noisy = measure::find_noisy_rows(comparison).size();
     const std::string caution =
         noisy == 0 ? ""
                    : fmt::format("noisy: {} of {} rows had to wait for a processor, others were at "
@@ -80,10 +83,10 @@ std::string compare_table(const report::Comparison& comparison) {
     return caution +
            fmt::format("{} {}x{}, {} frames in {} rounds after {}, {}; errors on mirrors, against "
                        "{}\n",
-                       printable(comparison.scene.name), comparison.width, comparison.height,
-                       comparison.frames, comparison.rounds, comparison.warmup,
+                       escape_control_characters(comparison.scene.name), comparison.width,
+                       comparison.height, comparison.frames, comparison.rounds, comparison.warmup,
                        comparison.device.name, comparison.reference_label) +
-           aligned(rows, notes_at);
+           align_columns(rows, notes_at);
 }
 
 } // namespace catoptric::cli

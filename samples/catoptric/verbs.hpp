@@ -9,13 +9,13 @@
 namespace catoptric::cli {
 
 /// `command` is the whole command line, which reports record.
-void add_compare(CommandLine& program, std::vector<std::string> command);
-void add_stress(CommandLine& program, std::vector<std::string> command);
-void add_bench(CommandLine& program, std::vector<std::string> command);
-void add_render(CommandLine& program);
-void add_diff(CommandLine& program);
-void add_graph(CommandLine& program);
-void add_list(CommandLine& program);
-void add_info(CommandLine& program);
+void add_compare_verb(CommandLine& program, std::vector<std::string> command);
+void add_stress_verb(CommandLine& program, std::vector<std::string> command);
+void add_bench_verb(CommandLine& program, std::vector<std::string> command);
+void add_render_verb(CommandLine& program);
+void add_diff_verb(CommandLine& program);
+void add_graph_verb(CommandLine& program);
+void add_list_verb(CommandLine& program);
+void add_info_verb(CommandLine& program);
 
 } // namespace catoptric::cli

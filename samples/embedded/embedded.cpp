@@ -13,21 +13,21 @@ namespace {
 
 constexpr std::uint32_t kSize = 160;
 
-void must(VkResult result) {
+void check_vulkan(VkResult result) {
     if (result != VK_SUCCESS) throw std::runtime_error("Vulkan: " + std::to_string(result));
 }
 
-embed::Device make_device() {
+embed::Device make_vulkan_device() {
     embed::Device made; // queue family 0: where all that is needed is on every driver that we met
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                         .apiVersion = VK_API_VERSION_1_3};
     const VkInstanceCreateInfo instance{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                         .pApplicationInfo = &application};
-    must(vkCreateInstance(&instance, nullptr, &made.instance));
+    check_vulkan(vkCreateInstance(&instance, nullptr, &made.instance));
     std::uint32_t one = 1;
     if (vkEnumeratePhysicalDevices(made.instance, &one, &made.physical) < 0 || one == 0)
         throw std::runtime_error("no Vulkan device");
-    const embed::Features features(made.physical);
+    const embed::RequiredDeviceFeatures features(made.physical);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueCount = 1,
@@ -36,12 +36,13 @@ embed::Device make_device() {
                                     .pNext = &features.core,
                                     .queueCreateInfoCount = 1,
                                     .pQueueCreateInfos = &queue};
-    must(vkCreateDevice(made.physical, &device, nullptr, &made.device));
+    check_vulkan(vkCreateDevice(made.physical, &device, nullptr, &made.device));
     vkGetDeviceQueue(made.device, 0, 0, &made.queue);
     return made;
 }
 
-VkDeviceMemory give_memory(const embed::Device& own, const VkMemoryRequirements& wants, bool host) {
+VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequirements& wants,
+                                   bool host) {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(own.physical, &memory);
     const VkMemoryPropertyFlags flags = host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
@@ -54,35 +55,35 @@ VkDeviceMemory give_memory(const embed::Device& own, const VkMemoryRequirements&
                                                 .allocationSize = wants.size,
                                                 .memoryTypeIndex = i};
             VkDeviceMemory made = VK_NULL_HANDLE;
-            must(vkAllocateMemory(own.device, &allocate, nullptr, &made));
+            check_vulkan(vkAllocateMemory(own.device, &allocate, nullptr, &made));
             return made;
         }
     throw std::runtime_error("no memory of this kind");
 }
 
 /// What the image holds, which is in the layout TRANSFER_SRC_OPTIMAL.
-measure::Picture read_back(const embed::Device& own, VkImage image) {
+measure::Picture read_back_image(const embed::Device& own, VkImage image) {
     const VkBufferCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                     .size = 4 * kSize * kSize,
                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     VkBuffer buffer = VK_NULL_HANDLE;
-    must(vkCreateBuffer(own.device, &wanted, nullptr, &buffer));
+    check_vulkan(vkCreateBuffer(own.device, &wanted, nullptr, &buffer));
     VkMemoryRequirements wants;
     vkGetBufferMemoryRequirements(own.device, buffer, &wants);
-    const VkDeviceMemory memory = give_memory(own, wants, true);
-    must(vkBindBufferMemory(own.device, buffer, memory, 0));
+    const VkDeviceMemory memory = allocate_memory_for(own, wants, true);
+    check_vulkan(vkBindBufferMemory(own.device, buffer, memory, 0));
 
     const VkCommandPoolCreateInfo pools{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     VkCommandPool pool = VK_NULL_HANDLE;
-    must(vkCreateCommandPool(own.device, &pools, nullptr, &pool));
+    check_vulkan(vkCreateCommandPool(own.device, &pools, nullptr, &pool));
     const VkCommandBufferAllocateInfo allocate{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
         .commandPool = pool,
         .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    must(vkAllocateCommandBuffers(own.device, &allocate, &commands));
+    check_vulkan(vkAllocateCommandBuffers(own.device, &allocate, &commands));
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    must(vkBeginCommandBuffer(commands, &begin));
+    check_vulkan(vkBeginCommandBuffer(commands, &begin));
     const VkBufferImageCopy all{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                 .imageExtent = {kSize, kSize, 1}};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &all);
@@ -91,15 +92,15 @@ measure::Picture read_back(const embed::Device& own, VkImage image) {
                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                          &to_host, 0, nullptr, 0, nullptr);
-    must(vkEndCommandBuffer(commands));
+    check_vulkan(vkEndCommandBuffer(commands));
     const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                               .commandBufferCount = 1,
                               .pCommandBuffers = &commands};
-    must(vkQueueSubmit(own.queue, 1, &submit, VK_NULL_HANDLE));
-    must(vkQueueWaitIdle(own.queue));
+    check_vulkan(vkQueueSubmit(own.queue, 1, &submit, VK_NULL_HANDLE));
+    check_vulkan(vkQueueWaitIdle(own.queue));
 
     void* bytes = nullptr;
-    must(vkMapMemory(own.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
+    check_vulkan(vkMapMemory(own.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
     measure::Picture picture(kSize, kSize);
     const auto* texel = static_cast<const unsigned char*>(bytes);
     for (vec3& pixel : picture.pixels) {
@@ -115,7 +116,7 @@ measure::Picture read_back(const embed::Device& own, VkImage image) {
 } // namespace
 
 int main() try {
-    const embed::Device own = make_device();
+    const embed::Device own = make_vulkan_device();
     const VkImageCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                    .imageType = VK_IMAGE_TYPE_2D,
                                    .format = VK_FORMAT_R8G8B8A8_SRGB,
@@ -126,11 +127,11 @@ int main() try {
                                    .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                                             VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
     VkImage image = VK_NULL_HANDLE;
-    must(vkCreateImage(own.device, &wanted, nullptr, &image));
+    check_vulkan(vkCreateImage(own.device, &wanted, nullptr, &image));
     VkMemoryRequirements wants;
     vkGetImageMemoryRequirements(own.device, image, &wants);
-    const VkDeviceMemory memory = give_memory(own, wants, false);
-    must(vkBindImageMemory(own.device, image, memory, 0));
+    const VkDeviceMemory memory = allocate_memory_for(own, wants, false);
+    check_vulkan(vkBindImageMemory(own.device, image, memory, 0));
     {
         app::Engine engine = embed::make_engine(own);
         app::Session session(engine, scene::load("cornell-mirrors"), 2);
@@ -138,9 +139,10 @@ int main() try {
                                   .camera = session.scene().cameras.front(),
                                   .size = {kSize, kSize}};
         const embed::Target target{image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-        for (int k = 0; k < 5; ++k) embed::frame_into(session, spec, target);
-        const app::Frame last = embed::frame_into(session, spec, target);
-        const measure::Picture shown = read_back(own, image); // the queue puts it after the frame
+        for (int k = 0; k < 5; ++k) embed::render_frame_into(session, spec, target);
+        const app::Frame last = embed::render_frame_into(session, spec, target);
+        const measure::Picture shown = read_back_image(own,
+                                                       image); // the queue puts it after the frame
         const bool same = shown.pixels == last.read().display.pixels;
         std::printf("our image %s the frame\n", same ? "holds" : "does NOT hold");
         measure::write_png(shown, "embedded.png");

@@ -21,7 +21,7 @@ int main() try {
 
     const measure::Picture hdr = frame.hdr();
     std::printf("%s: mean %.4f, %.2f ms\n", engine.device().name.c_str(),
-                measure::mean_of(hdr, measure::Range::clamped).all, frame.times().gpu_ms);
+                measure::mean_of(hdr, measure::ValueRange::clamped).all, frame.times().gpu_ms);
     measure::write_png(measure::to_display(hdr), "hello.png");
     return 0;
 } catch (const NoDevice& error) {

@@ -14,14 +14,14 @@ using namespace catoptric;
 
 namespace {
 
-scene::Camera walked(scene::Camera camera, double turn) {
+scene::Camera walk_camera(scene::Camera camera, double turn) {
     const dvec3 arm = camera.eye - camera.target;
     camera.eye = camera.target + dvec3(std::cos(turn) * arm.x + std::sin(turn) * arm.z, arm.y,
                                        std::cos(turn) * arm.z - std::sin(turn) * arm.x);
     return camera;
 }
 
-void live(app::Engine& engine, int frames) {
+void run_live_loop(app::Engine& engine, int frames) {
     app::Session session(engine, scene::load("cornell-mirrors"), 2);
     const scene::Camera camera = session.scene().cameras.front();
     const std::size_t ball = scene::mirrors(session.scene()).front();
@@ -39,9 +39,9 @@ void live(app::Engine& engine, int frames) {
         place[3].y += 10 * std::sin(.2 * k); // as high as the scene's units have it
         session.change(scene::move(ball, place));
         under_way.push_back(session.frame({.techniques = {"parallax:face=64"},
-                                           .camera = walked(camera, .005 * k),
+                                           .camera = walk_camera(camera, .005 * k),
                                            .size = {160, 160},
-                                           .model = app::Modelling::required}));
+                                           .model = app::RenderedWork::required}));
         if (under_way.size() == 2) finish_oldest();
     }
     measure::write_png(measure::to_display(under_way.back().hdr()), "live.png");
@@ -55,9 +55,9 @@ void live(app::Engine& engine, int frames) {
 int main() try {
     for (int attempt = 0;; ++attempt) try {
             app::Engine engine({});
-            live(engine, 30);
+            run_live_loop(engine, 30);
             std::fflush(stdout);
-            if (app::any_abandoned()) std::_Exit(0); // a lost device's driver may be at work
+            if (app::has_abandoned_device()) std::_Exit(0); // a lost device's driver may be at work
             return 0;
         } catch (const DeviceLost& error) { // start again, once
             if (attempt > 0) throw;

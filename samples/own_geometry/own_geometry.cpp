@@ -12,7 +12,7 @@ using namespace catoptric;
 namespace {
 
 /// A square of 4 by 4 in the plane y = 0, with waves around its middle.
-scene::Mesh waves(unsigned cells) {
+scene::Mesh make_wave_mesh(unsigned cells) {
     scene::Mesh mesh{.name = "waves"};
     for (unsigned row = 0; row <= cells; ++row)
         for (unsigned column = 0; column <= cells; ++column) {
@@ -28,7 +28,7 @@ scene::Mesh waves(unsigned cells) {
     return mesh;
 }
 
-scene::Scene make() {
+scene::Scene make_wave_scene() {
     scene::Scene made{.name = "waves"};
     const auto paint = [&](const char* name, vec3 colour) {
         return scene::add_material(made, {.name = name, .albedo = colour});
@@ -44,7 +44,7 @@ scene::Scene make() {
     }
     scene::add_quad(made, "lamp", lamp, {-1, 4, -1}, {1, 4, -1}, {1, 4, 1}, {-1, 4, 1});
     scene::add_ball(made, "ball", light, {0, 1.2, -1}, .6);
-    scene::add_mesh(made, waves(40), glass);
+    scene::add_mesh(made, make_wave_mesh(40), glass);
     made.environment = std::make_shared<scene::Environment>(
         scene::Environment{.name = "studio", .studio = true});
     made.cameras.push_back({.eye = {0, 3, 6}, .target = {0, 0, 0}});
@@ -55,7 +55,7 @@ scene::Scene make() {
 
 int main() try {
     app::Engine engine({});
-    app::Session session(engine, make());
+    app::Session session(engine, make_wave_scene());
     const auto picture = [&](const char* technique) {
         return session
             .frame({.techniques = {technique},

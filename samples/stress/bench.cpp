@@ -17,7 +17,7 @@ namespace catoptric::stress {
 namespace {
 
 /// Returns the text as a file name of letters, digits and single hyphens.
-std::string as_file_name(const std::string& text) {
+std::string make_file_name(const std::string& text) {
     std::string name;
     for (const char c : text)
         if (std::isalnum(static_cast<unsigned char>(c)))
@@ -29,66 +29,69 @@ std::string as_file_name(const std::string& text) {
 
 } // namespace
 
-bool is_refusal(const Error& error) {
+bool is_resource_refusal(const Error& error) {
     static const std::regex kLimit(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
     return error.failure == Failure::exhausted &&
            std::regex_search(std::string(error.what()), kLimit);
 }
 
-bool Bench::ends_run(const Error& error) const {
+bool StressBench::ends_run(const Error& error) const {
     const bool is_fault = error.failure == Failure::device_lost ||
                           error.failure == Failure::no_device ||
-                          (error.failure == Failure::exhausted && !is_refusal(error));
-    return is_fault || is_stop(error.failure) || !engine_.usable();
+                          (error.failure == Failure::exhausted && !is_resource_refusal(error));
+    return is_fault || is_stop_signal(error.failure) || !engine_.usable();
 }
 
-app::Request Bench::asked(const scene::Scene& scene, const std::string& technique,
-                          int frames) const {
+app::Request StressBench::make_request(const scene::Scene& scene, const std::string& technique,
+                                       int frames) const {
     app::Request request;
     request.scene = scene;
     request.techniques = {technique};
-    request.camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front();
+    request.camera = scene.cameras.empty() ? scene::make_default_camera(scene)
+                                           : scene.cameras.front();
     request.size = size_;
     request.frames = 1;
     request.warmup = frames - 1;
     return request;
 }
 
-app::Part Bench::render(const app::Request& request) {
+app::TechniqueResult StressBench::render(const app::Request& request) {
     app::Session session(engine_, request.scene);
     app::Frames frames(session, request);
     while (frames.next()) check_stopped(watcher_);
     return frames.frame().read();
 }
 
-void Bench::plan(const app::Request& request) {
+void StressBench::plan(const app::Request& request) {
     app::Session session(engine_, request.scene);
     app::Access::plan(session, request, app::PlanFormat::text);
 }
 
-void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
-                     double limit, bool is_quality) {
+void StressBench::add_flip(const std::string& what, const app::TechniqueResult& found,
+                           const app::TechniqueResult& wanted, double limit, bool is_quality) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
-    row_.cases.push_back({what, nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
+    row_.cases.push_back(
+        {what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
     if (row_.cases.back().holds()) return;
-    const std::string name = row_.id + "-" + as_file_name(what);
+    const std::string name = row_.id + "-" + make_file_name(what);
     for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})
         row_.pictures.push_back({name + which, part->display.width, part->display.height,
-                                 measure::png_bytes(part->display)});
+                                 measure::encode_picture_png(part->display)});
 }
 
-void Bench::add_nonfinite(const std::string& what, const app::Part& part) {
-    add(what + ": pixels that are no numbers", static_cast<double>(nonfinite(part.hdr)), 0);
+void StressBench::add_nonfinite(const std::string& what, const app::TechniqueResult& part) {
+    add(what + ": pixels that are no numbers",
+        static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
 }
 
-bool Bench::add_done_or_refused(const std::string& what, const std::function<void()>& work) {
+bool StressBench::add_done_or_refused(const std::string& what, const std::function<void()>& work) {
     try {
         work();
         add(what + ": done", 0, 0);
         return true;
     } catch (const Error& error) {
         if (ends_run(error)) throw;
-        if (is_refusal(error))
+        if (is_resource_refusal(error))
             add_not_run(what, error);
         else
             add(what + ": fails: " + error.what(), 1, 0);
@@ -96,8 +99,8 @@ bool Bench::add_done_or_refused(const std::string& what, const std::function<voi
     }
 }
 
-void Bench::add_refused(const std::string& what, Failure failure, const std::string& limit,
-                        const std::function<void()>& work) {
+void StressBench::add_refused(const std::string& what, Failure failure, const std::string& limit,
+                              const std::function<void()>& work) {
     std::string text = "not refused";
     try {
         work();
@@ -110,20 +113,20 @@ void Bench::add_refused(const std::string& what, Failure failure, const std::str
     add(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
 }
 
-std::size_t nonfinite(const measure::Picture& picture) {
+std::size_t count_nonfinite_pixels(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& pixel) {
         return !(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z));
     }));
 }
 
-double brightest(const measure::Picture& picture) {
+double brightest_channel(const measure::Picture& picture) {
     double most = 0;
     for (const vec3& pixel : picture.pixels)
         most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
-    return nonfinite(picture) > 0 ? std::nan("") : most;
+    return count_nonfinite_pixels(picture) > 0 ? std::nan("") : most;
 }
 
-std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b) {
+std::size_t count_different_pixels(const measure::Picture& a, const measure::Picture& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
     return count;

@@ -11,17 +11,17 @@
 namespace catoptric::stress {
 
 /// Test bench of a property: renders pictures of scenes and adds results to the property's row.
-class Bench {
+class StressBench {
 public:
-    Bench(app::Engine& engine, const app::Watcher& watcher, uvec2 size, std::uint64_t seed,
-          report::StressRow& row)
+    StressBench(app::Engine& engine, const app::Watcher& watcher, uvec2 size, std::uint64_t seed,
+                report::StressRow& row)
         : engine_(engine), watcher_(watcher), size_(size), random_(seed), row_(row) {}
 
     /// Returns a request for the scene as its first camera sees it, for the picture after `frames`
     /// frames at rest. These are defaults: a property may change any field.
-    app::Request asked(const scene::Scene& scene, const std::string& technique,
-                       int frames = 4) const;
-    app::Part render(const app::Request& request);
+    app::Request make_request(const scene::Scene& scene, const std::string& technique,
+                              int frames = 4) const;
+    app::TechniqueResult render(const app::Request& request);
     /// Renders one frame of a property's own loop. Throws if the user stopped the run.
     app::Frame frame(app::Session& session, const app::FrameSpec& spec,
                      const app::FrameHooks& hooks = {}) {
@@ -30,8 +30,9 @@ public:
     }
     /// Compiles the plan of the request's frame without rendering.
     void plan(const app::Request& request);
-    app::Part render(const scene::Scene& scene, const std::string& technique, int frames = 4) {
-        return render(asked(scene, technique, frames));
+    app::TechniqueResult render(const scene::Scene& scene, const std::string& technique,
+                                int frames = 4) {
+        return render(make_request(scene, technique, frames));
     }
 
     /// Adds a measured value and its limit.
@@ -43,10 +44,10 @@ public:
         row_.cases.push_back({std::move(what), measured, limit, true});
     }
     /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit.
-    void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
-                  double limit, bool is_quality = false);
+    void add_flip(const std::string& what, const app::TechniqueResult& found,
+                  const app::TechniqueResult& wanted, double limit, bool is_quality = false);
     /// Adds the number of pixels that are NaN or infinite, with limit 0.
-    void add_nonfinite(const std::string& what, const app::Part& part);
+    void add_nonfinite(const std::string& what, const app::TechniqueResult& part);
     /// Adds a part that the device does not allow. It is reported and has no measured value.
     void add_not_run(std::string what, const Error& error) {
         row_.not_run.push_back({std::move(what), error.what()});
@@ -79,11 +80,11 @@ private:
 
 /// Returns whether an error reports an exhausted resource and its text says how much the device
 /// allows.
-bool is_refusal(const Error& error);
+bool is_resource_refusal(const Error& error);
 /// Returns the number of pixels with a NaN or infinity.
-std::size_t nonfinite(const measure::Picture& picture);
+std::size_t count_nonfinite_pixels(const measure::Picture& picture);
 /// Returns the largest channel of all pixels, or NaN if a pixel is not finite.
-double brightest(const measure::Picture& picture);
-std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b);
+double brightest_channel(const measure::Picture& picture);
+std::size_t count_different_pixels(const measure::Picture& a, const measure::Picture& b);
 
 } // namespace catoptric::stress

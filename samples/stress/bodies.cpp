@@ -22,53 +22,54 @@ namespace catoptric::stress {
 namespace {
 
 /// Measurements in a furnace: the share of pixels darker than 1, and the brightest value.
-struct Seen {
+struct FurnaceMeasurement {
     double dark = 0, brightest = 0;
 };
 
-Seen look(Bench& bench, const scene::Scene& scene, const std::string& technique, int frames) {
-    app::Request request = bench.asked(scene, technique, frames);
+FurnaceMeasurement measure_in_furnace(StressBench& bench, const scene::Scene& scene,
+                                      const std::string& technique, int frames) {
+    app::Request request = bench.make_request(scene, technique, frames);
     request.ambient = 0;
-    const app::Part part = bench.render(request);
-    Seen seen;
+    const app::TechniqueResult part = bench.render(request);
+    FurnaceMeasurement seen;
     for (const vec3& pixel : part.hdr.pixels) {
         seen.dark += !(pixel.x >= .998f);
         seen.brightest = std::max(seen.brightest, double{pixel.x});
     }
     seen.dark /= static_cast<double>(part.hdr.pixels.size());
-    if (nonfinite(part.hdr) > 0) seen.brightest = std::nan("");
+    if (count_nonfinite_pixels(part.hdr) > 0) seen.brightest = std::nan("");
     return seen;
 }
 
-void judge_contact(Bench& bench) {
-    const std::pair<const char*, std::vector<Ball>> contacts[] = {
+void judge_balls_in_contact(StressBench& bench) {
+    const std::pair<const char*, std::vector<MirrorBall>> contacts[] = {
         {"on the floor and at the wall", {{{-3, -2, 1}, 1}}},
         {"two that touch", {{{-1, 0, 1}, 1}, {{1, 0, 1}, 1}}},
         {"two that overlap", {{{-.6, 0, 1}, 1}, {{.7, .2, 1}, 1}}},
         {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
     for (const auto& [what, balls] : contacts) {
-        const scene::Scene scene = furnace(balls);
+        const scene::Scene scene = make_furnace(balls);
         bench.add(std::string(what) + ", raytrace:depth=64: dark pixels",
-                  look(bench, scene, "raytrace:depth=64", 1).dark, .0001);
+                  measure_in_furnace(bench, scene, "raytrace:depth=64", 1).dark, .0001);
         bench.add(std::string(what) + ", reuse, frame 100: brightest of 1",
-                  look(bench, scene, "reuse:face=32", 100).brightest, 1.002);
+                  measure_in_furnace(bench, scene, "reuse:face=32", 100).brightest, 1.002);
         bench.add(std::string(what) + ", pyramid: brightest of 1",
-                  look(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
+                  measure_in_furnace(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
     }
 }
 
-void judge_vanishing(Bench& bench) {
-    const scene::Scene scene = room(bench, 2);
+void judge_vanishing_ball(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 2);
     const std::size_t mirror = scene.materials.size() - 1;
     const dvec3 place(0, 0, -.3);
     const std::pair<const char*, dvec3> sizes[] = {{"radius 0", dvec3(0)},
                                                    {"radius 1e-9", dvec3(1e-9)},
                                                    {"flattened", dvec3(1e-7, 1e-7, 1e-12)}};
     for (const std::string technique : {"raytrace", "parallax", "pyramid"}) {
-        const app::Part without = bench.render(scene, technique);
+        const app::TechniqueResult without = bench.render(scene, technique);
         for (const auto& [what, size] : sizes) {
             scene::Scene with = scene;
-            add_ball(with, mirror, {place, 1});
+            add_stress_ball(with, mirror, {place, 1});
             scene::Object gone = with.objects.back();
             gone.sphere.reset();
             for (int axis = 0; axis < 3; ++axis) gone.world_from_object[axis][axis] = size[axis];
@@ -80,21 +81,22 @@ void judge_vanishing(Bench& bench) {
     }
 }
 
-void judge_many(Bench& bench) {
+void judge_many_mirrors(StressBench& bench) {
     for (const int mirrors : {0, 1, 2, 16, 64, 1000}) {
-        scene::Scene scene = furnace({});
+        scene::Scene scene = make_furnace({});
         const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
         for (int i = 0; i < mirrors; ++i)
-            add_ball(scene, mirror,
-                     {{-3.5 + .7 * (i % 10), -2.5 + .5 * (i / 10 % 10), .5 * (i / 100)}, .15}, 1);
+            add_stress_ball(
+                scene, mirror,
+                {{-3.5 + .7 * (i % 10), -2.5 + .5 * (i / 10 % 10), .5 * (i / 100)}, .15}, 1);
         const std::string what = std::to_string(mirrors) + " mirrors";
         try {
-            const app::Part part = bench.render(scene, "reuse:face=8,shadow=none", 2);
+            const app::TechniqueResult part = bench.render(scene, "reuse:face=8,shadow=none", 2);
             bench.add_nonfinite(what, part);
             bench.add(what + ": passes off N + 1", std::abs(part.scene_passes - (mirrors + 1)), 0);
         } catch (const Error& error) {
             if (bench.ends_run(error)) throw;
-            if (is_refusal(error) && mirrors == 1000)
+            if (is_resource_refusal(error) && mirrors == 1000)
                 bench.add_not_run(what, error);
             else
                 bench.add(what + ": refused otherwise than by a budget: " + error.what(), 1, 0);
@@ -102,18 +104,18 @@ void judge_many(Bench& bench) {
     }
 }
 
-void judge_faces(Bench& bench) {
-    const scene::Scene scene = room(bench, 1);
-    const app::Part truth = bench.render(scene, "raytrace");
-    const measure::Mask mirrors = measure::mirrors(truth.hits);
-    const auto mean_of = [&](const app::Part& part) {
-        return measure::mean_of(part.hdr, measure::Range::clamped, mirrors).all;
+void judge_face_sizes(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 1);
+    const app::TechniqueResult truth = bench.render(scene, "raytrace");
+    const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
+    const auto mean_of = [&](const app::TechniqueResult& part) {
+        return measure::mean_of(part.hdr, measure::ValueRange::clamped, mirrors).all;
     };
     const double wanted = mean_of(truth);
     for (const char* face : {"1", "2", "3"})
         for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
             const std::string text = technique + ":face=" + face;
-            const app::Part part = bench.render(scene, text);
+            const app::TechniqueResult part = bench.render(scene, text);
             bench.add_nonfinite(text, part);
             // With a few texels, chance decides whether one of them sees the lamp.
             const double mean = mean_of(part);
@@ -123,15 +125,15 @@ void judge_faces(Bench& bench) {
         }
     // A large capture must show the same as a small one. The plan says whether the device has the
     // memory.
-    const app::Part usual = bench.render(scene, "naive:bounces=1,face=1024", 1);
+    const app::TechniqueResult usual = bench.render(scene, "naive:bounces=1,face=1024", 1);
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
-            const app::Request request = bench.asked(scene, technique + face, 1);
+            const app::Request request = bench.make_request(scene, technique + face, 1);
             if (!bench.add_done_or_refused(technique + face + " planned",
                                            [&] { bench.plan(request); }))
                 continue;
             if (std::stoi(face) > 4096) continue; // needs 10 GiB or more
-            const app::Part large = bench.render(request);
+            const app::TechniqueResult large = bench.render(request);
             if (technique.starts_with("naive"))
                 bench.add_flip(technique + face, large, usual, .01);
             else
@@ -142,10 +144,11 @@ void judge_faces(Bench& bench) {
 }
 
 /// Moves ball 4 through its whole path and compares adjacent frames.
-void judge_path(Bench& bench) {
+void judge_moving_ball(StressBench& bench) {
     constexpr int kWarm = 8, kFrames = 120;
     constexpr double kPeriod = 4;
-    app::Request request = bench.asked(scene::cornell_mirrors(), "parallax:face=128", 1);
+    app::Request request = bench.make_request(scene::make_cornell_mirrors(), "parallax:face=128",
+                                              1);
     app::Session session(bench.engine(), request.scene);
     std::vector<double> steps;
     measure::Picture last;
@@ -157,18 +160,19 @@ void judge_path(Bench& bench) {
         if (k > kWarm) steps.push_back(measure::flip_mean(measure::flip(now, last)));
         last = std::move(now);
     }
-    const double most = *std::ranges::max_element(steps), median = measure::summarise(steps).median;
+    const double most = *std::ranges::max_element(steps),
+                 median = measure::summarise_samples(steps).median;
     bench.add("largest FLIP from frame to frame over the median", most / median, 3);
 }
 
-void judge_correction(Bench& bench) {
+void judge_parallax_correction(StressBench& bench) {
     const auto contract = [&](const std::string& technique, int frames) {
-        app::Request request = bench.asked(scene::cornell_mirrors(), technique, frames);
+        app::Request request = bench.make_request(scene::make_cornell_mirrors(), technique, frames);
         request.size = {512, 512}; // ball 4 is only about 30 pixels wide at half this size
         return bench.render(request);
     };
-    const app::Part truth = contract("raytrace:depth=16", 1), plain = contract("reuse", 8),
-                    corrected = contract("parallax", 8);
+    const app::TechniqueResult truth = contract("raytrace:depth=16", 1),
+                               plain = contract("reuse", 8), corrected = contract("parallax", 8);
     const std::vector<float> no_flip(truth.hdr.pixels.size());
     const auto share = [&](const measure::Mask& mask) {
         return measure::difference(corrected.hdr, truth.hdr, mask, no_flip).rmse /
@@ -176,27 +180,28 @@ void judge_correction(Bench& bench) {
     };
     for (std::uint32_t ball = 1; ball <= 4; ++ball)
         bench.add(fmt::format("ball {}: rmse over uncorrected", ball),
-                  share(measure::of_mirror(truth.hits, MirrorId(ball))), .65);
-    bench.add("together: rmse over uncorrected", share(measure::mirrors(truth.hits)), .5);
+                  share(measure::mask_one_mirror(truth.hits, MirrorId(ball))), .65);
+    bench.add("together: rmse over uncorrected", share(measure::mask_mirror_pixels(truth.hits)),
+              .5);
 }
 
-const Registered kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512",
-                              "better than uncorrected for every ball", judge_correction,
-                              "parallax_mirrored"}};
-const Registered kContact{
+const RegisteredProperty kCorrection{
+    {"N12", "parallax against ray tracing, contract camera, 512x512",
+     "better than uncorrected for every ball", judge_parallax_correction, "parallax_mirrored"}};
+const RegisteredProperty kContact{
     {"C1", "balls that touch wall and floor, each other, overlap, are concentric",
-     "no dark ring, no blow-up in 100 frames", judge_contact, "rays_start_on_surface"}};
-const Registered kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
-                             "the others are untouched (FLIP)", judge_vanishing,
-                             "no_size_no_number"}};
-const Registered kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
-                        "0: no capture; 1000: runs, or a budget message", judge_many,
-                        "later_arrays_not_drawn"}};
-const Registered kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769",
-                         "runs, or says the bytes, or is refused", judge_faces,
-                         "most_of_knob_unchecked", "rendering at 16384, which is planned only"}};
-const Registered kPath{{"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop",
-                        judge_path, "motion_ends_early"}};
+     "no dark ring, no blow-up in 100 frames", judge_balls_in_contact, "rays_start_on_surface"}};
+const RegisteredProperty kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
+                                     "the others are untouched (FLIP)", judge_vanishing_ball,
+                                     "no_size_no_number"}};
+const RegisteredProperty kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
+                                "0: no capture; 1000: runs, or a budget message",
+                                judge_many_mirrors, "later_arrays_not_drawn"}};
+const RegisteredProperty kFaces{
+    {"C10", "face 1, 2, 3, 4096, 16384, 32769", "runs, or says the bytes, or is refused",
+     judge_face_sizes, "most_of_knob_unchecked", "rendering at 16384, which is planned only"}};
+const RegisteredProperty kPath{{"C13", "ball 4 through its whole path, 120 frames",
+                                "no single-frame pop", judge_moving_ball, "motion_ends_early"}};
 
 } // namespace
 

@@ -20,17 +20,17 @@ namespace {
 constexpr int kMost = 6;      // largest number of bounces
 constexpr double kFall = 0.4; // a step is at most this share of the step before
 
-struct Bounces {
+struct BouncePictures {
     std::vector<measure::Picture> pictures; ///< entry k: picture with k bounces
     measure::Mask mirrors;
 };
 
-Bounces bounces_of(Bench& bench, app::Request request, int face = 128) {
+BouncePictures render_bounces(StressBench& bench, app::Request request, int face = 128) {
     const auto render = [&](const std::string& technique) {
         request.techniques = {technique};
         return bench.render(request);
     };
-    Bounces bounces{{}, measure::mirrors(render("raytrace:depth=1").hits)};
+    BouncePictures bounces{{}, measure::mask_mirror_pixels(render("raytrace:depth=1").hits)};
     for (int k = 0; k <= kMost; ++k)
         bounces.pictures.push_back(render(fmt::format("naive:face={},bounces={}", face, k)).hdr);
     return bounces;
@@ -39,7 +39,8 @@ Bounces bounces_of(Bench& bench, app::Request request, int face = 128) {
 /// Returns the rmse between the pictures with k and k + 1 bounces over mirror pixels, k = 0..5.
 /// Adds the case that no pixel gets darker with a further bounce. This holds because captures start
 /// black, and each capture is a weighted mean of captures of the bounce before.
-std::vector<double> steps_of(Bench& bench, const std::string& where, const Bounces& bounces) {
+std::vector<double> compute_bounce_differences(StressBench& bench, const std::string& where,
+                                               const BouncePictures& bounces) {
     const std::vector<float> no_flip(bounces.pictures.front().pixels.size());
     std::vector<double> steps;
     for (std::size_t k = 0; k + 1 < bounces.pictures.size(); ++k) {
@@ -54,7 +55,8 @@ std::vector<double> steps_of(Bench& bench, const std::string& where, const Bounc
     return steps;
 }
 
-void add_falls(Bench& bench, const std::string& where, const std::vector<double>& steps) {
+void add_falling_differences(StressBench& bench, const std::string& where,
+                             const std::vector<double>& steps) {
     for (std::size_t k = 1; k < steps.size(); ++k) {
         bench.add(fmt::format("{}, bounce {}: share of the step before", where, k + 1),
                   steps[k] / steps[k - 1], kFall);
@@ -62,19 +64,21 @@ void add_falls(Bench& bench, const std::string& where, const std::vector<double>
     }
 }
 
-void judge_report_room(Bench& bench) {
-    app::Request request = bench.asked(scene::cornell_mirrors(), "naive", 1);
+void judge_cornell_bounces(StressBench& bench) {
+    app::Request request = bench.make_request(scene::make_cornell_mirrors(), "naive", 1);
     request.size = uvec2(512);
-    add_falls(bench, "the report's room",
-              steps_of(bench, "the report's room", bounces_of(bench, request)));
+    add_falling_differences(
+        bench, "the report's room",
+        compute_bounce_differences(bench, "the report's room", render_bounces(bench, request)));
 }
 
 /// Judges a room with small balls. A third image covers one or two of about 4,000 pixels, and
 /// chance decides whether their texels see the lamp. The fall from step to step is therefore
 /// random, so only the fall up to bounce 4 is judged.
-void judge_room(Bench& bench) {
-    const std::vector<double> steps = steps_of(
-        bench, "a room", bounces_of(bench, bench.asked(room(bench, 4), "naive", 1)));
+void judge_small_ball_bounces(StressBench& bench) {
+    const std::vector<double> steps = compute_bounce_differences(
+        bench, "a room",
+        render_bounces(bench, bench.make_request(make_stress_room(bench, 4), "naive", 1)));
     bench.add("a room, bounce 4: share of the first step", steps[3] / steps[0],
               std::pow(kFall, 3.0));
 }
@@ -83,11 +87,11 @@ void judge_room(Bench& bench) {
 /// one `reflectance`. After k mirrors a ray has turned by 2 k times the angle, until it leaves the
 /// mirrors. A captured path of k mirrors shows reflectance^k. A further bounce turns a black band,
 /// as wide as the last one, into the next power.
-struct Wedge {
+struct MirrorWedge {
     double reflectance, angle;
 
     scene::Scene scene(dvec3 eye) const {
-        scene::Scene scene = furnace({});
+        scene::Scene scene = make_furnace({});
         const std::size_t mirror = add_material(
             scene, {.name = "mirror",
                     .mirror = true,
@@ -95,8 +99,8 @@ struct Wedge {
         const auto add = [&](double x, double by) {
             const dvec3 along = 2.0 * dvec3(std::sin(by), 0, std::cos(by)), up(0, 2, 0),
                         at(x, 0, 1);
-            add_quad(scene, mirror, at - along - up, at + along - up, at + along + up,
-                     at - along + up);
+            add_stress_quad(scene, mirror, at - along - up, at + along - up, at + along + up,
+                            at - along + up);
         };
         add(-1, -angle / 2), add(1, angle / 2);
         scene.cameras.front() = {
@@ -115,17 +119,17 @@ struct Wedge {
 /// Judges the wedge, for which two facts hold with any seed. From the third bounce on, a step is
 /// the reflectance times the step before. A pixel that does not mix two bands shows a power of the
 /// reflectance.
-void judge_wedge(Bench& bench) {
-    const Wedge wedge{bench.random(.2, .3), bench.random(.05, .08)};
-    app::Request request = bench.asked(
+void judge_mirror_wedge(StressBench& bench) {
+    const MirrorWedge wedge{bench.random(.2, .3), bench.random(.05, .08)};
+    app::Request request = bench.make_request(
         wedge.scene({bench.random(-.1, .1), bench.random(-.2, .2), bench.random(-.9, -.7)}),
         "naive", 1);
     request.ambient = 0;
-    const Bounces bounces = bounces_of(bench, request, 256);
+    const BouncePictures bounces = render_bounces(bench, request, 256);
     const std::string where = fmt::format("mirrors of {:.3f} at {:.3f}", wedge.reflectance,
                                           wedge.angle);
-    const std::vector<double> steps = steps_of(bench, where, bounces);
-    add_falls(bench, where, steps);
+    const std::vector<double> steps = compute_bounce_differences(bench, where, bounces);
+    add_falling_differences(bench, where, steps);
     for (std::size_t k = 2; k + 1 < steps.size(); ++k)
         bench.add(fmt::format("{}, bounce {}: share of the step before, off the reflectance by a "
                               "share of",
@@ -136,18 +140,18 @@ void judge_wedge(Bench& bench) {
         strange += bounces.mirrors[i] != 0 &&
                    !wedge.explains(bounces.pictures.back().pixels[i].x, kMost);
     bench.add(where + ": share of pixels that no number of mirrors explains",
-              double(strange) / double(measure::pixel_count(bounces.mirrors)), .2);
+              double(strange) / double(measure::count_mask_pixels(bounces.mirrors)), .2);
 }
 
-void judge_bounces(Bench& bench) {
-    judge_report_room(bench);
-    judge_room(bench);
-    judge_wedge(bench);
+void judge_bounces(StressBench& bench) {
+    judge_cornell_bounces(bench);
+    judge_small_ball_bounces(bench);
+    judge_mirror_wedge(bench);
 }
 
-const Registered kBounces{{"N8", "naive, bounces 0..6",
-                           "no mirror darkens, steps fall by 2.5 and more", judge_bounces,
-                           "bounces_capped"}};
+const RegisteredProperty kBounces{{"N8", "naive, bounces 0..6",
+                                   "no mirror darkens, steps fall by 2.5 and more", judge_bounces,
+                                   "bounces_capped"}};
 
 } // namespace
 

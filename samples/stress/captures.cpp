@@ -25,8 +25,8 @@ namespace catoptric::stress {
 namespace {
 
 /// Returns the built-in room with one of its mirrors (from 0), or with none.
-scene::Scene room_with(std::size_t mirror) {
-    scene::Scene scene = scene::cornell_mirrors();
+scene::Scene make_room_with_one_mirror(std::size_t mirror) {
+    scene::Scene scene = scene::make_cornell_mirrors();
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (std::size_t i = mirrors.size(); i-- > 0;)
         if (i != mirror)
@@ -36,9 +36,9 @@ scene::Scene room_with(std::size_t mirror) {
 
 /// Returns the cubes of all mirrors, without shadows and ambient light. Other mirrors are black in
 /// them.
-render::Captured captured(Bench& bench, const scene::Scene& scene, std::uint32_t edge,
-                          Format format) {
-    app::Request request = bench.asked(
+render::CapturedCubes render_captures(StressBench& bench, const scene::Scene& scene,
+                                      std::uint32_t edge, Format format) {
+    app::Request request = bench.make_request(
         scene, fmt::format("parallax:shadow=none,face={},distance={}", edge, name_of(format)));
     request.size = {16, 16};
     request.ambient = 0;
@@ -46,20 +46,20 @@ render::Captured captured(Bench& bench, const scene::Scene& scene, std::uint32_t
     return app::Access::captures(bench.frame(session, request, {.with_captures = true}));
 }
 
-void judge_distances(Bench& bench) {
+void judge_captured_distances(StressBench& bench) {
     constexpr std::uint32_t kEdge = 128;
     constexpr double kClamp = 200; // largest distance of the seed report's 8-bit storage
-    const std::size_t mirrors = scene::mirrors(scene::cornell_mirrors()).size();
-    const scene::Scene walls = room_with(mirrors);
+    const std::size_t mirrors = scene::mirrors(scene::make_cornell_mirrors()).size();
+    const scene::Scene walls = make_room_with_one_mirror(mirrors);
     const DoubleTracer tracer(walls, 0);
     for (const Format format : {Format::r32f, Format::r16f})
         for (std::size_t mirror = 0; mirror < mirrors; ++mirror) {
-            const scene::Scene scene = room_with(mirror);
+            const scene::Scene scene = make_room_with_one_mirror(mirror);
             const dvec3 centre =
                 scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
-            const render::Captured cubes = captured(bench, scene, kEdge, format);
+            const render::CapturedCubes cubes = render_captures(bench, scene, kEdge, format);
             std::size_t off = 0, clamped = 0, far = 0, judged = 0;
-            for_texels(
+            for_each_cube_texel(
                 kEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
                     const double wanted = tracer.distance(centre, normalize(direction));
                     const double found = cubes.distance(0, face, x, y, format) / cubes.space.scale;
@@ -78,16 +78,16 @@ void judge_distances(Bench& bench) {
 
 /// Judges a wall beside the ball, in each direction in turn, by the centre texel of the face that
 /// looks at it.
-void judge_near_wall(Bench& bench) {
+void judge_capture_near_wall(StressBench& bench) {
     constexpr std::uint32_t kEdge = 65;
     constexpr double kGap = .6;
     for (int face = 0; face < 6; ++face) {
-        scene::Scene scene = furnace({{{0, 0, 0}, .5}});
+        scene::Scene scene = make_furnace({{{0, 0, 0}, .5}});
         dvec3 lo(-4, -3, -5), hi(4, 3, 5);
         (face % 2 ? lo : hi)[face / 2] = face % 2 ? -kGap : kGap;
         for (int wall = 0; wall < 6; ++wall)
             scene.meshes[static_cast<std::size_t>(wall)] = scene::wall(wall, lo, hi);
-        const render::Captured cubes = captured(bench, scene, kEdge, Format::r32f);
+        const render::CapturedCubes cubes = render_captures(bench, scene, kEdge, Format::r32f);
         const double found = cubes.distance(0, face, kEdge / 2, kEdge / 2, Format::r32f) /
                              cubes.space.scale;
         bench.add(fmt::format("face {}: central texel off {} by a share of", face, kGap),
@@ -97,19 +97,21 @@ void judge_near_wall(Bench& bench) {
     }
 }
 
-void judge_glyphs(Bench& bench) {
+void judge_captured_glyphs(StressBench& bench) {
     constexpr std::uint32_t kEdge = 64;
     constexpr double kSnap = .001; // share of a wall by which a rasteriser may move its edges
     const GlyphRoom room;
-    const render::Captured cubes = captured(bench, room.scene(), kEdge, Format::r32f);
+    const render::CapturedCubes cubes = render_captures(bench, room.scene(), kEdge, Format::r32f);
     std::array<std::size_t, 6> wrong{}, judged{}, inked{};
-    for_texels(kEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-        const GlyphRoom::Seen seen = room.look(direction);
-        if (seen.margin < kSnap) return; // the texel's centre may lie on an edge
-        const auto wall = static_cast<std::size_t>(seen.face);
-        ++judged[wall], inked[wall] += seen.glyph;
-        wrong[wall] += cubes.colour(0, face, x, y) != GlyphRoom::colour(seen);
-    });
+    for_each_cube_texel(kEdge,
+                        [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+                            const GlyphRoom::SeenWallPoint seen = room.look(direction);
+                            if (seen.margin < kSnap)
+                                return; // the texel's centre may lie on an edge
+                            const auto wall = static_cast<std::size_t>(seen.face);
+                            ++judged[wall], inked[wall] += seen.glyph;
+                            wrong[wall] += cubes.colour(0, face, x, y) != GlyphRoom::colour(seen);
+                        });
     for (std::size_t wall = 0; wall < 6; ++wall) {
         bench.add(fmt::format("wall {}: texels of another colour", wall), double(wrong[wall]), 0);
         bench.add(fmt::format("wall {}: fewer than 100 texels of its letter", wall),
@@ -122,7 +124,7 @@ void judge_glyphs(Bench& bench) {
 }
 
 /// Returns a camera on a unit ball around 0. The centre of its picture reflects along `wanted`.
-scene::Camera looking_along(dvec3 wanted) {
+scene::Camera make_camera_along(dvec3 wanted) {
     const dvec3 n = normalize(wanted + .4 * normalize(cross(wanted, dvec3(.3, -.5, .8))));
     const dvec3 incoming = wanted - 2 * dot(wanted, n) * n;
     return {.eye = n - 2.0 * incoming,
@@ -133,11 +135,11 @@ scene::Camera looking_along(dvec3 wanted) {
 
 /// Returns the number of pixels whose ray a unit ball around 0 reflects to within two texels of a
 /// cube edge.
-std::size_t near_edges(const scene::Camera& camera, uvec2 size, double edge) {
+std::size_t count_pixels_near_cube_edges(const scene::Camera& camera, uvec2 size, double edge) {
     std::size_t near = 0;
     for (std::uint32_t y = 0; y < size.y; ++y)
         for (std::uint32_t x = 0; x < size.x; ++x) {
-            const dvec3 d = pixel_direction(camera, size, x, y);
+            const dvec3 d = pixel_ray_direction(camera, size, x, y);
             const double b = dot(camera.eye, d), c = dot(camera.eye, camera.eye) - 1;
             const dvec3 n = camera.eye + (-b - std::sqrt(b * b - c)) * d,
                         sent = d - 2 * dot(d, n) * n, most = abs(sent);
@@ -148,13 +150,14 @@ std::size_t near_edges(const scene::Camera& camera, uvec2 size, double edge) {
     return near;
 }
 
-void judge_cube_edges(Bench& bench) {
+void judge_seams_at_cube_edges(StressBench& bench) {
     constexpr int kEdge = 64;
     constexpr uvec2 kSize{128, 128};
     constexpr float kColour = .7f; // no exact half-float number
-    scene::Scene scene = furnace({});
+    scene::Scene scene = make_furnace({});
     scene.materials.front().emission = vec3(kColour);
-    add_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{0, 0, 0}, 1}, 5);
+    add_stress_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{0, 0, 0}, 1},
+                    5);
     double step = 0, off = 0;
     std::size_t near = 0;
     for (int edge = 0; edge < 12; ++edge) {
@@ -163,12 +166,12 @@ void judge_cube_edges(Bench& bench) {
         wanted[along] = bench.random(-1, 1);
         wanted[(along + 1) % 3] = edge & 1 ? 1 : -1;
         wanted[(along + 2) % 3] = edge & 2 ? 1 : -1;
-        app::Request request = bench.asked(
+        app::Request request = bench.make_request(
             scene, fmt::format("naive:bounces=1,shadow=none,face={}", kEdge), 1);
-        request.camera = looking_along(normalize(wanted));
+        request.camera = make_camera_along(normalize(wanted));
         request.size = kSize;
         const measure::Picture picture = bench.render(request).hdr;
-        near += near_edges(request.camera, kSize, kEdge);
+        near += count_pixels_near_cube_edges(request.camera, kSize, kEdge);
         for (int y = 1; y < picture.height; ++y)
             for (int x = 1; x < picture.width; ++x) {
                 const float here = picture.at(x, y).x;
@@ -183,17 +186,18 @@ void judge_cube_edges(Bench& bench) {
     bench.add("directions within two texels of an edge: fewer than 1e5", near < 100000 ? 1 : 0, 0);
 }
 
-const Registered kDistances{{"N11", "distance cubes of the room's four mirrors, r32f and r16f",
-                             "equal the analytic distance, nothing is clamped at 200",
-                             judge_distances, "distance_along_axis"}};
-const Registered kNearWall{{"C3", "a ball with a wall .6 units from its centre",
-                            "the wall is in the capture, at its distance", judge_near_wall,
-                            "near_one"}};
-const Registered kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges",
-                             "continuous", judge_cube_edges, "edge_texels_black"}};
-const Registered kGlyphs{{"C12", "six coloured walls with a letter each",
-                          "each face sees its wall, letters read right", judge_glyphs,
-                          "face_mirrored"}};
+const RegisteredProperty kDistances{{"N11",
+                                     "distance cubes of the room's four mirrors, r32f and r16f",
+                                     "equal the analytic distance, nothing is clamped at 200",
+                                     judge_captured_distances, "distance_along_axis"}};
+const RegisteredProperty kNearWall{{"C3", "a ball with a wall .6 units from its centre",
+                                    "the wall is in the capture, at its distance",
+                                    judge_capture_near_wall, "near_one"}};
+const RegisteredProperty kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges",
+                                     "continuous", judge_seams_at_cube_edges, "edge_texels_black"}};
+const RegisteredProperty kGlyphs{{"C12", "six coloured walls with a letter each",
+                                  "each face sees its wall, letters read right",
+                                  judge_captured_glyphs, "face_mirrored"}};
 
 } // namespace
 

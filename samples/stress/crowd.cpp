@@ -17,20 +17,20 @@ constexpr int kEdge = 20; // balls along an edge; an array of 2048 layers holds 
 constexpr uvec2 kSize{256, 256};
 
 /// Returns a ball's colour. Two colours differ by more than 3 % in a channel.
-vec3 colour_of(int ball) {
+vec3 ball_colour(int ball) {
     const auto step = [](int i) { return .4f + .6f * float(i) / (kEdge - 1); };
     return {step(ball % kEdge), step(ball / kEdge), .7f};
 }
 
 /// Returns balls in cells of one colour each, open to the front and the back. There is no light:
 /// with an ambient light of 1, a wall shows its colour.
-scene::Scene cells() {
+scene::Scene make_coloured_cells() {
     constexpr double kHalf = .48, kFront = -.3, kBack = .8;
     scene::Scene scene{.name = "cells"};
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int i = 0; i < kEdge * kEdge; ++i) {
         const dvec3 centre(i % kEdge - (kEdge - 1) / 2.0, i / kEdge - (kEdge - 1) / 2.0, 0);
-        const std::size_t wall = add_material(scene, {.name = "wall", .albedo = colour_of(i)});
+        const std::size_t wall = add_material(scene, {.name = "wall", .albedo = ball_colour(i)});
         const dvec3 lo = centre + dvec3(-kHalf, -kHalf, kFront),
                     hi = centre + dvec3(kHalf, kHalf, kBack);
         for (const int axis : {0, 1})
@@ -39,29 +39,29 @@ scene::Scene cells() {
                 a[axis] = c[axis] = at[axis];
                 dvec3 b = a, d = c;
                 b.z = c.z, d.z = a.z;
-                add_quad(scene, wall, a, b, c, d);
+                add_stress_quad(scene, wall, a, b, c, d);
             }
-        add_ball(scene, mirror, {centre, .35}, 2);
+        add_stress_ball(scene, mirror, {centre, .35}, 2);
     }
     scene.cameras.push_back({.eye = {0, 0, -40}, .target = {0, 0, 0}, .vertical_fov_degrees = 29});
     return scene;
 }
 
 /// Adds the number of mirrors in which no pixel shows the colour of their own cell.
-void judge_cells(Bench& bench) {
-    const scene::Scene scene = cells();
+void judge_mirrors_in_cells(StressBench& bench) {
+    const scene::Scene scene = make_coloured_cells();
     std::vector<std::uint32_t> hits;
     for (const std::string technique : {"raytrace:depth=1", "reuse:face=8", "parallax:face=8"}) {
-        app::Request request = bench.asked(scene, technique, 1);
+        app::Request request = bench.make_request(scene, technique, 1);
         request.size = kSize;
         request.ambient = 1;
-        const app::Part part = bench.render(request);
+        const app::TechniqueResult part = bench.render(request);
         if (hits.empty()) hits = part.hits;
         std::vector<int> own(std::size_t{kEdge} * kEdge);
         for (std::size_t i = 0; i < hits.size(); ++i) {
-            const auto mirror = measure::first_mirror(hits[i]).number();
+            const auto mirror = measure::first_mirror_of_hit(hits[i]).number();
             if (mirror == 0) continue;
-            const vec3 off = abs(part.hdr.pixels[i] / colour_of(static_cast<int>(mirror) - 1) -
+            const vec3 off = abs(part.hdr.pixels[i] / ball_colour(static_cast<int>(mirror) - 1) -
                                  vec3(1));
             own[mirror - 1] += std::max({off.x, off.y, off.z}) <= .002f;
         }
@@ -72,8 +72,9 @@ void judge_cells(Bench& bench) {
     }
 }
 
-const Registered kCells{{"C14", "400 mirrors, each in a cell of another colour",
-                         "each shows its own cell", judge_cells, "first_array_only"}};
+const RegisteredProperty kCells{{"C14", "400 mirrors, each in a cell of another colour",
+                                 "each shows its own cell", judge_mirrors_in_cells,
+                                 "first_array_only"}};
 
 } // namespace
 

@@ -11,7 +11,7 @@ constexpr double kGap = 1e-9; // offset of rays, for scenes about 1 in size
 
 } // namespace
 
-dvec3 pixel_direction(const scene::Camera& camera, uvec2 size, double x, double y) {
+dvec3 pixel_ray_direction(const scene::Camera& camera, uvec2 size, double x, double y) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up)),
                 up = glm::cross(right, forward);
@@ -38,12 +38,12 @@ DoubleTracer::DoubleTracer(const scene::Scene& scene, double ambient)
 
 dvec3 DoubleTracer::pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y,
                           int depth) const {
-    return radiance(camera.eye, pixel_direction(camera, size, x, y), depth);
+    return radiance(camera.eye, pixel_ray_direction(camera, size, x, y), depth);
 }
 
 /// Adds one flat lamp: mean of its corners, normal, and area.
 void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh) {
-    Lamp lamp{dvec3(0), dvec3(0), dvec3(0)};
+    DoubleLamp lamp{dvec3(0), dvec3(0), dvec3(0)};
     std::vector<dvec3> corners;
     for (const dvec3& p : mesh.positions)
         corners.emplace_back(object.world_from_object * dvec4(p, 1));
@@ -58,11 +58,11 @@ void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh
     lamps_.push_back(lamp);
 }
 
-DoubleTracer::Hit DoubleTracer::closest(dvec3 origin, dvec3 direction, double most,
-                                        bool for_shadow) const {
-    Hit hit;
+DoubleTracer::DoubleHit DoubleTracer::closest(dvec3 origin, dvec3 direction, double most,
+                                              bool for_shadow) const {
+    DoubleHit hit;
     hit.t = most;
-    for (const Triangle& triangle : triangles_) {
+    for (const DoubleTriangle& triangle : triangles_) {
         if (for_shadow && material(triangle.object).emission != vec3(0)) continue;
         const dvec3 ab = triangle.b - triangle.a, ac = triangle.c - triangle.a,
                     p = glm::cross(direction, ac);
@@ -91,7 +91,7 @@ dvec3 DoubleTracer::radiance(dvec3 origin, dvec3 direction, int depth) const {
     dvec3 weight(1);
     for (int bounce = 0;; ++bounce) {
         const double infinity = std::numeric_limits<double>::infinity();
-        const Hit hit = closest(origin, direction, infinity, false);
+        const DoubleHit hit = closest(origin, direction, infinity, false);
         if (hit.t == infinity) return dvec3(0);
         const dvec3 x = origin + hit.t * direction;
         const scene::Material& surface = material(hit.object);
@@ -106,7 +106,7 @@ dvec3 DoubleTracer::radiance(dvec3 origin, dvec3 direction, int depth) const {
 dvec3 DoubleTracer::shade(const scene::Material& surface, dvec3 x, dvec3 normal) const {
     const dvec3 kd(surface.albedo);
     dvec3 result = dvec3(surface.emission) + kd * ambient_;
-    for (const Lamp& lamp : lamps_) {
+    for (const DoubleLamp& lamp : lamps_) {
         const double t = glm::length(lamp.position - x);
         const dvec3 w = (lamp.position - x) / t;
         const double at_lamp = -glm::dot(w, lamp.normal), at_surface = glm::dot(normal, w);

@@ -9,7 +9,7 @@ namespace catoptric::stress {
 
 /// Returns the unit direction of the ray through a place of the picture. `x` and `y` are in pixels;
 /// whole numbers are pixel centres.
-dvec3 pixel_direction(const scene::Camera& camera, uvec2 size, double x, double y);
+dvec3 pixel_ray_direction(const scene::Camera& camera, uvec2 size, double x, double y);
 
 /// Small reference ray tracer in double precision. It follows only the formula in the documentation
 /// and shares nothing with the engine but the scene's data. Mirrors must be exact spheres and
@@ -29,14 +29,14 @@ public:
     }
 
 private:
-    struct Triangle {
+    struct DoubleTriangle {
         dvec3 a, b, c;
         std::size_t object;
     };
-    struct Lamp {
+    struct DoubleLamp {
         dvec3 position, normal, power; ///< emission times area
     };
-    struct Hit {
+    struct DoubleHit {
         double t = std::numeric_limits<double>::infinity();
         dvec3 normal{0};
         std::size_t object = 0;
@@ -46,14 +46,14 @@ private:
     const scene::Material& material(std::size_t object) const {
         return scene_.materials[scene_.objects[object].material];
     }
-    Hit closest(dvec3 origin, dvec3 direction, double most, bool for_shadow) const;
+    DoubleHit closest(dvec3 origin, dvec3 direction, double most, bool for_shadow) const;
     dvec3 radiance(dvec3 origin, dvec3 direction, int depth) const;
     dvec3 shade(const scene::Material& surface, dvec3 x, dvec3 normal) const;
 
     const scene::Scene& scene_;
     double ambient_;
-    std::vector<Triangle> triangles_;
-    std::vector<Lamp> lamps_;
+    std::vector<DoubleTriangle> triangles_;
+    std::vector<DoubleLamp> lamps_;
 };
 
 } // namespace catoptric::stress

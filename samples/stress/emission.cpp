@@ -14,8 +14,9 @@ namespace {
 
 /// Returns the number of texels in the captures of `technique` that are clipped at the largest
 /// half.
-double saturated(Bench& bench, const scene::Scene& scene, const std::string& technique) {
-    app::Request request = bench.asked(scene, technique);
+double count_saturated_capture_texels(StressBench& bench, const scene::Scene& scene,
+                                      const std::string& technique) {
+    app::Request request = bench.make_request(scene, technique);
     request.with_lookup = true;
     return double(bench.render(request).saturated.value());
 }
@@ -24,12 +25,12 @@ double saturated(Bench& bench, const scene::Scene& scene, const std::string& tec
 /// removal.
 constexpr int kWith = 4, kSoon = kWith + 2, kLate = kWith + 20;
 
-void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& dark,
-                   std::size_t lamp, const std::string& technique, const std::string& what) {
-    const app::Request request = bench.asked(lit, technique);
+void judge_lamp_removal(StressBench& bench, const scene::Scene& lit, const scene::Scene& dark,
+                        std::size_t lamp, const std::string& technique, const std::string& what) {
+    const app::Request request = bench.make_request(lit, technique);
     const scene::Edit out = scene::set_material(lamp, dark.materials[lamp]);
     app::Session session(bench.engine(), lit);
-    app::Part soon, late;
+    app::TechniqueResult soon, late;
     for (int k = 1; k <= kLate; ++k) {
         if (k == kWith + 1) session.change(out);
         const app::Frame frame = bench.frame(session, request);
@@ -41,9 +42,9 @@ void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& da
     measure::Picture wanted;
     for (int k = 1; k <= kLate; ++k) wanted = bench.frame(untouched, request).hdr();
     bench.add(what + ", frame 20 without it: pixels unlike a run that never had it",
-              double(different_pixels(late.hdr, wanted)), 0);
+              double(count_different_pixels(late.hdr, wanted)), 0);
     const std::string early = what + ", frame 2 without it: pixels unlike frame 20";
-    const double unlike = double(different_pixels(soon.hdr, late.hdr));
+    const double unlike = double(count_different_pixels(soon.hdr, late.hdr));
     // If mirrors use last frame's captures, light travels between them for one frame a mirror.
     if (late.remembers && scene::mirrors(dark).size() > 1)
         bench.add_quality(early, unlike, 0);
@@ -51,33 +52,34 @@ void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& da
         bench.add(early, unlike, 0);
 }
 
-void judge_emission(Bench& bench) {
+void judge_bright_emission(StressBench& bench) {
     for (const int balls : {1, 3}) {
-        scene::Scene dark = room(bench, balls);
+        scene::Scene dark = make_stress_room(bench, balls);
         const std::size_t lamp = add_material(dark, {.name = "second lamp"});
-        add_quad(dark, lamp, {-1.2, 1.2, .8}, {-.9, 1.2, .8}, {-.9, 1.2, 1.1}, {-1.2, 1.2, 1.1});
+        add_stress_quad(dark, lamp, {-1.2, 1.2, .8}, {-.9, 1.2, .8}, {-.9, 1.2, 1.1},
+                        {-1.2, 1.2, 1.1});
         scene::Scene lit = dark;
         lit.materials[lamp].emission = vec3(1e30f);
         for (const std::string technique :
              {"raytrace", "reuse:face=128", "parallax:face=128", "pyramid:face=128"})
-            judge_removal(bench, lit, dark, lamp, technique,
-                          fmt::format("emission 1e30, {} balls, {}", balls, technique));
+            judge_lamp_removal(bench, lit, dark, lamp, technique,
+                               fmt::format("emission 1e30, {} balls, {}", balls, technique));
         for (const std::string technique : {"reuse:face=64", "hybrid:face=64"}) {
-            const double full = saturated(bench, lit, technique);
+            const double full = count_saturated_capture_texels(bench, lit, technique);
             bench.add(
                 fmt::format("emission 1e30, {} balls, {}: none of {} saturated texels is counted",
                             balls, technique, full),
                 full > 0 ? 0 : 1, 0);
             bench.add(fmt::format("without it, {} balls, {}: texels saturated", balls, technique),
-                      saturated(bench, dark, technique), 0);
+                      count_saturated_capture_texels(bench, dark, technique), 0);
         }
     }
-    scene::Scene dim = room(bench, 3), black = dim;
+    scene::Scene dim = make_stress_room(bench, 3), black = dim;
     dim.materials.front().albedo = vec3(1e-40f);
     black.materials.front().albedo = vec3(0);
     for (const std::string technique : {"raytrace", "pyramid"}) {
-        const app::Part found = bench.render(dim, technique),
-                        wanted = bench.render(black, technique);
+        const app::TechniqueResult found = bench.render(dim, technique),
+                                   wanted = bench.render(black, technique);
         double most = 0;
         for (std::size_t i = 0; i < found.hdr.pixels.size(); ++i) {
             const dvec3 off = abs(dvec3(found.hdr.pixels[i]) - dvec3(wanted.hdr.pixels[i]));
@@ -86,13 +88,13 @@ void judge_emission(Bench& bench) {
         bench.add(technique + ", albedo 1e-40: radiance unlike that of black", most,
                   std::numeric_limits<float>::min());
         bench.add(technique + ", albedo 1e-40: pixels shown unlike black",
-                  double(different_pixels(found.display, wanted.display)), 0);
+                  double(count_different_pixels(found.display, wanted.display)), 0);
     }
 }
 
-const Registered kEmission{{"N26", "emission 1e30, taken away in mid-run; albedo 1e-40",
-                            "saturates, is counted, later frames unharmed; equals black",
-                            judge_emission, "saturated_uncounted"}};
+const RegisteredProperty kEmission{{"N26", "emission 1e30, taken away in mid-run; albedo 1e-40",
+                                    "saturates, is counted, later frames unharmed; equals black",
+                                    judge_bright_emission, "saturated_uncounted"}};
 
 } // namespace
 

@@ -12,27 +12,29 @@ namespace catoptric::stress {
 
 namespace {
 
-const std::vector<Ball> kTwoBalls{{{-1.2, -.3, 1}, 1}, {{1.3, .4, 1.5}, 1.2}};
+const std::vector<MirrorBall> kTwoBalls{{{-1.2, -.3, 1}, 1}, {{1.3, .4, 1.5}, 1.2}};
 
-app::Part render_dark(Bench& bench, const scene::Scene& scene, const std::string& technique,
-                      int frames) {
-    app::Request request = bench.asked(scene, technique, frames);
+app::TechniqueResult render_without_ambient(StressBench& bench, const scene::Scene& scene,
+                                            const std::string& technique, int frames) {
+    app::Request request = bench.make_request(scene, technique, frames);
     request.ambient = 0;
     return bench.render(request);
 }
 
-void judge_furnace(Bench& bench) {
-    const scene::Scene scene = furnace(kTwoBalls);
+void judge_white_furnace(StressBench& bench) {
+    const scene::Scene scene = make_furnace(kTwoBalls);
     for (const app::TechniqueInfo& technique : app::techniques())
         bench.add(technique.name + ": brightest of 1",
-                  brightest(render_dark(bench, scene, technique.name, 8).hdr), 1.002);
+                  brightest_channel(render_without_ambient(bench, scene, technique.name, 8).hdr),
+                  1.002);
     for (int bounces = 0; bounces <= 8; bounces += 4) {
         const std::string text = "naive:bounces=" + std::to_string(bounces);
-        bench.add(text + ": brightest of 1", brightest(render_dark(bench, scene, text, 1).hdr),
-                  1.002);
+        bench.add(text + ": brightest of 1",
+                  brightest_channel(render_without_ambient(bench, scene, text, 1).hdr), 1.002);
     }
     double darkest = 1;
-    for (const vec3& pixel : render_dark(bench, scene, "raytrace:depth=16", 1).hdr.pixels)
+    for (const vec3& pixel :
+         render_without_ambient(bench, scene, "raytrace:depth=16", 1).hdr.pixels)
         darkest = std::min(darkest, double{pixel.x});
     bench.add("raytrace:depth=16: missing from 1", 1 - darkest, .002);
 }
@@ -40,28 +42,28 @@ void judge_furnace(Bench& bench) {
 /// Judges techniques with captures in the corridor. A capture sees the other mirror from one place
 /// only, so a pixel may show another k than ray tracing. This counts as quality and not as an
 /// error. Additional light would be an error.
-void judge_captured_corridor(Bench& bench, const scene::Scene& scene) {
-    const app::Part truth = render_dark(bench, scene, "raytrace:depth=16", 1);
+void judge_corridor_captures(StressBench& bench, const scene::Scene& scene) {
+    const app::TechniqueResult truth = render_without_ambient(bench, scene, "raytrace:depth=16", 1);
     for (const std::string technique :
          {"reuse", "parallax", "secant:continue=8", "march:continue=8", "pyramid:continue=8",
           "layered:continue=8", "hybrid:continue=8"}) {
-        const app::Part part = render_dark(bench, scene, technique, 8);
+        const app::TechniqueResult part = render_without_ambient(bench, scene, technique, 8);
         std::size_t off = 0;
         for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
             off += !(std::abs(part.hdr.pixels[i].x - truth.hdr.pixels[i].x) <=
                      .005f * truth.hdr.pixels[i].x);
-        bench.add(technique + ": brightest of 1", brightest(part.hdr), 1.002);
+        bench.add(technique + ": brightest of 1", brightest_channel(part.hdr), 1.002);
         bench.add_quality(technique + ": share of pixels off .8^k",
                           double(off) / double(part.hdr.pixels.size()), .005);
     }
 }
 
 /// Judges the pixels that show k mirrors, k up to `depth`. Pixels that would show more are black.
-void judge_corridor_to(Bench& bench, const scene::Scene& scene, const std::string& technique,
-                       int depth) {
+void judge_corridor_depth(StressBench& bench, const scene::Scene& scene,
+                          const std::string& technique, int depth) {
     double worst = 0;
     std::vector<std::size_t> seen(static_cast<std::size_t>(depth) + 1);
-    for (const vec3& pixel : render_dark(bench, scene, technique, 1).hdr.pixels) {
+    for (const vec3& pixel : render_without_ambient(bench, scene, technique, 1).hdr.pixels) {
         if (pixel.x == 0) continue;
         const auto k = static_cast<std::size_t>(
             std::max(std::lround(std::log(double{pixel.x}) / std::log(.8)), 0L));
@@ -77,33 +79,33 @@ void judge_corridor_to(Bench& bench, const scene::Scene& scene, const std::strin
 }
 
 /// Judges two mirrors that face each other in a box that emits 1. A path of k mirrors shows .8^k.
-void judge_corridor(Bench& bench) {
-    scene::Scene scene = furnace({});
+void judge_mirror_corridor(StressBench& bench) {
+    scene::Scene scene = make_furnace({});
     const std::size_t mirror = add_material(
         scene, {.name = "mirror", .mirror = true, .reflectance = vec3(.8f)});
-    add_quad(scene, mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});
-    add_quad(scene, mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
+    add_stress_quad(scene, mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});
+    add_stress_quad(scene, mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
     scene.cameras.front() = {
         .eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60};
     for (const int depth : {1, 4, 12})
         for (const char* row : {"raytrace:depth=", "planar:bounces="})
-            judge_corridor_to(bench, scene, row + std::to_string(depth), depth);
-    judge_captured_corridor(bench, scene);
+            judge_corridor_depth(bench, scene, row + std::to_string(depth), depth);
+    judge_corridor_captures(bench, scene);
 }
 
-void judge_reuse(Bench& bench) {
-    const scene::Scene scene = room(bench, 3);
+void judge_reuse_energy(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 3);
     for (int k = 1; k <= 8; ++k)
         bench.add(fmt::format("frame {}: pixels that differ", k),
-                  double(different_pixels(
+                  double(count_different_pixels(
                       bench.render(scene, "reuse:face=64", k).hdr,
                       bench.render(scene, fmt::format("naive:face=64,bounces={}", k), 1).hdr)),
                   0);
 }
 
-void judge_passes(Bench& bench) {
+void judge_pass_counts(StressBench& bench) {
     for (const int balls : {0, 1, 4}) {
-        const scene::Scene scene = room(bench, balls);
+        const scene::Scene scene = make_stress_room(bench, balls);
         for (const int bounces : {0, 1, 3})
             bench.add(
                 fmt::format("{} mirrors, {} bounces: off N i + 2", balls, bounces),
@@ -116,16 +118,16 @@ void judge_passes(Bench& bench) {
     }
 }
 
-const Registered kFurnace{{"N6", "white furnace, bounces 0..8, every technique",
-                           "energy is never created; complete at depth 16", judge_furnace,
-                           "traced_added"}};
-const Registered kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12",
-                            "k mirrors show .8^k, nothing after the depth", judge_corridor,
-                            "one_mirror_too_many"}};
-const Registered kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces",
-                         judge_reuse, "history_black"}};
-const Registered kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2",
-                          judge_passes, "naive_once_more"}};
+const RegisteredProperty kFurnace{{"N6", "white furnace, bounces 0..8, every technique",
+                                   "energy is never created; complete at depth 16",
+                                   judge_white_furnace, "traced_added"}};
+const RegisteredProperty kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12",
+                                    "k mirrors show .8^k, nothing after the depth",
+                                    judge_mirror_corridor, "one_mirror_too_many"}};
+const RegisteredProperty kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces",
+                                 judge_reuse_energy, "history_black"}};
+const RegisteredProperty kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2",
+                                  judge_pass_counts, "naive_once_more"}};
 
 } // namespace
 

@@ -15,10 +15,10 @@ constexpr const char* kTechniques[] = {"raytrace", "parallax", "pyramid"};
 constexpr double kSame = .001; // FLIP
 
 /// Judges a triangle of edge 1 far outside the room. The picture must not change.
-void judge_strays(Bench& bench) {
-    const scene::Scene scene = room(bench, 3);
+void judge_stray_triangle(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 3);
     for (const char* technique : kTechniques) {
-        const app::Part plain = bench.render(scene, technique);
+        const app::TechniqueResult plain = bench.render(scene, technique);
         for (const double distance : {1e2, 1e4, 1e6, 1e9}) {
             scene::Scene with = scene;
             const dvec3 at(distance, 0, distance);
@@ -35,8 +35,8 @@ void judge_strays(Bench& bench) {
 }
 
 /// Judges a grey sky, which must look the same at a distance of 100 and of a million.
-void judge_sky(Bench& bench) {
-    const scene::Scene scene = room(bench, 3);
+void judge_distant_sky(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 3);
     const auto under = [&](double radius) {
         scene::Scene with = scene;
         const std::size_t grey = add_material(with, {.name = "sky", .albedo = {.5f, .5f, .5f}});
@@ -54,12 +54,13 @@ void judge_sky(Bench& bench) {
 /// Judges the room on a ground 1e6 wide against one 1e3 wide. Positions on such a large triangle
 /// are rounded in proportion to its size, for rays as for rasterisation. The difference therefore
 /// counts as quality.
-void judge_ground(Bench& bench) {
-    const scene::Scene scene = room(bench, 3);
+void judge_large_ground(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 3);
     const double y = scene::bounds(scene).lo.y - .01;
     const auto on = [&](double half) {
         scene::Scene with = scene;
-        add_quad(with, 0, {-half, y, -half}, {-half, y, half}, {half, y, half}, {half, y, -half});
+        add_stress_quad(with, 0, {-half, y, -half}, {-half, y, half}, {half, y, half},
+                        {half, y, -half});
         return with;
     };
     const scene::Scene narrow = on(5e2), wide = on(5e5);
@@ -69,16 +70,16 @@ void judge_ground(Bench& bench) {
 }
 
 /// Judges a ball of 1e-3 off the centre of a room of 1e3, seen from close by.
-void judge_tiny(Bench& bench) {
-    scene::Scene scene = through(room(bench, 0), scaled(250));
+void judge_tiny_ball(StressBench& bench) {
+    scene::Scene scene = transform_scene(make_stress_room(bench, 0), scale_matrix(250));
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     const dvec3 centre(bench.random(-300, 300), bench.random(-300, 300), bench.random(-300, 300));
-    add_ball(scene, mirror, {centre, 1e-3});
+    add_stress_ball(scene, mirror, {centre, 1e-3});
     scene.cameras = {
         {.eye = centre + dvec3(1e-3, 2e-3, -6e-3), .target = centre, .vertical_fov_degrees = 30}};
-    const app::Request request = bench.asked(scene, "raytrace:sphere=exact");
+    const app::Request request = bench.make_request(scene, "raytrace:sphere=exact");
     const DoubleTracer tracer(scene, request.ambient);
-    app::Part wanted;
+    app::TechniqueResult wanted;
     wanted.hdr = measure::Picture(static_cast<int>(request.size.x),
                                   static_cast<int>(request.size.y));
     for (std::uint32_t y = 0; y < request.size.y; ++y)
@@ -88,23 +89,23 @@ void judge_tiny(Bench& bench) {
     wanted.display = measure::to_display(wanted.hdr, request.exposure);
     bench.add_flip("a ball of 1e-3 in a room of 1e3, raytrace:sphere=exact against doubles",
                    bench.render(request), wanted, kSame);
-    const scene::Scene shifted = through(scene, moved(-centre));
+    const scene::Scene shifted = transform_scene(scene, translation_matrix(-centre));
     for (const char* technique : kTechniques)
         bench.add_flip(
             fmt::format("{}, a ball of 1e-3 in a room of 1e3, against the same about 0", technique),
             bench.render(scene, technique), bench.render(shifted, technique), kSame);
 }
 
-void judge_extents(Bench& bench) {
-    judge_strays(bench);
-    judge_sky(bench);
-    judge_ground(bench);
-    judge_tiny(bench);
+void judge_scene_extents(StressBench& bench) {
+    judge_stray_triangle(bench);
+    judge_distant_sky(bench);
+    judge_large_ground(bench);
+    judge_tiny_ball(bench);
 }
 
-const Registered kExtents{
+const RegisteredProperty kExtents{
     {"N5", "a stray triangle to 1e9 away, a sky and a ground of 1e6, a ball of 1e-3 in 1e3",
-     "what is looked at keeps its precision (FLIP)", judge_extents, "core_is_everything"}};
+     "what is looked at keeps its precision (FLIP)", judge_scene_extents, "core_is_everything"}};
 
 } // namespace
 

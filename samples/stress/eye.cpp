@@ -12,34 +12,34 @@ namespace catoptric::stress {
 
 namespace {
 
-struct Eye {
+struct EyePlacement {
     const char* what;
     scene::Camera camera;
 };
 
 constexpr double kOff = .01;
 
-double largest_difference(const dvec3& a, const dvec3& b) {
+double max_channel_difference(const dvec3& a, const dvec3& b) {
     const dvec3 difference = abs(a - b);
     return std::max({difference.x, difference.y, difference.z});
 }
 
 /// Returns the share of pixels that differ from the double tracer by more than kOff.
-double against_doubles(const app::Part& part, const scene::Scene& scene,
-                       const app::Request& request) {
+double share_unlike_double_tracer(const app::TechniqueResult& part, const scene::Scene& scene,
+                                  const app::Request& request) {
     const DoubleTracer tracer(scene, request.ambient);
     std::size_t off = 0;
     for (std::uint32_t y = 0; y < request.size.y; ++y)
         for (std::uint32_t x = 0; x < request.size.x; ++x) {
             const dvec3 wanted = tracer.pixel(request.camera, request.size, x, y, 16);
             const dvec3 found(part.hdr.at(static_cast<int>(x), static_cast<int>(y)));
-            off += !(largest_difference(found, wanted) <= kOff);
+            off += !(max_channel_difference(found, wanted) <= kOff);
         }
     return double(off) / double(part.hdr.pixels.size());
 }
 
 /// Returns how many of 32 rows of the reference show an edge.
-int rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
+int count_rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
     constexpr uvec2 kSize{32, 32};
     int rows = 0;
     for (std::uint32_t y = 0; y < kSize.y; ++y) {
@@ -47,7 +47,7 @@ int rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
         dvec3 last = tracer.pixel(camera, kSize, 0, y, 16);
         for (std::uint32_t x = 1; x < kSize.x; ++x) {
             const dvec3 next = tracer.pixel(camera, kSize, x, y, 16);
-            has_edge |= largest_difference(next, last) > kOff;
+            has_edge |= max_channel_difference(next, last) > kOff;
             last = next;
         }
         rows += has_edge;
@@ -59,7 +59,7 @@ int rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
 /// tried, because a ball may hide the edge and the walls may look the same. If rays coincided, the
 /// picture would show the wrong side of the edge. `rows` gets the number of 32 rows that show the
 /// edge.
-scene::Camera narrow_camera(const scene::Scene& scene, double ambient, int& rows) {
+scene::Camera make_narrow_camera(const scene::Scene& scene, double ambient, int& rows) {
     const Bounds<double> walls = scene::bounds(scene);
     const DoubleTracer tracer(scene, ambient);
     scene::Camera camera = scene.cameras.front();
@@ -68,61 +68,64 @@ scene::Camera narrow_camera(const scene::Scene& scene, double ambient, int& rows
     for (const double height : {.8, .5, .2})
         for (const double x : {walls.lo.x, walls.hi.x}) {
             camera.target = {x, std::lerp(walls.lo.y, walls.hi.y, height), walls.hi.z};
-            rows = rows_with_edge(tracer, camera);
+            rows = count_rows_with_edge(tracer, camera);
             if (rows >= 16) return camera;
         }
     return camera;
 }
 
 /// Returns the share of pixels without a mirror in which two pictures differ.
-double beside_mirrors(const app::Part& drawn, const app::Part& traced) {
+double share_differing_beside_mirrors(const app::TechniqueResult& drawn,
+                                      const app::TechniqueResult& traced) {
     std::size_t off = 0, seen = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
-        ++seen, off += !(largest_difference(dvec3(drawn.hdr.pixels[i]),
-                                            dvec3(traced.hdr.pixels[i])) <= kOff);
+        ++seen, off += !(max_channel_difference(dvec3(drawn.hdr.pixels[i]),
+                                                dvec3(traced.hdr.pixels[i])) <= kOff);
     }
     return double(off) / double(seen);
 }
 
-void judge_eye(Bench& bench) {
-    const scene::Scene scene = room(bench, 2);
+void judge_eye_placement(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 2);
     const Bounds<double> walls = scene::bounds(scene);
     scene::Camera low = scene.cameras.front(), wide = low;
     low.eye.y = walls.lo.y + 1e-3, low.eye.z = 0, low.target = low.eye + dvec3(0, .2, 1);
     wide.vertical_fov_degrees = 179.9;
     int rows = 0;
-    const scene::Camera narrow = narrow_camera(scene, bench.asked(scene, "raytrace").ambient, rows);
+    const scene::Camera narrow = make_narrow_camera(
+        scene, bench.make_request(scene, "raytrace").ambient, rows);
     bench.add("field of view .01: rows of 32 without an edge", 32 - rows, 16);
-    for (const Eye& eye : {Eye{"1e-3 above the floor", low},
-                           {"field of view .01", narrow},
-                           {"field of view 179.9", wide}}) {
-        app::Request request = bench.asked(scene, "raytrace:sphere=exact,depth=16");
+    for (const EyePlacement& eye : {EyePlacement{"1e-3 above the floor", low},
+                                    {"field of view .01", narrow},
+                                    {"field of view 179.9", wide}}) {
+        app::Request request = bench.make_request(scene, "raytrace:sphere=exact,depth=16");
         request.camera = eye.camera;
         const auto render = [&](const std::string& technique) {
             request.techniques = {technique};
             return bench.render(request);
         };
-        const app::Part traced = render("raytrace:sphere=exact,depth=16");
+        const app::TechniqueResult traced = render("raytrace:sphere=exact,depth=16");
         bench.add_nonfinite(fmt::format("{}, raytrace", eye.what), traced);
         bench.add(
             fmt::format("{}, raytrace: share of pixels more than .01 off a reference in doubles",
                         eye.what),
-            against_doubles(traced, scene, request), .005);
+            share_unlike_double_tracer(traced, scene, request), .005);
         bench.add_nonfinite(fmt::format("{}, pyramid", eye.what), render("pyramid"));
         // A texel of the shadow map is wider than the narrow picture, so neither picture has
         // shadows.
         bench.add(fmt::format("{}, pyramid: share of pixels beside mirrors more than .01 off ray "
                               "tracing, both without shadows",
                               eye.what),
-                  beside_mirrors(render("pyramid:shadow=none"),
-                                 render("raytrace:sphere=exact,shadow=none")),
+                  share_differing_beside_mirrors(render("pyramid:shadow=none"),
+                                                 render("raytrace:sphere=exact,shadow=none")),
                   .005);
     }
 }
 
-const Registered kEye{{"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
-                       "finite; as a reference in doubles", judge_eye, "near_of_eye_fixed"}};
+const RegisteredProperty kEye{{"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
+                               "finite; as a reference in doubles", judge_eye_placement,
+                               "near_of_eye_fixed"}};
 
 } // namespace
 

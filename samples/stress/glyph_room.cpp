@@ -11,7 +11,8 @@ namespace catoptric::stress {
 
 namespace {
 
-void add_cell(scene::Mesh& mesh, const GlyphRoom& room, int face, const GlyphRoom::Stroke& cell) {
+void add_wall_cell(scene::Mesh& mesh, const GlyphRoom& room, int face,
+                   const GlyphRoom::Stroke& cell) {
     const scene::Mesh quad = scene::quad(
         "", room.place(face, cell.u0, cell.v0), room.place(face, cell.u1, cell.v0),
         room.place(face, cell.u1, cell.v1), room.place(face, cell.u0, cell.v1));
@@ -23,7 +24,7 @@ void add_cell(scene::Mesh& mesh, const GlyphRoom& room, int face, const GlyphRoo
 
 /// Adds a wall as a grid along the edges of the strokes. Cells inside a stroke form one mesh, the
 /// others another.
-void add_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
+void add_glyph_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
     const std::array<double, 6> us{0, .30, .40, .55, .70, 1};
     const std::array<double, 7> vs{0, .20, .45, .55, .70, .80, 1};
     scene::Mesh meshes[2]{{.name = "wall"}, {.name = "glyph"}};
@@ -34,7 +35,7 @@ void add_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
                 GlyphRoom::kStrokes, [&](const GlyphRoom::Stroke& s) {
                     return um > s.u0 && um < s.u1 && vm > s.v0 && vm < s.v1;
                 });
-            add_cell(meshes[inked], room, face, {us[i], us[i + 1], vs[j], vs[j + 1]});
+            add_wall_cell(meshes[inked], room, face, {us[i], us[i + 1], vs[j], vs[j + 1]});
         }
     const auto glowing = [&](const char* name, const vec3& colour) {
         return add_material(scene, {.name = name, .emission = colour, .two_sided = true});
@@ -50,8 +51,8 @@ GlyphRoom::GlyphRoom() {
     centre = scene::bounds(made, made.objects.back()).centre();
 }
 
-GlyphRoom::Seen GlyphRoom::look(dvec3 direction) const {
-    Seen seen{0, false, std::numeric_limits<double>::infinity(), 1};
+GlyphRoom::SeenWallPoint GlyphRoom::look(dvec3 direction) const {
+    SeenWallPoint seen{0, false, std::numeric_limits<double>::infinity(), 1};
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double t = ((face % 2 ? lo : hi)[axis] - centre[axis]) / direction[axis];
@@ -80,7 +81,7 @@ dvec3 GlyphRoom::place(int face, double u, double v) const {
 
 scene::Scene GlyphRoom::scene() const {
     scene::Scene scene{.name = "glyphs"};
-    for (int face = 0; face < 6; ++face) add_wall(scene, *this, face);
+    for (int face = 0; face < 6; ++face) add_glyph_wall(scene, *this, face);
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     add_ball(scene, "ball", mirror, ball, 0.5);
     scene.cameras.push_back({.eye = ball + dvec3(0, 0, -2), .target = ball});

@@ -33,7 +33,7 @@ struct GlyphRoom {
         {{.30, .40, .20, .80}, {.40, .70, .70, .80}, {.40, .55, .45, .55}}};
 
     /// The wall point that a ray from the mirror's centre meets.
-    struct Seen {
+    struct SeenWallPoint {
         int face;
         bool glyph;
         double distance; ///< world units
@@ -41,12 +41,12 @@ struct GlyphRoom {
         /// the wall.
         double margin;
     };
-    Seen look(dvec3 direction) const;
+    SeenWallPoint look(dvec3 direction) const;
 
     /// Returns the point of a wall at shares u, v of its two axes.
     dvec3 place(int face, double u, double v) const;
 
-    static vec3 colour(const Seen& seen) {
+    static vec3 colour(const SeenWallPoint& seen) {
         return seen.glyph ? glyph_colour(seen.face) : wall_colour(seen.face);
     }
 

@@ -15,38 +15,39 @@ namespace catoptric::stress {
 
 namespace {
 
-struct Place {
+struct EyePosition {
     const char* what;
     scene::Camera camera;
     bool inside;
 };
 
-void judge_places(Bench& bench, const scene::Scene& scene, const scene::Sphere& ball) {
+void judge_eye_positions(StressBench& bench, const scene::Scene& scene, const scene::Sphere& ball) {
     const dvec3 out = normalize(dvec3(.3, .4, .8)), along = normalize(cross(out, dvec3(0, 1, 0)));
     const auto eye = [&](double radii, const dvec3& direction) {
         const dvec3 place = ball.centre + radii * ball.radius * out;
         return scene::Camera{.eye = place, .target = place + direction, .vertical_fov_degrees = 60};
     };
-    const Place places[] = {{"at the centre", eye(0, out), true},
-                            {"halfway out", eye(.5, out), true},
-                            {"just under the surface, looking along it", eye(.99, along), true},
-                            {"on the surface, looking away", eye(1, out), false},
-                            {"on the surface, looking along it", eye(1, along), false},
-                            {"on the surface, looking at it", eye(1, -out), false}};
-    for (const Place& place : places) {
+    const EyePosition places[] = {
+        {"at the centre", eye(0, out), true},
+        {"halfway out", eye(.5, out), true},
+        {"just under the surface, looking along it", eye(.99, along), true},
+        {"on the surface, looking away", eye(1, out), false},
+        {"on the surface, looking along it", eye(1, along), false},
+        {"on the surface, looking at it", eye(1, -out), false}};
+    for (const EyePosition& place : places) {
         const auto render = [&](const std::string& technique) {
-            app::Request request = bench.asked(scene, technique);
+            app::Request request = bench.make_request(scene, technique);
             request.camera = place.camera;
             return bench.render(request);
         };
-        const app::Part traced = render("raytrace:depth=16");
+        const app::TechniqueResult traced = render("raytrace:depth=16");
         if (place.inside)
             bench.add(fmt::format("{}, raytrace: brightest of 0", place.what),
-                      brightest(traced.hdr), 0);
+                      brightest_channel(traced.hdr), 0);
         for (const std::string technique : {"parallax", "pyramid", "hybrid"})
             bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced,
                            .03);
-        const app::Part plain = render("reuse");
+        const app::TechniqueResult plain = render("reuse");
         if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .03);
         // From outside, an uncorrected look-up is wrong for any eye, and most where the ball fills
         // the picture.
@@ -58,27 +59,27 @@ void judge_places(Bench& bench, const scene::Scene& scene, const scene::Sphere& 
 }
 
 /// Judges a ball that moves over the eye. Frames must be black exactly while the eye is inside.
-void judge_motion(Bench& bench, scene::Scene scene) {
+void judge_ball_over_eye(StressBench& bench, scene::Scene scene) {
     constexpr int kFrames = 16;
     scene::Object& object = scene.objects.back();
     const double reach = 3 * object.sphere->radius;
-    object.motion = scene::Harmonic{dvec3(reach, 0, 0) / 2.0, 1};
+    object.motion = scene::HarmonicMotion{dvec3(reach, 0, 0) / 2.0, 1};
     scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
     camera.target = camera.eye + dvec3(0, 0, 1);
     for (const std::string technique : {"raytrace", "parallax"}) {
-        app::Request request = bench.asked(scene, technique, kFrames);
+        app::Request request = bench.make_request(scene, technique, kFrames);
         request.camera = camera;
         app::Session session(bench.engine(), scene);
         int wrong = 0, inside = 0;
         for (int k = 0; k < kFrames; ++k) {
             request.time = double(k) / kFrames;
             const app::Frame frame = bench.frame(session, request);
-            const scene::Scene now = scene::at(scene, request.time);
+            const scene::Scene now = scene::scene_at_time(scene, request.time);
             const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) /
                                          object.sphere->radius;
             if (std::abs(depth) < .01) continue; // the eye is between the mesh and its sphere
             inside += depth > 0;
-            wrong += (brightest(frame.hdr()) == 0) != (depth > 0);
+            wrong += (brightest_channel(frame.hdr()) == 0) != (depth > 0);
         }
         bench.add(fmt::format(
                       "a ball moves over the eye, {}: frames that are black outside or lit inside",
@@ -90,15 +91,15 @@ void judge_motion(Bench& bench, scene::Scene scene) {
     }
 }
 
-void judge_inside(Bench& bench) {
-    const scene::Scene scene = room(bench, 2);
-    judge_places(bench, scene, *scene.objects.back().sphere);
-    judge_motion(bench, scene);
+void judge_eye_inside_mirror(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 2);
+    judge_eye_positions(bench, scene, *scene.objects.back().sphere);
+    judge_ball_over_eye(bench, scene);
 }
 
-const Registered kInside{
+const RegisteredProperty kInside{
     {"C5", "camera inside a ball, at its centre, touching it; a ball moves over it",
-     "a closed mirror is black from inside, in both worlds (FLIP)", judge_inside,
+     "a closed mirror is black from inside, in both worlds (FLIP)", judge_eye_inside_mirror,
      "mirrors_one_sided",
      "things inside with the eye: ray tracing also shows their images in the wall around them"}};
 

@@ -13,15 +13,15 @@ namespace catoptric::stress {
 namespace {
 
 /// Returns the scene with the corners of its lamp moved by `place`.
-scene::Scene with_lamp(scene::Scene scene, const std::function<dvec3(dvec3)>& place) {
+scene::Scene move_lamp_corners(scene::Scene scene, const std::function<dvec3(dvec3)>& place) {
     for (const scene::Object& object : scene.objects)
         if (scene.materials[object.material].emission != vec3(0))
             for (dvec3& corner : scene.meshes[object.mesh].positions) corner = place(corner);
     return scene;
 }
 
-void judge_light(Bench& bench) {
-    const scene::Scene scene = room(bench, 2);
+void judge_lamp_position(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 2);
     dvec3 ball(0), lamp(0);
     for (const scene::Object& object : scene.objects) {
         if (object.sphere) ball = object.sphere->centre;
@@ -31,9 +31,11 @@ void judge_light(Bench& bench) {
     const double ceiling = scene::bounds(scene).hi.y;
     const auto flat = [](dvec3 p, double y) { return dvec3(p.x, y, p.z); };
     const std::pair<const char*, scene::Scene> places[] = {
-        {"inside a ball", with_lamp(scene, [&](dvec3 p) { return ball + (p - lamp) * .05; })},
-        {"on the ceiling's plane", with_lamp(scene, [&](dvec3 p) { return flat(p, ceiling); })},
-        {"at the camera", with_lamp(scene, [&](dvec3 p) {
+        {"inside a ball",
+         move_lamp_corners(scene, [&](dvec3 p) { return ball + (p - lamp) * .05; })},
+        {"on the ceiling's plane",
+         move_lamp_corners(scene, [&](dvec3 p) { return flat(p, ceiling); })},
+        {"at the camera", move_lamp_corners(scene, [&](dvec3 p) {
              return scene.cameras.front().eye + (p - lamp - dvec3(.5, 0, .5)) * .1;
          })}};
     for (const auto& [what, moved] : places)
@@ -41,7 +43,7 @@ void judge_light(Bench& bench) {
             bench.add_nonfinite(std::string(what) + ", " + technique,
                                 bench.render(moved, technique));
     // The lamp is above the ceiling and turned upwards, so only the ambient term is left.
-    scene::Scene away = with_lamp(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
+    scene::Scene away = move_lamp_corners(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
     for (const scene::Object& object : away.objects)
         if (away.materials[object.material].emission != vec3(0))
             for (vec3& normal : away.meshes[object.mesh].normals) normal = -normal;
@@ -50,7 +52,8 @@ void judge_light(Bench& bench) {
         if (dark.materials[object.material].emission != vec3(0))
             dark.materials[object.material].emission = vec3(0);
     for (const std::string technique : {"raytrace", "reuse"}) {
-        const app::Part a = bench.render(away, technique), b = bench.render(dark, technique);
+        const app::TechniqueResult a = bench.render(away, technique),
+                                   b = bench.render(dark, technique);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i)
             differ += a.hdr.pixels[i] != b.hdr.pixels[i] &&
@@ -59,11 +62,11 @@ void judge_light(Bench& bench) {
     }
 }
 
-void judge_sizes(Bench& bench) {
-    const scene::Scene scene = room(bench, 1);
+void judge_picture_sizes(StressBench& bench) {
+    const scene::Scene scene = make_stress_room(bench, 1);
     for (const uvec2 size : {uvec2(1, 1), uvec2(1, 16384), uvec2(16384, 1)})
         for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-            app::Request request = bench.asked(scene, technique, 2);
+            app::Request request = bench.make_request(scene, technique, 2);
             request.size = size;
             bench.add_nonfinite(fmt::format("{}x{}, {}", size.x, size.y, technique),
                                 bench.render(request));
@@ -71,30 +74,30 @@ void judge_sizes(Bench& bench) {
     for (const uvec2 size : {uvec2(0, 0), uvec2(0, 7)})
         bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::usage, "at least 1x1",
                           [&] {
-                              app::Request request = bench.asked(scene, "raytrace");
+                              app::Request request = bench.make_request(scene, "raytrace");
                               request.size = size;
                               bench.render(request);
                           });
     for (const uvec2 size : {uvec2(65536, 65536), uvec2(~0u, 1)})
         bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::exhausted, "allows max_",
                           [&] {
-                              app::Request request = bench.asked(scene, "raytrace");
+                              app::Request request = bench.make_request(scene, "raytrace");
                               request.size = size;
                               bench.plan(request);
                           });
     for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-        app::Request request = bench.asked(scene, technique, 1);
+        app::Request request = bench.make_request(scene, technique, 1);
         request.size = {16384, 16384};
         bench.add_done_or_refused("16384x16384, " + technique + ", planned",
                                   [&] { bench.plan(request); });
     }
-    app::Request large = bench.asked(scene, "raytrace", 1);
+    app::Request large = bench.make_request(scene, "raytrace", 1);
     large.size = {4096, 4096};
     bench.add_nonfinite("4096x4096, raytrace", bench.render(large));
 }
 
 /// Returns the number of black pixels in the middle ninth of a picture.
-double holes(const measure::Picture& picture) {
+double count_black_pixels(const measure::Picture& picture) {
     std::size_t black = 0;
     for (int y = picture.height / 3; y < picture.height * 2 / 3; ++y)
         for (int x = picture.width / 3; x < picture.width * 2 / 3; ++x)
@@ -103,7 +106,7 @@ double holes(const measure::Picture& picture) {
 }
 
 /// Returns a rippled square of 2 n^2 triangles around 0.
-scene::Mesh grid(std::uint32_t n) {
+scene::Mesh make_rippled_grid(std::uint32_t n) {
     scene::Mesh mesh{.name = "grid"};
     for (std::uint32_t i = 0; i <= n; ++i)
         for (std::uint32_t j = 0; j <= n; ++j) {
@@ -120,7 +123,7 @@ scene::Mesh grid(std::uint32_t n) {
     return mesh;
 }
 
-void judge_triangles(Bench& bench) {
+void judge_triangle_counts(StressBench& bench) {
     scene::Scene empty{.name = "empty"};
     empty.cameras.push_back({.eye = {0, 0, -3}, .target = {0, 0, 0}});
     scene::Scene one = empty, many = empty;
@@ -130,11 +133,11 @@ void judge_triangles(Bench& bench) {
                           {{0, 0, -1}, {0, 0, -1}, {0, 0, -1}},
                           {{0, 1, 2}}});
     one.objects.push_back({.name = "triangle", .mesh = 0, .material = hot});
-    add_ball(many, add_material(many, {.name = "hot", .emission = vec3(1)}), {{0, 0, 0}, 1},
-             9); // 4^10 triangles
+    add_stress_ball(many, add_material(many, {.name = "hot", .emission = vec3(1)}), {{0, 0, 0}, 1},
+                    9); // 4^10 triangles
     for (const std::string technique : {"raytrace", "parallax"}) {
         const auto sum = [&](const scene::Scene& scene, const std::string& what) {
-            const app::Part part = bench.render(scene, technique, 2);
+            const app::TechniqueResult part = bench.render(scene, technique, 2);
             bench.add_nonfinite(what + ", " + technique, part);
             double bright = 0;
             for (const vec3& pixel : part.hdr.pixels) bright += pixel.x > .5f;
@@ -146,29 +149,32 @@ void judge_triangles(Bench& bench) {
                   sum(one, "one triangle") > .1 ? 0 : 1, 0);
     }
     const auto start = std::chrono::steady_clock::now();
-    const app::Part part = bench.render(many, "raytrace", 1);
+    const app::TechniqueResult part = bench.render(many, "raytrace", 1);
     bench.add("1,048,576 triangles, raytrace: seconds from mesh to picture",
               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
     bench.add_nonfinite("1,048,576 triangles, raytrace", part);
     scene::Scene ten = empty;
-    add_mesh(ten, grid(2237), add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
+    add_mesh(ten, make_rippled_grid(2237),
+             add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
     bench.add_done_or_refused("10,008,338 triangles, raytrace", [&] {
-        const app::Part seen = bench.render(ten, "raytrace", 1);
+        const app::TechniqueResult seen = bench.render(ten, "raytrace", 1);
         bench.add_nonfinite("10,008,338 triangles, raytrace", seen);
         bench.add("10,008,338 triangles, raytrace: pixels of the middle that show none",
-                  holes(seen.hdr), 0);
+                  count_black_pixels(seen.hdr), 0);
     });
 }
 
-const Registered kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away",
-                         "finite; unlit where it faces away", judge_light, "lamp_without_normal"}};
-const Registered kSizes{{"Z1",
-                         "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
-                         "works, or is refused with the limit", judge_sizes, "no_width_taken",
-                         "rendering 16384x16384, which is planned only"}};
-const Registered kTriangles{{"Z2", "empty scene, one triangle, a million, ten million",
-                             "background; finite; a million in 30 s; runs or names the limit",
-                             judge_triangles, "places_in_22_bits"}};
+const RegisteredProperty kLight{
+    {"L1", "light inside a ball, on the ceiling, at the camera, facing away",
+     "finite; unlit where it faces away", judge_lamp_position, "lamp_without_normal"}};
+const RegisteredProperty kSizes{
+    {"Z1", "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
+     "works, or is refused with the limit", judge_picture_sizes, "no_width_taken",
+     "rendering 16384x16384, which is planned only"}};
+const RegisteredProperty kTriangles{
+    {"Z2", "empty scene, one triangle, a million, ten million",
+     "background; finite; a million in 30 s; runs or names the limit", judge_triangle_counts,
+     "places_in_22_bits"}};
 
 } // namespace
 

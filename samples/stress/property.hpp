@@ -10,10 +10,10 @@
 /// property is one row that registers itself, so no other file lists it.
 namespace catoptric::stress {
 
-struct Property {
+struct StressProperty {
     std::string_view id, stimulus, property;
     /// Renders its scenes and adds cases to the row.
-    void (*judge)(Bench& bench) = nullptr;
+    void (*judge)(StressBench& bench) = nullptr;
     /// Name of the rule in tests/mutations/rules.toml whose wrong code makes this row fail.
     std::string_view turned_red_by = {};
     std::string_view not_covered = {}; ///< part of the property that `judge` does not check
@@ -21,13 +21,13 @@ struct Property {
 
 /// Registers a property. Define it at namespace scope: the property enters the table while the
 /// program starts.
-struct Registered {
-    explicit Registered(const Property& property);
+struct RegisteredProperty {
+    explicit RegisteredProperty(const StressProperty& property);
 };
 
 /// Returns all properties in the order of their ids: letter, then number.
-std::vector<const Property*> properties();
+std::vector<const StressProperty*> list_properties();
 /// Returns the property with this id. Throws `Failure::usage` with the nearest id if there is none.
-const Property& find_property(std::string_view id);
+const StressProperty& find_property(std::string_view id);
 
 } // namespace catoptric::stress

@@ -13,19 +13,19 @@ namespace catoptric::stress {
 
 namespace {
 
-report::Verdict verdict_of(const report::StressRow& row) {
-    if (row.cases.empty()) return report::Verdict::unsupported;
+report::StressVerdict judge_stress_row(const report::StressRow& row) {
+    if (row.cases.empty()) return report::StressVerdict::unsupported;
     bool looks_worse = false;
     for (const report::StressCase& one : row.cases) {
         if (one.holds()) continue;
-        if (!one.is_quality) return report::Verdict::fail;
+        if (!one.is_quality) return report::StressVerdict::fail;
         looks_worse = true;
     }
-    return looks_worse ? report::Verdict::quality_warning : report::Verdict::pass;
+    return looks_worse ? report::StressVerdict::quality_warning : report::StressVerdict::pass;
 }
 
-report::StressRow judged(app::Engine& engine, const StressRequest& request,
-                         const Property& property) {
+report::StressRow judge_property(app::Engine& engine, const StressRequest& request,
+                                 const StressProperty& property) {
     report::StressRow row{std::string(property.id),
                           std::string(property.stimulus),
                           std::string(property.property),
@@ -37,22 +37,22 @@ report::StressRow judged(app::Engine& engine, const StressRequest& request,
                           {},
                           std::string(property.turned_red_by)};
     const auto start = std::chrono::steady_clock::now();
-    Bench bench(engine, request.watcher, request.size, request.seed, row);
+    StressBench bench(engine, request.watcher, request.size, request.seed, row);
     try {
         property.judge(bench);
         check(!row.cases.empty() || !row.not_run.empty(), Failure::internal, "property ", row.id,
               " judged nothing");
-        row.verdict = verdict_of(row);
+        row.verdict = judge_stress_row(row);
         if (row.cases.empty()) row.remark = "nothing of it could be run";
     } catch (const Error& error) {
         if (bench.ends_run(error)) throw;
         row.remark = error.what();
         // Errors that were found before the device ran out stay errors.
-        if (is_refusal(error) && verdict_of(row) != report::Verdict::fail) {
-            row.verdict = report::Verdict::unsupported;
+        if (is_resource_refusal(error) && judge_stress_row(row) != report::StressVerdict::fail) {
+            row.verdict = report::StressVerdict::unsupported;
             row.cases.clear(), row.pictures.clear(), row.not_run.clear();
         } else {
-            row.verdict = report::Verdict::fail;
+            row.verdict = report::StressVerdict::fail;
         }
     }
     row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -61,30 +61,30 @@ report::StressRow judged(app::Engine& engine, const StressRequest& request,
 
 } // namespace
 
-report::Stress run(app::Engine& engine, const StressRequest& request) {
-    std::vector<const Property*> chosen;
+report::StressResults run_stress_properties(app::Engine& engine, const StressRequest& request) {
+    std::vector<const StressProperty*> chosen;
     for (const std::string& id : request.only) chosen.push_back(&find_property(id));
-    if (chosen.empty()) chosen = properties();
-    report::Stress stress{app::version(),
-                          app::commit(),
-                          request.command,
-                          false,
-                          chosen.size(),
-                          {},
-                          app::facts_of(engine),
-                          static_cast<int>(request.size.x),
-                          static_cast<int>(request.size.y),
-                          request.seed,
-                          {}};
+    if (chosen.empty()) chosen = list_properties();
+    report::StressResults stress{app::version(),
+                                 app::commit(),
+                                 request.command,
+                                 false,
+                                 chosen.size(),
+                                 {},
+                                 app::make_device_facts(engine),
+                                 static_cast<int>(request.size.x),
+                                 static_cast<int>(request.size.y),
+                                 request.seed,
+                                 {}};
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             tell_row(request.watcher, std::string(chosen[i]->id), i, chosen.size());
-            stress.rows.push_back(judged(engine, request, *chosen[i]));
+            stress.rows.push_back(judge_property(engine, request, *chosen[i]));
             if (request.on_finished_row) request.on_finished_row(stress);
         }
         stress.complete = true;
     } catch (const Error& error) {
-        if (stress.rows.empty() && !is_stop(error.failure)) throw;
+        if (stress.rows.empty() && !is_stop_signal(error.failure)) throw;
         stress.stopped = error;
     } catch (const std::bad_alloc&) {
         if (stress.rows.empty()) throw;

@@ -13,7 +13,7 @@ struct StressRequest {
     std::vector<std::string> command;
     app::Watcher watcher; ///< receives progress; a property counts as a row
     /// Called after each property with the results so far, which are not `complete`. May be empty.
-    std::function<void(const report::Stress&)> on_finished_row;
+    std::function<void(const report::StressResults&)> on_finished_row;
 };
 
 /// Judges the properties, in minutes at 256x256. An unexpected error makes its row fail and gives
@@ -21,6 +21,6 @@ struct StressRequest {
 /// that text and no measured value. An error that ends the run (a signal, a lost device, no memory,
 /// `on_finished_row`) is stored in `stopped` of the rows so far. Without any row such an error is
 /// thrown unless it was a signal. Throws `usage` for an unknown id.
-report::Stress run(app::Engine& engine, const StressRequest& request);
+report::StressResults run_stress_properties(app::Engine& engine, const StressRequest& request);
 
 } // namespace catoptric::stress

@@ -13,16 +13,16 @@ namespace catoptric::stress {
 
 namespace {
 
-const dvec3 kLamp(0, 4, 0); // position of the lamp of plane()
+const dvec3 kLamp(0, 4, 0); // position of the lamp of make_plane_with_lamp()
 
 /// Board that stands on the plane between the lamp and the eye, so that its whole shadow is
 /// visible.
-struct Board {
+struct ShadowBoard {
     double half_width = 1.5, height = 2.5, z = -1.5;
 
     void add_to(scene::Scene& scene) const {
-        add_quad(scene, 0, {-half_width, 0, z}, {half_width, 0, z}, {half_width, height, z},
-                 {-half_width, height, z});
+        add_stress_quad(scene, 0, {-half_width, 0, z}, {half_width, 0, z}, {half_width, height, z},
+                        {-half_width, height, z});
     }
     /// Returns whether the board lies between two points.
     bool hides(const dvec3& a, const dvec3& b) const {
@@ -34,26 +34,27 @@ struct Board {
 };
 
 /// Point of the plane at a pixel's centre, and whether the board hides the lamp there.
-struct Spot {
+struct ShadowSample {
     /// Whether the pixel shows the plane and is not near the board's outline.
     bool on_plane = false;
     dvec3 place{0};
     bool in_shadow = false;
 };
 
-std::vector<Spot> spots_of(const scene::Camera& camera, uvec2 size, const Board& board) {
+std::vector<ShadowSample> list_shadow_samples(const scene::Camera& camera, uvec2 size,
+                                              const ShadowBoard& board) {
     constexpr double kMargin = .02; // pixels
-    std::vector<Spot> spots;
+    std::vector<ShadowSample> spots;
     for (std::uint32_t y = 0; y < size.y; ++y)
         for (std::uint32_t x = 0; x < size.x; ++x) {
             const auto place = [&](double dx, double dy) {
-                const dvec3 d = pixel_direction(camera, size, x + dx, y + dy);
+                const dvec3 d = pixel_ray_direction(camera, size, x + dx, y + dy);
                 return camera.eye - camera.eye.y / d.y * d;
             };
             const dvec3 middle = place(0, 0);
-            Spot spot{middle.z > camera.eye.z &&
-                          std::max(std::abs(middle.x), std::abs(middle.z)) < 10,
-                      middle, board.hides(middle, kLamp)};
+            ShadowSample spot{middle.z > camera.eye.z &&
+                                  std::max(std::abs(middle.x), std::abs(middle.z)) < 10,
+                              middle, board.hides(middle, kLamp)};
             for (const double dx : {-kMargin, kMargin})
                 for (const double dy : {-kMargin, kMargin})
                     if (board.hides(place(dx, dy), camera.eye)) spot.on_plane = false;
@@ -64,7 +65,7 @@ std::vector<Spot> spots_of(const scene::Camera& camera, uvec2 size, const Board&
 
 /// Returns the distance from `place` to the shadow's edge in multiples of `unit`, rounded up to a
 /// quarter, at most 64.
-double edge_distance(const Board& board, const dvec3& place, double unit) {
+double distance_to_shadow_edge(const ShadowBoard& board, const dvec3& place, double unit) {
     constexpr int kAngles = 16;
     const bool in_shadow = board.hides(place, kLamp);
     for (int quarters = 1; quarters < 256; ++quarters)
@@ -79,34 +80,35 @@ double edge_distance(const Board& board, const dvec3& place, double unit) {
 
 /// Returns the largest length on the plane that a shadow map texel covers at a place. The map is a
 /// cube around the lamp with faces of `edge` texels, in any rotation.
-double texel_on_plane(const dvec3& place, int edge) {
+double shadow_texel_on_plane(const dvec3& place, int edge) {
     const double distance = length(place - kLamp);
     return 2 * distance / edge * distance / kLamp.y;
 }
 
-struct Shown {
+struct ShadowedPicture {
     measure::Picture with, without;
 };
 
 /// Returns the distance to the shadow's edge of the farthest wrong pixel, in texels. A wrong pixel
 /// is lit where it should be dark, or the reverse. A half-lit pixel counts as lit.
-double farthest_wrong(const std::vector<Spot>& spots, const Shown& shown, const Board& board,
-                      const std::function<double(const dvec3&)>& unit) {
+double farthest_wrong_pixel(const std::vector<ShadowSample>& spots, const ShadowedPicture& shown,
+                            const ShadowBoard& board,
+                            const std::function<double(const dvec3&)>& unit) {
     double most = 0;
     for (std::size_t i = 0; i < spots.size(); ++i) {
         const float full = shown.without.pixels[i].x;
         if (!spots[i].on_plane || !(full > 0)) continue;
         const bool dark = !(shown.with.pixels[i].x >= full / 2);
         if (dark == spots[i].in_shadow) continue;
-        most = std::max(most, edge_distance(board, spots[i].place, unit(spots[i].place)));
+        most = std::max(most, distance_to_shadow_edge(board, spots[i].place, unit(spots[i].place)));
     }
     return most;
 }
 
-Shown show(Bench& bench, const scene::Scene& scene, const std::string& with,
-           const std::string& without) {
+ShadowedPicture render_with_and_without_board(StressBench& bench, const scene::Scene& scene,
+                                              const std::string& with, const std::string& without) {
     const auto render = [&](const std::string& technique) {
-        app::Request request = bench.asked(scene, technique, 1);
+        app::Request request = bench.make_request(scene, technique, 1);
         request.ambient = 0; // then only the lamp lights the plane
         return bench.render(request).hdr;
     };
@@ -114,19 +116,20 @@ Shown show(Bench& bench, const scene::Scene& scene, const std::string& with,
 }
 
 /// Returns the largest edge of a shadow map for which this device has memory.
-int largest_shadow_map(Bench& bench, const scene::Scene& scene) {
+int largest_shadow_map_edge(StressBench& bench, const scene::Scene& scene) {
     int edge = 16384;
     while (edge > 1 && !bench.add_done_or_refused(fmt::format("edge {} planned", edge), [&] {
-        bench.plan(bench.asked(scene, fmt::format("reuse:shadow_map={}", edge), 1));
+        bench.plan(bench.make_request(scene, fmt::format("reuse:shadow_map={}", edge), 1));
     }))
         edge /= 2;
     return edge;
 }
 
 /// Judges an open plane, which must not shadow itself.
-void judge_open_plane(Bench& bench, double factor, int edge) {
-    const Shown shown = show(bench, through(plane(), scaled(factor)),
-                             fmt::format("reuse:shadow_map={}", edge), "reuse:shadow=none");
+void judge_plane_self_shadow(StressBench& bench, double factor, int edge) {
+    const ShadowedPicture shown = render_with_and_without_board(
+        bench, transform_scene(make_plane_with_lamp(), scale_matrix(factor)),
+        fmt::format("reuse:shadow_map={}", edge), "reuse:shadow=none");
     std::size_t lit = 0, judged = 0;
     for (std::size_t i = 0; i < shown.with.pixels.size(); ++i) {
         if (!(shown.without.pixels[i].x > 0)) continue;
@@ -142,61 +145,66 @@ void judge_open_plane(Bench& bench, double factor, int edge) {
 
 /// Returns a plane with a board under a lamp that is turned to it. With a face of its shadow map
 /// straight across, no plane would be lifted off its shadow.
-scene::Scene board_under_lamp(const Board& board) {
+scene::Scene make_board_under_lamp(const ShadowBoard& board) {
     constexpr double kTurn = .6, kHalf = .2;
-    scene::Scene scene = plane();
+    scene::Scene scene = make_plane_with_lamp();
     scene.objects.pop_back();
     const dvec3 along(kHalf, 0, 0), up = kHalf * dvec3(0, -std::sin(kTurn), std::cos(kTurn));
-    add_quad(scene, 1, kLamp - along - up, kLamp + along - up, kLamp + along + up,
-             kLamp - along + up);
+    add_stress_quad(scene, 1, kLamp - along - up, kLamp + along - up, kLamp + along + up,
+                    kLamp - along + up);
     board.add_to(scene);
     return scene;
 }
 
 /// Judges the shadow of a board on the plane, which must begin at the board's foot and end at the
 /// known edge. The tolerance is some texels for shadow maps and a thousandth of the board for rays.
-void judge_board(Bench& bench, double factor, const std::vector<int>& edges) {
-    const Board board;
-    const scene::Scene scene = board_under_lamp(board);
-    const std::vector<Spot> spots = spots_of(scene.cameras.front(), bench.size(), board);
+void judge_board_shadow(StressBench& bench, double factor, const std::vector<int>& edges) {
+    const ShadowBoard board;
+    const scene::Scene scene = make_board_under_lamp(board);
+    const std::vector<ShadowSample> spots = list_shadow_samples(scene.cameras.front(), bench.size(),
+                                                                board);
     const auto judged = std::ranges::count_if(
-        spots, [](const Spot& spot) { return spot.on_plane && spot.in_shadow; });
+        spots, [](const ShadowSample& spot) { return spot.on_plane && spot.in_shadow; });
     bench.add("the board's shadow: less than a fiftieth of the picture",
               judged * 50 < std::ssize(spots) ? 1 : 0, 0);
-    const scene::Scene seen = through(scene, scaled(factor));
+    const scene::Scene seen = transform_scene(scene, scale_matrix(factor));
     bench.add(fmt::format("raytrace, times {}: the shadow's edge is off by thousandths", factor),
-              farthest_wrong(spots, show(bench, seen, "raytrace", "raytrace:shadow=none"), board,
-                             [](const dvec3&) { return .001; }),
+              farthest_wrong_pixel(
+                  spots,
+                  render_with_and_without_board(bench, seen, "raytrace", "raytrace:shadow=none"),
+                  board, [](const dvec3&) { return .001; }),
               1);
     for (const int edge : edges) {
-        const Shown shown = show(bench, seen, fmt::format("reuse:shadow_map={}", edge),
-                                 "reuse:shadow=none");
+        const ShadowedPicture shown = render_with_and_without_board(
+            bench, seen, fmt::format("reuse:shadow_map={}", edge), "reuse:shadow=none");
         bench.add(
             fmt::format("edge {}, times {}: the shadow's edge is off by texels", edge, factor),
-            farthest_wrong(spots, shown, board,
-                           [&](const dvec3& place) { return texel_on_plane(place, edge); }),
+            farthest_wrong_pixel(
+                spots, shown, board,
+                [&](const dvec3& place) { return shadow_texel_on_plane(place, edge); }),
             edge < 1024 ? 1.5 : .75);
     }
 }
 
-void judge_shadow_map(Bench& bench) {
-    const int largest = largest_shadow_map(bench, plane());
+void judge_shadow_map(StressBench& bench) {
+    const int largest = largest_shadow_map_edge(bench, make_plane_with_lamp());
     for (const double factor : {1e-6, 1.0, 1e6}) {
-        for (const int edge : {1, 16, 1024, largest}) judge_open_plane(bench, factor, edge);
-        judge_board(bench, factor, {16, 1024, largest});
+        for (const int edge : {1, 16, 1024, largest}) judge_plane_self_shadow(bench, factor, edge);
+        judge_board_shadow(bench, factor, {16, 1024, largest});
     }
 }
 
 /// Returns a plane with a board and a ball, lit by either or both of two lamps of different colour.
-scene::Scene lit_by(bool first, bool second) {
+scene::Scene make_plane_lit_by(bool first, bool second) {
     scene::Scene scene{.name = "two lights"};
-    add_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}), {-10, 0, -10},
-             {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
-    Board{.half_width = 1, .height = 1.5, .z = -1}.add_to(scene);
-    add_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{1.9, .7, -2}, .7});
+    add_stress_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}),
+                    {-10, 0, -10}, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
+    ShadowBoard{.half_width = 1, .height = 1.5, .z = -1}.add_to(scene);
+    add_stress_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}),
+                    {{1.9, .7, -2}, .7});
     const auto add_lamp = [&](double x, const vec3& emission) {
-        add_quad(scene, add_material(scene, {.name = "lamp", .emission = emission}),
-                 {x - .2, 4, .3}, {x + .2, 4, .3}, {x + .2, 4, .7}, {x - .2, 4, .7});
+        add_stress_quad(scene, add_material(scene, {.name = "lamp", .emission = emission}),
+                        {x - .2, 4, .3}, {x + .2, 4, .3}, {x + .2, 4, .7}, {x - .2, 4, .7});
     };
     if (first) add_lamp(-2, {40, 10, 5});
     if (second) add_lamp(2.5, {5, 10, 40});
@@ -206,16 +214,16 @@ scene::Scene lit_by(bool first, bool second) {
 
 /// Judges that light adds up: both lamps together give the sum of each alone. This covers the
 /// plane, both shadows and their reflections in the ball.
-void judge_two_lights(Bench& bench) {
+void judge_sum_of_lights(StressBench& bench) {
     const auto render = [&](const scene::Scene& scene, const std::string& technique) {
-        app::Request request = bench.asked(scene, technique, 2);
+        app::Request request = bench.make_request(scene, technique, 2);
         request.ambient = 0;
         return bench.render(request);
     };
     for (const std::string technique : {"raytrace", "reuse", "parallax", "pyramid", "layered"}) {
-        const app::Part both = render(lit_by(true, true), technique),
-                        first = render(lit_by(true, false), technique),
-                        second = render(lit_by(false, true), technique);
+        const app::TechniqueResult both = render(make_plane_lit_by(true, true), technique),
+                                   first = render(make_plane_lit_by(true, false), technique),
+                                   second = render(make_plane_lit_by(false, true), technique);
         double off = 0;
         std::size_t only_first = 0, only_second = 0;
         for (std::size_t i = 0; i < both.hdr.pixels.size(); ++i) {
@@ -224,7 +232,7 @@ void judge_two_lights(Bench& bench) {
             off = std::max({off, missing.x, missing.y, missing.z});
             only_first += a.x > 0 && b.x == 0, only_second += b.x > 0 && a.x == 0;
         }
-        if (nonfinite(both.hdr) > 0) off = std::nan("");
+        if (count_nonfinite_pixels(both.hdr) > 0) off = std::nan("");
         bench.add(technique + ": radiance off the sum of either light", off, .0005);
         const std::size_t enough = both.hdr.pixels.size() / 200;
         bench.add(technique + ": a light without a shadow of its own",
@@ -235,13 +243,13 @@ void judge_two_lights(Bench& bench) {
     }
 }
 
-const Registered kShadowMap{
+const RegisteredProperty kShadowMap{
     {"L2", "shadow map edge 1, 16, 1024, the largest up to 16384; scene times 1e-6, 1, 1e6",
      "no acne on an open plane; a board's shadow begins and ends where it must", judge_shadow_map,
      "shadow_lifted"}};
-const Registered kTwoLights{{"L3", "two lights, a board and a ball on an open plane",
-                             "both show what each shows alone, each with its shadow",
-                             judge_two_lights, "shadows_of_first_light"}};
+const RegisteredProperty kTwoLights{{"L3", "two lights, a board and a ball on an open plane",
+                                     "both show what each shows alone, each with its shadow",
+                                     judge_sum_of_lights, "shadows_of_first_light"}};
 
 } // namespace
 

@@ -8,32 +8,34 @@ namespace catoptric::stress {
 
 namespace {
 
-std::vector<Property>& table() {
-    static std::vector<Property> rows;
+std::vector<StressProperty>& property_table() {
+    static std::vector<StressProperty> rows;
     return rows;
 }
 
 } // namespace
 
-Registered::Registered(const Property& property) { table().push_back(property); }
+RegisteredProperty::RegisteredProperty(const StressProperty& property) {
+    property_table().push_back(property);
+}
 
-std::vector<const Property*> properties() {
-    std::vector<const Property*> rows;
-    for (const Property& property : table()) rows.push_back(&property);
-    std::ranges::sort(rows, {}, [](const Property* row) {
+std::vector<const StressProperty*> list_properties() {
+    std::vector<const StressProperty*> rows;
+    for (const StressProperty& property : property_table()) rows.push_back(&property);
+    std::ranges::sort(rows, {}, [](const StressProperty* row) {
         return std::pair(row->id[0], std::stoi(std::string(row->id.substr(1))));
     });
     return rows;
 }
 
-const Property& find_property(std::string_view id) {
+const StressProperty& find_property(std::string_view id) {
     std::vector<std::string> ids;
-    for (const Property* row : properties()) {
+    for (const StressProperty* row : list_properties()) {
         if (row->id == id) return *row;
         ids.emplace_back(row->id);
     }
     fail(Failure::usage, "wanted the id of a property (", ids.front(), " ... ", ids.back(),
-         "), found '", id, "'", did_you_mean(id, ids));
+         "), found '", id, "'", suggest_name(id, ids));
 }
 
 } // namespace catoptric::stress

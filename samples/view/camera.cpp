@@ -16,7 +16,7 @@ constexpr double kSteepest = 1.5533; // 89 degrees, so that up stays up
 constexpr double kNotch = .9;        // factor on the distance per wheel notch
 
 /// Returns the unit viewing direction turned by pixels of the mouse.
-dvec3 turned(const dvec3& direction, const dvec2& pixels) {
+dvec3 turn_direction(const dvec3& direction, const dvec2& pixels) {
     const double pitch = std::clamp(std::asin(std::clamp(direction.y, -1., 1.)) + kTurn * pixels.y,
                                     -kSteepest, kSteepest);
     const double yaw = std::atan2(direction.x, direction.z) + kTurn * pixels.x;
@@ -24,7 +24,7 @@ dvec3 turned(const dvec3& direction, const dvec2& pixels) {
 }
 
 /// Returns how many world units a pixel covers at the target.
-double pixel_at(const scene::Camera& camera, double distance, double height) {
+double pixel_size_at_target(const scene::Camera& camera, double distance, double height) {
     if (camera.orthographic_height > 0) return camera.orthographic_height / height;
     const double half = camera.vertical_fov_degrees * std::numbers::pi / 360;
     return 2 * distance * std::tan(half) / height;
@@ -32,12 +32,12 @@ double pixel_at(const scene::Camera& camera, double distance, double height) {
 
 } // namespace
 
-bool Moves::any() const {
+bool CameraMoves::any() const {
     return turned != dvec2(0) || shifted != dvec2(0) || wheel != 0 || flown != dvec3(0);
 }
 
-scene::Camera moved(const scene::Camera& camera, const Moves& moves, bool flies, double height,
-                    double reach) {
+scene::Camera move_camera(const scene::Camera& camera, const CameraMoves& moves, bool flies,
+                          double height, double reach) {
     if (!moves.any()) return camera;
     scene::Camera next = camera;
     next.follows = {};
@@ -46,23 +46,23 @@ scene::Camera moved(const scene::Camera& camera, const Moves& moves, bool flies,
     double distance = glm::length(next.target - next.eye);
     dvec3 forward = (next.target - next.eye) / distance;
     if (flies) {
-        forward = turned(forward, {-moves.turned.x, -moves.turned.y});
+        forward = turn_direction(forward, {-moves.turned.x, -moves.turned.y});
         next.target = next.eye + forward * distance;
     } else {
-        forward = turned(forward, {-moves.turned.x, -moves.turned.y});
+        forward = turn_direction(forward, {-moves.turned.x, -moves.turned.y});
         distance *= std::pow(kNotch, moves.wheel);
         if (next.orthographic_height > 0) next.orthographic_height *= std::pow(kNotch, moves.wheel);
         next.eye = next.target - forward * distance;
     }
     const dvec3 right = glm::normalize(glm::cross(forward, next.up)),
                 up = glm::cross(right, forward);
-    const double pixel = pixel_at(next, distance, height);
+    const double pixel = pixel_size_at_target(next, distance, height);
     dvec3 shift = (-moves.shifted.x * right + moves.shifted.y * up) * pixel;
     shift += (moves.flown.x * right + moves.flown.y * up + moves.flown.z * forward) * (reach / 3);
     if (flies) shift += forward * (moves.wheel * reach / 20);
     next.eye += shift, next.target += shift;
     try {
-        scene::Camera typed = scene::camera_named(scene::camera_text(next), {});
+        scene::Camera typed = scene::find_camera_by_name(scene::format_camera(next), {});
         typed.name = next.name;
         return typed;
     } catch (const Error&) { // the camera would leave its allowed range

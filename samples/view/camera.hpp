@@ -6,7 +6,7 @@
 namespace catoptric::view {
 
 /// Moves that the user asked for since the previous frame.
-struct Moves {
+struct CameraMoves {
     dvec2 turned{0};  ///< pixels dragged with the left mouse button
     dvec2 shifted{0}; ///< pixels dragged with the right or middle button
     double wheel = 0; ///< wheel notches, forwards positive
@@ -22,7 +22,7 @@ struct Moves {
 /// covers in about three seconds. A moved camera is fixed in the scene (it follows no object), and
 /// up is +y. It equals to the last bit the camera that `--camera` makes of its text. Without moves,
 /// the camera is returned unchanged.
-scene::Camera moved(const scene::Camera& camera, const Moves& moves, bool flies, double height,
-                    double reach);
+scene::Camera move_camera(const scene::Camera& camera, const CameraMoves& moves, bool flies,
+                          double height, double reach);
 
 } // namespace catoptric::view

@@ -26,15 +26,16 @@ bool is_one_of(const std::array<std::string_view, N>& names, std::string_view wo
 }
 
 /// Returns whether the word is -q, -v, or both, such as -qv.
-bool is_short_flags(const std::string& word) {
+bool is_quiet_or_verbose_flag(const std::string& word) {
     return word.size() > 1 && word.starts_with('-') &&
            word.find_first_not_of("qv", 1) == std::string::npos;
 }
 
 } // namespace
 
-std::vector<std::string> render_words(const std::vector<std::string>& words, const State& state,
-                                      const std::string& camera, uvec2 size) {
+std::vector<std::string> make_render_words(const std::vector<std::string>& words,
+                                           const ViewState& state, const std::string& camera,
+                                           uvec2 size) {
     std::vector<std::string> made{"render"};
     const auto end = std::ranges::find(words,
                                        "--"); // end of the options; the scene's name may follow
@@ -42,15 +43,15 @@ std::vector<std::string> render_words(const std::vector<std::string>& words, con
     for (std::size_t i = 0; i < options; ++i) {
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
-        if (is_one_of(kFlags, word) || is_short_flags(word)) continue;
+        if (is_one_of(kFlags, word) || is_quiet_or_verbose_flag(word)) continue;
         if (is_one_of(kReplaced, name)) {
             if (name == word) ++i; // the next word is its value
             continue;
         }
         made.push_back(word);
     }
-    for (const std::string& word :
-         words_of(state.mode == Mode::answers ? with(state.plan, "show", "state") : state.plan))
+    for (const std::string& word : plan_option_words(
+             state.mode == ViewMode::answers ? with_knob(state.plan, "show", "state") : state.plan))
         made.push_back(word);
     made.insert(made.end(), {"--camera", camera, "--time", fmt::format("{}", state.motion.time),
                              "--size", fmt::format("{}x{}", size.x, size.y), "--exposure",
@@ -60,18 +61,18 @@ std::vector<std::string> render_words(const std::vector<std::string>& words, con
     return made;
 }
 
-std::string quoted(const std::string& word) {
+std::string quote_for_shell(const std::string& word) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                         "0123456789_-+=:,./@%";
     const bool is_plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
-    return is_plain ? word : app::shell_word(word);
+    return is_plain ? word : app::quote_for_shell(word);
 }
 
-std::string render_command(const std::vector<std::string>& words, const State& state,
-                           const std::string& camera, uvec2 size) {
+std::string make_render_command(const std::vector<std::string>& words, const ViewState& state,
+                                const std::string& camera, uvec2 size) {
     std::string text = "catoptric";
-    for (const std::string& word : render_words(words, state, camera, size))
-        text += " " + quoted(word);
+    for (const std::string& word : make_render_words(words, state, camera, size))
+        text += " " + quote_for_shell(word);
     return text;
 }
 

@@ -10,7 +10,7 @@ namespace catoptric::view {
 namespace {
 
 /// Returns the part of a rectangle that lies within the window, or none.
-std::optional<std::array<std::uint32_t, 4>> area_of(const ImVec4& clip, const ImVec2& size) {
+std::optional<std::array<std::uint32_t, 4>> clip_to_window(const ImVec4& clip, const ImVec2& size) {
     const float left = std::max(clip.x, 0.f), top = std::max(clip.y, 0.f),
                 right = std::min(clip.z, size.x), bottom = std::min(clip.w, size.y);
     if (right <= left || bottom <= top) return {};
@@ -21,7 +21,7 @@ std::optional<std::array<std::uint32_t, 4>> area_of(const ImVec4& clip, const Im
 
 } // namespace
 
-Controls::Controls(Window& window) {
+ImGuiControls::ImGuiControls(ViewWindow& window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
@@ -37,12 +37,12 @@ Controls::Controls(Window& window) {
                                  &height); // ImGui refuses to begin without a built font
 }
 
-Controls::~Controls() {
+ImGuiControls::~ImGuiControls() {
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
 }
 
-void Controls::give_font(app::Screen& screen) const {
+void ImGuiControls::give_font(app::WindowScreen& screen) const {
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
@@ -50,7 +50,7 @@ void Controls::give_font(app::Screen& screen) const {
                     {texels, texels + static_cast<std::ptrdiff_t>(width) * height});
 }
 
-void Controls::begin(uvec2 window, const Inputs& inputs) {
+void ImGuiControls::begin(uvec2 window, const UserInput& inputs) {
     ImGui_ImplGlfw_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(window.x), static_cast<float>(window.y)};
@@ -60,10 +60,10 @@ void Controls::begin(uvec2 window, const Inputs& inputs) {
     ImGui::NewFrame();
 }
 
-app::Overlay Controls::end() {
+app::WindowOverlay ImGuiControls::end() {
     ImGui::Render();
     const ImDrawData& data = *ImGui::GetDrawData();
-    app::Overlay overlay;
+    app::WindowOverlay overlay;
     for (int l = 0; l < data.CmdListsCount; ++l) {
         const ImDrawList& list = *data.CmdLists[l];
         const auto first_vertex = static_cast<std::uint32_t>(overlay.vertices.size());
@@ -76,7 +76,7 @@ app::Overlay Controls::end() {
             for (std::uint32_t i = 0; i < command.ElemCount; ++i, ++at)
                 overlay.indices.push_back(first_vertex + command.VtxOffset +
                                           list.IdxBuffer[static_cast<int>(command.IdxOffset + i)]);
-            if (const auto area = area_of(command.ClipRect, data.DisplaySize))
+            if (const auto area = clip_to_window(command.ClipRect, data.DisplaySize))
                 overlay.draws.push_back(
                     {first_index + command.IdxOffset, command.ElemCount, *area});
         }
@@ -84,7 +84,7 @@ app::Overlay Controls::end() {
     return overlay;
 }
 
-bool Controls::has_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool Controls::has_keys() const { return ImGui::GetIO().WantTextInput; }
+bool ImGuiControls::has_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool ImGuiControls::has_keys() const { return ImGui::GetIO().WantTextInput; }
 
 } // namespace catoptric::view

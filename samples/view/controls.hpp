@@ -6,20 +6,20 @@
 namespace catoptric::view {
 
 /// Dear ImGui in a window, at most one per process. Access::show draws its triangles.
-class Controls {
+class ImGuiControls {
 public:
     /// Installs callbacks that also call the window's earlier callbacks.
-    explicit Controls(Window& window);
-    ~Controls();
-    Controls(const Controls&) = delete;
-    Controls& operator=(const Controls&) = delete;
+    explicit ImGuiControls(ViewWindow& window);
+    ~ImGuiControls();
+    ImGuiControls(const ImGuiControls&) = delete;
+    ImGuiControls& operator=(const ImGuiControls&) = delete;
 
     /// Gives the font to a screen. Needed once per new screen.
-    void give_font(app::Screen& screen) const;
+    void give_font(app::WindowScreen& screen) const;
     /// Begins and ends the controls of a frame. ImGui:: calls in between add controls. `window` is
     /// the window's size in pixels. `inputs` supplies the mouse.
-    void begin(uvec2 window, const Inputs& inputs);
-    app::Overlay end();
+    void begin(uvec2 window, const UserInput& inputs);
+    app::WindowOverlay end();
     /// Returns whether, in the last frame, the mouse was over controls (`has_mouse`) or a text was
     /// being typed (`has_keys`).
     bool has_mouse() const;

@@ -10,7 +10,7 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_line(const TimeRow& line, double most) {
+void draw_time_row(const TimeRow& line, double most) {
     std::string text = fmt::format("{:.2f} ms", line.median);
     if (line.ci95.is_known())
         text += fmt::format(" [{:.2f} {:.2f}]", line.ci95.low, line.ci95.high);
@@ -20,35 +20,35 @@ void draw_line(const TimeRow& line, double most) {
     ImGui::TextUnformatted(line.name.c_str());
 }
 
-void draw_lines(const std::vector<TimeRow>& lines) {
+void draw_time_rows(const std::vector<TimeRow>& lines) {
     double most = 0;
     for (const TimeRow& line : lines) most = std::max(most, line.median);
-    for (const TimeRow& line : lines) draw_line(line, most);
+    for (const TimeRow& line : lines) draw_time_row(line, most);
 }
 
-void draw_mirror(const scene::Object& object, std::size_t number) {
+void draw_mirror_facts(const scene::Object& object, std::size_t number) {
     ImGui::BulletText("mirror %zu: %s%s", number, object.name.c_str(),
                       object.sphere ? ", a sphere" : "");
 }
 
 } // namespace
 
-void draw_times(const Viewer& viewer) {
-    const Times& times = viewer.times();
-    draw_line(times.gpu(), times.frame().median);
+void draw_frame_times(const Viewer& viewer) {
+    const TimeStatistics& times = viewer.times();
+    draw_time_row(times.gpu(), times.frame().median);
     if (ImGui::TreeNodeEx("passes", ImGuiTreeNodeFlags_DefaultOpen)) {
-        draw_lines(times.passes());
+        draw_time_rows(times.passes());
         ImGui::TreePop();
     }
     if (ImGui::TreeNode("host")) {
-        draw_lines(times.host());
+        draw_time_rows(times.host());
         ImGui::TreePop();
     }
     ImGui::TextDisabled("medians of %zu %s, with 95 %% intervals", times.count(),
                         times.count() == 1 ? "frame" : "frames");
 }
 
-void draw_scene(const PanelData& seen, Wants& wants) {
+void draw_scene_facts(const PanelData& seen, PanelRequests& wants) {
     const scene::Scene& scene = seen.scene;
     ImGui::Text("%zu objects, %zu triangles, %zu materials", scene.objects.size(),
                 scene::triangle_count(scene), scene.materials.size());
@@ -60,7 +60,7 @@ void draw_scene(const PanelData& seen, Wants& wants) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     if (ImGui::TreeNode("mirrors", "mirrors (%zu)", mirrors.size())) {
         for (std::size_t i = 0; i < mirrors.size(); ++i)
-            draw_mirror(scene.objects[mirrors[i]], i + 1);
+            draw_mirror_facts(scene.objects[mirrors[i]], i + 1);
         ImGui::TreePop();
     }
     if (ImGui::TreeNode("cameras", "cameras (%zu)", scene.cameras.size())) {

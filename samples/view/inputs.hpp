@@ -9,7 +9,7 @@
 /// User input as plain data. A window or a test fills it.
 namespace catoptric::view {
 
-enum class Act {
+enum class KeyAction {
     keys,
     panels,
     pause,
@@ -28,18 +28,18 @@ enum class Act {
     mode
 };
 
-/// A key and its action. `mode` is the mode's number for Act::mode.
+/// A key and its action. `mode` is the mode's number for KeyAction::mode.
 struct KeyBinding {
     int code; ///< key code of the window library
-    Act act;
+    KeyAction act;
     int mode;
     const char* name;
     const char* does;
 };
-const std::vector<KeyBinding>& keys();
+const std::vector<KeyBinding>& list_key_bindings();
 
 /// User input since the previous frame.
-struct Inputs {
+struct UserInput {
     uvec2 window{0, 0};         ///< size in pixels; 0: minimised
     dvec2 scale{1};             ///< pixels per desktop unit (pixels_per_unit)
     dvec2 mouse{0};             ///< position in pixels from the upper left corner
@@ -54,17 +54,18 @@ struct Inputs {
 };
 
 /// The object that a drag moves, kept from frame to frame.
-class Hand {
+class DragState {
 public:
     /// Moves the divider or the camera of `state`. `size` is the picture's size; `reach` is that of
     /// `moved`. Returns the pixel that was clicked without dragging, if any.
-    std::optional<uvec2> apply(const Inputs& inputs, State& state, uvec2 size, double reach);
+    std::optional<uvec2> apply_drag(const UserInput& inputs, ViewState& state, uvec2 size,
+                                    double reach);
 
 private:
-    enum class Holds { nothing, controls, divider, turning, shifting };
-    Holds grasp(const Inputs& inputs, const State& state, uvec2 size) const;
+    enum class DraggedObject { nothing, controls, divider, turning, shifting };
+    DraggedObject begin_drag(const UserInput& inputs, const ViewState& state, uvec2 size) const;
 
-    Holds holds_ = Holds::nothing;
+    DraggedObject holds_ = DraggedObject::nothing;
     dvec2 last_{0}, pressed_{0};
     bool strayed_ = false;
 };
@@ -75,7 +76,7 @@ private:
 dvec2 pixels_per_unit(uvec2 pixels, uvec2 units);
 
 /// Returns the size of the picture beside or under the controls, at least 16x16.
-uvec2 picture_size(uvec2 window, bool shows_panels);
+uvec2 choose_picture_size(uvec2 window, bool shows_panels);
 inline constexpr std::uint32_t kPanelWidth = 360;
 
 } // namespace catoptric::view

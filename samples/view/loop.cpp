@@ -17,19 +17,20 @@ namespace catoptric::view {
 namespace {
 
 /// Returns the diagonal of the scene's bounds, in world units.
-double reach_of(const scene::Scene& scene) {
+double scene_diagonal(const scene::Scene& scene) {
     const Bounds<double> bounds = scene::bounds(scene);
     return bounds.empty() ? 1 : std::max(glm::length(bounds.hi - bounds.lo), 1e-9);
 }
 
 } // namespace
 
-Loop::Loop(const ViewOptions& options, const Driver& driver)
+ViewLoop::ViewLoop(const ViewOptions& options, const TestDriver& driver)
     : options_(options), driver_(driver),
-      settings_(is_scripted() ? ViewerSettings() : load_settings(settings_file())),
-      request_(ask(options).request), window_("Catoptric", first_window()), controls_(window_) {
-    state_.plan = plan_of(options.technique);
-    state_.other = plan_of("raytrace");
+      settings_(is_scripted() ? ViewerSettings() : load_settings(settings_file_path())),
+      request_(resolve_view_request(options).request), window_("Catoptric", first_window()),
+      controls_(window_) {
+    state_.plan = parse_plan_text(options.technique);
+    state_.other = parse_plan_text("raytrace");
     state_.shows_panels = settings_.shows_panels, state_.flies = settings_.flies;
     state_.motion.speed = settings_.speed, state_.gain = settings_.gain;
     state_.model = request_.model;
@@ -38,7 +39,7 @@ Loop::Loop(const ViewOptions& options, const Driver& driver)
 
 /// Returns the first window size, with room for the picture and for controls beside it, in desktop
 /// units.
-uvec2 Loop::first_window() const {
+uvec2 ViewLoop::first_window() const {
     const bool is_size_said = std::ranges::any_of(
         options_.words, [](const std::string& word) { return word.starts_with("--size"); });
     if (!is_size_said && settings_.window.x > 0) return settings_.window;
@@ -46,36 +47,36 @@ uvec2 Loop::first_window() const {
 }
 
 /// Opens engine, screen and session for the requested scene.
-void Loop::open(SceneOrigin scene) {
+void ViewLoop::open(SceneOrigin scene) {
     viewer_.reset(); // releases its surface before another is made
     entries_of_.clear();
-    const app::EngineOptions options = cli::engine_options(options_.common.device);
+    const app::EngineOptions options = cli::make_engine_options(options_.common.device);
     viewer_ = std::make_unique<Viewer>(window_, options, request_);
     controls_.give_font(viewer_->screen());
     if (scene == SceneOrigin::same) return; // the state stays the same
-    cli::introduce(viewer_->engine(), options_.common.manners);
-    app::settle_exposure(viewer_->session(), request_);
+    cli::print_device_and_warnings(viewer_->engine(), options_.common.manners);
+    app::resolve_auto_exposure(viewer_->session(), request_);
     state_.camera = request_.camera;
     state_.exposure = request_.exposure;
     state_.motion.time = request_.time;
     state_.motion.plays = request_.animate;
-    reach_ = reach_of(request_.scene);
+    reach_ = scene_diagonal(request_.scene);
     period_ = scene::period(request_.scene);
     good_ = state_;
 }
 
 /// Renders a frame of the state.
-void Loop::render(const Inputs& inputs, app::Overlay overlay) {
+void ViewLoop::render(const UserInput& inputs, app::WindowOverlay overlay) {
     const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
     const uvec2 size = is_scripted() && is_first && state_.shows_panels == settings_.shows_panels
                            ? request_.size
-                           : picture_size(last_, state_.shows_panels);
+                           : choose_picture_size(last_, state_.shows_panels);
     const bool is_seen = inputs.window != uvec2(0) && viewer_->screen().fit(inputs.window);
     waits_ = !is_seen && !is_scripted();
     if (waits_) return;
     viewer_->frame(state_, size, std::move(overlay), is_seen);
     good_ = state_, losses_ = 0;
-    const std::string text = text_of(state_.plan) + " " + std::to_string(viewer_->cuts());
+    const std::string text = technique_text(state_.plan) + " " + std::to_string(viewer_->cuts());
     if (text != entries_of_) { // a suggested plan may change after each cut
         entries_ = state_.plan.typed.empty() ? std::vector<PlanEntry>() : viewer_->entries();
         entries_of_ = text;
@@ -85,9 +86,9 @@ void Loop::render(const Inputs& inputs, app::Overlay overlay) {
 /// Recovers from an error. After a refused frame, it restores the state of the last good frame.
 /// After a device loss, it opens engine, screen and session again. Must be called while `error` is
 /// handled, and rethrows it if recovery fails.
-void Loop::recover(const Error& error) {
+void ViewLoop::recover_from_error(const Error& error) {
     constexpr int kMostLosses = 2; // device losses without a frame in between
-    const auto asked = [](const State& state) {
+    const auto asked = [](const ViewState& state) {
         return std::tie(state.plan, state.other, state.mode, state.model, state.camera,
                         state.motion.time);
     };
@@ -100,44 +101,44 @@ void Loop::recover(const Error& error) {
         state_.mode = good_.mode, state_.model = good_.model;
         state_.camera = good_.camera, state_.motion.time = good_.motion.time;
     }
-    if (!is_lost) return say(error.what());
-    cli::warn(std::string(error.what()) + "; a new session is made");
+    if (!is_lost) return show_message(error.what());
+    cli::print_warning(std::string(error.what()) + "; a new session is made");
     open(SceneOrigin::same);
     state_.said = std::string("the device was lost: ") + error.what();
 }
 
-void Loop::show(const Inputs& inputs) {
-    Wants wants;
+void ViewLoop::show(const UserInput& inputs) {
+    PanelRequests wants;
     controls_.begin(glm::max(last_, uvec2(1)), inputs);
     draw_panels(state_, {request_.scene, *viewer_, entries_, period_}, last_, wants);
-    app::Overlay overlay = controls_.end();
-    carry_out(wants);
+    app::WindowOverlay overlay = controls_.end();
+    perform_panel_requests(wants);
     render(inputs, std::move(overlay));
     ++frame_;
     if (viewer_->screen().lost()) {
-        cli::warn("the window's surface was lost; a new session is made");
+        cli::print_warning("the window's surface was lost; a new session is made");
         open(SceneOrigin::same);
     }
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
 }
 
 /// Runs one frame, which may be refused. Returns false after the last frame.
-bool Loop::turn() try {
-    Inputs inputs = window_.poll(waits_);
+bool ViewLoop::run_one_frame() try {
+    UserInput inputs = window_.poll(waits_);
     inputs.on_controls = controls_.has_mouse();
     if (controls_.has_keys()) inputs.acts.clear(), inputs.flies = {};
     if (driver_.before) driver_.before(frame_ + 1, inputs, state_, window_);
     if (frame_ == 0) first_ = inputs.window;
     if (inputs.window != uvec2(0)) last_ = inputs.window, scale_ = inputs.scale;
-    for (const KeyBinding& key : inputs.acts) act(key);
+    for (const KeyBinding& key : inputs.acts) perform_key_action(key);
     for (const std::string& file : inputs.dropped) load(file);
-    const uvec2 size = picture_size(last_, state_.shows_panels);
-    if (const auto clicked = hand_.apply(inputs, state_, size, reach_))
+    const uvec2 size = choose_picture_size(last_, state_.shows_panels);
+    if (const auto clicked = hand_.apply_drag(inputs, state_, size, reach_))
         state_.chosen = viewer_->mirror_at(*clicked);
     if (is_scripted() && state_.motion.plays)
         state_.motion.time = request_.instant(static_cast<int>(frame_) + 1);
     else
-        state_.motion.time = advanced(state_.motion, inputs.seconds);
+        state_.motion.time = advance_playback_time(state_.motion, inputs.seconds);
     if (ends_ || inputs.closes || cli::stop_on_signals().load() != 0) return false;
     if (inputs.window == uvec2(0) && !is_scripted()) {
         waits_ = true; // minimised: no frame is rendered until the window comes back
@@ -146,23 +147,23 @@ bool Loop::turn() try {
     show(inputs);
     return !is_scripted() || frame_ < static_cast<std::size_t>(*options_.common.frames);
 } catch (const Error& error) {
-    recover(error);
+    recover_from_error(error);
     return true;
 }
 
 /// Prints the times of the last frames, with -v.
-void Loop::tell_times() const {
-    const Times& times = viewer_->times();
+void ViewLoop::tell_times() const {
+    const TimeStatistics& times = viewer_->times();
     std::vector<TimeRow> lines = times.passes();
     for (const TimeRow& line : times.host()) lines.push_back(line);
     lines.push_back(times.gpu());
     lines.push_back(times.frame());
     for (const TimeRow& line : lines)
-        cli::detail(options_.common.manners,
-                    fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
+        cli::print_detail(options_.common.manners,
+                          fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
 }
 
-int Loop::end() {
+int ViewLoop::end() {
     tell_times();
     if (!options_.screenshot.empty()) viewer_->write(options_.screenshot);
     if (options_.common.device.validate) viewer_->engine().check_validation();
@@ -170,27 +171,30 @@ int Loop::end() {
     try {
         save_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels, state_.flies,
                        state_.motion.speed, state_.gain},
-                      settings_file());
+                      settings_file_path());
     } catch (const Error& error) { // no reason for the whole run to fail
-        cli::warn(error.what());
+        cli::print_warning(error.what());
     }
     return 0;
 }
 
-int Loop::run() {
-    while (turn()) {
+int ViewLoop::run() {
+    while (run_one_frame()) {
     }
     const int code = end();
     const int signal = cli::stop_on_signals().load();
     return signal == 0 ? code : 128 + signal;
 }
 
-int run(const ViewOptions& options, const Driver& driver) { return Loop(options, driver).run(); }
+int run_view_window(const ViewOptions& options, const TestDriver& driver) {
+    return ViewLoop(options, driver).run();
+}
 
 int run_view(int argc, char** argv) {
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    return cli::run_guarded("catoptric-view", [&] {
-        return parse(words, [](const ViewOptions& options) { return run(options); })();
+    return cli::run_other_program_guarded("catoptric-view", [&] {
+        return parse_view_command(
+            words, [](const ViewOptions& options) { return run_view_window(options); })();
     });
 }
 

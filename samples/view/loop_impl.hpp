@@ -9,9 +9,9 @@
 // Parts of the window's loop, shared by loop.cpp and acts.cpp only.
 namespace catoptric::view {
 
-class Loop {
+class ViewLoop {
 public:
-    Loop(const ViewOptions& options, const Driver& driver);
+    ViewLoop(const ViewOptions& options, const TestDriver& driver);
     int run();
 
 private:
@@ -19,32 +19,32 @@ private:
     uvec2 first_window() const;
     enum class SceneOrigin { another, same };
     void open(SceneOrigin scene);
-    bool turn();
-    void act(const KeyBinding& key);
-    void carry_out(const Wants& wants);
+    bool run_one_frame();
+    void perform_key_action(const KeyBinding& key);
+    void perform_panel_requests(const PanelRequests& wants);
     void load(const std::string& file);
-    void show(const Inputs& inputs);
-    void render(const Inputs& inputs, app::Overlay overlay);
-    void recover(const Error& error);
-    void say(const std::string& text);
+    void show(const UserInput& inputs);
+    void render(const UserInput& inputs, app::WindowOverlay overlay);
+    void recover_from_error(const Error& error);
+    void show_message(const std::string& text);
     std::string command() const;
     void next_camera(std::size_t index);
     void tell_times() const;
     int end();
 
     ViewOptions options_;
-    const Driver& driver_;
+    const TestDriver& driver_;
     ViewerSettings settings_;
     app::Request request_;
-    State state_, good_; ///< good: state of the last frame that could be rendered
-    Window window_;
-    Controls controls_;
+    ViewState state_, good_; ///< good: state of the last frame that could be rendered
+    ViewWindow window_;
+    ImGuiControls controls_;
     std::unique_ptr<Viewer> viewer_;
-    Hand hand_;
+    DragState hand_;
     std::vector<PlanEntry> entries_;
     std::string entries_of_;
     uvec2 first_, last_{0, 0}; ///< window sizes: at the start and last seen
-    dvec2 scale_{1};           ///< Inputs::scale
+    dvec2 scale_{1};           ///< UserInput::scale
     bool waits_ = false;       ///< whether it waits for window events, because nothing can be shown
     std::size_t frame_ = 0;
     int losses_ = 0; ///< device losses since the last rendered frame

@@ -32,27 +32,27 @@ void check_screenshot(const ViewOptions& options) {
 
 } // namespace
 
-std::function<int()> parse(const std::vector<std::string>& words,
-                           const std::function<int(const ViewOptions&)>& run) {
+std::function<int()> parse_view_command(const std::vector<std::string>& words,
+                                        const std::function<int(const ViewOptions&)>& run) {
     auto program = std::make_shared<cli::CommandLine>(
         "catoptric-view", "Shows a scene in a window, drawn by any technique.",
         "catoptric-view " + app::version() + " (" + app::commit() + ")", kExamples);
     const auto options = std::make_shared<ViewOptions>();
     options->words = words;
-    cli::Verb& verb = program->whole();
-    add_drawn(verb, options->drawn);
+    cli::CommandVerb& verb = program->single_verb();
+    add_technique_options(verb, options->drawn);
     verb.option("--screenshot", "OUT",
                 "file OUT.png or OUT.exr for the picture of the last of --frames, without controls",
                 options->screenshot);
-    add_budget(verb, options->common);
-    add_common(verb, options->common);
-    verb.does([options, run] {
+    add_budget_option(verb, options->common);
+    add_common_options(verb, options->common);
+    verb.set_action([options, run] {
         if (options->drawn.technique.empty() && options->drawn.plan.empty())
             options->drawn.technique = "secant";
-        options->technique = checked(options->drawn, "catoptric-view");
+        options->technique = check_technique_choice(options->drawn, "catoptric-view");
         check(!options->common.both_models, Failure::usage,
               "--model both: wanted everything or required, of which a picture has one");
-        check_budget(options->common);
+        check_budget_option(options->common);
         check_screenshot(*options);
         return run(*options);
     });
@@ -60,12 +60,13 @@ std::function<int()> parse(const std::vector<std::string>& words,
     return [program, work] { return work(); };
 }
 
-cli::Asked ask(const ViewOptions& options) {
-    cli::Asked asked = make_asked(options.common);
+cli::ResolvedRequest resolve_view_request(const ViewOptions& options) {
+    cli::ResolvedRequest asked = make_resolved_request(options.common);
     app::Request& request = asked.request;
     request.techniques = {options.technique};
-    request.model = options.common.model.value_or(app::Modelling::required);
-    if (!options.screenshot.empty()) cli::check_apart({options.screenshot}, request.scene.files);
+    request.model = options.common.model.value_or(app::RenderedWork::required);
+    if (!options.screenshot.empty())
+        cli::check_outputs_differ_from_inputs({options.screenshot}, request.scene.files);
     return asked;
 }
 

@@ -10,8 +10,8 @@ namespace catoptric::view {
 
 /// The options of the command line.
 struct ViewOptions {
-    cli::Common common;
-    cli::Drawn drawn;
+    cli::CommonOptions common;
+    cli::TechniqueOption drawn;
     std::string technique; ///< as app::FrameSpec::techniques takes it
     std::string screenshot;
     std::vector<std::string> words; ///< all words without the program's name
@@ -19,10 +19,10 @@ struct ViewOptions {
 
 /// Parses `catoptric-view WORDS...` and returns the function to call, which may print help. Throws
 /// `usage`, and `cannot_create` for a screenshot that cannot be written.
-std::function<int()> parse(const std::vector<std::string>& words,
-                           const std::function<int(const ViewOptions&)>& run);
+std::function<int()> parse_view_command(const std::vector<std::string>& words,
+                                        const std::function<int(const ViewOptions&)>& run);
 
 /// Returns the request for the scene and its first frame.
-cli::Asked ask(const ViewOptions& options);
+cli::ResolvedRequest resolve_view_request(const ViewOptions& options);
 
 } // namespace catoptric::view

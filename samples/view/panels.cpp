@@ -15,13 +15,13 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_mode(State& state) {
+void draw_mode_controls(ViewState& state) {
     for (int i = 0; i < kModes; ++i) {
-        const auto mode = static_cast<Mode>(i);
+        const auto mode = static_cast<ViewMode>(i);
         if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * 115);
         if (ImGui::RadioButton(name_of(mode), state.mode == mode)) state.mode = mode;
     }
-    const bool compares = state.mode == Mode::split || state.mode == Mode::difference;
+    const bool compares = state.mode == ViewMode::split || state.mode == ViewMode::difference;
     if (compares) {
         int against = static_cast<int>(state.against);
         ImGui::AlignTextToFramePadding();
@@ -30,25 +30,25 @@ void draw_mode(State& state) {
         ImGui::RadioButton("another plan", &against, 0);
         ImGui::SameLine();
         ImGui::RadioButton("the reference", &against, 1);
-        state.against = static_cast<Against>(against);
+        state.against = static_cast<ComparisonPicture>(against);
     }
-    if (state.mode == Mode::difference || state.mode == Mode::causes) {
+    if (state.mode == ViewMode::difference || state.mode == ViewMode::causes) {
         int power = std::bit_width(static_cast<unsigned>(state.gain)) - 1;
         const std::string format = fmt::format("x{}", state.gain);
         ImGui::SliderInt("gain", &power, 0, 6, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
         state.gain = 1 << power;
     }
-    if (state.mode == Mode::causes)
-        for (const CauseLabel& cause : causes())
+    if (state.mode == ViewMode::causes)
+        for (const CauseLabel& cause : list_cause_labels())
             if (ImGui::RadioButton(cause.name, state.cause == cause.bit)) state.cause = cause.bit;
-    if (state.mode == Mode::answers)
+    if (state.mode == ViewMode::answers)
         ImGui::TextWrapped(state.plan.typed.empty()
                                ? "green: hit, red: unknown, blue: miss; of techniques that search"
                                : "a plan that was typed shows its colours: edit it mirror by "
                                  "mirror first");
 }
 
-void draw_motion(State& state, double period) {
+void draw_playback_controls(ViewState& state, double period) {
     if (ImGui::Button(state.motion.plays ? "pause" : "play")) state.motion.plays ^= true;
     ImGui::SameLine();
     if (ImGui::Button("-1/60")) state.motion.plays = false, state.motion.time -= kStep;
@@ -66,22 +66,23 @@ void draw_motion(State& state, double period) {
     if (period == 0) ImGui::TextDisabled("nothing moves in this scene");
 }
 
-void draw_error(State& state, const Viewer& viewer) {
+void draw_error_figures(ViewState& state, const Viewer& viewer) {
     ImGui::Checkbox("errors against the traced reference", &state.judges);
     const int passes = viewer.reference().passes();
-    if (passes > 0) ImGui::Text("reference: %d of %d passes", passes, Reference::kMostPasses);
+    if (passes > 0)
+        ImGui::Text("reference: %d of %d passes", passes, ProgressiveReference::kMostPasses);
     if (!viewer.error()) return;
     const measure::Difference& error = *viewer.error();
     ImGui::Text("mirrors: FLIP %.4f  RMSE %.4f", error.flip, error.rmse);
     ImGui::Text("p99 %.4f  off %.2f %% of %zu pixels", error.p99, 100 * error.off, error.pixels);
 }
 
-void draw_left_out(State& state, const Viewer& viewer) {
-    int model = state.model == app::Modelling::required;
+void draw_culled_work(ViewState& state, const Viewer& viewer) {
+    int model = state.model == app::RenderedWork::required;
     ImGui::RadioButton("required", &model, 1);
     ImGui::SameLine();
     ImGui::RadioButton("everything", &model, 0);
-    state.model = model ? app::Modelling::required : app::Modelling::everything;
+    state.model = model ? app::RenderedWork::required : app::RenderedWork::everything;
     if (viewer.slices()) ImGui::TextWrapped("%s", app::to_text(*viewer.slices()).c_str());
     for (const require::CulledWork& left : viewer.left_out())
         ImGui::TextWrapped("%s: %s; saves %s", left.what.c_str(), left.why.c_str(),
@@ -89,7 +90,7 @@ void draw_left_out(State& state, const Viewer& viewer) {
     if (viewer.left_out().empty()) ImGui::TextDisabled("nothing is left out");
 }
 
-void draw_buttons(Wants& wants) {
+void draw_action_buttons(PanelRequests& wants) {
     wants.copies |= ImGui::Button("copy command");
     ImGui::SameLine();
     wants.writes |= ImGui::Button("screenshot");
@@ -99,13 +100,13 @@ void draw_buttons(Wants& wants) {
     wants.cuts |= ImGui::Button("cut");
 }
 
-void draw_keys(uvec2 window) {
+void draw_key_help(uvec2 window) {
     ImGui::SetNextWindowPos({20, 20});
     ImGui::SetNextWindowSizeConstraints(
         {0, 0}, {static_cast<float>(window.x), static_cast<float>(window.y)});
     ImGui::Begin("Keys", nullptr,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    for (const KeyBinding& key : keys()) {
+    for (const KeyBinding& key : list_key_bindings()) {
         ImGui::TextUnformatted(key.name);
         ImGui::SameLine(70);
         ImGui::TextUnformatted(key.does);
@@ -119,29 +120,29 @@ void draw_keys(uvec2 window) {
 
 } // namespace
 
-void draw_panels(State& state, const PanelData& seen, uvec2 window, Wants& wants) {
-    if (state.shows_keys) draw_keys(window);
+void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants) {
+    if (state.shows_keys) draw_key_help(window);
     if (!state.shows_panels) return;
     ImGui::SetNextWindowPos({static_cast<float>(window.x) - kPanelWidth, 0});
     ImGui::SetNextWindowSize({kPanelWidth, static_cast<float>(window.y)});
     ImGui::Begin("Catoptric", nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoTitleBar);
-    const Times& times = seen.viewer.times();
+    const TimeStatistics& times = seen.viewer.times();
     ImGui::Text("%s  %.1f ms a frame, %.1f FPS", seen.scene.name.c_str(), times.frame().median,
                 times.fps());
-    draw_buttons(wants);
+    draw_action_buttons(wants);
     if (!state.said.empty()) ImGui::TextWrapped("%s", state.said.c_str());
     const auto section = [](const char* name, bool is_open = true) {
         return ImGui::CollapsingHeader(name, is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     };
-    if (section("View")) draw_mode(state);
-    if (section("Errors")) draw_error(state, seen.viewer);
-    if (section("Plan")) draw_plan(state, seen.scene, seen.entries);
-    if (section("Motion")) draw_motion(state, seen.period);
-    if (section("Times")) draw_times(seen.viewer);
-    if (section("Left out", false)) draw_left_out(state, seen.viewer);
-    if (section("Scene", false)) draw_scene(seen, wants);
+    if (section("View")) draw_mode_controls(state);
+    if (section("Errors")) draw_error_figures(state, seen.viewer);
+    if (section("Plan")) draw_plan_controls(state, seen.scene, seen.entries);
+    if (section("Motion")) draw_playback_controls(state, seen.period);
+    if (section("Times")) draw_frame_times(seen.viewer);
+    if (section("Left out", false)) draw_culled_work(state, seen.viewer);
+    if (section("Scene", false)) draw_scene_facts(seen, wants);
     ImGui::End();
 }
 

@@ -14,19 +14,20 @@ struct PanelData {
 };
 
 /// Requests from the buttons of the panels.
-struct Wants {
+struct PanelRequests {
     bool copies = false, writes = false, saves_plan = false, cuts = false;
     std::optional<std::size_t> camera; ///< index of a camera in the scene
 };
 
 /// Draws the controls at the right of the window and edits the state. Call between Controls::begin
 /// and end.
-void draw_panels(State& state, const PanelData& seen, uvec2 window, Wants& wants);
+void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants);
 
 // Parts of draw_panels, one file each.
 /// `entries` are those of the plan as the user typed it.
-void draw_plan(State& state, const scene::Scene& scene, const std::vector<PlanEntry>& entries);
-void draw_times(const Viewer& viewer);
-void draw_scene(const PanelData& seen, Wants& wants);
+void draw_plan_controls(ViewState& state, const scene::Scene& scene,
+                        const std::vector<PlanEntry>& entries);
+void draw_frame_times(const Viewer& viewer);
+void draw_scene_facts(const PanelData& seen, PanelRequests& wants);
 
 } // namespace catoptric::view

@@ -11,18 +11,18 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_choice(TechniqueSettings& drawing, const app::KnobInfo& knob) {
-    const std::string value = value_of(drawing, knob);
+void draw_choice_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
+    const std::string value = knob_value(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
-        if (ImGui::Selectable(choice.c_str(), choice == value)) set(drawing, knob, choice);
+        if (ImGui::Selectable(choice.c_str(), choice == value)) set_knob(drawing, knob, choice);
     ImGui::EndCombo();
 }
 
 /// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
-void draw_number(TechniqueSettings& drawing, const app::KnobInfo& knob) {
+void draw_number_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
     constexpr int kFew = 64;
-    const std::string text = value_of(drawing, knob);
+    const std::string text = knob_value(drawing, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
     const int low = static_cast<int>(knob.low), high = static_cast<int>(knob.high);
     int value = is_special ? low : std::atoi(text.c_str());
@@ -32,43 +32,43 @@ void draw_number(TechniqueSettings& drawing, const app::KnobInfo& knob) {
     else if (high - low <= kFew ? ImGui::SliderInt(knob.name.c_str(), &value, low, high)
                                 : ImGui::InputInt(knob.name.c_str(), &value, 0, 0,
                                                   ImGuiInputTextFlags_EnterReturnsTrue))
-        set(drawing, knob, std::to_string(std::clamp(value, low, high)));
+        set_knob(drawing, knob, std::to_string(std::clamp(value, low, high)));
     ImGui::PopItemWidth();
     if (high - low > kFew && !is_special) {
         ImGui::SameLine(210);
         if (ImGui::SmallButton("/2"))
-            set(drawing, knob, std::to_string(std::clamp(value / 2, low, high)));
+            set_knob(drawing, knob, std::to_string(std::clamp(value / 2, low, high)));
         ImGui::SameLine();
         if (ImGui::SmallButton("x2"))
-            set(drawing, knob, std::to_string(std::clamp(value * 2, low, high)));
+            set_knob(drawing, knob, std::to_string(std::clamp(value * 2, low, high)));
     }
     if (knob.special.empty()) return;
     ImGui::SameLine(275);
     bool now = is_special;
     if (ImGui::Checkbox(knob.special.c_str(), &now))
-        set(drawing, knob,
-            now                          ? knob.special
-            : knob.value == knob.special ? std::to_string(low)
-                                         : knob.value);
+        set_knob(drawing, knob,
+                 now                          ? knob.special
+                 : knob.value == knob.special ? std::to_string(low)
+                                              : knob.value);
 }
 
-void draw_knobs(TechniqueSettings& drawing) {
-    const app::TechniqueInfo* technique = find(drawing.technique);
+void draw_knob_controls(TechniqueSettings& drawing) {
+    const app::TechniqueInfo* technique = find_technique_info(drawing.technique);
     if (!technique) return;
     for (const app::KnobInfo& knob : technique->knobs) {
         ImGui::PushID(knob.name.c_str());
         if (knob.choices.empty())
-            draw_number(drawing, knob);
+            draw_number_knob(drawing, knob);
         else
-            draw_choice(drawing, knob);
+            draw_choice_knob(drawing, knob);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", knob.help.c_str());
         ImGui::PopID();
     }
 }
 
-void draw_technique(TechniqueSettings& drawing) {
+void draw_technique_controls(TechniqueSettings& drawing) {
     if (ImGui::BeginCombo("technique", drawing.technique.c_str())) {
-        for (const app::TechniqueInfo& technique : table()) {
+        for (const app::TechniqueInfo& technique : technique_infos()) {
             if (ImGui::Selectable(technique.name.c_str(), technique.name == drawing.technique) &&
                 technique.name != drawing.technique)
                 drawing = {technique.name, {}};
@@ -76,17 +76,18 @@ void draw_technique(TechniqueSettings& drawing) {
         }
         ImGui::EndCombo();
     }
-    draw_knobs(drawing);
+    draw_knob_controls(drawing);
 }
 
-void draw_one(PlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
-              const std::vector<PlanEntry>& entries) {
+void draw_mirror_technique(PlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
+                           const std::vector<PlanEntry>& entries) {
     if (!plan.typed.empty()) {
         ImGui::TextWrapped("%s", plan.typed.c_str());
         for (const PlanEntry& entry : entries)
             ImGui::TextWrapped("%u %s: %s (%s)", entry.mirror, entry.name.c_str(),
                                entry.technique.c_str(), entry.why.c_str());
-        if (ImGui::SmallButton("edit it mirror by mirror")) plan = resolved(plan, entries);
+        if (ImGui::SmallButton("edit it mirror by mirror"))
+            plan = resolve_plan_by_mirror(plan, entries);
         return;
     }
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
@@ -102,10 +103,10 @@ void draw_one(PlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
             if (ImGui::Selectable(name(m).c_str(), m == chosen)) chosen = m;
         ImGui::EndCombo();
     }
-    if (chosen == 0) return draw_technique(plan.rest);
+    if (chosen == 0) return draw_technique_controls(plan.rest);
     const auto own = plan.own.find(chosen);
     TechniqueSettings drawing = own == plan.own.end() ? plan.rest : own->second;
-    draw_technique(drawing);
+    draw_technique_controls(drawing);
     if (own != plan.own.end() && ImGui::SmallButton("as all others"))
         plan.own.erase(own);
     else if (own != plan.own.end() || !(drawing == plan.rest))
@@ -114,14 +115,16 @@ void draw_one(PlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
 
 } // namespace
 
-void draw_plan(State& state, const scene::Scene& scene, const std::vector<PlanEntry>& entries) {
-    const bool has_other = (state.mode == Mode::split || state.mode == Mode::difference) &&
-                           state.against == Against::other;
-    if (!has_other) return draw_one(state.plan, state.chosen, scene, entries);
+void draw_plan_controls(ViewState& state, const scene::Scene& scene,
+                        const std::vector<PlanEntry>& entries) {
+    const bool has_other = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
+                           state.against == ComparisonPicture::other;
+    if (!has_other) return draw_mirror_technique(state.plan, state.chosen, scene, entries);
     if (ImGui::RadioButton("the plan", !state.edits_other)) state.edits_other = false;
     ImGui::SameLine();
     if (ImGui::RadioButton("the other", state.edits_other)) state.edits_other = true;
-    draw_one(state.edits_other ? state.other : state.plan, state.chosen, scene, entries);
+    draw_mirror_technique(state.edits_other ? state.other : state.plan, state.chosen, scene,
+                          entries);
 }
 
 } // namespace catoptric::view

@@ -9,14 +9,15 @@ namespace catoptric::view {
 
 namespace {
 
-TechniqueSettings drawing_of(const std::string& technique, const std::vector<Setting>& settings) {
+TechniqueSettings make_technique_settings(const std::string& technique,
+                                          const std::vector<Setting>& settings) {
     TechniqueSettings drawing{technique, {}};
     for (const Setting& setting : settings)
         if (setting.changed) drawing.knobs[setting.name] = setting.text;
     return drawing;
 }
 
-nlohmann::json rule_of(nlohmann::json mirror, const TechniqueSettings& drawing) {
+nlohmann::json make_rule_json(nlohmann::json mirror, const TechniqueSettings& drawing) {
     nlohmann::json settings = nlohmann::json::object();
     for (const auto& [knob, value] : drawing.knobs) settings[knob] = value;
     return {{"mirror", std::move(mirror)},
@@ -26,17 +27,17 @@ nlohmann::json rule_of(nlohmann::json mirror, const TechniqueSettings& drawing) 
 
 } // namespace
 
-const std::vector<app::TechniqueInfo>& table() {
+const std::vector<app::TechniqueInfo>& technique_infos() {
     static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
     return kTechniques;
 }
 
-const app::TechniqueInfo* find(const std::string& technique) {
-    const auto found = std::ranges::find(table(), technique, &app::TechniqueInfo::name);
-    return found == table().end() ? nullptr : &*found;
+const app::TechniqueInfo* find_technique_info(const std::string& technique) {
+    const auto found = std::ranges::find(technique_infos(), technique, &app::TechniqueInfo::name);
+    return found == technique_infos().end() ? nullptr : &*found;
 }
 
-std::string text_of(const TechniqueSettings& drawing) {
+std::string technique_text(const TechniqueSettings& drawing) {
     std::string text = drawing.technique;
     char before = ':';
     for (const auto& [knob, value] : drawing.knobs) {
@@ -46,70 +47,71 @@ std::string text_of(const TechniqueSettings& drawing) {
     return text;
 }
 
-std::string text_of(const PlanState& plan) {
+std::string technique_text(const PlanState& plan) {
     if (!plan.typed.empty()) return plan.typed;
     std::string text;
     for (const auto& [mirror, drawing] : plan.own)
-        if (!(drawing == plan.rest)) text += std::to_string(mirror) + "=" + text_of(drawing) + " ";
-    return text.empty() ? text_of(plan.rest) : text + "*=" + text_of(plan.rest);
+        if (!(drawing == plan.rest))
+            text += std::to_string(mirror) + "=" + technique_text(drawing) + " ";
+    return text.empty() ? technique_text(plan.rest) : text + "*=" + technique_text(plan.rest);
 }
 
-std::vector<std::string> words_of(const PlanState& plan) {
+std::vector<std::string> plan_option_words(const PlanState& plan) {
     constexpr std::string_view kFile = "plan:";
-    const std::string text = text_of(plan);
+    const std::string text = technique_text(plan);
     if (text.starts_with(kFile)) return {"--plan", text.substr(kFile.size())};
     return {app::parse_technique(text).technique == "plan" ? "--plan" : "--technique", text};
 }
 
-PlanState plan_of(const std::string& text) {
+PlanState parse_plan_text(const std::string& text) {
     const app::TechniqueChoice choice = app::parse_technique(text);
     PlanState plan;
-    if (find(choice.technique))
-        plan.rest = drawing_of(choice.technique, choice.settings);
+    if (find_technique_info(choice.technique))
+        plan.rest = make_technique_settings(choice.technique, choice.settings);
     else
         plan.typed = text;
     return plan;
 }
 
-PlanState resolved(const PlanState& plan, const std::vector<PlanEntry>& entries) {
+PlanState resolve_plan_by_mirror(const PlanState& plan, const std::vector<PlanEntry>& entries) {
     if (plan.typed.empty() || entries.empty()) return plan;
     PlanState made;
-    made.rest = drawing_of(entries.front().technique, entries.front().settings);
+    made.rest = make_technique_settings(entries.front().technique, entries.front().settings);
     for (const PlanEntry& entry : entries) {
-        const TechniqueSettings drawing = drawing_of(entry.technique, entry.settings);
+        const TechniqueSettings drawing = make_technique_settings(entry.technique, entry.settings);
         if (!(drawing == made.rest)) made.own[entry.mirror] = drawing;
     }
     return made;
 }
 
-void set(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value) {
+void set_knob(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value) {
     if (value == knob.value)
         drawing.knobs.erase(knob.name);
     else
         drawing.knobs[knob.name] = value;
 }
 
-std::string value_of(const TechniqueSettings& drawing, const app::KnobInfo& knob) {
+std::string knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob) {
     const auto found = drawing.knobs.find(knob.name);
     return found == drawing.knobs.end() ? knob.value : found->second;
 }
 
-PlanState with(PlanState plan, const std::string& knob, const std::string& value) {
+PlanState with_knob(PlanState plan, const std::string& knob, const std::string& value) {
     const auto change = [&](TechniqueSettings& drawing) {
-        const app::TechniqueInfo* technique = find(drawing.technique);
+        const app::TechniqueInfo* technique = find_technique_info(drawing.technique);
         if (!technique) return;
         const auto known = std::ranges::find(technique->knobs, knob, &app::KnobInfo::name);
-        if (known != technique->knobs.end()) set(drawing, *known, value);
+        if (known != technique->knobs.end()) set_knob(drawing, *known, value);
     };
     change(plan.rest);
     for (auto& [mirror, drawing] : plan.own) change(drawing);
     return plan;
 }
 
-std::string json_of(const PlanState& plan) {
+std::string plan_to_json(const PlanState& plan) {
     nlohmann::json rules = nlohmann::json::array();
-    for (const auto& [mirror, drawing] : plan.own) rules.push_back(rule_of(mirror, drawing));
-    rules.push_back(rule_of("*", plan.rest));
+    for (const auto& [mirror, drawing] : plan.own) rules.push_back(make_rule_json(mirror, drawing));
+    rules.push_back(make_rule_json("*", plan.rest));
     return nlohmann::json{{"plan", rules}}.dump(2) + "\n";
 }
 

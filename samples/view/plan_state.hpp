@@ -27,27 +27,27 @@ struct PlanState {
 };
 
 /// Returns the technique with its knobs, such as "secant:face=64".
-std::string text_of(const TechniqueSettings& drawing);
+std::string technique_text(const TechniqueSettings& drawing);
 /// Returns the plan as app::FrameSpec::techniques takes it.
-std::string text_of(const PlanState& plan);
+std::string technique_text(const PlanState& plan);
 /// Returns the words of the options by which `catoptric render` draws the plan.
-std::vector<std::string> words_of(const PlanState& plan);
+std::vector<std::string> plan_option_words(const PlanState& plan);
 /// Returns the plan of a command-line text. Throws `usage` as app::parse_technique does.
-PlanState plan_of(const std::string& text);
+PlanState parse_plan_text(const std::string& text);
 /// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
-PlanState resolved(const PlanState& plan, const std::vector<PlanEntry>& entries);
+PlanState resolve_plan_by_mirror(const PlanState& plan, const std::vector<PlanEntry>& entries);
 /// Sets a knob. Removes its entry if the value is the default.
-void set(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value);
+void set_knob(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value);
 /// Returns the value of a knob.
-std::string value_of(const TechniqueSettings& drawing, const app::KnobInfo& knob);
+std::string knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.
-PlanState with(PlanState plan, const std::string& knob, const std::string& value);
+PlanState with_knob(PlanState plan, const std::string& knob, const std::string& value);
 /// Returns the plan as JSON that --plan reads.
-std::string json_of(const PlanState& plan);
+std::string plan_to_json(const PlanState& plan);
 
 /// Returns all techniques. The list is built once.
-const std::vector<app::TechniqueInfo>& table();
+const std::vector<app::TechniqueInfo>& technique_infos();
 /// Returns the technique of this name, or null.
-const app::TechniqueInfo* find(const std::string& technique);
+const app::TechniqueInfo* find_technique_info(const std::string& technique);
 
 } // namespace catoptric::view

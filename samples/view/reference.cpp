@@ -8,8 +8,8 @@ namespace catoptric::view {
 
 namespace {
 
-app::Part traced(app::Session& session, app::FrameSpec spec, const std::string& technique,
-                 std::uint64_t seed) {
+app::TechniqueResult render_traced(app::Session& session, app::FrameSpec spec,
+                                   const std::string& technique, std::uint64_t seed) {
     spec.techniques = {technique};
     spec.seed = seed;
     spec.keeps_history = true;
@@ -18,14 +18,14 @@ app::Part traced(app::Session& session, app::FrameSpec spec, const std::string& 
 
 } // namespace
 
-std::vector<std::uint32_t> hits_of(app::Session& session, const app::FrameSpec& spec) {
-    return traced(session, spec, "raytrace:depth=1,shadow=none", spec.seed).hits;
+std::vector<std::uint32_t> render_mirror_hits(app::Session& session, const app::FrameSpec& spec) {
+    return render_traced(session, spec, "raytrace:depth=1,shadow=none", spec.seed).hits;
 }
 
-bool Reference::advance(app::Session& session, const app::FrameSpec& spec) {
+bool ProgressiveReference::render_one_pass(app::Session& session, const app::FrameSpec& spec) {
     if (passes_ == kMostPasses) return false;
     if (passes_ == 0) {
-        app::Part part = traced(session, spec, "raytrace:depth=16", spec.seed);
+        app::TechniqueResult part = render_traced(session, spec, "raytrace:depth=16", spec.seed);
         hits_ = std::move(part.hits);
         centre_ = std::move(part.hdr);
         sum_ = measure::Picture(centre_.width, centre_.height);
@@ -33,8 +33,8 @@ bool Reference::advance(app::Session& session, const app::FrameSpec& spec) {
         passes_ = 1;
         return true;
     }
-    const measure::Picture more = traced(session, spec, "raytrace:depth=16,samples=2",
-                                         static_cast<std::uint64_t>(passes_))
+    const measure::Picture more = render_traced(session, spec, "raytrace:depth=16,samples=2",
+                                                static_cast<std::uint64_t>(passes_))
                                       .hdr;
     measure::Picture mean = sum_;
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
@@ -46,11 +46,13 @@ bool Reference::advance(app::Session& session, const app::FrameSpec& spec) {
     return true;
 }
 
-measure::Difference Reference::judge(const measure::Picture& hdr, double exposure) const {
+measure::Difference ProgressiveReference::judge(const measure::Picture& hdr,
+                                                double exposure) const {
     const std::vector<float> map = measure::flip(measure::to_unrounded_display(hdr, exposure),
                                                  measure::to_unrounded_display(centre_, exposure));
-    return measure::difference(measure::exposed(hdr, exposure), measure::exposed(centre_, exposure),
-                               measure::mirrors(hits_), map);
+    return measure::difference(measure::apply_exposure(hdr, exposure),
+                               measure::apply_exposure(centre_, exposure),
+                               measure::mask_mirror_pixels(hits_), map);
 }
 
 } // namespace catoptric::view

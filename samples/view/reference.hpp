@@ -11,14 +11,14 @@ namespace catoptric::view {
 /// The ray-traced reference picture, which improves with each pass while nothing changes. The first
 /// pass traces one ray through each pixel's centre. Errors are measured against this pass, as in
 /// `compare`. Further passes are averaged.
-class Reference {
+class ProgressiveReference {
 public:
     static constexpr int kMostPasses = 64;
 
     void reset() { *this = {}; }
     /// Renders one more pass outside the session's frame sequence and waits for it. `spec` is that
     /// of the live frame. Returns false if no further pass is needed.
-    bool advance(app::Session& session, const app::FrameSpec& spec);
+    bool render_one_pass(app::Session& session, const app::FrameSpec& spec);
     int passes() const { return passes_; }
     /// Returns the picture as the screen shows it; null before the first pass.
     std::shared_ptr<const measure::Picture> display() const { return display_; }
@@ -33,8 +33,8 @@ private:
     std::shared_ptr<const measure::Picture> display_;
 };
 
-/// Returns what camera rays meet first (app::Part::hits), by a frame outside the session's
-/// sequence.
-std::vector<std::uint32_t> hits_of(app::Session& session, const app::FrameSpec& spec);
+/// Returns what camera rays meet first (app::TechniqueResult::hits), by a frame outside the
+/// session's sequence.
+std::vector<std::uint32_t> render_mirror_hits(app::Session& session, const app::FrameSpec& spec);
 
 } // namespace catoptric::view

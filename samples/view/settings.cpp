@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kMostPixels = 16384;
 
 template <typename Value, typename Good>
-void take(const Json& document, const char* name, Value& value, const Good& is_good) {
+void read_setting(const Json& document, const char* name, Value& value, const Good& is_good) {
     const auto found = document.find(name);
     if (found == document.end()) return;
     try {
@@ -32,7 +32,7 @@ void take(const Json& document, const char* name, Value& value, const Good& is_g
 
 } // namespace
 
-fs::path settings_file() {
+fs::path settings_file_path() {
     const auto absolute = [](const char* variable) {
         const char* text = std::getenv(variable);
         const fs::path path = text ? text : "";
@@ -43,26 +43,26 @@ fs::path settings_file() {
     return home.empty() ? home : home / ".config" / "catoptric" / "view.json";
 }
 
-ViewerSettings settings_of(const std::string& text) {
+ViewerSettings parse_settings(const std::string& text) {
     ViewerSettings settings;
     const Json document = Json::parse(text, nullptr, false);
     if (!document.is_object()) return settings;
     const auto any = [](bool) { return true; };
     const auto pixels = [](std::uint32_t n) { return n > 0 && n <= kMostPixels; };
-    take(document, "width", settings.window.x, pixels);
-    take(document, "height", settings.window.y, pixels);
+    read_setting(document, "width", settings.window.x, pixels);
+    read_setting(document, "height", settings.window.y, pixels);
     if (settings.window.x == 0 || settings.window.y == 0) settings.window = {0, 0};
-    take(document, "panels", settings.shows_panels, any);
-    take(document, "flies", settings.flies, any);
-    take(document, "speed", settings.speed,
-         [](double s) { return std::isfinite(s) && std::abs(s) <= 16; });
-    take(document, "gain", settings.gain, [](int gain) {
+    read_setting(document, "panels", settings.shows_panels, any);
+    read_setting(document, "flies", settings.flies, any);
+    read_setting(document, "speed", settings.speed,
+                 [](double s) { return std::isfinite(s) && std::abs(s) <= 16; });
+    read_setting(document, "gain", settings.gain, [](int gain) {
         return gain >= 1 && gain <= 64 && std::has_single_bit(static_cast<unsigned>(gain));
     });
     return settings;
 }
 
-std::string text_of(const ViewerSettings& settings) {
+std::string technique_text(const ViewerSettings& settings) {
     return Json{{"width", settings.window.x},      {"height", settings.window.y},
                 {"panels", settings.shows_panels}, {"flies", settings.flies},
                 {"speed", settings.speed},         {"gain", settings.gain}}
@@ -72,7 +72,7 @@ std::string text_of(const ViewerSettings& settings) {
 
 ViewerSettings load_settings(const fs::path& file) {
     try {
-        if (!file.empty()) return settings_of(read_file(file));
+        if (!file.empty()) return parse_settings(read_file(file));
     } catch (const Error&) {
         // No readable file: use defaults.
     }
@@ -83,7 +83,7 @@ void save_settings(const ViewerSettings& settings, const fs::path& file) {
     if (file.empty()) return;
     std::error_code error; // write_file reports a failure
     fs::create_directories(file.parent_path(), error);
-    write_file(file, text_of(settings));
+    write_file(file, technique_text(settings));
 }
 
 } // namespace catoptric::view

@@ -19,10 +19,10 @@ struct ViewerSettings {
 
 /// Returns the file of the settings: XDG_CONFIG_HOME/catoptric/view.json, or the same below
 /// HOME/.config. Empty if neither is an absolute path.
-std::filesystem::path settings_file();
+std::filesystem::path settings_file_path();
 /// Returns the settings in a file's text. Missing or invalid values get their defaults.
-ViewerSettings settings_of(const std::string& text);
-std::string text_of(const ViewerSettings& settings);
+ViewerSettings parse_settings(const std::string& text);
+std::string technique_text(const ViewerSettings& settings);
 /// Returns the settings in the file, or defaults if the file cannot be read.
 ViewerSettings load_settings(const std::filesystem::path& file);
 /// Writes the settings and makes missing folders. Throws as write_file.

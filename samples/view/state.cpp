@@ -8,12 +8,12 @@
 
 namespace catoptric::view {
 
-const char* name_of(Mode mode) {
+const char* name_of(ViewMode mode) {
     constexpr std::array kNames{"plan", "split", "difference", "answers", "numbers", "causes"};
     return kNames.at(static_cast<std::size_t>(mode));
 }
 
-const std::vector<CauseLabel>& causes() {
+const std::vector<CauseLabel>& list_cause_labels() {
     static const std::vector<CauseLabel> kList{{shared::kAblateDistance, "captured distance"},
                                                {shared::kAblateDirection, "looked-up direction"},
                                                {shared::kAblateHidden, "hidden surfaces"},
@@ -23,26 +23,31 @@ const std::vector<CauseLabel>& causes() {
     return kList;
 }
 
-bool wants_canvas(const State& state) {
-    const bool compares = state.mode == Mode::split || state.mode == Mode::difference;
-    return state.mode == Mode::numbers || state.mode == Mode::causes ||
-           (compares && state.against == Against::reference);
+bool needs_host_picture(const ViewState& state) {
+    const bool compares = state.mode == ViewMode::split || state.mode == ViewMode::difference;
+    return state.mode == ViewMode::numbers || state.mode == ViewMode::causes ||
+           (compares && state.against == ComparisonPicture::reference);
 }
 
-ShownPictures shown(const State& state) {
-    ShownPictures shown{{text_of(state.plan)}, app::Showing::Arrangement::one, 0, 0};
+ShownPictures choose_shown_pictures(const ViewState& state) {
+    ShownPictures shown{
+        {technique_text(state.plan)}, app::WindowPictures::PictureArrangement::one, 0, 0};
     switch (state.mode) {
-    case Mode::plan: break;
-    case Mode::answers: shown.techniques = {text_of(with(state.plan, "show", "state"))}; break;
-    case Mode::numbers:
-    case Mode::causes: shown.first = app::Showing::kCanvas; break;
-    case Mode::split:
-    case Mode::difference:
-        shown.kind = state.mode == Mode::split ? app::Showing::Arrangement::split
-                                               : app::Showing::Arrangement::difference;
-        if (state.against == Against::reference) {
-            shown.second = app::Showing::kCanvas;
-        } else if (const std::string other = text_of(state.other); other != shown.techniques[0]) {
+    case ViewMode::plan: break;
+    case ViewMode::answers:
+        shown.techniques = {technique_text(with_knob(state.plan, "show", "state"))};
+        break;
+    case ViewMode::numbers:
+    case ViewMode::causes: shown.first = app::WindowPictures::kCanvas; break;
+    case ViewMode::split:
+    case ViewMode::difference:
+        shown.kind = state.mode == ViewMode::split
+                         ? app::WindowPictures::PictureArrangement::split
+                         : app::WindowPictures::PictureArrangement::difference;
+        if (state.against == ComparisonPicture::reference) {
+            shown.second = app::WindowPictures::kCanvas;
+        } else if (const std::string other = technique_text(state.other);
+                   other != shown.techniques[0]) {
             shown.techniques.push_back(other);
             shown.second = 1;
         }
@@ -51,11 +56,11 @@ ShownPictures shown(const State& state) {
     return shown;
 }
 
-double advanced(const Playback& motion, double seconds) {
+double advance_playback_time(const Playback& motion, double seconds) {
     return motion.plays ? motion.time + motion.speed * seconds : motion.time;
 }
 
-vec3 colour_of(std::uint32_t mirror) {
+vec3 mirror_number_colour(std::uint32_t mirror) {
     if (mirror == 0) return vec3(0);
     // Hues are a golden angle apart. Every other group of eight is paler.
     const float hue = std::fmod(static_cast<float>(mirror - 1) * .381966f, 1.f) * 6;
@@ -67,15 +72,15 @@ vec3 colour_of(std::uint32_t mirror) {
     return {channel(0), channel(4), channel(2)};
 }
 
-measure::Picture numbers_picture(const std::vector<std::uint32_t>& hits, uvec2 size) {
+measure::Picture make_mirror_number_picture(const std::vector<std::uint32_t>& hits, uvec2 size) {
     measure::Picture picture(static_cast<int>(size.x), static_cast<int>(size.y));
     for (std::size_t i = 0; i < std::min(hits.size(), picture.pixels.size()); ++i)
-        picture.pixels[i] = colour_of(hits[i] & 0xFFFFU);
+        picture.pixels[i] = mirror_number_colour(hits[i] & 0xFFFFU);
     return picture;
 }
 
-measure::Picture difference_picture(const measure::Picture& a, const measure::Picture& b,
-                                    float gain) {
+measure::Picture make_difference_picture(const measure::Picture& a, const measure::Picture& b,
+                                         float gain) {
     measure::Picture picture(a.width, a.height);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         picture.pixels[i] = glm::min(glm::abs(a.pixels[i] - b.pixels[i]) * gain, vec3(1));

@@ -12,7 +12,7 @@
 /// The state that the window shows and the user changes, as plain data.
 namespace catoptric::view {
 
-enum class Mode {
+enum class ViewMode {
     plan,       ///< the plan's picture
     split,      ///< the plan left of the divider, the comparison right of it
     difference, ///< the difference of the two
@@ -21,10 +21,10 @@ enum class Mode {
     causes,     ///< change of the picture when a cause of error is removed
 };
 inline constexpr int kModes = 6;
-const char* name_of(Mode mode);
+const char* name_of(ViewMode mode);
 
 /// The picture that the plan is compared with.
-enum class Against { other, reference };
+enum class ComparisonPicture { other, reference };
 
 /// Scene time, in seconds.
 struct Playback {
@@ -34,17 +34,17 @@ struct Playback {
 };
 inline constexpr double kStep = 1.0 / 60;
 
-struct State {
+struct ViewState {
     PlanState plan, other;
-    Mode mode = Mode::plan;
-    Against against = Against::other;
+    ViewMode mode = ViewMode::plan;
+    ComparisonPicture against = ComparisonPicture::other;
     double divider = .5;      ///< position as a share of the picture's width
     int gain = 4;             ///< factor on differences: 1, 2, 4 ... 64
     std::uint32_t cause = 16; ///< the cause of error to remove, a bit of shared::kMend...
     scene::Camera camera;
     bool flies = false;
     Playback motion;
-    app::Modelling model = app::Modelling::required;
+    app::RenderedWork model = app::RenderedWork::required;
     double exposure = 0;
     bool judges = false; ///< whether errors against the traced reference are measured at rest
     bool shows_panels = true, shows_keys = false;
@@ -56,30 +56,31 @@ struct State {
 /// The techniques that one frame renders, and the pictures that it shows.
 struct ShownPictures {
     std::vector<std::string> techniques;
-    app::Showing::Arrangement kind = app::Showing::Arrangement::one;
-    std::size_t first = 0, second = 0; ///< indices for app::Showing
+    app::WindowPictures::PictureArrangement kind = app::WindowPictures::PictureArrangement::one;
+    std::size_t first = 0, second = 0; ///< indices for app::WindowPictures
 };
 
 /// Returns whether the mode shows a picture that is made outside the frames: the reference, mirror
 /// numbers, or a cause of error.
-bool wants_canvas(const State& state);
-ShownPictures shown(const State& state);
+bool needs_host_picture(const ViewState& state);
+ShownPictures choose_shown_pictures(const ViewState& state);
 
 /// A cause of error with its name for the user. Bits are shared::kMend...
 struct CauseLabel {
     std::uint32_t bit;
     const char* name;
 };
-const std::vector<CauseLabel>& causes();
+const std::vector<CauseLabel>& list_cause_labels();
 
 /// Returns the scene's time after a frame of this duration. All times are in seconds.
-double advanced(const Playback& motion, double seconds);
+double advance_playback_time(const Playback& motion, double seconds);
 /// Returns a distinct display colour for each mirror number; black for 0.
-vec3 colour_of(std::uint32_t mirror);
-/// Returns a picture of mirror numbers from the first hits of camera rays (app::Part::hits).
-measure::Picture numbers_picture(const std::vector<std::uint32_t>& hits, uvec2 size);
+vec3 mirror_number_colour(std::uint32_t mirror);
+/// Returns a picture of mirror numbers from the first hits of camera rays
+/// (app::TechniqueResult::hits).
+measure::Picture make_mirror_number_picture(const std::vector<std::uint32_t>& hits, uvec2 size);
 /// Returns the difference of two displayed pictures times `gain`.
-measure::Picture difference_picture(const measure::Picture& a, const measure::Picture& b,
-                                    float gain);
+measure::Picture make_difference_picture(const measure::Picture& a, const measure::Picture& b,
+                                         float gain);
 
 } // namespace catoptric::view

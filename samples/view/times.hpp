@@ -17,17 +17,17 @@ struct TimeRow {
 };
 
 /// Times of the last frames. Starts again if the passes change.
-class Times {
+class TimeStatistics {
 public:
     static constexpr std::size_t kFrames = 60;
 
     /// Times of one frame. `host_ms` covers update, record and submit, measured by the host's
     /// clock. `interval_ms` is the time since the start of the previous frame.
-    struct Sample {
+    struct FrameTimeSample {
         app::FrameTimes frame;
         double host_ms = 0, acquire_ms = 0, present_ms = 0, interval_ms = 0;
     };
-    void add(Sample sample);
+    void add(FrameTimeSample sample);
     std::size_t count() const { return samples_.size(); }
     std::vector<TimeRow> passes() const;
     /// Returns the times of the host, parts first.
@@ -41,7 +41,7 @@ private:
     template <typename Get>
     TimeRow line(const std::string& name, const Get& get) const;
 
-    std::deque<Sample> samples_;
+    std::deque<FrameTimeSample> samples_;
 };
 
 } // namespace catoptric::view

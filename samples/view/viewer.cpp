@@ -16,24 +16,24 @@ constexpr int kRests = 3;    // after this many frames without a change, the cam
 constexpr int kHidden = 4;   // frames after a cut that are not shown
 constexpr int kSettled = 12; // frames at rest before errors and their causes are measured
 
-double now_ms() {
+double current_milliseconds() {
     return std::chrono::duration<double, std::milli>(
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
 }
 
-bool same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
+bool shows_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
     return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
            a.time == b.time && a.exposure == b.exposure && a.model == b.model;
 }
 
 } // namespace
 
-Viewer::Viewer(Window& window, const app::EngineOptions& options, const app::Request& request) {
+Viewer::Viewer(ViewWindow& window, const app::EngineOptions& options, const app::Request& request) {
     app::EngineHooks hooks;
     window.add_to(hooks);
     engine_.reset(new app::Engine(app::Access::make_engine(options, hooks)));
-    screen_ = std::make_unique<app::Screen>(*engine_);
+    screen_ = std::make_unique<app::WindowScreen>(*engine_);
     session_ = std::make_unique<app::Session>(*engine_, request.scene, kInFlight);
     spec_ = request;
     budget_ms_ = request.budget_ms;
@@ -62,16 +62,16 @@ void Viewer::cut() {
 }
 
 /// Updates the frame specification from the state, and counts frames at rest.
-void Viewer::follow(const State& state, uvec2 size) {
+void Viewer::update_from_state(const ViewState& state, uvec2 size) {
     app::FrameSpec next = spec_;
-    next.techniques = shown(state).techniques;
+    next.techniques = choose_shown_pictures(state).techniques;
     next.camera = state.camera;
     next.size = size;
     next.time = state.motion.time;
     next.exposure = state.exposure;
     next.model = state.model;
-    next.budget_ms = state.model == app::Modelling::required ? budget_ms_ : 0;
-    const bool same = same_picture(next, spec_);
+    next.budget_ms = state.model == app::RenderedWork::required ? budget_ms_ : 0;
+    const bool same = shows_same_picture(next, spec_);
     const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
                            next.time == spec_.time && next.exposure == spec_.exposure;
     still_ = same ? still_ + 1 : 0;
@@ -89,7 +89,7 @@ void Viewer::follow(const State& state, uvec2 size) {
 /// Works while the view is at rest. When the view comes to rest, a new frame sequence begins, as
 /// in `catoptric render`. Automatic capture edges then fit this view, and the picture becomes the
 /// same bytes. The first frames are not shown, because mirrors do not show each other yet.
-void Viewer::work_at_rest(const State& state) {
+void Viewer::work_at_rest(const ViewState& state) {
     if (still_ >= kRests && was_moved_ && !state.motion.plays) {
         cut();
         for (int k = 0; k < kHidden; ++k) {
@@ -97,47 +97,48 @@ void Viewer::work_at_rest(const State& state) {
             if (!app::Access::remembers(*last_)) break;
         }
     }
-    const bool compares = (state.mode == Mode::split || state.mode == Mode::difference) &&
-                          state.against == Against::reference;
+    const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
+                          state.against == ComparisonPicture::reference;
     if (still_ >= kRests && (compares || state.judges)) {
         collect(0); // frames outside the sequence use the slots of earlier frames
-        reference_.advance(*session_, spec_);
+        reference_.render_one_pass(*session_, spec_);
     }
     // A picture of search answers has no error to measure.
     const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
-    if (still_ >= kSettled && !waits && state.judges && state.mode != Mode::answers && !error_ &&
-        reference_.passes() > 0) {
+    if (still_ >= kSettled && !waits && state.judges && state.mode != ViewMode::answers &&
+        !error_ && reference_.passes() > 0) {
         last_ = session_->frame(spec_);
         error_ = reference_.judge(last_->hdr(), spec_.exposure);
     }
 }
 
-std::shared_ptr<const measure::Picture> Viewer::canvas(const State& state) {
-    if (state.mode == Mode::split || state.mode == Mode::difference) return reference_.display();
+std::shared_ptr<const measure::Picture> Viewer::make_host_picture(const ViewState& state) {
+    if (state.mode == ViewMode::split || state.mode == ViewMode::difference)
+        return reference_.display();
     const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
                          made_gain_ == state.gain;
     if (is_made) return made_;
-    if (state.mode == Mode::causes && still_ < kSettled) return nullptr;
+    if (state.mode == ViewMode::causes && still_ < kSettled) return nullptr;
     made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
     collect(0);
-    if (state.mode == Mode::numbers) {
+    if (state.mode == ViewMode::numbers) {
         made_ = std::make_shared<measure::Picture>(
-            numbers_picture(hits_of(*session_, spec_), spec_.size));
+            make_mirror_number_picture(render_mirror_hits(*session_, spec_), spec_.size));
         return made_;
     }
     app::FrameSpec aside = spec_;
     aside.keeps_history = true;
     const measure::Picture as_it_is = session_->frame(aside).read().display;
-    made_ = std::make_shared<measure::Picture>(difference_picture(
+    made_ = std::make_shared<measure::Picture>(make_difference_picture(
         as_it_is, app::Access::frame(*session_, aside, {.ablated = state.cause}).read().display,
         static_cast<float>(state.gain)));
     return made_;
 }
 
-void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is_seen) {
-    follow(state, size);
+void Viewer::frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay, bool is_seen) {
+    update_from_state(state, size);
     work_at_rest(state);
-    const ShownPictures what = shown(state);
+    const ShownPictures what = choose_shown_pictures(state);
     showing_ = {what.kind,
                 what.first,
                 what.second,
@@ -145,19 +146,19 @@ void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is
                 static_cast<float>(state.gain),
                 nullptr,
                 std::move(overlay)};
-    if (wants_canvas(state)) showing_.canvas = canvas(state);
+    if (needs_host_picture(state)) showing_.canvas = make_host_picture(state);
     if (!showing_.canvas) { // not made yet: show the plan's picture
-        if (showing_.first == app::Showing::kCanvas) showing_.first = 0;
-        if (showing_.second == app::Showing::kCanvas) showing_.second = 0;
+        if (showing_.first == app::WindowPictures::kCanvas) showing_.first = 0;
+        if (showing_.second == app::WindowPictures::kCanvas) showing_.second = 0;
     }
     collect(kInFlight - 1);
-    const double begin = now_ms();
+    const double begin = current_milliseconds();
     app::Frame made = is_seen ? app::Access::show(*session_, spec_, *screen_, showing_)
                               : session_->frame(spec_);
-    Times::Sample sample;
+    TimeStatistics::FrameTimeSample sample;
     if (is_seen)
         sample.acquire_ms = screen_->acquire_ms(), sample.present_ms = screen_->present_ms();
-    sample.host_ms = now_ms() - begin - sample.acquire_ms - sample.present_ms;
+    sample.host_ms = current_milliseconds() - begin - sample.acquire_ms - sample.present_ms;
     sample.interval_ms = frames_ > 0 ? begin - began_ : 0;
     began_ = begin;
     last_ = made;
@@ -170,7 +171,7 @@ void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is
 std::uint32_t Viewer::mirror_at(uvec2 pixel) {
     if (frames_ == 0) return 0;
     collect(0);
-    const std::vector<std::uint32_t> hits = hits_of(*session_, spec_);
+    const std::vector<std::uint32_t> hits = render_mirror_hits(*session_, spec_);
     const std::size_t at = std::size_t{pixel.y} * spec_.size.x + pixel.x;
     return at < hits.size() ? hits[at] & 0xFFFFU : 0;
 }
@@ -179,12 +180,12 @@ void Viewer::write(const std::filesystem::path& file) const {
     check(last_.has_value(), Failure::usage, "there is no frame yet to be written");
     if (file.extension() == ".exr") return measure::write_exr(last_->read(0).hdr, file);
     const auto picture = [&](std::size_t part) {
-        return part == app::Showing::kCanvas ? *showing_.canvas : last_->read(part).display;
+        return part == app::WindowPictures::kCanvas ? *showing_.canvas : last_->read(part).display;
     };
     measure::Picture shown = picture(showing_.first);
-    if (showing_.kind == app::Showing::Arrangement::difference)
-        shown = difference_picture(shown, picture(showing_.second), showing_.gain);
-    if (showing_.kind == app::Showing::Arrangement::split) {
+    if (showing_.kind == app::WindowPictures::PictureArrangement::difference)
+        shown = make_difference_picture(shown, picture(showing_.second), showing_.gain);
+    if (showing_.kind == app::WindowPictures::PictureArrangement::split) {
         const measure::Picture right = picture(showing_.second);
         for (int y = 0; y < shown.height; ++y)
             for (int x = static_cast<int>(showing_.divider); x < shown.width; ++x)

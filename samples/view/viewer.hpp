@@ -13,20 +13,20 @@
 namespace catoptric::view {
 
 /// A scene on a device, with its frames in a window. Two frames are in flight. The user's view of
-/// it is a State, which outlives this object.
+/// it is a ViewState, which outlives this object.
 class Viewer {
 public:
-    /// Opens the request's scene with its size and first instant. Throws as Engine, Screen and
-    /// Session do.
-    Viewer(Window& window, const app::EngineOptions& options, const app::Request& request);
+    /// Opens the request's scene with its size and first instant. Throws as Engine, WindowScreen
+    /// and Session do.
+    Viewer(ViewWindow& window, const app::EngineOptions& options, const app::Request& request);
     /// Waits for frames in flight.
     ~Viewer();
 
-    app::Screen& screen() { return *screen_; }
+    app::WindowScreen& screen() { return *screen_; }
     app::Session& session() { return *session_; }
     app::Engine& engine() { return *engine_; }
-    const Times& times() const { return times_; }
-    const Reference& reference() const { return reference_; }
+    const TimeStatistics& times() const { return times_; }
+    const ProgressiveReference& reference() const { return reference_; }
     const std::optional<measure::Difference>& error() const { return error_; }
     /// Returns how each mirror was drawn in the last frame. `left_out` returns its culled work.
     std::vector<PlanEntry> entries() const;
@@ -36,7 +36,7 @@ public:
 
     /// Renders a frame of `size`, and shows it if the window is visible (`is_seen`). Throws `usage`
     /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
-    void frame(const State& state, uvec2 size, app::Overlay overlay, bool is_seen);
+    void frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay, bool is_seen);
     /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
     std::uint32_t mirror_at(uvec2 pixel);
     void cut();
@@ -47,31 +47,31 @@ public:
     std::size_t cuts() const { return cuts_; }
 
 private:
-    void follow(const State& state, uvec2 size);
-    void work_at_rest(const State& state);
-    std::shared_ptr<const measure::Picture> canvas(const State& state);
+    void update_from_state(const ViewState& state, uvec2 size);
+    void work_at_rest(const ViewState& state);
+    std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
     void collect(std::size_t most);
 
-    struct Pending {
+    struct PendingFrame {
         app::Frame frame;
-        Times::Sample sample;
+        TimeStatistics::FrameTimeSample sample;
     };
 
     std::unique_ptr<app::Engine> engine_;
-    std::unique_ptr<app::Screen> screen_;
+    std::unique_ptr<app::WindowScreen> screen_;
     std::unique_ptr<app::Session> session_;
-    std::deque<Pending> pending_;
+    std::deque<PendingFrame> pending_;
     std::optional<app::Frame> last_;
-    app::Showing showing_; ///< what the last frame showed
+    app::WindowPictures showing_; ///< what the last frame showed
     app::FrameSpec spec_;
-    Times times_;
-    Reference reference_;
+    TimeStatistics times_;
+    ProgressiveReference reference_;
     std::optional<measure::Difference> error_;
     std::vector<require::CulledWork> left_out_;
     std::optional<app::CaptureBudget> slices_;
     double budget_ms_ = 0;
     std::shared_ptr<const measure::Picture> made_; ///< picture made for `made_mode_`
-    Mode made_mode_ = Mode::plan;
+    ViewMode made_mode_ = ViewMode::plan;
     std::uint32_t made_cause_ = 0;
     int made_gain_ = 0;
     std::size_t frames_ = 0, cuts_ = 0;

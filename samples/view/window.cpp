@@ -13,38 +13,38 @@ namespace catoptric::view {
 
 namespace {
 
-std::string last_error() {
+std::string last_window_error() {
     const char* text = nullptr;
     glfwGetError(&text);
     return text ? text : "no reason was given";
 }
 
-uvec2 to_size(int width, int height) {
+uvec2 make_size(int width, int height) {
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
-std::uint64_t make_surface(GLFWwindow* window, void* instance) {
+std::uint64_t make_window_surface(GLFWwindow* window, void* instance) {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const VkResult result = glfwCreateWindowSurface(static_cast<VkInstance>(instance), window,
                                                     nullptr, &surface);
     check(result == VK_SUCCESS, Failure::no_device,
-          "the window cannot show pictures by Vulkan: ", last_error());
+          "the window cannot show pictures by Vulkan: ", last_window_error());
     return reinterpret_cast<std::uint64_t>(surface);
 }
 
 } // namespace
 
 /// Callbacks of the window library, called while events are polled.
-struct Callbacks {
-    static Inputs& of(GLFWwindow* window) {
-        return static_cast<Window*>(glfwGetWindowUserPointer(window))->gathered_;
+struct WindowCallbacks {
+    static UserInput& of(GLFWwindow* window) {
+        return static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->gathered_;
     }
     static void key(GLFWwindow* window, int code, int, int action, int) {
         if (action == GLFW_RELEASE) return;
         const auto repeats = [](const KeyBinding& key) {
-            return key.act == Act::step || key.act == Act::back;
+            return key.act == KeyAction::step || key.act == KeyAction::back;
         };
-        for (const KeyBinding& key : keys())
+        for (const KeyBinding& key : list_key_bindings())
             if (key.code == code && (action == GLFW_PRESS || repeats(key)))
                 of(window).acts.push_back(key);
     }
@@ -54,12 +54,12 @@ struct Callbacks {
     }
 };
 
-Window::Window(const std::string& title, uvec2 size) {
+ViewWindow::ViewWindow(const std::string& title, uvec2 size) {
     if (!glfwInit())
         fail(Failure::no_device,
              "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures "
              "without (",
-             last_error(), ")");
+             last_window_error(), ")");
     if (!glfwVulkanSupported()) {
         glfwTerminate();
         fail(Failure::no_device, "this display shows no pictures by Vulkan; no driver is "
@@ -69,45 +69,45 @@ Window::Window(const std::string& title, uvec2 size) {
     window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(),
                                nullptr, nullptr);
     if (!window_) {
-        const std::string why = last_error();
+        const std::string why = last_window_error();
         glfwTerminate();
         fail(Failure::no_device, "no window could be opened: ", why);
     }
     // Keeps a click between two frames until the next frame.
     glfwSetInputMode(window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, Callbacks::key);
-    glfwSetScrollCallback(window_, Callbacks::scroll);
-    glfwSetDropCallback(window_, Callbacks::drop);
+    glfwSetKeyCallback(window_, WindowCallbacks::key);
+    glfwSetScrollCallback(window_, WindowCallbacks::scroll);
+    glfwSetDropCallback(window_, WindowCallbacks::drop);
     polled_ = glfwGetTime();
 }
 
-Window::~Window() {
+ViewWindow::~ViewWindow() {
     glfwDestroyWindow(window_);
     glfwTerminate();
 }
 
-void Window::add_to(app::EngineHooks& hooks) const {
+void ViewWindow::add_to(app::EngineHooks& hooks) const {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     hooks.instance_extensions.assign(names, names + count);
     hooks.make_surface = [window = window_](void* instance) {
-        return make_surface(window, instance);
+        return make_window_surface(window, instance);
     };
 }
 
-Inputs Window::poll(bool wait) {
+UserInput ViewWindow::poll(bool wait) {
     constexpr double kLongest = .1; // longest wait in seconds
     if (wait)
         glfwWaitEventsTimeout(kLongest);
     else
         glfwPollEvents();
-    Inputs inputs = std::exchange(gathered_, {});
+    UserInput inputs = std::exchange(gathered_, {});
     int width = 0, height = 0, wide = 0, high = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     glfwGetWindowSize(window_, &wide, &high);
-    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) inputs.window = to_size(width, height);
-    inputs.scale = pixels_per_unit(inputs.window, to_size(wide, high));
+    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) inputs.window = make_size(width, height);
+    inputs.scale = pixels_per_unit(inputs.window, make_size(wide, high));
     glfwGetCursorPos(window_, &inputs.mouse.x, &inputs.mouse.y);
     inputs.mouse *= inputs.scale;
     for (int button = 0; button < 3; ++button)
@@ -125,10 +125,10 @@ Inputs Window::poll(bool wait) {
     return inputs;
 }
 
-void Window::resize(uvec2 size) {
+void ViewWindow::resize(uvec2 size) {
     glfwSetWindowSize(window_, static_cast<int>(size.x), static_cast<int>(size.y));
 }
 
-void Window::copy(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
+void ViewWindow::copy(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
 
 } // namespace catoptric::view

@@ -11,29 +11,29 @@ struct GLFWwindow;
 namespace catoptric::view {
 
 /// A window of the desktop. At most one per process, used by the main thread only.
-class Window {
+class ViewWindow {
 public:
     /// Opens a window of `size`, in desktop units. Throws `no_device` if there is no display, or
     /// none that Vulkan can show pictures on.
-    Window(const std::string& title, uvec2 size);
-    ~Window();
-    Window(const Window&) = delete;
-    Window& operator=(const Window&) = delete;
+    ViewWindow(const std::string& title, uvec2 size);
+    ~ViewWindow();
+    ViewWindow(const ViewWindow&) = delete;
+    ViewWindow& operator=(const ViewWindow&) = delete;
 
     /// Adds to the hooks what an engine needs to show pictures in this window. The window must
     /// outlive the engine.
     void add_to(app::EngineHooks& hooks) const;
     /// Returns the input since the last call. With `wait`, sleeps up to a tenth of a second until
     /// something happens.
-    Inputs poll(bool wait);
+    UserInput poll(bool wait);
     void resize(uvec2 size); ///< in desktop units
     void copy(const std::string& text);
     GLFWwindow* handle() const { return window_; }
 
 private:
-    friend struct Callbacks;
+    friend struct WindowCallbacks;
     GLFWwindow* window_ = nullptr;
-    Inputs gathered_; ///< gathered by callbacks since the last poll
+    UserInput gathered_; ///< gathered by callbacks since the last poll
     double polled_ = 0;
 };
 

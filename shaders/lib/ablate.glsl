@@ -11,7 +11,7 @@
 // The number, from 1, of the mirror that rays pass through, because a mirror's capture does not show the mirror itself.
 // 0: rays pass through no mirror.
 uint left_out;
-bool is_seen(uint object) { return left_out == 0u || surface_of(object).mirror != left_out; }
+bool is_seen(uint object) { return left_out == 0u || read_surface(object).mirror != left_out; }
 // How shadows are computed: kShadowRay, or the method of the technique.
 uint shadow_by;
 
@@ -32,41 +32,41 @@ bool ablates(uint cause) { return (draw.ablated & cause) != 0u; }
 // length. Returns +infinity if the ray meets no surface.
 float exact_distance(uint mirror, vec3 direction) {
     left_out = mirror + 1u;
-    Hit hit;
-    bool found = closest_hit(Ray(probe_at(mirror).centre, direction, 0u), kLargest, kBvhOneSided, hit);
+    TraceHit hit;
+    bool found = find_closest_hit(Ray(probe_at(mirror).centre, direction, 0u), kLargest, kBvhOneSided, hit);
     left_out = 0u;
     return found ? hit.t * length(direction) : uintBitsToFloat(0x7f800000u);
 }
 
 // The end of a ray.
-struct End {
+struct RayEnd {
     bool meets; // whether the ray meets a surface; false: it leaves the scene
-    Point point;
+    SurfacePoint point;
     uint mirror; // number of the mirror that the ray meets, from 1; 0: the ray meets no mirror
 };
 
-End end_of(Ray ray, uint skipped) {
-    End end;
-    Hit none;
+RayEnd find_ray_end(Ray ray, uint skipped) {
+    RayEnd end;
+    TraceHit none;
     end.meets = trace_ray(ray, skipped, kNotKnown, none, end.point);
-    end.mirror = end.meets ? surface_of(end.point.object).mirror : 0u;
+    end.mirror = end.meets ? read_surface(end.point.object).mirror : 0u;
     return end;
 }
 
-Ray reflected(Ray ray, Point at) {
+Ray reflect_ray_at_point(Ray ray, SurfacePoint at) {
     vec3 direction = mirror_direction(ray.direction, at.normal, at.facet);
-    return Ray(leaving(at, direction), direction, at.leaves);
+    return Ray(leaving_ray_origin(at, direction), direction, at.leaves);
 }
 
 // Returns the surface point that capture `mirror` (from 0) shows in the looked-up direction. In the second layer, this
 // is the next surface behind the first that faces the capture's centre.
-End captured_end(uint mirror, Lookup lookup) {
+RayEnd find_captured_end(uint mirror, Lookup lookup) {
     left_out = mirror + 1u;
     Ray ray = Ray(probe_at(mirror).centre, lookup.direction, 0u);
-    End end;
+    RayEnd end;
     bool goes_on, is_first = true;
     do {
-        end = end_of(ray, 0u);
+        end = find_ray_end(ray, 0u);
         goes_on = end.meets && (is_first ? lookup.layer != 0.0 : dot(end.point.facet, ray.direction) >= 0.0);
         is_first = false;
         if (goes_on)
@@ -77,50 +77,50 @@ End captured_end(uint mirror, Lookup lookup) {
 }
 
 // Returns the diffuse and emitted radiance of a point, seen along `direction`.
-vec3 shaded(Point at, vec3 direction, uint by) {
+vec3 shade_point(SurfacePoint at, vec3 direction, uint by) {
     shadow_by = by;
-    Surface surface = surface_at(at, direction);
+    Surface surface = evaluate_surface(at, direction);
     point = at; // light_visible starts shadow rays at the global `point`
-    return shade(surface, at.position, at.normal, lit_facet(surface.detail, at.facet));
+    return shade_surface(surface, at.position, at.normal, facet_normal_for_shading(surface.detail, at.facet));
 }
 
 // Returns the colour that the search looked up. If the ablation asks for them, exact colour or traced shadows replace
 // the captured texels or shadow map lookups.
-vec3 looked_up(Path path, Lookup lookup, End target, bool is_target) {
+vec3 ablated_lookup_colour(MirrorPath path, Lookup lookup, RayEnd target, bool is_target) {
     vec3 colour = lookup_colour(path.mirror, lookup);
     bool sees_nothing = lookup.state == kUnknown && lookup.layer == kLeaves;
     if (sees_nothing || !(ablates(kAblateTexels) || ablates(kAblateShadows))) return colour;
-    End captured = target;
-    if (!is_target) captured = captured_end(path.mirror, lookup);
+    RayEnd captured = target;
+    if (!is_target) captured = find_captured_end(path.mirror, lookup);
     if (captured.mirror != 0u) return colour; // a captured mirror keeps the colour from the capture
-    if (!captured.meets) return ablates(kAblateTexels) ? environment(lookup.direction) : colour;
+    if (!captured.meets) return ablates(kAblateTexels) ? environment_radiance(lookup.direction) : colour;
     if (ablates(kAblateTexels)) colour = vec3(0);
     // The captured texels were lit through the shadow map. Adds the difference that shadow rays would have made.
     for (uint i = 0u; i < (ablates(kAblateTexels) ? 1u : 2u); ++i) {
-        vec3 lit = shaded(captured.point, lookup.direction, i == 0u && ablates(kAblateShadows) ? kShadowRay : shadow);
+        vec3 lit = shade_point(captured.point, lookup.direction, i == 0u && ablates(kAblateShadows) ? kShadowRay : shadow);
         colour += i == 0u ? lit : -lit;
     }
     return colour;
 }
 
-vec3 ablated_radiance(Path path, Lookup lookup) {
+vec3 ablated_radiance(MirrorPath path, Lookup lookup) {
     left_out = 0u;
     shadow_by = ablates(kAblateShadows) ? kShadowRay : shadow;
-    Ray camera = camera_ray(gl_FragCoord.xy, uvec2(picture_width, picture_height));
+    Ray camera = make_camera_ray(gl_FragCoord.xy, uvec2(picture_width, picture_height));
     Ray search_ray = camera;
-    End first, target;
+    RayEnd first, target;
     bool from_camera;
     // Traces a ray from the eye, then its reflection in the drawn mirror. If the search followed the path to another
     // mirror, a third ray leaves that mirror.
     uint i = 0u, last = path.hops > 0u ? 2u : 1u;
     do {
         left_out = i == 2u ? path.mirror + 1u : 0u;
-        target = end_of(search_ray, i == 0u ? kBvhHidden : 0u);
+        target = find_ray_end(search_ray, i == 0u ? kBvhHidden : 0u);
         if (i == 0u) {
             // The rasteriser and the ray see different mirrors at this pixel, an error that no ablation removes.
             if (target.mirror != drawn_mirror()) return path.weight * lookup_colour(path.mirror, lookup);
             first = target;
-            search_ray = reflected(camera, first.point);
+            search_ray = reflect_ray_at_point(camera, first.point);
         } else if (i == 1u) {
             bool is_own = target.mirror == drawn_mirror();
             bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
@@ -135,20 +135,20 @@ vec3 ablated_radiance(Path path, Lookup lookup) {
     bool asks_hidden = in_capture && (ablates(kAblateHidden) || ablates(kAblateDirection));
     bool is_hidden = asks_hidden && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
     bool along_search = is_hidden && ablates(kAblateHidden);
-    vec3 result = details != 0u ? shaded(first.point, camera.direction, ablates(kAblateShadows) ? kShadowRay : shadow) : vec3(0);
+    vec3 result = details != 0u ? shade_point(first.point, camera.direction, ablates(kAblateShadows) ? kShadowRay : shadow) : vec3(0);
     // No looked-up direction shows a point that is hidden from the capture's centre or left out of the capture.
     bool is_shown = in_capture && !is_hidden;
     if (from_camera || along_search) {
         bool whole = from_camera || path.hops == 0u;
         if (!whole) camera = search_ray;
         uint met;
-        result = (whole ? vec3(0) : result) + (whole ? vec3(1) : path.weight) * radiance(camera, whole ? 0u : 1u + path.hops, met);
+        result = (whole ? vec3(0) : result) + (whole ? vec3(1) : path.weight) * trace_radiance(camera, whole ? 0u : 1u + path.hops, met);
     } else {
         if (ablates(kAblateDirection) && is_shown) {
             lookup = Lookup(normalize(to_target), kHit, 0.0, 0.0);
             set_last_hit_distance(target.meets ? distance : 0.0);
         }
-        result += path.weight * looked_up(path, lookup, target, ablates(kAblateDirection) && is_shown);
+        result += path.weight * ablated_lookup_colour(path, lookup, target, ablates(kAblateDirection) && is_shown);
     }
     return trace_exhausted ? vec3(uintBitsToFloat(0x7fc00000u)) : result;
 }

@@ -39,7 +39,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 // Bindings from 64 on are texel lists that lib/texels.glsl keeps in storage buffers.
 
 // Reads the surface of an object.
-Surface surface_of(uint object) {
+Surface read_surface(uint object) {
     uint i = kSurfaceTexels * object;
     vec4 albedo = surface_texels_at(i), emission = surface_texels_at(i + 1u), sphere = surface_texels_at(i + 3u);
     return Surface(albedo.rgb, emission.rgb, surface_texels_at(i + 2u).rgb, floatBitsToUint(albedo.w) & kBvhIdMask,

@@ -53,7 +53,7 @@ bool is_in(uint mirror, uint array) { return array_of(mirror) == array; }
     if (array_count > 7u && is_in(mirror, 7u)) return READ(7);                                                         \
     return READ(0);
 
-uint cube_of(uint mirror) {
+uint cube_index_of_mirror(uint mirror) {
     if (has_capture_table == 0u) return mirror;
     return captures.places[mirror] & 0xffffu;
 }
@@ -62,17 +62,17 @@ bool is_captured(uint mirror) {
     return array_of(mirror) < kMostArrays;
 }
 // Returns the scene units of the stored distance 1: 1 for float formats, the range for unorm8.
-float stored_unit_of(uint mirror) {
+float stored_distance_unit(uint mirror) {
     if (has_capture_table == 0u || stored_unit > 0.0) return stored_unit;
     return captures.arrays[array_of(mirror)].stored_unit;
 }
 // Returns whether the stored distance 1 is the end of the range, as in unorm8, so that a surface may be farther away.
-bool range_ends_of(uint mirror) {
+bool has_distance_limit(uint mirror) {
     if (has_capture_table == 0u) return range_ends != 0u;
     return captures.arrays[array_of(mirror)].range_ends != 0u;
 }
 
 // Returns the layer of the first face of a mirror's capture in texture arrays whose layers are cube faces.
-uint first_face_of(uint mirror) { return 6u * cube_of(mirror); }
+uint first_face_of(uint mirror) { return 6u * cube_index_of_mirror(mirror); }
 
 #endif

@@ -11,17 +11,17 @@ dvec3 exact_origin, exact_direction;
 dvec3 exact_point, exact_normal, exact_facet;
 
 // Sets the traced ray. `low` is the rounding error of the ray's origin: the exact origin is origin + low.
-void exact_ray(Ray ray, vec3 low) {
+void set_exact_ray(Ray ray, vec3 low) {
     exact_origin = dvec3(ray.origin) + dvec3(low);
     exact_direction = dvec3(ray.direction);
 }
 
-// Transforms a position from an instance's object space to scene units (see Place).
-dvec3 exact_place(Place place, vec3 own) {
+// Transforms a position from an instance's object space to scene units (see ObjectPlacement).
+dvec3 exact_scene_position(ObjectPlacement place, vec3 own) {
     return dvec3(place.centre) + dvec3(place.centre_low) + double(own.x) * dvec3(place.scene_x) +
            double(own.y) * dvec3(place.scene_y) + double(own.z) * dvec3(place.scene_z);
 }
-dvec3 exact_scene_normal(Place place, dvec3 own) {
+dvec3 exact_scene_normal(ObjectPlacement place, dvec3 own) {
     return own.x * dvec3(place.own_x) + own.y * dvec3(place.own_y) + own.z * dvec3(place.own_z);
 }
 

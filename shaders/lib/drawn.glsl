@@ -6,7 +6,7 @@
 
 #include "lib/bindings.glsl"
 
-layout(push_constant, scalar) uniform Push { Draw draw; };
+layout(push_constant, scalar) uniform Push { DrawParameters draw; };
 
 #ifdef VERTEX_STAGE
 #define DRAWN(place) layout(location = place) flat out
@@ -34,7 +34,7 @@ DRAWN(13) uvec3 drawn_numbers;
 uint drawn_layer() { return uint(gl_InstanceIndex) & ((1u << kLayerBits) - 1u); }
 uint drawn_object() { return uint(gl_InstanceIndex) >> kLayerBits; }
 
-void write_drawn(View view, Surface surface) {
+void write_drawn_pixel(View view, Surface surface) {
     eye_layer = vec4(view.eye, drawn_layer());
     drawn_numbers = uvec3(drawn_object(), surface.mirror, surface.detail);
     Light light = lights[0];
@@ -55,11 +55,11 @@ int view_layer() { return int(eye_layer.w); }
 uint drawn_object() { return drawn_numbers.x; }
 uint drawn_mirror() { return drawn_numbers.y; }
 uint drawn_detail() { return drawn_numbers.z; }
-Surface drawn_surface() {
+Surface read_drawn_surface() {
     return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_kind.xyz,
-                   surface_of(drawn_object()).reflectance, drawn_mirror(), drawn_detail(), vec3(0), 0.0);
+                   read_surface(drawn_object()).reflectance, drawn_mirror(), drawn_detail(), vec3(0), 0.0);
 }
-Light first_light() {
+Light read_first_light() {
     return Light(position_near.xyz, normal_red.xyz, intensity_green.xyz, right_blue.xyz, down_ambient.xyz, forward_faces.xyz,
                  position_near.w, light_share.x, light_share.y, light_share.z, uint(emission_kind.w));
 }

@@ -13,17 +13,17 @@ TEXEL_LIST(29, sky_texels, vec4, samplerBuffer, false) // the environment map's 
 vec3 sky_texel(uint column, uint row) { return sky_texels_at(row * sky.value.size.x + column).rgb; }
 
 // Returns the environment's radiance in a unit direction.
-vec3 environment(vec3 direction) {
+vec3 environment_radiance(vec3 direction) {
     if (environment_kind == kNoEnvironment) return vec3(0);
     vec3 d = environment_direction(direction, sky.value.turn.x, sky.value.turn.y);
-    if (environment_kind == kStudioEnvironment) return vec3(sky.value.scale * studio(d));
-    MapPlace at = map_place(d, sky.value.size.x, sky.value.size.y);
+    if (environment_kind == kStudioEnvironment) return vec3(sky.value.scale * studio_radiance(d));
+    EnvironmentMapPosition at = environment_map_position(d, sky.value.size.x, sky.value.size.y);
     return sky.value.scale * mix(mix(sky_texel(at.left, at.above), sky_texel(at.right, at.above), at.across),
                                  mix(sky_texel(at.left, at.below), sky_texel(at.right, at.below), at.across), at.down);
 }
 
 // Returns the environment's irradiance on a surface with the given unit normal. Objects do not occlude this light.
-vec3 sky_light(vec3 normal) {
+vec3 environment_irradiance(vec3 normal) {
     return environment_kind == kNoEnvironment ? vec3(0) : irradiance(sky.value.irradiance, normal);
 }
 

@@ -7,21 +7,21 @@
 // Returns the share of its intensity that a light without a surface emits at an angle with this cosine to its axis
 // (LightKind::share). A kind with a fall-off of its own has a case here.
 float emitted_share(uint light, float cosine) {
-    return cone_share(cosine, light_at(light).cos_outer, light_at(light).sharpness);
+    return cone_share(cosine, read_light(light).cos_outer, read_light(light).sharpness);
 }
 
 // Computes direction, distance and factor of a light as light_term does, for lights of every kind.
 bool sample_light(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
-    if (is_directional(light)) return parallel_term(normal, light_at(light).forward, direction, distance, factor);
-    bool of_two_sides = light_kinds != 0u && light_at(light).kind == kLightOfTwoSides;
-    vec3 light_normal = of_two_sides ? vec3(0) : light_at(light).normal;
-    if (!light_term(position, normal, light_at(light).position, light_normal, direction, distance, factor)) return false;
+    if (is_directional(light)) return parallel_term(normal, read_light(light).forward, direction, distance, factor);
+    bool of_two_sides = light_kinds != 0u && read_light(light).kind == kLightOfTwoSides;
+    vec3 light_normal = of_two_sides ? vec3(0) : read_light(light).normal;
+    if (!light_term(position, normal, read_light(light).position, light_normal, direction, distance, factor)) return false;
     if (light_kinds == 0u) return true;
     if (of_two_sides)
-        factor *= mean_cosine(direction, light_at(light).right, light_at(light).down, light_at(light).forward,
-                              light_at(light).normal);
-    float cosine = -dot(direction, light_at(light).forward);
-    factor *= range_share(distance, light_at(light).reach) * emitted_share(light, cosine);
+        factor *= mean_cosine(direction, read_light(light).right, read_light(light).down, read_light(light).forward,
+                              read_light(light).normal);
+    float cosine = -dot(direction, read_light(light).forward);
+    factor *= range_share(distance, read_light(light).reach) * emitted_share(light, cosine);
     return factor > 0.0;
 }
 

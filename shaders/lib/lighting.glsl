@@ -10,8 +10,8 @@
 #include "lib/light_kinds.glsl"
 
 // Returns the diffuse and emitted radiance of a surface point. `facet` points along the triangle's normal and has any
-// length. A zero `facet` makes `normal` alone decide how much light counts (lit_facet).
-vec3 shade(Surface surface, vec3 position, vec3 normal, vec3 facet) {
+// length. A zero `facet` makes `normal` alone decide how much light counts (facet_normal_for_shading).
+vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet) {
     vec3 direct = vec3(0);
     uint all = one_light != 0u ? 1u : frame.value.light_count;
     uint count = surface.albedo == vec3(0) ? 0u : all;
@@ -26,11 +26,11 @@ vec3 shade(Surface surface, vec3 position, vec3 normal, vec3 facet) {
         }
         if (is_lit) {
             float visible = light_visible(light, position, normal, direction, distance);
-            direct += light_at(light).intensity * (factor * visible);
+            direct += read_light(light).intensity * (factor * visible);
         }
         ++light;
     } while (one_light == 0u && light < count);
-    if (environment_kind != kNoEnvironment) direct += sky_light(normal);
+    if (environment_kind != kNoEnvironment) direct += environment_irradiance(normal);
     return lambert(surface.emission, surface.albedo, direct, ambient());
 }
 

@@ -12,16 +12,16 @@ layout(constant_id = ONE_LIGHT_CONSTANT) const uint one_light = 0u;
 
 #ifndef CATOPTRIC_DRAWN_GLSL // a compute shader reads light data once for all lanes, as long as no lanes have diverged
 Light only_light = lights[0];
-Light first_light() { return only_light; }
+Light read_first_light() { return only_light; }
 float ambient_of_frame = frame.value.ambient;
 float ambient() { return ambient_of_frame; }
 uint shadow_face_count() { return frame.value.shadow_faces; }
 #endif
 
-Light light_at(uint light) {
-    if (one_light != 0u) return first_light();
+Light read_light(uint light) {
+    if (one_light != 0u) return read_first_light();
     return lights[light];
 }
-bool is_directional(uint light) { return light_kinds != 0u && light_at(light).kind == kLightDirectional; }
+bool is_directional(uint light) { return light_kinds != 0u && read_light(light).kind == kLightDirectional; }
 
 #endif

@@ -19,7 +19,7 @@ uvec4 detail_quad(uint detail, uint quad) { return detail_quads_at(kMaterialQuad
 uint detail_word(uint detail, uint word) { return detail_quad(detail, word / 4u)[word % 4u]; }
 
 // Reads a MaterialParameters. The compiler removes reads of members that the caller does not use.
-MaterialParameters detail_at(uint detail) {
+MaterialParameters read_material_parameters(uint detail) {
     uvec4 q0 = detail_quad(detail, 0), q1 = detail_quad(detail, 1), q2 = detail_quad(detail, 2), q3 = detail_quad(detail, 3);
     uvec4 q4 = detail_quad(detail, 4), q5 = detail_quad(detail, 5), q6 = detail_quad(detail, 6), q7 = detail_quad(detail, 7);
     uvec4 q8 = detail_quad(detail, 8), q9 = detail_quad(detail, 9);
@@ -38,13 +38,13 @@ MaterialParameters detail_at(uint detail) {
 #undef READ_FACTOR
     return result;
 }
-Attribute attribute_at_vertex(uint vertex) {
-    return Attribute(attribute_texels_at(2u * vertex), attribute_texels_at(2u * vertex + 1u));
+VertexAttribute read_vertex_attribute(uint vertex) {
+    return VertexAttribute(attribute_texels_at(2u * vertex), attribute_texels_at(2u * vertex + 1u));
 }
 
-const Attribute kNoAttribute = Attribute(vec4(0), vec4(1));
+const VertexAttribute kNoAttribute = VertexAttribute(vec4(0), vec4(1));
 
-vec4 texel_colour(TextureUse use, int x, int y) {
+vec4 read_texel_colour(TextureUse use, int x, int y) {
     uint texel = texture_words_at(use.first + uint(y) * (use.size & 0xffffu) + uint(x));
     if ((use.how & kTextureSrgb) == 0u) return unpackUnorm4x8(texel);
     return vec4(uintBitsToFloat(texture_words_at(texel & 0xffu)), uintBitsToFloat(texture_words_at(texel >> 8u & 0xffu)),
@@ -52,58 +52,58 @@ vec4 texel_colour(TextureUse use, int x, int y) {
 }
 
 // Samples a texture. `uv` holds both sets of texture coordinates. Returns white if the material has no such texture.
-vec4 texture_colour(TextureUse use, vec4 uv) {
+vec4 sample_texture(TextureUse use, vec4 uv) {
     if (use.size == 0u) return vec4(1);
     vec3 place = vec3((use.how & kTextureSecondUv) != 0u ? uv.zw : uv.xy, 1);
     float u = dot(use.u_row, place), v = dot(use.v_row, place);
     int width = int(use.size & 0xffffu), height = int(use.size >> 16u);
     uint wrap_u = use.how & 3u, wrap_v = use.how >> 2u & 3u;
     if ((use.how & kTextureNearest) != 0u)
-        return texel_colour(use, nearest_texel(u, width, wrap_u), nearest_texel(v, height, wrap_v));
+        return read_texel_colour(use, nearest_texel(u, width, wrap_u), nearest_texel(v, height, wrap_v));
     int left, right, top, bottom;
     float across, down;
     texels_around(u, width, wrap_u, left, right, across);
     texels_around(v, height, wrap_v, top, bottom, down);
-    return mix(mix(texel_colour(use, left, top), texel_colour(use, right, top), across),
-               mix(texel_colour(use, left, bottom), texel_colour(use, right, bottom), across), down);
+    return mix(mix(read_texel_colour(use, left, top), read_texel_colour(use, right, top), across),
+               mix(read_texel_colour(use, left, bottom), read_texel_colour(use, right, bottom), across), down);
 }
 
 // Returns whether the alpha test cuts the surface out at a point. `number` is the index of its MaterialParameters.
-bool fails_alpha_test(uint number, Attribute at) {
-    MaterialParameters detail = detail_at(number);
+bool fails_alpha_test(uint number, VertexAttribute at) {
+    MaterialParameters detail = read_material_parameters(number);
     float alpha = detail.alpha * at.colour.a;
     if (detail.alpha_cutoff <= 0.0) return false;
-    return !(alpha * texture_colour(detail.albedo, at.uv).a >= detail.alpha_cutoff);
+    return !(alpha * sample_texture(detail.albedo, at.uv).a >= detail.alpha_cutoff);
 }
 
 // Returns the shading normal. For a two-sided material, the normal is turned to the side of the facet from which
 // `direction` comes.
-vec3 turned_normal(uint detail, vec3 normal, vec3 facet, vec3 direction) {
-    if ((detail_at(detail).flags & kMaterialTurns) == 0u) return normal;
+vec3 turn_normal_to_viewer(uint detail, vec3 normal, vec3 facet, vec3 direction) {
+    if ((read_material_parameters(detail).flags & kMaterialTurns) == 0u) return normal;
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
 
 // Returns the facet normal for `shade`, or zero if the mesh's vertex normals agree with its facet normals everywhere.
-vec3 lit_facet(uint detail, vec3 facet) {
-    if (details == 0u || (detail_at(detail).flags & kMaterialFacets) == 0u) return vec3(0);
+vec3 facet_normal_for_shading(uint detail, vec3 facet) {
+    if (details == 0u || (read_material_parameters(detail).flags & kMaterialFacets) == 0u) return vec3(0);
     return facet;
 }
 
 // Evaluates the material at a point. Sets the surface's albedo to the diffuse part, and its reflectance to the weight
 // of a mirrored ray. `cosine` is the cosine between the normal and the direction to the viewer.
-void evaluate(inout Surface surface, Attribute at, float cosine) {
-    MaterialParameters detail = detail_at(surface.detail);
+void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
+    MaterialParameters detail = read_material_parameters(surface.detail);
     bool is_constant = (detail.flags & kMaterialConstant) != 0u;
     if (!is_constant) surface.reflectance = vec3(0);
     if ((detail.flags & kMaterialVaries) == 0u) return;
-    vec3 colour = surface.albedo * at.colour.rgb * texture_colour(detail.albedo, at.uv).rgb;
+    vec3 colour = surface.albedo * at.colour.rgb * sample_texture(detail.albedo, at.uv).rgb;
     if ((detail.flags & kMaterialUnlit) != 0u) {
         surface.emission = colour;
         surface.albedo = surface.reflectance = vec3(0);
         return;
     }
-    surface.emission *= texture_colour(detail.emission, at.uv).rgb;
-    vec4 rough = texture_colour(detail.rough, at.uv);
+    surface.emission *= sample_texture(detail.emission, at.uv).rgb;
+    vec4 rough = sample_texture(detail.rough, at.uv);
     float metallic = detail.metallic * rough.b;
     bool is_sharp = detail.roughness * rough.g <= detail.max_specular_roughness;
     if (!is_constant && is_sharp)

@@ -31,7 +31,7 @@ layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 layout(constant_id = TRUSTS_NONE_CONSTANT) const uint trusts_none = 0u;
 
 // The reflected ray that is looked up. The ray leaves mirror `mirror` (from 0) at the point `at`.
-struct Path {
+struct MirrorPath {
     uint mirror;
     vec3 at;
     vec3 direction; // unit direction of the reflected ray
@@ -41,14 +41,14 @@ struct Path {
 };
 
 bool is_mirror(vec4 surface) { return surface.x > 0.0; }
-vec4 captured_surface(uint mirror, vec3 direction) {
-#define SURFACE(i) textureLod(SURFACE_CUBES(i), vec4(direction, cube_of(mirror)), 0)
+vec4 read_captured_surface(uint mirror, vec3 direction) {
+#define SURFACE(i) textureLod(SURFACE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
     RETURN_OF_ARRAY(mirror, SURFACE)
 }
 
 // Returns the reflectance of a mirror for a ray that meets the mirror. A mirror without a capture has reflectance 0, so
 // it is black in other mirrors.
-vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
+vec3 mirror_reflectance(uint mirror, vec3 direction, vec3 n) {
     if (!is_captured(mirror)) return vec3(0);
     vec3 reflectance = probe_at(mirror).reflectance;
     bool is_metal = details != 0u && probe_at(mirror).kind == kProbeMetal;
@@ -57,29 +57,29 @@ vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
 
 // Reflects the path at the next exact sphere that the ray meets. Returns false, without a change, if the ray meets no
 // sphere or the sphere is hidden.
-bool follow_sphere(inout Path path) {
+bool reflect_at_exact_sphere(inout MirrorPath path) {
     uint next;
     float t;
     Ray ray = Ray(path.at, path.direction, 0u);
-    if (!first_sphere(ray, path.mirror, next, t)) return false;
+    if (!find_first_exact_sphere(ray, path.mirror, next, t)) return false;
     vec3 error;
     vec3 met = sphere_point(probe_at(next).sphere, probe_at(next).radius, ray, t, error);
     // A captured surface that is more than the sphere's radius nearer hides the sphere.
     vec3 seen = met - path.centre;
     if (captured_distance(path.mirror, normalize(seen)) + probe_at(next).radius < length(seen)) return false;
     vec3 n = (met - probe_at(next).sphere) / probe_at(next).radius;
-    path = Path(next, met, mirror_direction(path.direction, n, n), probe_at(next).centre,
-                path.weight * reflectance_of(next, path.direction, n), path.hops + 1u);
+    path = MirrorPath(next, met, mirror_direction(path.direction, n, n), probe_at(next).centre,
+                path.weight * mirror_reflectance(next, path.direction, n), path.hops + 1u);
     return true;
 }
 
 // Reflects the path at the mirror, of any shape, on which the search ended. The reflected ray starts where the path
 // meets the mirror's tangent plane. Returns false, without a change, if the search ended on no such mirror.
-bool follow_captured(inout Path path, Lookup lookup) {
-    vec4 surface = captured_surface(path.mirror, lookup.direction);
+bool reflect_at_captured_mirror(inout MirrorPath path, Lookup lookup) {
+    vec4 surface = read_captured_surface(path.mirror, lookup.direction);
     if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror(surface)) return false;
     uint next = uint(surface.x) - 1u;
-    // Exact sphere: follow_sphere has found that the ray misses the sphere.
+    // Exact sphere: reflect_at_exact_sphere has found that the ray misses the sphere.
     if (probe_at(next).radius > 0.0) return false;
     // Only the capture knows the light of a lit mirror.
     if (details != 0u && probe_at(next).kind == kProbeLit) return false;
@@ -87,8 +87,8 @@ bool follow_captured(inout Path path, Lookup lookup) {
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
     if (!(is_finite(t) && t > 0.0)) return false;
-    path = Path(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probe_at(next).centre,
-                path.weight * reflectance_of(next, path.direction, n), path.hops + 1u);
+    path = MirrorPath(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probe_at(next).centre,
+                path.weight * mirror_reflectance(next, path.direction, n), path.hops + 1u);
     return true;
 }
 
@@ -100,7 +100,7 @@ void set_last_hit_distance(float distance) {}
 #endif
 
 // Returns the distance along the path at which a search in capture `mirror` ends.
-float end_of(uint mirror, Path path, Lookup lookup) {
+float path_distance_to_end(uint mirror, MirrorPath path, Lookup lookup) {
     float distance = last_hit_distance() > 0.0 ? last_hit_distance() : captured_distance(mirror, lookup.direction);
     vec3 end = probe_at(mirror).centre + lookup.direction * distance;
     return lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
@@ -108,21 +108,21 @@ float end_of(uint mirror, Path path, Lookup lookup) {
 
 // Searches the other mirrors' captures for the end of the ray, and takes the first that finds a surface. A search that
 // ends on a mirror does not count, because the capture shows that mirror's reflection for another eye.
-void fall_back_to_other_captures(inout Path path, inout Lookup lookup) {
+void fall_back_to_other_captures(inout MirrorPath path, inout Lookup lookup) {
     float distance = last_hit_distance();
     Ray ray = Ray(path.at, path.direction, 0u);
     // The first mirror whose sphere or bounds the ray meets is the same for all captures.
     uint first;
     float met;
-    bool meets = mirror_tree != 0u && first_by_tree(ray, path.mirror, false, first, met);
+    bool meets = mirror_tree != 0u && find_first_mirror_by_tree(ray, path.mirror, false, first, met);
     uint next = 0u, count = frame.value.mirror_count;
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         uint i = next++;
         if (i == path.mirror || !is_captured(i)) continue;
         Lookup other = search(i, path.at - probe_at(i).centre, path.direction);
-        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction))) continue;
-        float end = end_of(i, path, other);
-        if (mirror_tree != 0u ? meets && !(end < met) : meets_mirror_before(ray, path.mirror, end)) continue;
+        if (other.state == kUnknown || is_mirror(read_captured_surface(i, other.direction))) continue;
+        float end = path_distance_to_end(i, path, other);
+        if (mirror_tree != 0u ? meets && !(end < met) : intersects_mirror_before(ray, path.mirror, end)) continue;
         path.mirror = i;
         path.centre = probe_at(i).centre;
         lookup = other;
@@ -132,17 +132,17 @@ void fall_back_to_other_captures(inout Path path, inout Lookup lookup) {
 }
 
 // Follows the path through further mirrors to its end. Returns the place of the path's end in a capture.
-Lookup follow(inout Path path) {
+Lookup follow_path(inout MirrorPath path) {
     Lookup lookup;
     bool goes_on;
     do {
 #ifdef CONTINUE
-        while (path.hops < hops && follow_sphere(path)) {}
+        while (path.hops < hops && reflect_at_exact_sphere(path)) {}
 #endif
         lookup = search(path.mirror, path.at - path.centre, path.direction);
         goes_on = false;
 #ifdef CONTINUE
-        if (has_surfaces != 0u && path.hops < hops) goes_on = follow_captured(path, lookup);
+        if (has_surfaces != 0u && path.hops < hops) goes_on = reflect_at_captured_mirror(path, lookup);
 #endif
     } while (goes_on);
 #ifdef CONTINUE
@@ -151,7 +151,7 @@ Lookup follow(inout Path path) {
     return lookup;
 }
 
-vec3 shown(vec3 colour, Lookup lookup) {
+vec3 apply_show_mode(vec3 colour, Lookup lookup) {
     if (show == kShowResidual) return vec3(lookup.residual);
     if (show == kShowState)
         return lookup.state == kHit ? vec3(0.1, 0.6, 0.2) : lookup.state == kUnknown ? vec3(0.9, 0.3, 0.1) : vec3(0.1, 0.2, 0.8);
@@ -165,19 +165,19 @@ vec3 shown(vec3 colour, Lookup lookup) {
 void main() {
     vec3 facet = normalize(cross(dFdx(from_eye), dFdy(from_eye)));
     if (peels != 0u && is_peeled()) discard; // a discard before the derivatives would make them undefined
-    leave_out_what_is_cut();
+    discard_cut_out_fragments();
     vec3 n = normalize(normal);
-    Surface surface = surface_here(n, facet);
-    Path path = Path(drawn_mirror() - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
+    Surface surface = surface_at_fragment(n, facet);
+    MirrorPath path = MirrorPath(drawn_mirror() - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
                      probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
-    Lookup lookup = follow(path);
+    Lookup lookup = follow_path(path);
 #ifdef ABLATE
     vec3 colour = ablated_radiance(path, lookup);
 #else
     vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
-    if (lights_mirrors != 0u) colour += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
+    if (lights_mirrors != 0u) colour += shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
 #endif
-    write_surface(shown(colour, lookup));
+    write_surface(apply_show_mode(colour, lookup));
     if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) {
         out_distance = float(tracer);
 #ifdef FIRST_HIT

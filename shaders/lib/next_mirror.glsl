@@ -14,22 +14,22 @@ layout(constant_id = MIRROR_TREE_CONSTANT) const uint mirror_tree = 0u;
 TEXEL_LIST(MIRROR_NODES_BINDING, mirror_nodes, vec4, samplerBuffer, false)
 
 // The factor by which boxes are widened for spheres. The sphere test accepts a sphere that misses the ray by up to 22
-// roundings of the largest coordinate. box_ray widens boxes by 16 roundings, and 3 times 16 is more than 22.
+// roundings of the largest coordinate. make_box_ray widens boxes by 16 roundings, and 3 times 16 is more than 22.
 const float kSphereSlack = 3.0;
 
 // Intersects the ray with a mirror: with its exact sphere, or with the bounds of a mirror of another shape.
-bool meets_mirror(uint mirror, Ray ray, out float t) {
+bool intersects_mirror(uint mirror, Ray ray, out float t) {
     Probe probe = probe_at(mirror);
     return probe.radius > 0.0
                ? sphere_test(probe.sphere, probe.radius, ray, kLargest, t)
-               : slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest, 1.0), kLargest, t);
+               : slab_test(probe.lowest, probe.highest, make_box_ray(ray, probe.lowest, probe.highest, 1.0), kLargest, t);
 }
 
 // Finds the first mirror on the ray other than `except`. Of equally near mirrors the lowest number wins. `only_spheres`
 // ignores mirrors that are no exact sphere.
-bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out float t) {
+bool find_first_mirror_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out float t) {
     vec4 low = mirror_nodes_at(0u), high = mirror_nodes_at(1u);
-    BoxRay boxes = box_ray(ray, low.xyz, high.xyz, kSphereSlack);
+    BoxRay boxes = make_box_ray(ray, low.xyz, high.xyz, kSphereSlack);
     uint end = floatBitsToUint(high.w) & kBvhIdMask;
     bool found = false;
     t = kLargest;
@@ -43,7 +43,7 @@ bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out 
         uint number = floatBitsToUint(low.w) & kBvhIdMask; // mirror number, from 1
         uint mirror = number - 1u;
         if (!inside || number == 0u || mirror == except || (only_spheres && !(probe_at(mirror).radius > 0.0))) continue;
-        if (!meets_mirror(mirror, ray, met)) continue;
+        if (!intersects_mirror(mirror, ray, met)) continue;
         if (met < t || (found && met == t && mirror < first)) {
             t = met;
             first = mirror;
@@ -54,8 +54,8 @@ bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out 
 }
 
 // Finds the first exact sphere on the ray, other than mirror `except`.
-bool first_sphere(Ray ray, uint except, out uint first, out float t) {
-    if (mirror_tree != 0u) return first_by_tree(ray, except, true, first, t);
+bool find_first_exact_sphere(Ray ray, uint except, out uint first, out float t) {
+    if (mirror_tree != 0u) return find_first_mirror_by_tree(ray, except, true, first, t);
     bool found = false;
     t = kLargest;
     uint i = 0u, count = frame.value.mirror_count;
@@ -73,12 +73,12 @@ bool first_sphere(Ray ray, uint except, out uint first, out float t) {
 }
 
 // Returns whether the ray meets a mirror other than `except`, or that mirror's bounds, at or before `end`.
-bool meets_mirror_before(Ray ray, uint except, float end) {
+bool intersects_mirror_before(Ray ray, uint except, float end) {
     uint i = 0u, count = frame.value.mirror_count;
     bool meets = false;
     do {
         float t;
-        meets = i != except && meets_mirror(i, ray, t) && !(end < t);
+        meets = i != except && intersects_mirror(i, ray, t) && !(end < t);
         ++i;
     } while (!meets && i < count);
     return meets;

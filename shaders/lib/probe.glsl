@@ -25,25 +25,25 @@ const float kLeaves = 1.0;
 layout(constant_id = BY_OBJECT_CONSTANT) const uint by_object = 0u;
 
 vec3 bilinear_colour(uint mirror, vec3 direction) {
-#define COLOUR(i) textureLod(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 0).rgb
+#define COLOUR(i) textureLod(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0).rgb
     RETURN_OF_ARRAY(mirror, COLOUR)
 }
 
 // Each of these functions gathers one value of the four texels around a direction: object number, red, green or blue.
-vec4 object_numbers(uint mirror, vec3 direction) {
-#define NUMBERS(i) textureGather(SURFACE_CUBES(i), vec4(direction, cube_of(mirror)), 0)
+vec4 gather_object_numbers(uint mirror, vec3 direction) {
+#define NUMBERS(i) textureGather(SURFACE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
     RETURN_OF_ARRAY(mirror, NUMBERS)
 }
-vec4 four_reds(uint mirror, vec3 direction) {
-#define REDS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 0)
+vec4 gather_reds(uint mirror, vec3 direction) {
+#define REDS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
     RETURN_OF_ARRAY(mirror, REDS)
 }
-vec4 four_greens(uint mirror, vec3 direction) {
-#define GREENS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 1)
+vec4 gather_greens(uint mirror, vec3 direction) {
+#define GREENS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 1)
     RETURN_OF_ARRAY(mirror, GREENS)
 }
-vec4 four_blues(uint mirror, vec3 direction) {
-#define BLUES(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 2)
+vec4 gather_blues(uint mirror, vec3 direction) {
+#define BLUES(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 2)
     RETURN_OF_ARRAY(mirror, BLUES)
 }
 
@@ -58,7 +58,7 @@ int distance_edge(uint mirror) {
 }
 
 // Returns the bilinear weights of the four texels around a direction, in the order of textureGather.
-vec4 texel_weights(vec3 direction, int edge) {
+vec4 bilinear_texel_weights(vec3 direction, int edge) {
     vec3 place = cube_coordinates(cube_face(direction), direction);
     vec2 share = fract((place.xy / place.z * 0.5 + 0.5) * float(edge) - 0.5);
     return vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
@@ -67,17 +67,17 @@ vec4 texel_weights(vec3 direction, int edge) {
 // Returns the colour of the object with the greatest weight among the four texels around a direction. Only this
 // object's texels contribute.
 vec3 colour_of_object(uint mirror, vec3 direction) {
-    vec4 numbers = object_numbers(mirror, direction);
+    vec4 numbers = gather_object_numbers(mirror, direction);
     if (all(equal(numbers, numbers.xxxx))) return bilinear_colour(mirror, direction);
-    vec4 weights = texel_weights(direction, surface_edge(mirror));
+    vec4 weights = bilinear_texel_weights(direction, surface_edge(mirror));
     vec4 best = vec4(0);
     for (int i = 0; i < 4; ++i) {
         vec4 of_object = weights * vec4(equal(numbers, vec4(numbers[i])));
         if (dot(of_object, vec4(1)) > dot(best, vec4(1))) best = of_object;
     }
     best /= dot(best, vec4(1));
-    return vec3(dot(best, four_reds(mirror, direction)), dot(best, four_greens(mirror, direction)),
-                dot(best, four_blues(mirror, direction)));
+    return vec3(dot(best, gather_reds(mirror, direction)), dot(best, gather_greens(mirror, direction)),
+                dot(best, gather_blues(mirror, direction)));
 }
 
 vec3 captured_colour(uint mirror, vec3 direction) {
@@ -87,7 +87,7 @@ vec3 captured_colour(uint mirror, vec3 direction) {
 // Returns the colour that a search in a capture of one layer found. A ray that leaves the scene sees the environment.
 vec3 found_colour(uint mirror, Lookup lookup) {
     bool leaves = lookup.state == kUnknown && lookup.layer == kLeaves;
-    if (leaves || (environment_kind != kNoEnvironment && lookup.state == kMiss)) return environment(lookup.direction);
+    if (leaves || (environment_kind != kNoEnvironment && lookup.state == kMiss)) return environment_radiance(lookup.direction);
     return captured_colour(mirror, lookup.direction);
 }
 
@@ -102,20 +102,20 @@ layout(constant_id = TESTS_VOID_CONSTANT) const uint tests_void = 1u;
 
 // 1: the device cannot filter textures of 32-bit floats, so the shader interpolates distances itself.
 layout(constant_id = DISTANCES_BY_GATHER_CONSTANT) const uint distances_by_gather = 0u;
-vec4 four_distances(uint mirror, vec3 direction) {
-#define DISTANCES(i) textureGather(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_of(mirror)), 0)
+vec4 gather_distances(uint mirror, vec3 direction) {
+#define DISTANCES(i) textureGather(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
     RETURN_OF_ARRAY(mirror, DISTANCES)
 }
 
 // Returns the stored distance in a direction, interpolated bilinearly. nearest_stored_distance takes the nearest texel.
 float stored_distance(uint mirror, vec3 direction) {
     if (distances_by_gather != 0u)
-        return dot(texel_weights(direction, distance_edge(mirror)), four_distances(mirror, direction));
-#define STORED(i) textureLod(DISTANCE_CUBES(i), vec4(direction, cube_of(mirror)), 0).r
+        return dot(bilinear_texel_weights(direction, distance_edge(mirror)), gather_distances(mirror, direction));
+#define STORED(i) textureLod(DISTANCE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0).r
     RETURN_OF_ARRAY(mirror, STORED)
 }
 float nearest_stored_distance(uint mirror, vec3 direction) {
-#define NEAREST_STORED(i) textureLod(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_of(mirror)), 0).r
+#define NEAREST_STORED(i) textureLod(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_index_of_mirror(mirror)), 0).r
     RETURN_OF_ARRAY(mirror, NEAREST_STORED)
 }
 
@@ -127,7 +127,7 @@ float captured_distance(uint mirror, vec3 direction) {
 #endif
     float d = stored_distance(mirror, direction);
     if (tests_void != 0u && is_miss(d)) d = nearest_stored_distance(mirror, direction);
-    precise float in_units = d * stored_unit_of(mirror); // `precise` forbids the compiler to reorder this product
+    precise float in_units = d * stored_distance_unit(mirror); // `precise` forbids the compiler to reorder this product
     return in_units;
 }
 

@@ -11,7 +11,7 @@ layout(constant_id = GROUPS_IN_ORDER_CONSTANT) const uint groups_in_order = 0u;
 // Returns the number of the work group whose pixels this work group traces. A software driver gives each of its threads
 // a contiguous run of work groups, and neighbouring work groups cost about the same. Scattered numbers let all threads
 // finish at about the same time. Work groups are numbered row by row.
-uint work_group() {
+uint assigned_work_group() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 #ifdef NAIVE
     return group;
@@ -23,7 +23,7 @@ uint work_group() {
 }
 
 // Adds the rays of an invocation to the counters. Every invocation calls this function once, at its end.
-void count() {
+void count_rays() {
     uint primary = subgroupAdd(camera_rays);
     uint mirrors = subgroupAdd(mirror_rays);
     uint shadows = subgroupAdd(shadow_rays);

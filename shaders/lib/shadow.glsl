@@ -18,8 +18,8 @@ const float kLiftTexels = 1.5;
 // 2^-20 is 16 roundings.
 const float kDepthError = 1.0 / 1048576.0;
 
-vec3 in_light_frame(uint light, vec3 v) {
-    return vec3(dot(light_at(light).right, v), -dot(light_at(light).down, v), dot(light_at(light).forward, v));
+vec3 to_light_frame(uint light, vec3 v) {
+    return vec3(dot(read_light(light).right, v), -dot(read_light(light).down, v), dot(read_light(light).forward, v));
 }
 
 // The direction in which the looked-up point is lifted off its surface. Along the normal, shadows shift sideways by up to
@@ -35,7 +35,7 @@ vec3 lifted(uint lift, vec3 normal, vec3 to_light, float height) {
 // Returns the share of a directional light that reaches the point, 0 to 1. The shadow map of such a light has two
 // windows around one axis. The first window covers the scene's core in more detail, the second covers all shadow
 // casters.
-float parallel_map_visible(uint light, vec3 position, vec3 normal, float error, uint lift) {
+float sample_parallel_shadow_map(uint light, vec3 position, vec3 normal, float error, uint lift) {
     float edge = float(textureSize(shadow_map, 0).x);
     for (uint window = 0u; window < 2u; ++window) {
         View view = views[1u + 6u * frame.value.mirror_count + shadow_face_count() * light + window];
@@ -55,10 +55,10 @@ float parallel_map_visible(uint light, vec3 position, vec3 normal, float error, 
 
 // Returns the share of the light that reaches the point, 0 to 1 (2x2 percentage-closer filtering). `normal` faces the
 // light. `error` is the largest error of the position along `normal`, scene units.
-float shadow_map_visible(uint light, vec3 position, vec3 normal, float error, uint lift) {
-    if (is_directional(light)) return parallel_map_visible(light, position, normal, error, lift);
-    vec3 v = in_light_frame(light, position - light_at(light).position);
-    vec3 n = in_light_frame(light, normal);
+float sample_shadow_map(uint light, vec3 position, vec3 normal, float error, uint lift) {
+    if (is_directional(light)) return sample_parallel_shadow_map(light, position, normal, error, lift);
+    vec3 v = to_light_frame(light, position - read_light(light).position);
+    vec3 n = to_light_frame(light, normal);
     int face = cube_face(v);
     if (uint(face) >= shadow_face_count()) return 0.0;
     vec3 n_face = cube_coordinates(face, n);
@@ -70,16 +70,16 @@ float shadow_map_visible(uint light, vec3 position, vec3 normal, float error, ui
     float height = abs(dot(n, v));
     float slack = kDepthError * (1.0 + place.z * dot(abs(n), vec3(1)) / height);
     float layer = float(light * shadow_face_count() + uint(face));
-    return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, light_at(light).near / place.z * (1.0 + slack)));
+    return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, read_light(light).near / place.z * (1.0 + slack)));
 }
-float shadow_map_visible(uint light, vec3 position, vec3 normal, float error) {
-    return shadow_map_visible(light, position, normal, error, kLiftAlongNormal);
+float sample_shadow_map(uint light, vec3 position, vec3 normal, float error) {
+    return sample_shadow_map(light, position, normal, error, kLiftAlongNormal);
 }
 
 // Finds the share of the light that reaches the point. Returns false at the edge of a shadow, where the four taps differ
 // and a shadow ray must tell.
 bool shadow_map_tells(uint light, vec3 position, vec3 normal, float error, out float visible) {
-    visible = shadow_map_visible(light, position, normal, error, kLiftToLight);
+    visible = sample_shadow_map(light, position, normal, error, kLiftToLight);
     return visible == 0.0 || visible == 1.0;
 }
 

@@ -9,7 +9,7 @@
 
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 from_eye; // vector from the eye to the surface: position - eye
-layout(location = 3) in vec4 in_uv; // Attribute::uv, two sets of texture coordinates
+layout(location = 3) in vec4 in_uv; // VertexAttribute::uv, two sets of texture coordinates
 layout(location = 4) in vec4 in_colour;
 
 layout(location = 0) out vec4 out_colour;
@@ -32,7 +32,7 @@ vec3 seen_along() { return orthographic != 0u ? views[draw.first_view].forward :
 // Returns the largest error of surface_position along a unit normal. No specification bounds the error of a
 // rasteriser's interpolation. The assumed 2^-16 of the distance along the ray and 2^-20 across the ray are about ten
 // times the measured errors (docs/extremes.md).
-float surface_error(vec3 n) {
+float surface_position_error(vec3 n) {
     return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n), gamma_bound(2) * abs(eye() + from_eye));
 }
 
@@ -60,18 +60,18 @@ bool is_peeled() {
 }
 
 // Discards fragments that fail the alpha test. Shaders call this function after their derivatives, before any output.
-void leave_out_what_is_cut() {
-    if (masks != 0u && fails_alpha_test(drawn_detail(), Attribute(in_uv, in_colour))) discard;
+void discard_cut_out_fragments() {
+    if (masks != 0u && fails_alpha_test(drawn_detail(), VertexAttribute(in_uv, in_colour))) discard;
 }
 
 // Returns the object's surface at the fragment, and turns the normal `n` of a two-sided material to the viewer's side.
 // `facet` points along the triangle's normal.
-Surface surface_here(inout vec3 n, vec3 facet) {
-    Surface surface = drawn_surface();
+Surface surface_at_fragment(inout vec3 n, vec3 facet) {
+    Surface surface = read_drawn_surface();
     if (details != 0u) {
         vec3 direction = normalize(seen_along());
-        n = turned_normal(surface.detail, n, facet, direction);
-        evaluate(surface, Attribute(in_uv, in_colour), -dot(n, direction));
+        n = turn_normal_to_viewer(surface.detail, n, facet, direction);
+        evaluate_material(surface, VertexAttribute(in_uv, in_colour), -dot(n, direction));
     }
     return surface;
 }

@@ -56,7 +56,7 @@ uint trace_steps = 0u;
 bool trace_exhausted = false;
 const uint kMaxTraceSteps = 60000u;
 
-struct Hit {
+struct TraceHit {
     float t;
     vec3 barycentric; // weights of the corners a, b, c
     uint triangle;    // original number of the triangle
@@ -64,16 +64,16 @@ struct Hit {
     uint place;       // stored index of the triangle, for triangle_corners; or kOnSphere
     uint inside;      // record of the instance in whose object space the hit lies; 0: the hit is in scene units
 };
-const uint kOnSphere = 0xffffffffu; // Hit::place of a hit on the exact sphere of an instance
+const uint kOnSphere = 0xffffffffu; // TraceHit::place of a hit on the exact sphere of an instance
 
 // 1: some objects are instances in object space (engine/bvh/tlas.hpp).
 layout(constant_id = OWN_SPACES_CONSTANT) const uint object_spaces = 0u;
 // The rounding error of the next ray's origin: the exact origin is origin + trace_low. Each walk resets it to 0.
 vec3 trace_low = vec3(0);
 
-Place place_at(uint record) {
+ObjectPlacement read_instance_placement(uint record) {
     uint i = 4u * record;
-    return Place(bvh_nodes_at(i).xyz, bvh_nodes_at(i + 1u).xyz, bvh_nodes_at(i + 2u).xyz, bvh_nodes_at(i + 4u).xyz,
+    return ObjectPlacement(bvh_nodes_at(i).xyz, bvh_nodes_at(i + 1u).xyz, bvh_nodes_at(i + 2u).xyz, bvh_nodes_at(i + 4u).xyz,
                  bvh_nodes_at(i + 5u).xyz, bvh_nodes_at(i + 6u).xyz, bvh_nodes_at(i + 3u).xyz, bvh_nodes_at(i + 7u).xyz);
 }
 // Returns the number that is added to the triangle numbers of an instance, given the instance's record.
@@ -82,7 +82,7 @@ float own_radius(uint record) { return bvh_nodes_at(4u * record + 9u).w; }
 
 // The state of a walk in one tree: the ray in the tree's coordinates, and the object, flags and number shift that
 // replace those of an instance's triangles.
-struct Walked {
+struct WalkState {
     Ray ray;
     BoxRay boxes;
     RayShear shear;
@@ -97,13 +97,13 @@ void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
     c = bvh_triangles_at(3u * place + 2u).xyz;
 }
 
-bool meets_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
+bool intersects_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
     return keeps(kStableSphere) ? sphere_test(centre, radius, ray, t_max, t) : plain_sphere_test(centre, radius, ray, t_max, t);
 }
 
 // Intersects the ray with a stored triangle or sphere, and updates the best hit. If two hits have equal t, the lower
 // original triangle number wins.
-void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
+void trace_triangle(uint place, WalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
     Ray ray = walked.ray;
     vec4 a = bvh_triangles_at(3u * place);
     vec4 b = bvh_triangles_at(3u * place + 1u);
@@ -116,7 +116,7 @@ void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit bes
     uint object = floatBitsToUint(a.w) & kBvhIdMask;
     uint flags = floatBitsToUint(c.w);
     if (TRACE_BALLS && (flags & kBvhBall) != 0u) {
-        hit = meets_sphere(a.xyz, b.x, ray, kLargest, t);
+        hit = intersects_sphere(a.xyz, b.x, ray, kLargest, t);
         weights = vec3(1, 0, 0);
     }
     if (object_spaces != 0u && walked.record != 0u) {
@@ -133,7 +133,7 @@ void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit bes
         seen = TRACE_IS_THERE(triangle - walked.shift, object, barycentric(weights));
 #endif
     if (hit && seen && nearer) {
-        best = Hit(t, weights, triangle, object, place, walked.record);
+        best = TraceHit(t, weights, triangle, object, place, walked.record);
         found = true;
     }
 }
@@ -160,39 +160,39 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
 }
 
 // Returns the state of a walk in the scene's own tree.
-Walked trace_outside(Ray ray) {
+WalkState begin_walk_in_scene(Ray ray) {
     vec3 lo = bvh_nodes_at(0u).xyz, hi = bvh_nodes_at(1u).xyz;
     float times = object_spaces != 0u ? bvh_nodes_at(2u).x : 1.0;
-    BoxRay boxes = keeps(kBoxSlack) ? box_ray(ray, lo, hi, times) : plain_box_ray(ray);
-    return Walked(ray, boxes, ray_shear(ray.direction), 0u, 0u, 0u, 0u);
+    BoxRay boxes = keeps(kBoxSlack) ? make_box_ray(ray, lo, hi, times) : plain_box_ray(ray);
+    return WalkState(ray, boxes, make_ray_shear(ray.direction), 0u, 0u, 0u, 0u);
 }
 
 // Returns the state of a walk in an instance's tree, and the tree's root. `low` is the rounding error of the ray's
 // origin.
-Walked trace_inside(uint record, Ray ray, vec3 low, out uint root) {
+WalkState begin_walk_in_instance(uint record, Ray ray, vec3 low, out uint root) {
     uint i = 4u * record;
     root = floatBitsToUint(bvh_nodes_at(i).w);
-    Ray own = own_ray(place_at(record), ray, low);
-    BoxRay boxes = keeps(kBoxSlack) ? box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz, 1.0) : plain_box_ray(own);
-    return Walked(own, boxes, ray_shear(own.direction), record, floatBitsToUint(bvh_nodes_at(i + 1u).w) & kBvhIdMask,
+    Ray own = ray_in_object_space(read_instance_placement(record), ray, low);
+    BoxRay boxes = keeps(kBoxSlack) ? make_box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz, 1.0) : plain_box_ray(own);
+    return WalkState(own, boxes, make_ray_shear(own.direction), record, floatBitsToUint(bvh_nodes_at(i + 1u).w) & kBvhIdMask,
                   floatBitsToUint(bvh_nodes_at(i + 3u).w) & kBvhIdMask, number_shift(record));
 }
 
 // Intersects the ray with the exact sphere of an instance. The sphere's centre is the origin of the object space.
-void trace_sphere(Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
+void trace_sphere(WalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
     float t;
     float radius = own_radius(walked.record);
     if ((walked.flags & skipped_flags & ~(kBvhSphere | kBvhOneSided)) == 0u && TRACE_SEES(walked.object) && radius > 0.0 &&
         sphere_test(vec3(0), radius, walked.ray, best.t, t)) {
-        best = Hit(t, vec3(0), 0u, walked.object, kOnSphere, walked.record);
+        best = TraceHit(t, vec3(0), 0u, walked.object, kOnSphere, walked.record);
         found = true;
     }
 }
 
 // Walks the trees to the closest hit with 0 < t < t_max, or with `any` to the first hit that is found. Ignores
 // triangles with a flag of `skipped_flags`. Returns whether the ray has a hit.
-bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best) {
-    best = Hit(t_max, vec3(0), 0u, 0u, 0u, 0u);
+bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit best) {
+    best = TraceHit(t_max, vec3(0), 0u, 0u, 0u, 0u);
     vec3 low = trace_low;
     trace_low = vec3(0);
     bool empty = (floatBitsToUint(bvh_nodes_at(0u).w) & kBvhIdMask) == 0u;
@@ -200,7 +200,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
 #ifdef TRACE_PRIVATE_STACK
     uint stack[kBvhMaxStack];
 #endif
-    Walked walked = trace_outside(ray);
+    WalkState walked = begin_walk_in_scene(ray);
     bool found = false;
     uint waiting = 0u;
     uint child = kBvhRoot;
@@ -227,14 +227,14 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
         bool enters = false;
         if (object_spaces != 0u && count >= kBvhEnters) {
             if (child == kBvhReturns) {
-                walked = trace_outside(ray);
+                walked = begin_walk_in_scene(ray);
             } else {
                 uint root;
-                walked = trace_inside(first, ray, low, root);
+                walked = begin_walk_in_instance(first, ray, low, root);
                 enters = (walked.flags & skipped_flags & kBvhSphere) == 0u;
                 if (!enters) {
                     trace_sphere(walked, skipped_flags, best, found);
-                    walked = trace_outside(ray);
+                    walked = begin_walk_in_scene(ray);
                 } else {
                     STACK(waiting) = kBvhReturns;
                     ++waiting;
@@ -266,14 +266,14 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
 }
 
 // Finds the closest triangle or sphere that the ray meets at 0 < t < t_max. Ignores those with a flag of `skipped`.
-bool closest_hit(Ray ray, float t_max, uint skipped, out Hit hit) {
-    return trace_walk(ray, t_max, skipped, false, hit);
+bool find_closest_hit(Ray ray, float t_max, uint skipped, out TraceHit hit) {
+    return walk_trees(ray, t_max, skipped, false, hit);
 }
 
 // Returns whether the ray meets a triangle or sphere without a flag of `skipped` at 0 < t < t_max.
-bool any_hit(Ray ray, float t_max, uint skipped) {
-    Hit hit;
-    return trace_walk(ray, t_max, skipped, true, hit);
+bool has_any_hit(Ray ray, float t_max, uint skipped) {
+    TraceHit hit;
+    return walk_trees(ray, t_max, skipped, true, hit);
 }
 
 #endif

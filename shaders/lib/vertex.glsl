@@ -23,7 +23,7 @@ layout(set = 0, binding = PLACEMENTS_BINDING, scalar) readonly buffer Placements
 
 // Transforms a normal from object space to the scene by the matrix's cofactors. The matrix is scaled first, so that
 // small objects do not underflow.
-vec3 scene_direction(Placement placement, vec3 n) {
+vec3 normal_to_scene(Placement placement, vec3 n) {
     float size = max(largest(abs(placement.x)), max(largest(abs(placement.y)), largest(abs(placement.z))));
     vec3 x = placement.x / size, y = placement.y / size, z = placement.z / size;
     vec3 turned = n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y);
@@ -33,7 +33,7 @@ vec3 scene_direction(Placement placement, vec3 n) {
 
 void main() {
     View view = views[draw.first_view + drawn_layer()];
-    Surface surface = surface_of(drawn_object());
+    Surface surface = read_surface(drawn_object());
 #ifdef PLACED
     Placement placement = placements[drawn_object()];
     vec3 from_eye = difference_of_sums(placement.centre, placement.centre_low, view.eye, view.eye_low);
@@ -50,16 +50,16 @@ void main() {
 #ifdef LAYERED
     gl_Layer = int(drawn_layer());
 #endif
-    write_drawn(view, surface);
+    write_drawn_pixel(view, surface);
 #ifdef PLACED
-    out_normal = scene_direction(placement, normal);
+    out_normal = normal_to_scene(placement, normal);
 #else
     out_normal = normal;
 #endif
     out_from_eye = v;
-    Attribute at = kNoAttribute;
-    if (details != 0u && (detail_at(surface.detail).flags & kMaterialAttributes) != 0u)
-        at = attribute_at_vertex(uint(gl_VertexIndex) + detail_at(surface.detail).first_attribute);
+    VertexAttribute at = kNoAttribute;
+    if (details != 0u && (read_material_parameters(surface.detail).flags & kMaterialAttributes) != 0u)
+        at = read_vertex_attribute(uint(gl_VertexIndex) + read_material_parameters(surface.detail).first_attribute);
     out_uv = at.uv;
     out_colour = at.colour;
 }

@@ -11,7 +11,7 @@
 #include "lib/lights.glsl"
 #include "lib/material.glsl"
 
-// The list of triangle corners, one texel each: the normal, and the index of the corner's Attribute as a word of
+// The list of triangle corners, one texel each: the normal, and the index of the corner's VertexAttribute as a word of
 // engine/bvh/words.hpp.
 #ifdef NAIVE
 TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, true)
@@ -20,20 +20,20 @@ TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, false)
 #endif
 #define NORMAL(i) normals_at(i).xyz
 
-Attribute attribute_of(uint corner) { return attribute_at_vertex(floatBitsToUint(normals_at(corner).w) & kBvhIdMask); }
+VertexAttribute attribute_of(uint corner) { return read_vertex_attribute(floatBitsToUint(normals_at(corner).w) & kBvhIdMask); }
 
 // Returns the attribute at a point of the triangle whose corners are stored from index `corner` on.
-Attribute attribute_at(uint corner, vec3 barycentric) {
-    Attribute a = attribute_of(corner), b = attribute_of(corner + 1u), c = attribute_of(corner + 2u);
-    return Attribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
+VertexAttribute interpolate_attribute(uint corner, vec3 barycentric) {
+    VertexAttribute a = attribute_of(corner), b = attribute_of(corner + 1u), c = attribute_of(corner + 2u);
+    return VertexAttribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
                      barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
 }
-bool has_attributes(uint detail) { return (detail_at(detail).flags & kMaterialAttributes) != 0u; }
-bool is_there(uint triangle, uint object, vec3 barycentric) {
-    uint detail = surface_of(object).detail;
-    return !fails_alpha_test(detail, has_attributes(detail) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
+bool has_attributes(uint detail) { return (read_material_parameters(detail).flags & kMaterialAttributes) != 0u; }
+bool passes_alpha_test(uint triangle, uint object, vec3 barycentric) {
+    uint detail = read_surface(object).detail;
+    return !fails_alpha_test(detail, has_attributes(detail) ? interpolate_attribute(3u * triangle, barycentric) : kNoAttribute);
 }
-#define TRACE_IS_THERE(triangle, object, barycentric) is_there(triangle, object, barycentric)
+#define TRACE_IS_THERE(triangle, object, barycentric) passes_alpha_test(triangle, object, barycentric)
 layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #define TRACE_BALLS (exact_spheres != 0u)
 
@@ -58,7 +58,7 @@ uint mirror_rays = 0u;
 uint shadow_rays = 0u;
 
 // A point on a surface, with a bound of its position's error (see triangle_point).
-struct Point {
+struct SurfacePoint {
     vec3 position;
     vec3 error;
     vec3 normal; // interpolated shading normal, unit
@@ -67,62 +67,62 @@ struct Point {
     uint object;
     uint leaves; // Ray::leaves of rays that start at this point
     uint inside; // record of the instance in whose object space the triangle lies; 0: the triangle is in scene units
-    Attribute at;
+    VertexAttribute at;
     vec3 arm;       // vector from the instance's centre to the point, scene units
     vec3 arm_error; // bound of the error of `arm`
 };
-Point point; // the point that is shaded
+SurfacePoint point; // the point that is shaded
 
 // Returns the flags of triangles that rays ignore. If spheres are exact, rays ignore meshes that approximate a sphere.
 // A sphere in the scene's tree, or the walk's own test of an instance's sphere, takes the place of such a mesh.
 uint ray_mask() { return exact_spheres != 0u ? kBvhSphere : 0u; }
 
 // Transforms a point from an instance's object space to scene units.
-void put_into_scene(inout Point p, uint record) {
-    Place place = place_at(record);
+void transform_point_to_scene(inout SurfacePoint p, uint record) {
+    ObjectPlacement place = read_instance_placement(record);
     p.inside = record;
-    p.arm = arm_of(place, p.position);
-    p.arm_error = arm_error(place, p.position, p.error);
+    p.arm = offset_from_centre(place, p.position);
+    p.arm_error = offset_rounding_error(place, p.position, p.error);
     p.normal = scene_normal(place, p.normal);
     vec3 low;
     p.position = scene_point(place, p.arm, low);
     p.error = p.arm_error + gamma_bound(2) * abs(p.position);
 }
 
-Point on_triangle(Hit hit) {
+SurfacePoint point_on_triangle(TraceHit hit) {
     vec3 a, b, c;
     triangle_corners(hit.place, a, b, c);
     vec3 w = hit.barycentric;
-    Point p;
+    SurfacePoint p;
     p.position = triangle_point(a, b, c, w, p.error);
     p.facet = facet_normal(a, b, c);
     uint corner = 3u * hit.triangle;
     if (object_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
     p.at = kNoAttribute;
-    if (details != 0u && has_attributes(surface_of(hit.object).detail)) p.at = attribute_at(corner, w);
+    if (details != 0u && has_attributes(read_surface(hit.object).detail)) p.at = interpolate_attribute(corner, w);
     p.inside = 0u;
     p.arm = p.arm_error = vec3(0);
     vec3 normal_a = NORMAL(corner), normal_b = NORMAL(corner + 1u), normal_c = NORMAL(corner + 2u);
     p.normal = normalize(w.x * normal_a + w.y * normal_b + w.z * normal_c);
     vec3 lit_a = a, lit_b = b, lit_c = c; // corners in scene units
     if (object_spaces != 0u && hit.inside != 0u) {
-        Place place = place_at(hit.inside);
-        lit_a = arm_of(place, a), lit_b = arm_of(place, b), lit_c = arm_of(place, c);
+        ObjectPlacement place = read_instance_placement(hit.inside);
+        lit_a = offset_from_centre(place, a), lit_b = offset_from_centre(place, b), lit_c = offset_from_centre(place, c);
         normal_a = scene_normal(place, normal_a), normal_b = scene_normal(place, normal_b), normal_c = scene_normal(place, normal_c);
         p.facet = facet_normal(lit_a, lit_b, lit_c);
-        put_into_scene(p, hit.inside);
+        transform_point_to_scene(p, hit.inside);
     }
     p.lift = smooth_lift(lit_a, lit_b, lit_c, normal_a, normal_b, normal_c, w);
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
     if (object_spaces != 0u && hit.inside != 0u) {
-        Place place = place_at(hit.inside);
-        exact_a = exact_place(place, a), exact_b = exact_place(place, b), exact_c = exact_place(place, c);
+        ObjectPlacement place = read_instance_placement(hit.inside);
+        exact_a = exact_scene_position(place, a), exact_b = exact_scene_position(place, b), exact_c = exact_scene_position(place, c);
     }
     dvec3 exact_w = exact_triangle_hit(exact_a, exact_b, exact_c, w);
     exact_normal = exact_w.x * dvec3(NORMAL(corner)) + exact_w.y * dvec3(NORMAL(corner + 1u)) +
                    exact_w.z * dvec3(NORMAL(corner + 2u));
-    if (object_spaces != 0u && hit.inside != 0u) exact_normal = exact_scene_normal(place_at(hit.inside), exact_normal);
+    if (object_spaces != 0u && hit.inside != 0u) exact_normal = exact_scene_normal(read_instance_placement(hit.inside), exact_normal);
     exact_normal = normalize(exact_normal);
     p.position = vec3(exact_point);
     p.normal = vec3(exact_normal);
@@ -132,9 +132,9 @@ Point on_triangle(Hit hit) {
     return p;
 }
 
-Point on_sphere(Ray ray, float t, uint object) {
-    Point p;
-    Surface of = surface_of(object);
+SurfacePoint point_on_sphere(Ray ray, float t, uint object) {
+    SurfacePoint p;
+    Surface of = read_surface(object);
     p.position = sphere_point(of.centre, of.radius, ray, t, p.error);
 #ifdef DOUBLES
     exact_sphere_hit(dvec3(of.centre), double(of.radius), t);
@@ -151,20 +151,20 @@ Point on_sphere(Ray ray, float t, uint object) {
 }
 
 // Returns the point of a hit on the exact sphere of an instance. `low` is the rounding error of the ray's origin.
-Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
-    Point p;
-    Place place = place_at(hit.inside);
+SurfacePoint point_on_instance_sphere(Ray ray, vec3 low, TraceHit hit) {
+    SurfacePoint p;
+    ObjectPlacement place = read_instance_placement(hit.inside);
     float radius = own_radius(hit.inside);
-    p.position = sphere_point(vec3(0), radius, own_ray(place, ray, low), hit.t, p.error);
+    p.position = sphere_point(vec3(0), radius, ray_in_object_space(place, ray, low), hit.t, p.error);
     p.normal = p.position / radius;
     p.lift = 0.0;
     p.at = kNoAttribute;
     p.object = hit.object;
     p.leaves = 0u;
-    put_into_scene(p, hit.inside);
+    transform_point_to_scene(p, hit.inside);
     p.facet = p.normal;
 #ifdef DOUBLES
-    exact_sphere_hit(exact_place(place, vec3(0)), double(radius) * length(dvec3(place.scene_x)), hit.t);
+    exact_sphere_hit(exact_scene_position(place, vec3(0)), double(radius) * length(dvec3(place.scene_x)), hit.t);
     p.normal = p.facet = vec3(exact_normal);
     p.position = vec3(exact_point);
 #endif
@@ -185,8 +185,8 @@ const uint kNotKnown = 0u, kKnownHit = 1u;
 // Intersects the camera ray with the triangle that the rasteriser drew in the ray's pixel. Returns kNotKnown if no
 // triangle is named, or if the ray misses the triangle. The latter happens at edges, where the rasteriser rounds corners
 // to parts of a pixel.
-uint known_hit(Ray ray, out Hit hit) {
-    hit = Hit(kLargest, vec3(0), 0u, 0u, 0u, 0u);
+uint known_hit(Ray ray, out TraceHit hit) {
+    hit = TraceHit(kLargest, vec3(0), 0u, 0u, 0u, 0u);
     if (!is_first_hit(first_words)) return kNotKnown;
     uint object = first_hit_object(first_words);
     uint record = first_hits_at(2u * object);
@@ -195,65 +195,65 @@ uint known_hit(Ray ray, out Hit hit) {
     Ray own = ray;
     uint shift = 0u;
     if (object_spaces != 0u && record != 0u) {
-        own = own_ray(place_at(record), ray, trace_low);
+        own = ray_in_object_space(read_instance_placement(record), ray, trace_low);
         shift = number_shift(record);
     }
     vec3 a, b, c, weights;
     triangle_corners(place, a, b, c);
     float t;
-    RayShear shear = ray_shear(own.direction);
+    RayShear shear = make_ray_shear(own.direction);
     bool meets = keeps(kWatertight) ? triangle_test(a, b, c, own.origin, shear, t, weights)
                                     : plain_triangle_test(a, b, c, own, t, weights);
     uint triangle = (floatBitsToUint(bvh_triangles_at(3u * place + 1u).w) & kBvhIdMask) + shift;
-    hit = Hit(t, barycentric(weights), triangle, object, place, record);
+    hit = TraceHit(t, barycentric(weights), triangle, object, place, record);
     return meets ? kKnownHit : kNotKnown;
 }
 
 // Finds the surface that the ray meets. `known` and `hit` are the result of known_hit, or kNotKnown and any hit.
-bool trace_ray(Ray ray, uint skipped, uint known, Hit hit, out Point p) {
+bool trace_ray(Ray ray, uint skipped, uint known, TraceHit hit, out SurfacePoint p) {
     vec3 low = trace_low;
     bool found = known == kKnownHit;
-    if (known == kNotKnown) found = closest_hit(ray, kLargest, skipped | kBvhOneSided | ray_mask(), hit);
+    if (known == kNotKnown) found = find_closest_hit(ray, kLargest, skipped | kBvhOneSided | ray_mask(), hit);
     trace_low = vec3(0);
-    if (found && object_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
-    else if (found && exact_spheres != 0u && surface_of(hit.object).radius > 0.0) p = on_sphere(ray, hit.t, hit.object);
-    else if (found) p = on_triangle(hit);
+    if (found && object_spaces != 0u && hit.place == kOnSphere) p = point_on_instance_sphere(ray, low, hit);
+    else if (found && exact_spheres != 0u && read_surface(hit.object).radius > 0.0) p = point_on_sphere(ray, hit.t, hit.object);
+    else if (found) p = point_on_triangle(hit);
     return found;
 }
 
 // Evaluates the material at a point. The normal of a two-sided material turns to the side from which `direction` comes.
-Surface surface_at(inout Point p, vec3 direction) {
-    Surface surface = surface_of(p.object);
+Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
+    Surface surface = read_surface(p.object);
     if (details != 0u) {
-        vec3 turned = turned_normal(surface.detail, p.normal, p.facet, direction);
+        vec3 turned = turn_normal_to_viewer(surface.detail, p.normal, p.facet, direction);
         // From the back the smooth surface is hollow, so it lies below the triangle.
         if (turned != p.normal) p.lift = 0.0;
         p.normal = turned;
-        evaluate(surface, p.at, -dot(p.normal, direction));
+        evaluate_material(surface, p.at, -dot(p.normal, direction));
     }
     return surface;
 }
 
 // Returns the origin of a ray that leaves the point along `direction`. Sets trace_low if the point is on an instance.
-vec3 leaving(Point p, vec3 direction) {
+vec3 leaving_ray_origin(SurfacePoint p, vec3 direction) {
     if (object_spaces != 0u && p.inside != 0u)
-        return scene_point(place_at(p.inside), spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
+        return scene_point(read_instance_placement(p.inside), spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
     return keeps(kSpawnBound) ? spawn_origin(p.position, p.error, p.facet, direction) : plain_spawn_origin(p.position, p.facet, direction);
 }
 
 // Returns the origin of a shadow ray that goes below the facet's plane, although the light is above the shading
 // normal's plane. The ray starts on the smooth surface that the vertex normals describe. From the facet itself, the ray
 // would hit neighbouring facets, and a smooth body's shadow terminator would show its facets.
-vec3 leaving_lifted(Point p, vec3 normal) {
+vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
     if (object_spaces != 0u && p.inside != 0u)
-        return scene_point(place_at(p.inside), spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
+        return scene_point(read_instance_placement(p.inside), spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
     return spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
 }
 
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
     if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
-        return shadow_map_visible(light, position, normal, dot(abs(normal), point.error));
+        return sample_shadow_map(light, position, normal, dot(abs(normal), point.error));
     float visible;
     if (has_shadow_map != 0u && first_raster != 0u &&
         shadow_map_tells(light, position, normal, dot(abs(normal), point.error), visible))
@@ -261,21 +261,21 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
     ++shadow_rays;
     bool goes_below = keeps(kSpawnBound) && dot(direction, facet_side(normal, point.facet)) < 0.0;
     vec3 origin;
-    if (goes_below) origin = leaving_lifted(point, normal);
-    else origin = leaving(point, direction);
-    Ray ray = Ray(origin, light_at(light).position - origin, point.leaves);
+    if (goes_below) origin = lifted_shadow_ray_origin(point, normal);
+    else origin = leaving_ray_origin(point, direction);
+    Ray ray = Ray(origin, read_light(light).position - origin, point.leaves);
     float t = keeps(kShadowEnd) ? kShadowRayEnd : 1.0;
     if (is_directional(light)) {
         ray.direction = direction;
         t = kLargest;
     }
-    return any_hit(ray, t, kBvhShadowless | ray_mask()) ? 0.0 : 1.0;
+    return has_any_hit(ray, t, kBvhShadowless | ray_mask()) ? 0.0 : 1.0;
 }
 #include "lib/lighting.glsl"
 
 View camera_view = views[0]; // the view is read before the lanes diverge
 // Returns the camera ray through a position, in pixels, of a picture of `size` pixels.
-Ray camera_ray(vec2 place, uvec2 size) {
+Ray make_camera_ray(vec2 place, uvec2 size) {
     View view = camera_view;
     vec2 ndc = place / vec2(size) * 2.0 - 1.0;
     if (object_spaces != 0u) trace_low = view.eye_low;
@@ -290,17 +290,17 @@ Ray camera_ray(vec2 place, uvec2 size) {
 // the ray meets, and the number of the second << kMetBits. If the first surface reflects but is no mirror, the first
 // number is 0 and the second kMostMirrors. A ray with `first` 0 is a camera ray and passes through objects hidden from
 // the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
-vec3 radiance(Ray ray, uint first, out uint met) {
+vec3 trace_radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
     met = 0u;
     uint skipped = first == 0u ? kBvhHidden : 0u;
 #ifdef DOUBLES
-    exact_ray(ray, trace_low);
+    set_exact_ray(ray, trace_low);
 #endif
     bool done = false;
     uint bounce = first;
-    Hit hit;
+    TraceHit hit;
     uint known = kNotKnown;
     if (first_raster != 0u && first == 0u) known = known_hit(ray, hit);
     if (known == kNotKnown && first == 0u) ++camera_rays;
@@ -308,18 +308,18 @@ vec3 radiance(Ray ray, uint first, out uint met) {
         bool found = trace_ray(ray, skipped, known, hit, point);
         known = kNotKnown;
         if (!found) {
-            if (environment_kind != kNoEnvironment) result += weight * environment(ray.direction);
+            if (environment_kind != kNoEnvironment) result += weight * environment_radiance(ray.direction);
             done = true;
             continue;
         }
-        Surface surface = surface_at(point, ray.direction);
+        Surface surface = evaluate_surface(point, ray.direction);
         if (bounce < first + 2u) met |= surface.mirror << (kMetBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
         if (details != 0u && bounce == 0u && reflects && surface.mirror == 0u) met = kMostMirrors << kMetBits;
         // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
         // the whole BVH walk of its shadow ray.
-        if (!reflects || details != 0u) result += weight * shade(surface, point.position, point.normal, lit_facet(surface.detail, point.facet));
+        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet));
         if (!reflects) {
             done = true;
         } else if (bounce == max_depth) {
@@ -331,7 +331,7 @@ vec3 radiance(Ray ray, uint first, out uint met) {
 #else
             vec3 direction = mirror_direction(ray.direction, point.normal, point.facet);
 #endif
-            ray = Ray(leaving(point, direction), direction, point.leaves);
+            ray = Ray(leaving_ray_origin(point, direction), direction, point.leaves);
             skipped = 0u;
             ++mirror_rays;
             ++bounce;

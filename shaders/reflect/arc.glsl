@@ -10,7 +10,7 @@
 #include "reflect/silhouette.glsl"
 
 // The arc. The ray's start lies in the direction `from`, and its end at infinity in the ray's own direction.
-struct Arc {
+struct RayArc {
     vec3 from, side; // orthogonal unit vectors; the place (x, y) is the direction from * x + side * y
     vec2 end;        // place of the ray's own direction
     float height;    // distance of the ray's line from the centre
@@ -21,7 +21,7 @@ const float kOneDirection = kPi / 2.0 / 16384.0;
 
 // Sets up the arc of a ray that starts at `offset` from the capture's centre. Returns false if the ray's line passes
 // through the centre, so that the arc is only the ray's own direction.
-bool make_arc(vec3 offset, vec3 direction, out Arc arc) {
+bool make_arc(vec3 offset, vec3 direction, out RayArc arc) {
     float size = length(offset);
     arc.from = size > 0.0 ? offset / size : direction;
     arc.end.x = dot(arc.from, direction);
@@ -32,13 +32,13 @@ bool make_arc(vec3 offset, vec3 direction, out Arc arc) {
     return arc.end.y > kOneDirection;
 }
 
-vec3 direction_at(Arc arc, vec2 place) { return arc.from * place.x + arc.side * place.y; }
+vec3 direction_at(RayArc arc, vec2 place) { return arc.from * place.x + arc.side * place.y; }
 float sine_between(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 vec2 rotated(vec2 place, float sine) { return normalize(place + sine * vec2(-place.y, place.x)); }
 
 // Returns the ray's inverse distance at a place. ray_plane returns the vector whose dot product with a place is this
 // inverse distance.
-float ray_at(Arc arc, vec2 place) { return sine_between(place, arc.end) / arc.height; }
-vec2 ray_plane(Arc arc) { return vec2(arc.end.y, -arc.end.x) / arc.height; }
+float ray_at(RayArc arc, vec2 place) { return sine_between(place, arc.end) / arc.height; }
+vec2 ray_plane(RayArc arc) { return vec2(arc.end.y, -arc.end.x) / arc.height; }
 
 #endif

@@ -9,24 +9,24 @@
 #include "reflect/silhouette.glsl"
 
 // The captured surface at a place of the arc.
-struct Sample {
+struct ArcSample {
     vec2 place;
     float captured; // inverse captured distance; 0: no surface was captured
     float depth;    // inverse captured distance minus inverse distance of the ray (see is_behind)
 };
 
-Sample sample_at(uint mirror, Arc arc, vec2 place) {
+ArcSample sample_capture_on_arc(uint mirror, RayArc arc, vec2 place) {
     float captured = inverse(captured_distance(mirror, direction_at(arc, place)));
-    return Sample(place, captured, captured - ray_at(arc, place));
+    return ArcSample(place, captured, captured - ray_at(arc, place));
 }
 
 // Returns whether the ray is behind the captured surface at a sample. Without a captured surface, the ray is not
 // behind.
-bool is_behind(Sample s) { return s.captured > 0.0 && s.depth >= 0.0; }
+bool is_behind(ArcSample s) { return s.captured > 0.0 && s.depth >= 0.0; }
 
 // Returns the place between two samples, in front of and behind a surface, at which the depth is 0 if both show the
 // same plane.
-vec2 false_position(Sample front, Sample behind) {
+vec2 estimate_crossing_place(ArcSample front, ArcSample behind) {
     return normalize(front.place * behind.depth - behind.place * front.depth);
 }
 
@@ -34,49 +34,49 @@ const uint kMaxRefinements = 16u;
 // The largest difference, relative to the captured distance, at which a ray's point counts as on the captured surface.
 const float kOnSurface = 1.0 / 512.0;
 
-bool are_apart(Sample front, Sample behind, float texel) {
+bool are_more_than_texel_apart(ArcSample front, ArcSample behind, float texel) {
     return sine_between(front.place, behind.place) > (front.captured > 0.0 ? 0.5 : kEdge) * texel;
 }
 
 // Finds the crossing between two samples. Returns a hit if the ray crosses a surface. Returns unknown at a silhouette,
 // with the direction one texel beside the silhouette, or with kLeaves if no surface was captured beside the silhouette.
-Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
+Lookup find_surface_crossing(uint mirror, RayArc arc, ArcSample front, ArcSample behind) {
     float texel = texel_angle(mirror);
     uint i = 0u;
-    bool is_wide = are_apart(front, behind, texel);
+    bool is_wide = are_more_than_texel_apart(front, behind, texel);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (is_wide) {
             bool halves = (i & 1u) == 1u;
-            Sample middle = sample_at(mirror, arc, halves ? normalize(front.place + behind.place) : false_position(front, behind));
+            ArcSample middle = sample_capture_on_arc(mirror, arc, halves ? normalize(front.place + behind.place) : estimate_crossing_place(front, behind));
             if (is_behind(middle)) behind = middle;
             else front = middle;
             float residual = abs(middle.depth) / middle.captured;
             if (!halves && residual <= kOnSurface)
-                return Lookup(direction_at(arc, false_position(front, behind)), kHit, residual, 0.0);
+                return Lookup(direction_at(arc, estimate_crossing_place(front, behind)), kHit, residual, 0.0);
         }
         ++i;
-        is_wide = i < kMaxRefinements && are_apart(front, behind, texel);
+        is_wide = i < kMaxRefinements && are_more_than_texel_apart(front, behind, texel);
     } while (is_wide);
-    if (what_is_between(mirror, direction_at(arc, front.place), direction_at(arc, behind.place), front.captured,
+    if (classify_surface_between(mirror, direction_at(arc, front.place), direction_at(arc, behind.place), front.captured,
                         behind.captured) == kSilhouette) {
         if (front.captured == 0.0) return Lookup(direction_at(arc, arc.end), kUnknown, 1.0, kLeaves);
         return Lookup(direction_at(arc, rotated(front.place, -texel)), kUnknown, 1.0, 0.0);
     }
-    return Lookup(direction_at(arc, false_position(front, behind)), kHit, (behind.depth - front.depth) / behind.captured, 0.0);
+    return Lookup(direction_at(arc, estimate_crossing_place(front, behind)), kHit, (behind.depth - front.depth) / behind.captured, 0.0);
 }
 
 // Bisects between `front`, a sample in front of a surface, and `next`, a sample without a captured surface. If the ray
 // goes behind a surface between the two, returns false with `next` behind that surface. Otherwise, leaves the samples
 // on the two sides of the surface's edge. Then returns whether the surface, extended linearly, meets the ray between
 // the two samples. `front` is the place of that intersection.
-bool meets_at_edge(uint mirror, Arc arc, inout Sample front, inout Sample next) {
-    Sample earlier = front;
+bool bisect_to_surface_edge(uint mirror, RayArc arc, inout ArcSample front, inout ArcSample next) {
+    ArcSample earlier = front;
     float least = kEdge * texel_angle(mirror);
     uint i = 0u;
     bool is_wide = sine_between(front.place, next.place) > least;
     do {
         if (is_wide) {
-            Sample middle = sample_at(mirror, arc, normalize(front.place + next.place));
+            ArcSample middle = sample_capture_on_arc(mirror, arc, normalize(front.place + next.place));
             if (middle.captured == 0.0) next = middle;
             else if (is_behind(middle)) {
                 next = middle;

@@ -24,32 +24,33 @@ const uint kLimit = 512u;       // most samples of one search
 const float kSameSurface = 0.125; // largest relative step of the distance between neighbouring texels of one surface
 
 // A place of the arc, with the inverse distances of the ray and of both layers; 0: the layer has no surface.
-struct Sample {
+struct ArcSample {
     vec2 place;
     float ray, first, second;
 };
 
-// Returns the captured distance, scene units, of a texel in the first layer. second_distance reads the second layer.
-float first_distance(uint mirror, ivec3 texel) {
-#define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_unit_of(mirror)
+// Returns the captured distance, scene units, of a texel in the first layer. second_layer_distance reads the second
+// layer.
+float first_layer_distance(uint mirror, ivec3 texel) {
+#define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_distance_unit(mirror)
     RETURN_OF_ARRAY(mirror, FIRST)
 }
-float second_distance(uint mirror, ivec3 texel) {
-#define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_unit_of(mirror)
+float second_layer_distance(uint mirror, ivec3 texel) {
+#define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_distance_unit(mirror)
     RETURN_OF_ARRAY(mirror, SECOND)
 }
-// Returns the captured distances, scene units, of four texels in the first layer. second_distances reads the second
+// Returns the captured distances, scene units, of four texels in the first layer. gather_second_layer reads the second
 // layer.
-vec4 first_distances(uint mirror, vec3 at) {
-#define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_unit_of(mirror)
+vec4 gather_first_layer(uint mirror, vec3 at) {
+#define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_distance_unit(mirror)
     RETURN_OF_ARRAY(mirror, FIRSTS)
 }
-vec4 second_distances(uint mirror, vec3 at) {
-#define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_unit_of(mirror)
+vec4 gather_second_layer(uint mirror, vec3 at) {
+#define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_distance_unit(mirror)
     RETURN_OF_ARRAY(mirror, SECONDS)
 }
 // Returns the weighted sum of the colours of four texels in both layers.
-vec3 weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
+vec3 sum_weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
 #define WEIGHTED(i)                                                                                                    \
     vec3(dot(in_first, textureGather(FACES_OF(colour1, i), at, 0)) +                                                   \
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 0)),                                               \
@@ -60,54 +61,54 @@ vec3 weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
     RETURN_OF_ARRAY(mirror, WEIGHTED)
 }
 // Returns a direction's position on its cube face, in texels, and the array layer of that face.
-vec3 texel_of(uint mirror, vec3 direction) {
+vec3 direction_to_texel(uint mirror, vec3 direction) {
     int face = cube_face(direction);
     vec3 c = cube_coordinates(face, direction);
     return vec3((c.xy / c.z * 0.5 + 0.5) * float(distance_edge(mirror)), float(first_face_of(mirror)) + float(face));
 }
 
-Sample sample_at(uint mirror, Arc arc, vec2 place) {
-    ivec3 texel = ivec3(texel_of(mirror, direction_at(arc, place)));
+ArcSample sample_layers_on_arc(uint mirror, RayArc arc, vec2 place) {
+    ivec3 texel = ivec3(direction_to_texel(mirror, direction_at(arc, place)));
     texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
-    return Sample(place, ray_at(arc, place), inverse(first_distance(mirror, texel)),
-                  inverse(second_distance(mirror, texel)));
+    return ArcSample(place, ray_at(arc, place), inverse(first_layer_distance(mirror, texel)),
+                  inverse(second_layer_distance(mirror, texel)));
 }
 
-uint surfaces_in_front(Sample s) {
+uint count_surfaces_in_front(ArcSample s) {
     return uint(s.first > 0.0 && s.first >= s.ray) + uint(s.second > 0.0 && s.second >= s.ray);
 }
 // Returns the inverse distance of the nearest captured surface that is farther from the capture's centre than the ray.
 // The surface is that of the first layer, or of the second layer if the ray is behind the first. 0: no such surface.
-float ahead(Sample s) {
-    uint count = surfaces_in_front(s);
+float inverse_distance_of_next_surface(ArcSample s) {
+    uint count = count_surfaces_in_front(s);
     return count == 0u ? s.first : count == 1u ? s.second : 0.0;
 }
 bool is_near(float a, float b) { return abs(a - b) <= kSameSurface * b; }
 
 // Returns whether a surface ends between two samples of the march. At both samples the same number of captured surfaces
 // is nearer to the capture's centre than the ray, but only one sample has a surface that is farther than the ray.
-bool ends(Sample a, Sample b) { return surfaces_in_front(a) == surfaces_in_front(b) && (ahead(a) > 0.0) != (ahead(b) > 0.0); }
+bool ends(ArcSample a, ArcSample b) { return count_surfaces_in_front(a) == count_surfaces_in_front(b) && (inverse_distance_of_next_surface(a) > 0.0) != (inverse_distance_of_next_surface(b) > 0.0); }
 
 // Returns whether two samples of the march see the same surfaces: as many surfaces are nearer to the capture's centre
 // than the ray, and the nearest surface is the same.
-bool are_alike(Sample a, Sample b) {
-    uint count = surfaces_in_front(a);
-    return count == surfaces_in_front(b) && (count == 0u || is_near(b.first, a.first)) && !ends(a, b);
+bool see_same_surfaces(ArcSample a, ArcSample b) {
+    uint count = count_surfaces_in_front(a);
+    return count == count_surfaces_in_front(b) && (count == 0u || is_near(b.first, a.first)) && !ends(a, b);
 }
 
 // Returns the texel's inverse distance from the layer whose inverse distance is closer to `about`.
-float nearest_to(uint mirror, float about, ivec3 texel) {
-    vec2 both = vec2(inverse(first_distance(mirror, texel)), inverse(second_distance(mirror, texel)));
+float inverse_distance_of_closer_layer(uint mirror, float about, ivec3 texel) {
+    vec2 both = vec2(inverse(first_layer_distance(mirror, texel)), inverse(second_layer_distance(mirror, texel)));
     return abs(both.y - about) < abs(both.x - about) ? both.y : both.x;
 }
 
 // Returns the smaller change of `mean` from a texel to its two neighbours along an axis. Returns 0 if the two changes
 // have opposite signs, since the surface then has an edge.
-float change(uint mirror, float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates, vec3 move) {
+float smaller_inverse_distance_change(uint mirror, float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates, vec3 move) {
     ivec3 low = texel - step, high = texel + step;
     bool has_low = all(greaterThanEqual(low.xy, ivec2(0))), has_high = all(lessThan(high.xy, ivec2(distance_edge(mirror))));
-    float to_low = has_low ? mean - nearest_to(mirror, about, low) * length(coordinates - move) : kLargest;
-    float to_high = has_high ? nearest_to(mirror, about, high) * length(coordinates + move) - mean : kLargest;
+    float to_low = has_low ? mean - inverse_distance_of_closer_layer(mirror, about, low) * length(coordinates - move) : kLargest;
+    float to_high = has_high ? inverse_distance_of_closer_layer(mirror, about, high) * length(coordinates + move) - mean : kLargest;
     if (has_low && has_high && to_low * to_high <= 0.0) return 0.0;
     float least = abs(to_low) < abs(to_high) ? to_low : to_high;
     return least < kLargest ? least : 0.0;
@@ -115,48 +116,48 @@ float change(uint mirror, float about, float mean, ivec3 texel, ivec3 step, vec3
 
 // Returns the plane of the surface with the inverse distance `about` in the texel at a place. The dot product of the
 // result with a nearby place is the plane's inverse distance in that place.
-vec2 plane_at(uint mirror, Arc arc, vec2 place, float about) {
+vec2 surface_plane_at(uint mirror, RayArc arc, vec2 place, float about) {
     int face = cube_face(direction_at(arc, place));
-    ivec3 texel = ivec3(texel_of(mirror, direction_at(arc, place)));
+    ivec3 texel = ivec3(direction_to_texel(mirror, direction_at(arc, place)));
     texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
     float size = 2.0 / float(distance_edge(mirror));
     vec3 centre = vec3((vec2(texel.xy) + 0.5) * size - 1.0, 1.0);
     // For a plane, the inverse distance times the length of the face coordinates is linear in these coordinates.
     float mean = about * length(centre);
-    vec2 slope = vec2(change(mirror, about, mean, texel, ivec3(1, 0, 0), centre, vec3(size, 0, 0)),
-                      change(mirror, about, mean, texel, ivec3(0, 1, 0), centre, vec3(0, size, 0))) / size;
+    vec2 slope = vec2(smaller_inverse_distance_change(mirror, about, mean, texel, ivec3(1, 0, 0), centre, vec3(size, 0, 0)),
+                      smaller_inverse_distance_change(mirror, about, mean, texel, ivec3(0, 1, 0), centre, vec3(0, size, 0))) / size;
     vec3 plane = vec3(slope, mean - dot(slope, centre.xy));
     return vec2(dot(plane, cube_coordinates(face, arc.from)), dot(plane, cube_coordinates(face, arc.side)));
 }
 
 // The four texels around a direction, in the order of textureGather.
-struct Taps {
+struct FourTexels {
     vec3 at; // texture coordinates of the common corner of the four texels
     vec4 weights, first; // bilinear weights, and distances in the first layer
 };
-Taps taps_at(uint mirror, vec3 direction) {
-    vec3 texel = texel_of(mirror, direction);
+FourTexels four_texels_around(uint mirror, vec3 direction) {
+    vec3 texel = direction_to_texel(mirror, direction);
     vec2 corner = floor(texel.xy - 0.5), share = texel.xy - 0.5 - corner;
-    Taps taps;
+    FourTexels taps;
     taps.at = vec3((corner + 1.0) / float(distance_edge(mirror)), texel.z);
     taps.weights = vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
-    taps.first = first_distances(mirror, taps.at);
+    taps.first = gather_first_layer(mirror, taps.at);
     return taps;
 }
 
 // Returns 1 for each of four distances that belongs to the surface at about `distance`, else 0.
-vec4 on_surface(vec4 distances, float distance) {
+vec4 mark_texels_on_surface(vec4 distances, float distance) {
     return vec4(lessThanEqual(abs(distances - distance), vec4(kSameSurface * distance)));
 }
 bool is_whole(vec4 chosen) { return dot(chosen, vec4(1)) == 4.0; }
 
 // Chooses, for each of the four texels, the layer that shows the surface at about `distance`. Returns the texels'
 // weights in the first and second layer. A texel whose layers do not show the surface has weight 0 in both.
-void choose(uint mirror, Taps taps, float distance, out vec4 second, out vec4 in_first, out vec4 in_second) {
-    second = second_distances(mirror, taps.at);
+void choose_layer_of_texels(uint mirror, FourTexels taps, float distance, out vec4 second, out vec4 in_first, out vec4 in_second) {
+    second = gather_second_layer(mirror, taps.at);
     vec4 is_second = vec4(lessThan(abs(second - distance), abs(taps.first - distance)));
-    in_first = taps.weights * (1.0 - is_second) * on_surface(taps.first, distance);
-    in_second = taps.weights * is_second * on_surface(second, distance);
+    in_first = taps.weights * (1.0 - is_second) * mark_texels_on_surface(taps.first, distance);
+    in_second = taps.weights * is_second * mark_texels_on_surface(second, distance);
 }
 
 // The distance of the looked-up surface from the capture's centre; 0: no surface was found. The variable has no initial
@@ -167,18 +168,18 @@ float last_hit_distance() { return found_distance; }
 void set_last_hit_distance(float distance) { found_distance = distance; }
 
 vec3 lookup_colour(uint mirror, Lookup lookup) {
-    if (!(found_distance > 0.0)) return environment(lookup.direction);
-    Taps taps = taps_at(mirror, lookup.direction);
-    if (is_whole(on_surface(taps.first, found_distance))) return captured_colour(mirror, lookup.direction);
+    if (!(found_distance > 0.0)) return environment_radiance(lookup.direction);
+    FourTexels taps = four_texels_around(mirror, lookup.direction);
+    if (is_whole(mark_texels_on_surface(taps.first, found_distance))) return captured_colour(mirror, lookup.direction);
     vec4 second, in_first, in_second;
-    choose(mirror, taps, found_distance, second, in_first, in_second);
+    choose_layer_of_texels(mirror, taps, found_distance, second, in_first, in_second);
     float weight = dot(in_first + in_second, vec4(1));
     if (!(weight > 0.0)) return captured_colour(mirror, lookup.direction);
-    return weighted_colours(mirror, taps.at, in_first, in_second) / weight;
+    return sum_weighted_colours(mirror, taps.at, in_first, in_second) / weight;
 }
 
 // Returns the intersection of the ray with a plane near `place`.
-Lookup meet(uint mirror, Arc arc, vec2 plane, vec2 place, float layer) {
+Lookup intersect_surface_plane(uint mirror, RayArc arc, vec2 plane, vec2 place, float layer) {
     vec2 depth = plane - ray_plane(arc), met = normalize(vec2(-depth.y, depth.x));
     if (dot(met, place) < 0.0) met = -met;
     // The intersection may be at most four half texels from `place`, as far as a texel's plane is valid.
@@ -190,18 +191,18 @@ Lookup meet(uint mirror, Arc arc, vec2 plane, vec2 place, float layer) {
 
 // Returns whether the ray meets a surface of either of two samples that are a part of a texel apart. `is_lost` tells
 // whether the surface ahead of the ray at `a` ends before `b`.
-bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool is_lost) {
+bool meets_sampled_surface(uint mirror, RayArc arc, ArcSample a, ArcSample b, out Lookup found, out bool is_lost) {
     vec2 ray = ray_plane(arc);
-    uint count = surfaces_in_front(a);
-    is_lost = ahead(a) > 0.0;
-    vec2 first = b.first > 0.0 ? plane_at(mirror, arc, b.place, b.first) : vec2(0);
-    vec2 second = b.second > 0.0 ? plane_at(mirror, arc, b.place, b.second) : vec2(0);
+    uint count = count_surfaces_in_front(a);
+    is_lost = inverse_distance_of_next_surface(a) > 0.0;
+    vec2 first = b.first > 0.0 ? surface_plane_at(mirror, arc, b.place, b.first) : vec2(0);
+    vec2 second = b.second > 0.0 ? surface_plane_at(mirror, arc, b.place, b.second) : vec2(0);
     uint next = count;
     do {
         uint i = next++;
         float before = i == 0u ? a.first : a.second;
         if (i > 1u || before == 0.0) break;
-        vec2 plane = plane_at(mirror, arc, a.place, before);
+        vec2 plane = surface_plane_at(mirror, arc, a.place, before);
         float at_b = dot(plane, b.place);
         bool in_first = is_near(dot(first, b.place), at_b), in_second = is_near(dot(second, b.place), at_b);
         if (i == count) is_lost = !in_first && !in_second;
@@ -209,12 +210,12 @@ bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool
         // that ends on the way, behind the ray's intersection.
         bool is_behind = at_b >= b.ray || (in_first && b.first >= b.ray) || (!in_first && in_second && b.second >= b.ray);
         if (!is_behind) continue;
-        found = meet(mirror, arc, plane, a.place, in_first || i == 0u ? 0.0 : 1.0);
+        found = intersect_surface_plane(mirror, arc, plane, a.place, in_first || i == 0u ? 0.0 : 1.0);
         return true;
     } while (next < 2u);
     // The ray meets a surface that begins at `b` if this surface is ahead of the ray there.
     if (count == 0u && b.first >= b.ray && b.first > 0.0 && dot(first, b.place) < b.ray) {
-        found = meet(mirror, arc, first, b.place, 0.0);
+        found = intersect_surface_plane(mirror, arc, first, b.place, 0.0);
         return true;
     }
     return false;
@@ -222,7 +223,7 @@ bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     found_distance = 0.0;
-    Arc arc;
+    RayArc arc;
     if (!make_arc(offset, direction, arc)) {
         float distance = captured_distance(mirror, direction);
         if (is_miss(distance)) return Lookup(direction, kMiss, 0.0, 0.0);
@@ -234,7 +235,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float half_texel = 1.0 / float(distance_edge(mirror)); // angle of half a texel in the middle of a face
     uint step = 1u;
     vec2 next = steps == 1u ? arc.end : turn;
-    Sample a = sample_at(mirror, arc, vec2(1, 0)), b = sample_at(mirror, arc, next);
+    ArcSample a = sample_layers_on_arc(mirror, arc, vec2(1, 0)), b = sample_layers_on_arc(mirror, arc, next);
     Lookup guess = Lookup(direction, kUnknown, 1.0, 0.0);
     float guessed_distance = 0.0;
     uint samples = 0u;
@@ -242,40 +243,40 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         bool changes = false; // whether a and b differ and are less than a texel apart
         do {
-            if (are_alike(a, b)) {
+            if (see_same_surfaces(a, b)) {
                 a = b;
                 is_done = a.place == arc.end || ++samples > kLimit;
                 if (a.place == next && !is_done) {
                     ++step;
                     next = step == steps ? arc.end : vec2(next.x * turn.x - next.y * turn.y, next.x * turn.y + next.y * turn.x);
                 }
-                if (!is_done) b = sample_at(mirror, arc, next);
+                if (!is_done) b = sample_layers_on_arc(mirror, arc, next);
             } else if (sine_between(a.place, b.place) > 0.25 * half_texel) {
-                Sample middle = sample_at(mirror, arc, normalize(a.place + b.place));
-                if (are_alike(a, middle)) a = middle;
+                ArcSample middle = sample_layers_on_arc(mirror, arc, normalize(a.place + b.place));
+                if (see_same_surfaces(a, middle)) a = middle;
                 else b = middle;
                 is_done = ++samples > kLimit;
             } else changes = true;
         } while (!changes && !is_done);
         if (is_done) break;
-        float before = ahead(a);
+        float before = inverse_distance_of_next_surface(a);
         Lookup found;
         bool is_lost;
-        if (is_met(mirror, arc, a, b, found, is_lost)) return found;
+        if (meets_sampled_surface(mirror, arc, a, b, found, is_lost)) return found;
         if (is_lost) {
             guess = Lookup(direction_at(arc, rotated(a.place, -2.0 * half_texel)), kUnknown, 1.0, 0.0);
             guessed_distance = 1.0 / before;
-        } else if (before == 0.0 && surfaces_in_front(b) > surfaces_in_front(a)) {
+        } else if (before == 0.0 && count_surfaces_in_front(b) > count_surfaces_in_front(a)) {
             guess = Lookup(direction, kUnknown, 1.0, kLeaves);
             guessed_distance = 0.0;
         }
         a = b;
         if (++samples > kLimit || a.place == arc.end) break;
-        b = sample_at(mirror, arc, next);
+        b = sample_layers_on_arc(mirror, arc, next);
     } while (true);
     // The ray met no surface. A ray that left the scene with at most one captured surface in front is a miss. Any other
     // ray was lost behind two surfaces that face the centre.
-    uint count = surfaces_in_front(a);
+    uint count = count_surfaces_in_front(a);
     if (count < 2u) return Lookup(direction, kMiss, 0.0, float(count));
     found_distance = guessed_distance;
     return guess;

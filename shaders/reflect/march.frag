@@ -15,31 +15,31 @@ const float kEdge = 1.0 / 8.0;
 layout(constant_id = OWN_CONSTANTS) const uint steps = 16u;
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
-    Arc arc;
+    RayArc arc;
     if (!make_arc(offset, direction, arc))
         return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
     float step = atan(arc.end.y, arc.end.x) / float(steps);
     vec2 turn = vec2(cos(step), sin(step)), place = vec2(1, 0);
-    Sample last = sample_at(mirror, arc, place);
+    ArcSample last = sample_capture_on_arc(mirror, arc, place);
     uint state = is_behind(last) ? kUnknown : kHit;
     Lookup guess = Lookup(direction, kUnknown, 1.0, 0.0);
     uint k = 0u;
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
-        Sample next;
+        ArcSample next;
         bool goes_behind = false, ends = false;
         do {
             ++k;
             place = k == steps ? arc.end : vec2(place.x * turn.x - place.y * turn.y, place.x * turn.y + place.y * turn.x);
-            next = sample_at(mirror, arc, place);
+            next = sample_capture_on_arc(mirror, arc, place);
             goes_behind = !is_behind(last) && is_behind(next);
             ends = !is_behind(last) && last.captured > 0.0 && next.captured == 0.0;
             if (!goes_behind && !ends) last = next;
         } while (k < steps && !goes_behind && !ends);
-        Sample front = last, behind = next;
-        if (ends && meets_at_edge(mirror, arc, front, behind))
+        ArcSample front = last, behind = next;
+        if (ends && bisect_to_surface_edge(mirror, arc, front, behind))
             return Lookup(direction_at(arc, front.place), state, abs(front.depth) / front.captured, 0.0);
         if ((goes_behind || ends) && is_behind(behind)) {
-            Lookup found = crossing(mirror, arc, front, behind);
+            Lookup found = find_surface_crossing(mirror, arc, front, behind);
             if (found.state == kHit) return Lookup(found.direction, state, found.residual, 0.0);
             state = kUnknown;
             guess = found;

@@ -8,10 +8,10 @@ layout(set = 0, binding = 20) uniform sampler2D mirrored;
 
 void main() {
     vec3 facet = cross(dFdx(from_eye), dFdy(from_eye));
-    leave_out_what_is_cut();
+    discard_cut_out_fragments();
     vec3 n = normalize(normal);
-    Surface surface = surface_here(n, facet);
+    Surface surface = surface_at_fragment(n, facet);
     vec3 shown = surface.reflectance * texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0).rgb;
-    if (lights_mirrors != 0u) shown += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
+    if (lights_mirrors != 0u) shown += shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
     write_surface(shown);
 }

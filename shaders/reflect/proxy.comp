@@ -16,18 +16,18 @@ shared vec3 lows[gl_WorkGroupSize.x];
 shared vec3 highs[gl_WorkGroupSize.x];
 shared vec2 sums[gl_WorkGroupSize.x]; // sum of solid angle times distance, and sum of solid angle
 
-int face_edge(uint mirror) {
+int captured_face_edge(uint mirror) {
 #define FACE_EDGE(i) textureSize(FACES_OF(distance_faces, i), 0).x
     RETURN_OF_ARRAY(mirror, FACE_EDGE)
 }
-float stored_at(uint mirror, ivec3 texel) {
+float read_stored_distance(uint mirror, ivec3 texel) {
 #define STORED_AT(i) texelFetch(FACES_OF(distance_faces, i), texel, 0).r
     RETURN_OF_ARRAY(mirror, STORED_AT)
 }
 
 void main() {
     uint me = gl_LocalInvocationIndex, mirror = gl_WorkGroupID.x;
-    uint face = uint(face_edge(mirror));
+    uint face = uint(captured_face_edge(mirror));
     uint across = min(face, kAcross);
     vec3 low = vec3(kLargest), high = vec3(-kLargest);
     vec2 sum = vec2(0);
@@ -36,15 +36,15 @@ void main() {
         uint side = i / (across * across);
         // The middle texel of the sampled cell. No product overflows if a face's edge has fewer than 2^26 texels.
         uvec2 texel = (cell * face + face / 2u) / across;
-        float stored = stored_at(mirror, ivec3(texel, first_face_of(mirror) + side));
-        if (is_miss(stored) || (range_ends_of(mirror) && stored >= 1.0)) continue;
+        float stored = read_stored_distance(mirror, ivec3(texel, first_face_of(mirror) + side));
+        if (is_miss(stored) || (has_distance_limit(mirror) && stored >= 1.0)) continue;
         vec2 place = (vec2(texel) + 0.5) / float(face) * 2.0 - 1.0;
         vec3 direction = normalize(cube_direction(int(side), vec3(place, 1)));
-        vec3 point = direction * (stored * stored_unit_of(mirror));
+        vec3 point = direction * (stored * stored_distance_unit(mirror));
         low = min(low, point);
         high = max(high, point);
         float angle = pow(1.0 + dot(place, place), -1.5);
-        sum += angle * vec2(stored * stored_unit_of(mirror), 1);
+        sum += angle * vec2(stored * stored_distance_unit(mirror), 1);
     }
     lows[me] = low, highs[me] = high, sums[me] = sum;
     barrier();

@@ -15,7 +15,7 @@ layout(constant_id = OWN_CONSTANTS) const uint shape = kBox;
 // the centre.
 const float kTolerance = 0.05;
 
-bool meets_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
+bool intersects_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
     float enter = 0.0, leave = kLargest;
     for (int axis = 0; axis < 3; ++axis) {
         if (direction[axis] == 0.0) {
@@ -32,7 +32,7 @@ bool meets_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
 }
 
 // Returns the lookup of a ray that leaves the scene, because it misses the box or sphere, or no surface was captured.
-Lookup outward(uint mirror, vec3 direction) {
+Lookup make_outward_lookup(uint mirror, vec3 direction) {
     bool empty = is_miss(captured_distance(mirror, direction));
     return Lookup(direction, empty ? kMiss : kUnknown, 0.0, empty ? 0.0 : kLeaves);
 }
@@ -41,13 +41,13 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     Proxy proxy = proxies[mirror];
     float t = 0.0;
     bool met = proxy.radius > 0.0 &&
-               (shape == kBox ? meets_box(proxy.lo, proxy.hi, offset, direction, t)
+               (shape == kBox ? intersects_box(proxy.lo, proxy.hi, offset, direction, t)
                               : sphere_test(vec3(0), proxy.radius, Ray(offset, direction, 0u), kLargest, t));
     vec3 p = offset + direction * t;
     float size = length(p);
-    if (!met || !(size > 0.0 && size <= kLargest)) return outward(mirror, direction);
+    if (!met || !(size > 0.0 && size <= kLargest)) return make_outward_lookup(mirror, direction);
     float captured = captured_distance(mirror, p / size);
-    if (is_miss(captured)) return outward(mirror, direction);
+    if (is_miss(captured)) return make_outward_lookup(mirror, direction);
     float residual = min(abs(captured - size) / size, 1.0);
     return Lookup(p / size, residual <= kTolerance ? kHit : kUnknown, residual, 0.0);
 }

@@ -31,14 +31,14 @@ const int kRefinements = 3;
 const int kBelowTop = 3;
 // The factor that widens comparisons of distances with bounds, since both have errors of a few roundings.
 const float kOutwards = 1.0 + 1.0 / 1048576.0;
-// The length of Arc::bend, one texel of the largest cube map, below which an arc counts as a single direction.
+// The length of RayArc::bend, one texel of the largest cube map, below which an arc counts as a single direction.
 const float kOneDirection = 1.0 / 16384.0;
 const float kNever = 2.0; // a parameter s after the arc's end
 
 // The directions of a ray's points from the capture's centre. The point offset + t * direction has the parameter
 // s = t / (size + t) in [0, 1]. Its direction is from + s * bend. Therefore the ray meets a plane through the centre
 // where a linear function of s is zero.
-struct Arc {
+struct RayArc {
     vec3 from;   // unit direction of the ray's start
     vec3 bend;   // unit direction of the ray, minus `from`
     float size;  // distance of the ray's start from the centre
@@ -47,63 +47,63 @@ struct Arc {
 };
 
 // The part of an arc on one cube face, in the coordinates of cube_coordinates.
-struct Line {
+struct FaceLine {
     int face;
     vec3 from;
     vec3 bend;
     ivec2 ahead; // signs of the line's direction in x and y: -1, 0 or 1
 };
 
-vec3 direction_at(Arc arc, float s) { return arc.from + s * arc.bend; }
+vec3 direction_at(RayArc arc, float s) { return arc.from + s * arc.bend; }
 
 // Returns the ray's distance from the centre at s < 1. At s = 1 the distance is infinite.
-float distance_at(Arc arc, float s) { return arc.size * length(direction_at(arc, s)) / (1.0 - s); }
+float distance_at(RayArc arc, float s) { return arc.size * length(direction_at(arc, s)) / (1.0 - s); }
 
 // Returns the ray's distance minus the captured distance, times 1 - s, which is about linear in s. The result is
 // positive if the ray is behind the captured surface.
-float depth_at(Arc arc, float s, float captured) {
+float depth_on_arc(RayArc arc, float s, float captured) {
     return is_miss(captured) ? -kLargest : arc.size * length(direction_at(arc, s)) - captured * (1.0 - s);
 }
 
-Line line_on(int face, Arc arc) {
+FaceLine line_on_face(int face, RayArc arc) {
     vec3 from = cube_coordinates(face, arc.from), bend = cube_coordinates(face, arc.bend);
-    return Line(face, from, bend, ivec2(sign(bend.xy * from.z - from.xy * bend.z)));
+    return FaceLine(face, from, bend, ivec2(sign(bend.xy * from.z - from.xy * bend.z)));
 }
 
 // Returns the texel that contains the line's point at s.
-ivec2 texel_at(Line line, float s, int face) {
+ivec2 texel_on_line(FaceLine line, float s, int face) {
     vec3 at = line.from + s * line.bend;
     return ivec2(clamp(floor((at.xy / at.z * 0.5 + 0.5) * float(face)), vec2(0), vec2(face - 1)));
 }
 
 // Returns the parameter s at which the line passes the border x = border, or y = border, ahead. Returns kNever if the
 // line does not reach the border.
-float passes(float from, float bend, float from_z, float bend_z, int ahead, float border, float s) {
+float border_crossing_parameter(float from, float bend, float from_z, float bend_z, int ahead, float border, float s) {
     float before = from - border * from_z, towards = bend - border * bend_z;
     if (ahead == 0 || !(towards * float(ahead) > 0.0)) return kNever;
     return max(s, -before / towards);
 }
 
 // Returns the parameters s at which the line leaves a cell through its x border and through its y border.
-vec2 leaves(Line line, ivec2 first, ivec2 end, int face, float s) {
+vec2 cell_exit_parameters(FaceLine line, ivec2 first, ivec2 end, int face, float s) {
     vec2 border = vec2(line.ahead.x > 0 ? end.x : first.x, line.ahead.y > 0 ? end.y : first.y) / float(face) * 2.0 - 1.0;
-    return vec2(passes(line.from.x, line.bend.x, line.from.z, line.bend.z, line.ahead.x, border.x, s),
-                passes(line.from.y, line.bend.y, line.from.z, line.bend.z, line.ahead.y, border.y, s));
+    return vec2(border_crossing_parameter(line.from.x, line.bend.x, line.from.z, line.bend.z, line.ahead.x, border.x, s),
+                border_crossing_parameter(line.from.y, line.bend.y, line.from.z, line.bend.z, line.ahead.y, border.y, s));
 }
 
-struct Walk {
-    Line line;
+struct CellWalk {
+    FaceLine line;
     ivec2 texel; // current texel of the walk
     int level;   // level of the cell that is tested next; 0: the texel itself
     float s;     // current parameter on the arc
 };
 
-ivec2 cell_first(Walk walk) { return walk.texel >> walk.level << walk.level; }
-ivec2 cell_end(Walk walk, int face) { return min(cell_first(walk) + (1 << walk.level), ivec2(face)); }
+ivec2 cell_first(CellWalk walk) { return walk.texel >> walk.level << walk.level; }
+ivec2 cell_end(CellWalk walk, int face) { return min(cell_first(walk) + (1 << walk.level), ivec2(face)); }
 
 // Advances the walk to the texel behind the cell border that the line passes first. At the end of a face, the walk
 // moves to the next face. The level rises by one if the new texel is in another cell of the level above.
-void advance(inout Walk walk, Arc arc, vec2 leave, int face) {
+void advance_to_next_cell(inout CellWalk walk, RayArc arc, vec2 leave, int face) {
     int axis = leave.x <= leave.y ? 0 : 1, other = 1 - axis;
     ivec2 first = cell_first(walk), end = cell_end(walk, face);
     walk.s = min(leave[axis], 1.0);
@@ -113,33 +113,33 @@ void advance(inout Walk walk, Arc arc, vec2 leave, int face) {
     if (next < 0 || next >= face) {
         vec3 edge = vec3(0);
         edge[axis] = float(ahead);
-        walk.line = line_on(cube_face(cube_direction(walk.line.face, edge)), arc);
-        walk.texel = texel_at(walk.line, walk.s, face);
+        walk.line = line_on_face(cube_face(cube_direction(walk.line.face, edge)), arc);
+        walk.texel = texel_on_line(walk.line, walk.s, face);
         walk.level = min(walk.level + 1, top);
         return;
     }
-    int beside = clamp(texel_at(walk.line, walk.s, face)[other], first[other], end[other] - 1);
+    int beside = clamp(texel_on_line(walk.line, walk.s, face)[other], first[other], end[other] - 1);
     if (next >> (walk.level + 1) != first[axis] >> (walk.level + 1)) walk.level = min(walk.level + 1, top);
     walk.texel[axis] = next;
     walk.texel[other] = beside;
 }
 
-uint packed_bounds(uint mirror, ivec3 place) {
+uint read_packed_bounds(uint mirror, ivec3 place) {
 #define PACKED(i) texelFetch(WHOLE_FACES_OF(bounds, i), place, 0).r
     RETURN_OF_ARRAY(mirror, PACKED)
 }
 
 // Returns the least and the largest captured distance in the walk's cell, scene units. Infinities mean the same as in
 // pack_bounds.
-vec2 cell_bounds(Walk walk, uint mirror, int face) {
+vec2 read_cell_bounds(CellWalk walk, uint mirror, int face) {
     ivec2 cell = walk.texel >> walk.level;
-    uint both = packed_bounds(mirror, ivec3(level_column(face, walk.level) + cell.x, cell.y,
+    uint both = read_packed_bounds(mirror, ivec3(level_column(face, walk.level) + cell.x, cell.y,
                                             int(first_face_of(mirror)) + walk.line.face));
-    return unpackHalf2x16(both) * stored_unit_of(mirror);
+    return unpackHalf2x16(both) * stored_distance_unit(mirror);
 }
 
 // Returns whether the ray stays on one side of all surfaces in a cell, which it leaves at s = end.
-bool is_passed(Arc arc, vec2 bound, float s, float end) {
+bool stays_on_one_side(RayArc arc, vec2 bound, float s, float end) {
     if (isinf(bound.x)) return true;
     float enters = distance_at(arc, s);
     float farthest = end < 1.0 ? max(enters, distance_at(arc, end)) : kLargest;
@@ -149,14 +149,14 @@ bool is_passed(Arc arc, vec2 bound, float s, float end) {
 
 // Finds the crossing of ray and surface between two points of the arc, in front of and behind the surface, by false
 // position.
-Lookup refined(uint mirror, Arc arc, float before, float behind, float depth_before, float depth_behind, uint state) {
+Lookup refine_crossing(uint mirror, RayArc arc, float before, float behind, float depth_before, float depth_behind, uint state) {
     float residual = 0.0;
     vec3 direction;
     for (int i = 0; i < kRefinements; ++i) {
         float s = mix(before, behind, depth_before / (depth_before - depth_behind));
         direction = normalize(direction_at(arc, s));
         float captured = captured_distance(mirror, direction);
-        float depth = depth_at(arc, s, captured);
+        float depth = depth_on_arc(arc, s, captured);
         residual = abs(depth) / (arc.size * length(direction_at(arc, s)));
         if (depth < 0.0) {
             before = s, depth_before = depth;
@@ -169,8 +169,8 @@ Lookup refined(uint mirror, Arc arc, float before, float behind, float depth_bef
     return Lookup(direction, state, min(residual, 1.0), 0.0);
 }
 
-Arc arc_of(vec3 offset, vec3 direction) {
-    Arc arc;
+RayArc make_pyramid_arc(vec3 offset, vec3 direction) {
+    RayArc arc;
     arc.size = length(offset);
     arc.from = arc.size > 0.0 ? offset / arc.size : direction;
     arc.bend = direction - arc.from;
@@ -181,15 +181,15 @@ Arc arc_of(vec3 offset, vec3 direction) {
 }
 
 // Advances the walk past cells in which the ray cannot change sides, up to a texel to test or to the arc's end.
-void pass_cells(inout Walk walk, inout int visits, Arc arc, uint mirror, int face) {
+void skip_cells(inout CellWalk walk, inout int visits, RayArc arc, uint mirror, int face) {
     bool goes_on = walk.level > 0; // callers ensure that the walk is before the arc's end
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (goes_on) {
             ++visits;
-            vec2 leave = leaves(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
+            vec2 leave = cell_exit_parameters(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
             float end = min(min(leave.x, leave.y), 1.0);
-            if (is_passed(arc, cell_bounds(walk, mirror, face), walk.s, end))
-                advance(walk, arc, leave, face);
+            if (stays_on_one_side(arc, read_cell_bounds(walk, mirror, face), walk.s, end))
+                advance_to_next_cell(walk, arc, leave, face);
             else
                 --walk.level;
         }
@@ -198,40 +198,40 @@ void pass_cells(inout Walk walk, inout int visits, Arc arc, uint mirror, int fac
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
-    Arc arc = arc_of(offset, direction);
+    RayArc arc = make_pyramid_arc(offset, direction);
     // The ray's line passes through the centre, so that the ray's own direction is the only direction to look up.
     if (!(length(arc.bend) > kOneDirection && length(direction + arc.from) > kOneDirection))
         return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
     int face = distance_edge(mirror);
-    Line line = line_on(cube_face(arc.from), arc);
-    Walk walk = Walk(line, texel_at(line, 0.0, face), max(top_level(face) - kBelowTop, 1), 0.0);
-    bool in_sight = depth_at(arc, 0.0, captured_distance(mirror, arc.from)) < 0.0;
+    FaceLine line = line_on_face(cube_face(arc.from), arc);
+    CellWalk walk = CellWalk(line, texel_on_line(line, 0.0, face), max(top_level(face) - kBelowTop, 1), 0.0);
+    bool in_sight = depth_on_arc(arc, 0.0, captured_distance(mirror, arc.from)) < 0.0;
     uint state = in_sight ? kHit : kUnknown;
     float last_in_sight = in_sight ? 0.0 : 1.0;
     bool nothing_beside = false; // whether no surface was captured beside the last silhouette
     int visits = 0;
     do {
-        pass_cells(walk, visits, arc, mirror, face);
+        skip_cells(walk, visits, arc, mirror, face);
         if (walk.s >= 1.0) break;
         ++visits;
-        vec2 leave = leaves(walk.line, walk.texel, walk.texel + 1, face, walk.s);
+        vec2 leave = cell_exit_parameters(walk.line, walk.texel, walk.texel + 1, face, walk.s);
         float end = min(min(leave.x, leave.y), 1.0);
         float captured_end = captured_distance(mirror, direction_at(arc, end));
-        float depth_end = depth_at(arc, end, captured_end);
+        float depth_end = depth_on_arc(arc, end, captured_end);
         if (in_sight && depth_end >= 0.0) {
             float captured = captured_distance(mirror, direction_at(arc, walk.s));
-            float depth = min(depth_at(arc, walk.s, captured), 0.0);
-            uint between = what_is_between(mirror, normalize(direction_at(arc, walk.s)), normalize(direction_at(arc, end)),
+            float depth = min(depth_on_arc(arc, walk.s, captured), 0.0);
+            uint between = classify_surface_between(mirror, normalize(direction_at(arc, walk.s)), normalize(direction_at(arc, end)),
                                            inverse(captured), inverse(captured_end));
             if (between != kSilhouette)
-                return refined(mirror, arc, walk.s, end, depth, depth_end, between == kEnds ? kUnknown : state);
+                return refine_crossing(mirror, arc, walk.s, end, depth, depth_end, between == kEnds ? kUnknown : state);
             state = kUnknown;
             nothing_beside = is_miss(captured);
             // One texel before the steep texel of the silhouette.
             last_in_sight = max(walk.s - 2.0 / (float(face) * length(arc.bend)), 0.0);
         }
         in_sight = depth_end < 0.0;
-        advance(walk, arc, leave, face);
+        advance_to_next_cell(walk, arc, leave, face);
     } while (walk.s < 1.0 && visits < kMaxVisits);
     if (walk.s < 1.0) return Lookup(normalize(direction_at(arc, walk.s)), kUnknown, 0.0, 0.0);
     if (in_sight) return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);

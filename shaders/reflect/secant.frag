@@ -18,18 +18,18 @@ layout(constant_id = OWN_CONSTANTS) const uint steps = 2u;
 const uint kHalves = 6u;
 
 // Returns the place at which the ray is as far along as the surface that the capture shows in the ray's own direction.
-vec2 first_guess(Arc arc, vec3 offset, vec3 direction, float distance) {
+vec2 guess_crossing_place(RayArc arc, vec3 offset, vec3 direction, float distance) {
     float t = max(distance - dot(offset, direction), 0.0);
     return normalize(vec2(length(offset) + t * arc.end.x, t * arc.end.y));
 }
 
 // Bisects the arc towards the edge of the captured surface, because the ray's own direction shows no surface. Stops at
 // a place where the ray is behind a surface.
-void halve(uint mirror, Arc arc, inout Sample front, inout Sample end) {
+void bisect_towards_surface_edge(uint mirror, RayArc arc, inout ArcSample front, inout ArcSample end) {
     uint i = 0u;
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (!is_behind(end)) {
-            Sample middle = sample_at(mirror, arc, normalize(front.place + end.place));
+            ArcSample middle = sample_capture_on_arc(mirror, arc, normalize(front.place + end.place));
             if (middle.captured > 0.0 && !is_behind(middle)) front = middle;
             else end = middle;
         }
@@ -39,29 +39,29 @@ void halve(uint mirror, Arc arc, inout Sample front, inout Sample end) {
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float first = captured_distance(mirror, direction);
-    Arc arc;
+    RayArc arc;
     if (!make_arc(offset, direction, arc)) return Lookup(direction, is_miss(first) ? kMiss : kHit, 0.0, 0.0);
     bool leaves = is_miss(first);
-    Sample front = Sample(vec2(1, 0), 0.0, -1.0 / length(offset)), behind = Sample(arc.end, inverse(first), inverse(first));
+    ArcSample front = ArcSample(vec2(1, 0), 0.0, -1.0 / length(offset)), behind = ArcSample(arc.end, inverse(first), inverse(first));
     if (leaves) {
-        halve(mirror, arc, front, behind);
+        bisect_towards_surface_edge(mirror, arc, front, behind);
         if (!is_behind(behind)) {
-            if (front.captured > 0.0 && meets_at_edge(mirror, arc, front, behind))
+            if (front.captured > 0.0 && bisect_to_surface_edge(mirror, arc, front, behind))
                 return Lookup(direction_at(arc, front.place), kHit, abs(front.depth) / front.captured, 0.0);
             if (!is_behind(behind)) return Lookup(direction, kMiss, 0.0, 0.0);
         }
     } else {
-        vec2 place = first_guess(arc, offset, direction, first);
+        vec2 place = guess_crossing_place(arc, offset, direction, first);
         for (uint i = 0u; i < steps; ++i) {
-            Sample next = sample_at(mirror, arc, place);
+            ArcSample next = sample_capture_on_arc(mirror, arc, place);
             if (is_behind(next)) behind = next;
             else front = next;
-            place = false_position(front, behind);
+            place = estimate_crossing_place(front, behind);
             float residual = abs(next.depth) / next.captured;
             if (residual <= kOnSurface) return Lookup(direction_at(arc, place), kHit, residual, 0.0);
         }
     }
-    Lookup found = crossing(mirror, arc, front, behind);
+    Lookup found = find_surface_crossing(mirror, arc, front, behind);
     if (leaves && found.state == kUnknown) return Lookup(direction, kUnknown, 1.0, kLeaves);
     return found;
 }

@@ -23,7 +23,7 @@ const uint kGoesOn = 0u, kEnds = 1u, kSilhouette = 2u;
 // Classifies the captured surface between two close unit directions. In direction `front` the ray is in front of the
 // captured surface, in direction `behind` it is behind. The inverse captured distances of both directions are given.
 // Takes four more lookups if the surface is steep between the directions.
-uint what_is_between(uint mirror, vec3 front, vec3 behind, float captured_front, float captured_behind) {
+uint classify_surface_between(uint mirror, vec3 front, vec3 behind, float captured_front, float captured_behind) {
     if (captured_front == 0.0) return kSilhouette;
     float rise = captured_behind - captured_front, angle = length(behind - front);
     if (abs(rise) <= max(kSteepest, kSmallStep / texel_angle(mirror)) * angle * captured_front) return kGoesOn;

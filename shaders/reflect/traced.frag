@@ -8,7 +8,7 @@
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 
 void main() {
-    leave_out_what_is_cut();
+    discard_cut_out_fragments();
     write_surface(vec3(0));
 #ifdef FIRST_HIT
     out_colour = first_hit_words(uint(gl_PrimitiveID), drawn_object(), drawn_mirror(), tracer);

@@ -18,7 +18,7 @@ layout(set = 0, binding = 4, std430) readonly buffer Lows { uvec4 lows[]; };  //
 layout(push_constant) uniform Push {
     uint count;
     uint skipped;  // flags of triangles that rays ignore
-    uint occluded; // 1: call any_hit, which returns only whether the ray has a hit
+    uint occluded; // 1: call has_any_hit, which returns only whether the ray has a hit
 };
 
 const uint kFound = 1u, kExhausted = 2u; // bits of a hit's outcome
@@ -31,9 +31,9 @@ void main() {
     Ray ray = Ray(uintBitsToFloat(from.xyz), uintBitsToFloat(along.xyz), along.w);
     float t_max = uintBitsToFloat(from.w);
     trace_low = uintBitsToFloat(lows[i].xyz);
-    Hit hit = Hit(0.0, vec3(0), 0u, 0u, 0u, 0u);
-    bool found = occluded != 0u ? any_hit(ray, t_max, skipped) : closest_hit(ray, t_max, skipped, hit);
-    if (!found || occluded != 0u) hit = Hit(0.0, vec3(0), 0u, 0u, 0u, 0u);
+    TraceHit hit = TraceHit(0.0, vec3(0), 0u, 0u, 0u, 0u);
+    bool found = occluded != 0u ? has_any_hit(ray, t_max, skipped) : find_closest_hit(ray, t_max, skipped, hit);
+    if (!found || occluded != 0u) hit = TraceHit(0.0, vec3(0), 0u, 0u, 0u, 0u);
     uint outcome = (found ? kFound : 0u) | (trace_exhausted ? kExhausted : 0u);
     hits[2u * i] = uvec4(floatBitsToUint(hit.t), floatBitsToUint(hit.barycentric));
     hits[2u * i + 1u] = uvec4(hit.triangle, hit.object, outcome, trace_steps);

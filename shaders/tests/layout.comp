@@ -11,9 +11,9 @@ layout(set = 0, binding = 2, scalar) readonly buffer Lights { Light lights[2]; }
 layout(set = 0, binding = 3, scalar) readonly buffer Probes { Probe probes[2]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Views { View views[2]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Frames { Frame frames[2]; };
-layout(set = 0, binding = 6, scalar) readonly buffer Draws { Draw draws[2]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Draws { DrawParameters draws[2]; };
 layout(set = 0, binding = 11, scalar) readonly buffer Placements { Placement placements[2]; };
-layout(set = 0, binding = 7, scalar) readonly buffer Traces { Trace traces[2]; };
+layout(set = 0, binding = 7, scalar) readonly buffer Traces { TraceParameters traces[2]; };
 layout(set = 0, binding = 8, scalar) readonly buffer AllCounters { Counters counters[2]; };
 layout(set = 0, binding = 10, scalar) readonly buffer Skies { Sky skies[2]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Words { uint words[]; };
@@ -47,7 +47,7 @@ void main() {
     put(draws[1].first_view), put(draws[1].ablated);
     Placement p = placements[1];
     put(p.x), put(p.y), put(p.z), put(p.centre), put(p.centre_low);
-    Trace t = traces[1];
+    TraceParameters t = traces[1];
     put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size);
     Counters c = counters[1];
     put(c.primary_rays), put(c.mirror_rays), put(c.shadow_rays), put(c.longest_walk), put(c.exhausted);

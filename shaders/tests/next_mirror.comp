@@ -17,8 +17,8 @@ void main() {
     Ray ray = Ray(uintBitsToFloat(rays[2u * i].xyz), uintBitsToFloat(rays[2u * i + 1u].xyz), 0u);
     uint except = rays[2u * i + 1u].w, first;
     float end = uintBitsToFloat(rays[2u * i].w), t, met;
-    uint sphere = first_sphere(ray, except, first, t) ? first + 1u : 0u;
-    bool before = mirror_tree != 0u ? first_by_tree(ray, except, false, first, met) && !(end < met)
-                                    : meets_mirror_before(ray, except, end);
+    uint sphere = find_first_exact_sphere(ray, except, first, t) ? first + 1u : 0u;
+    bool before = mirror_tree != 0u ? find_first_mirror_by_tree(ray, except, false, first, met) && !(end < met)
+                                    : intersects_mirror_before(ray, except, end);
     answers[i] = uvec4(sphere, sphere != 0u ? floatBitsToUint(t) : 0u, before ? 1u : 0u, 0u);
 }

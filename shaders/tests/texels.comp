@@ -16,16 +16,16 @@ void put(vec4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
 void put(TextureUse use) { put(use.first), put(use.size), put(use.how), put(use.u_row), put(use.v_row); }
 
 void main() {
-    Surface s = surface_of(number);
+    Surface s = read_surface(number);
     put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.detail), put(s.centre), put(s.radius);
     Probe p = probe_at(number);
     put(p.centre), put(p.sphere), put(p.radius), put(p.reflectance), put(p.lowest), put(p.highest), put(p.kind);
-    MaterialParameters d = detail_at(number);
+    MaterialParameters d = read_material_parameters(number);
     put(d.flags), put(d.first_attribute), put(d.max_specular_roughness), put(d.alpha), put(d.alpha_cutoff);
     put(d.f0), put(d.f90), put(d.albedo), put(d.emission), put(d.rough);
 #define PUT_FACTOR(name) put(d.name);
     MATERIAL_FACTORS(PUT_FACTOR)
-    Attribute a = attribute_at_vertex(number);
+    VertexAttribute a = read_vertex_attribute(number);
     put(a.uv), put(a.colour);
     put(texture_words_at(number));
 }

@@ -12,13 +12,13 @@ using namespace catoptric;
 TEST(Hierarchy, BuildThrowsIfAnAllocationFailsOnAnyThread) {
     // 10000 triangles are enough for a few subtrees, so that several threads allocate.
     const std::vector<bvh::Triangle> triangles = test::soup(10000, 1);
-    const bvh::Bvh whole = bvh::build(triangles, {}, bvh::kMaxLeaf, 3);
+    const bvh::Bvh whole = bvh::build_bvh(triangles, {}, bvh::kMaxLeaf, 3);
     std::size_t refused = 0;
     for (bool done = false; !done; refused += done ? 0 : 1) {
         ASSERT_LT(refused, 1000u);
         const test::Refusal refusal(refused);
         try {
-            const bvh::Bvh tree = bvh::build(triangles, {}, bvh::kMaxLeaf, 3);
+            const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::kMaxLeaf, 3);
             done = true;
             EXPECT_TRUE(test::same(tree.nodes, whole.nodes));
             EXPECT_TRUE(test::same(tree.triangles, whole.triangles));

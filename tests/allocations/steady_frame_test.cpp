@@ -32,10 +32,10 @@ INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrame,
 TEST_P(SteadyFrame, EachFrameMakesTheSameNumberOfAllocations) {
     gpu::Device device({}); // without the validation layer, whose allocations would count
     gpu::Pipelines pipelines(device);
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {32, 32}, 0);
-    graph::Runner runner(device, pipelines, 2);
+    graph::GraphRunner runner(device, pipelines, 2);
     std::set<Taken> seen;
     std::size_t passes = 0;
     for (int frame = 1; frame <= 20; ++frame) {

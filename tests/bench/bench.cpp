@@ -29,10 +29,11 @@ struct Side {
     std::string technique;
 };
 
-app::Subject frames_of(const Side& side, app::Request request, int rounds) {
+app::BenchmarkSubject frames_of(const Side& side, app::Request request, int rounds) {
     request.techniques = {side.technique};
     const auto session = std::make_shared<app::Session>(side.engine, request.scene);
-    app::Subject subject = app::frame_subject(session, request, rounds * request.frames);
+    app::BenchmarkSubject subject = app::make_frame_subject(session, request,
+                                                            rounds * request.frames);
     subject.name = side.name; // two engines may draw the same technique
     subject.caller.clear();
     return subject;
@@ -47,18 +48,19 @@ std::vector<double> gpu_ms(const measure::Benchmark& benchmark) {
 
 /// GPU milliseconds of each side, and the ratio a / b of each pair of frames.
 struct Pairs {
-    measure::Summary a, b, ratio;
+    measure::SampleSummary a, b, ratio;
 };
 
 Pairs run_pairs(const Side& a, const Side& b, const app::Request& base, int rounds) {
-    const app::UsageMeter meter(app::UsageMeter::Of::process);
-    const std::vector<measure::Benchmark> found = app::measure_rounds(
+    const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
+    const std::vector<measure::Benchmark> found = app::measure_in_rounds(
         {frames_of(a, base, rounds), frames_of(b, base, rounds)}, meter,
         {.iterations = rounds * base.frames, .rounds = rounds, .watcher = {}});
     const std::vector<double> a_ms = gpu_ms(found[0]), b_ms = gpu_ms(found[1]);
     std::vector<double> ratios;
     for (std::size_t i = 0; i < a_ms.size(); ++i) ratios.push_back(a_ms[i] / b_ms[i]);
-    return {measure::summarise(a_ms), measure::summarise(b_ms), measure::summarise(ratios)};
+    return {measure::summarise_samples(a_ms), measure::summarise_samples(b_ms),
+            measure::summarise_samples(ratios)};
 }
 
 void compare(const char* title, const Side& a, const Side& b, const app::Request& base,
@@ -92,34 +94,36 @@ void compare_shapes(const app::Request& base, int rounds) {
 /// printed.
 void compare_processor_rules(const app::Request& base) {
     constexpr int kTimes = 25;
-    const render::Space space = render::space_of(base.scene);
+    const render::SceneUnits space = render::make_scene_units(base.scene);
     const render::Geometry geometry = render::make_geometry(base.scene, space);
-    render::Nearest nearest;
+    render::NearestTriangleQuery nearest;
     nearest.lay_out(geometry);
     volatile float kept = 0; // volatile, so that the compiler keeps the measured work
-    const std::vector<app::Subject> subjects{
-        app::subject_of("near planes from the nearest gap | frame",
-                        [&] {
-                            // One search each for the camera, four captures and the light.
-                            for (int i = 0; i < 6; ++i)
-                                kept = nearest.distance(
-                                    geometry, dvec3(0.1 * i),
-                                    [](std::size_t, const render::DrawRange&) { return false; });
-                        }),
-        app::subject_of("centre and scale in doubles, then floats | frame",
-                        [&] {
-                            kept = render::make_geometry(base.scene, render::space_of(base.scene))
-                                       .vertices.front()
-                                       .position.x;
-                        }),
-        app::subject_of("areas and normals of meshes | load", [&] {
-            for (scene::Mesh mesh : base.scene.meshes) scene::repair(mesh);
+    const std::vector<app::BenchmarkSubject> subjects{
+        app::make_subject("near planes from the nearest gap | frame",
+                          [&] {
+                              // One search each for the camera, four captures and the light.
+                              for (int i = 0; i < 6; ++i)
+                                  kept = nearest.distance(
+                                      geometry, dvec3(0.1 * i),
+                                      [](std::size_t, const render::DrawRange&) { return false; });
+                          }),
+        app::make_subject("centre and scale in doubles, then floats | frame",
+                          [&] {
+                              kept = render::make_geometry(base.scene,
+                                                           render::make_scene_units(base.scene))
+                                         .vertices.front()
+                                         .position.x;
+                          }),
+        app::make_subject("areas and normals of meshes | load", [&] {
+            for (scene::Mesh mesh : base.scene.meshes) scene::repair_mesh(mesh);
         })};
-    const app::UsageMeter meter(app::UsageMeter::Of::process);
+    const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
-    for (const measure::Benchmark& found : app::measure_rounds(
+    for (const measure::Benchmark& found : app::measure_in_rounds(
              subjects, meter, {.iterations = kTimes, .rounds = kTimes, .watcher = {}})) {
-        const double ms = measure::percentile(costs_of(found, measure::Cost::real_time), .5);
+        const double ms = measure::compute_percentile(
+            list_round_costs(found, measure::CostKind::real_time), .5);
         const std::size_t bar = found.name.find('|');
         std::printf("| %s| %.3f |%s |\n", found.name.substr(0, bar).c_str(), ms,
                     found.name.substr(bar + 1).c_str());
@@ -172,7 +176,7 @@ int main(int argc, char** argv) try {
     const int place = rules ? 2 : 1;
     const int rounds = argc > place ? std::max(1, std::atoi(argv[place])) : 7;
     app::Request base;
-    base.scene = scene::cornell_mirrors();
+    base.scene = scene::make_cornell_mirrors();
     base.camera = base.scene.cameras.front();
     base.frames = 5;
     base.warmup = 3;

@@ -27,14 +27,14 @@ void declare(benchmark::State& state) {
 
 void plan(benchmark::State& state) {
     const graph::Graph graph = test::reuse_frame(static_cast<std::uint32_t>(state.range(0)) - 3);
-    const graph::Sizer sizer = graph::plain_sizer();
-    for (auto _ : state) benchmark::DoNotOptimize(graph::plan(graph, kLimits, sizer));
+    const graph::MemorySizer sizer = graph::make_default_sizer();
+    for (auto _ : state) benchmark::DoNotOptimize(graph::plan_graph(graph, kLimits, sizer));
     count(state, graph);
 }
 
 void dump(benchmark::State& state) {
     const graph::Graph graph = test::reuse_frame(static_cast<std::uint32_t>(state.range(0)) - 3);
-    const graph::GraphPlan plan = graph::plan(graph, kLimits, graph::plain_sizer());
+    const graph::GraphPlan plan = graph::plan_graph(graph, kLimits, graph::make_default_sizer());
     for (auto _ : state) benchmark::DoNotOptimize(graph::to_text(graph, plan));
     count(state, graph);
 }

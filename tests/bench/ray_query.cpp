@@ -26,7 +26,7 @@ constexpr std::size_t kMostOther = 40; // largest number of rays that may differ
 constexpr int kNoDevice = 69;
 
 /// Returns one ray through each pixel of the scene's first camera, in blocks of 8x8 pixels.
-std::vector<KernelRay> camera_rays(const scene::Scene& scene, const render::Space& space) {
+std::vector<KernelRay> camera_rays(const scene::Scene& scene, const render::SceneUnits& space) {
     const scene::Camera& camera = scene.cameras.front();
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
@@ -52,7 +52,7 @@ std::size_t differing(const std::vector<KernelHit>& a, const std::vector<KernelH
 }
 
 double processor_ms(const measure::Benchmark& found, std::size_t round) {
-    return costs_of(found, measure::Cost::cpu_time)[round];
+    return list_round_costs(found, measure::CostKind::cpu_time)[round];
 }
 
 /// Prints the processor time of the ray query as a multiple of that of the engine's walk.
@@ -63,13 +63,13 @@ void compare(const char* name, std::span<const bvh::Triangle> triangles,
     check(other <= kMostOther, Failure::internal, name, ": ", other, " of ", rays.size(),
           " rays meet something else, at most ", kMostOther, " may");
     const std::vector<KernelRay> few(rays.begin(), rays.begin() + kFewRays);
-    const std::vector<app::Subject> subjects{
-        app::subject_of("ours", [&] { kernel.closest(rays); }),
-        app::subject_of("ours, few", [&] { kernel.closest(few); }),
-        app::subject_of("query", [&] { query.closest(triangles, rays); }),
-        app::subject_of("query, few", [&] { query.closest(triangles, few); })};
-    const app::UsageMeter meter(app::UsageMeter::Of::process);
-    const std::vector<measure::Benchmark> found = app::measure_rounds(
+    const std::vector<app::BenchmarkSubject> subjects{
+        app::make_subject("ours", [&] { kernel.closest(rays); }),
+        app::make_subject("ours, few", [&] { kernel.closest(few); }),
+        app::make_subject("query", [&] { query.closest(triangles, rays); }),
+        app::make_subject("query, few", [&] { query.closest(triangles, few); })};
+    const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
+    const std::vector<measure::Benchmark> found = app::measure_in_rounds(
         subjects, meter, {.iterations = 3 * rounds, .rounds = rounds, .watcher = {}});
     std::vector<double> ours, theirs, ratios;
     for (std::size_t i = 0; i < found[0].rounds.size(); ++i) {
@@ -77,11 +77,11 @@ void compare(const char* name, std::span<const bvh::Triangle> triangles,
         theirs.push_back(processor_ms(found[2], i) - processor_ms(found[3], i));
         ratios.push_back(theirs.back() / ours.back());
     }
-    const measure::Summary ratio = measure::summarise(ratios);
+    const measure::SampleSummary ratio = measure::summarise_samples(ratios);
     std::printf(
         "%-10s %zu rays: ours %.1f ms, ray query %.1f ms, which is %.2f times [%.2f - %.2f]; %zu rays differ\n",
-        name, rays.size(), measure::summarise(ours).median, measure::summarise(theirs).median,
-        ratio.median, ratio.p05, ratio.p95, other);
+        name, rays.size(), measure::summarise_samples(ours).median,
+        measure::summarise_samples(theirs).median, ratio.median, ratio.p05, ratio.p95, other);
 }
 
 } // namespace
@@ -95,8 +95,8 @@ int main(int argc, char** argv) try {
         return kNoDevice;
     }
     const test::RayQuery query(*device);
-    const scene::Scene scene = scene::cornell_mirrors();
-    const render::Space space = render::space_of(scene);
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const render::SceneUnits space = render::make_scene_units(scene);
     const std::vector<bvh::Triangle> triangles = test::built_in_scene();
     test::Numbers numbers(7);
     std::printf("walk on %s, ray query on %s; %zu triangles\n",

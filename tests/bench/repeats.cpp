@@ -24,7 +24,7 @@ struct Count {
 void repeat_compare(int times, const std::vector<std::string>& rows) {
     app::Engine engine({});
     app::CompareRequest request;
-    request.base.scene = scene::cornell_mirrors();
+    request.base.scene = scene::make_cornell_mirrors();
     request.base.camera = request.base.scene.cameras.front();
     request.base.size = {128, 128};
     request.base.techniques = rows;
@@ -32,7 +32,7 @@ void repeat_compare(int times, const std::vector<std::string>& rows) {
     int noisy = 0;
     for (int k = 0; k < times; ++k) {
         const measure::Comparison found = app::compare(engine, request);
-        noisy += !measure::noisy_rows(found).empty();
+        noisy += !measure::find_noisy_rows(found).empty();
         for (std::size_t b = 1; b < rows.size(); ++b)
             for (std::size_t a = 0; a < b; ++a) {
                 Count& count = pairs[{a, b}];
@@ -50,7 +50,7 @@ void repeat_compare(int times, const std::vector<std::string>& rows) {
         const auto [least, most] = std::ranges::minmax(count.ratios);
         std::printf("| %s | %s | %d | %d | %d | %.3f [%.3f - %.3f] |\n", rows[pair.second].c_str(),
                     rows[pair.first].c_str(), count.faster, count.slower,
-                    times - count.faster - count.slower, measure::summarise(count.ratios).median,
-                    least, most);
+                    times - count.faster - count.slower,
+                    measure::summarise_samples(count.ratios).median, least, most);
     }
 }

@@ -188,10 +188,10 @@ TEST_F(BenchTune, InvalidOptionsAreRefused) {
 }
 
 TEST(BenchAgainst, EachRoundGetsTheOptionsOfTheCommandLine) {
-    EXPECT_THAT(cli::words_for_round({"room.glb", "--against", "old/catoptric", "--size=64x64",
-                                      "--rounds=8", "-q", "-o", "x.json", "--frames", "99",
-                                      "--json", "--techniques", "reuse", "march"},
-                                     4),
+    EXPECT_THAT(cli::command_words_for_round(
+                    {"room.glb", "--against", "old/catoptric", "--size=64x64", "--rounds=8", "-q",
+                     "-o", "x.json", "--frames", "99", "--json", "--techniques", "reuse", "march"},
+                    4),
                 testing::ElementsAre("room.glb", "--size=64x64", "--techniques", "reuse", "march",
                                      "--json", "--quiet", "--rounds", "1", "--frames", "4"));
 }
@@ -211,13 +211,13 @@ protected:
 };
 
 TEST_F(BenchInTurn, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
-    const std::array runs = cli::bench_in_turn(
+    const std::array runs = cli::bench_programs_in_turn(
         {program("old", measured(10)), program("new", measured(12))}, {"flat"}, 6, {});
     EXPECT_EQ(read("log"), "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
                            "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
                            "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n");
-    const measure::Changes changes = measure::compare(runs[0], runs[1]);
-    EXPECT_EQ(cli::slower_text(changes), "frame/x 1.200 [1.200 - 1.200]");
+    const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(runs[0], runs[1]);
+    EXPECT_EQ(cli::describe_slower_benchmarks(changes), "frame/x 1.200 [1.200 - 1.200]");
     EXPECT_EQ(runs[0].benchmarks[0].rounds.size(), 6U);
 }
 
@@ -225,7 +225,7 @@ TEST_F(BenchInTurn, ErrorNamesTheProgramThatFailed) {
     const auto refused = [&](const std::string& rest, const std::string& message) {
         const std::string wrong = program("wrong", rest);
         try {
-            cli::bench_in_turn({wrong, wrong}, {}, 6, {});
+            cli::bench_programs_in_turn({wrong, wrong}, {}, 6, {});
             ADD_FAILURE() << message;
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, Failure::bad_data);
@@ -244,7 +244,7 @@ TEST_F(BenchInTurn, SignalEndsTheRunningProgram) {
     app::Watcher watcher;
     watcher.stop = &stop;
     try {
-        cli::bench_in_turn({slow, slow}, {}, 6, watcher);
+        cli::bench_programs_in_turn({slow, slow}, {}, 6, watcher);
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::terminated);

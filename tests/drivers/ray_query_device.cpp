@@ -46,8 +46,8 @@ std::unique_ptr<RayQueryDevice> RayQueryDevice::open(std::string& reason) {
     bool has_debug_utils = false;
     result->instance_ = gpu::make_instance(true, {}, has_debug_utils);
     if (has_debug_utils) result->make_messenger();
-    for (VkPhysicalDevice device : gpu::physical_devices(result->instance_)) {
-        const gpu::DeviceProperties info = gpu::describe(device);
+    for (VkPhysicalDevice device : gpu::list_physical_devices(result->instance_)) {
+        const gpu::DeviceProperties info = gpu::describe_device(device);
         result->name_ = info.name + ", " + info.driver;
         if (info.missing.empty() && has_ray_query(device)) {
             result->physical_ = device;

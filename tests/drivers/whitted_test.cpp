@@ -22,7 +22,7 @@ constexpr float kSame = 1e-3F;
 /// many pixels differ between our own pictures with hit points in single and double precision.
 constexpr std::size_t kMostSensitive = 4;
 
-app::Part rendered(const scene::Scene& scene, const std::string& technique) {
+app::TechniqueResult rendered(const scene::Scene& scene, const std::string& technique) {
     const app::Request asked = test::request(scene, {technique}, kSize);
     return std::move(app::run(test::engine(), asked).parts.front());
 }
@@ -52,7 +52,7 @@ void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
     const std::string technique = "raytrace:depth=" + std::to_string(depth) +
                                   (exact ? ",sphere=exact" : "");
     const app::Request asked = test::request(scene, {technique}, kSize);
-    const app::Part ours = rendered(scene, technique);
+    const app::TechniqueResult ours = rendered(scene, technique);
     const std::vector<float> sensitive = sensitivity(ours.hdr,
                                                      rendered(scene, technique + ",hit=f64").hdr);
     EXPECT_LE(std::ranges::count_if(sensitive, [](float apart) { return !(apart <= kSame); }),
@@ -71,11 +71,11 @@ void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
 }
 
 TEST(Whitted, PictureOfMeshesMatchesEmbree) {
-    for (const int depth : {1, 4}) expect_the_same(scene::cornell_mirrors(), depth, false);
+    for (const int depth : {1, 4}) expect_the_same(scene::make_cornell_mirrors(), depth, false);
 }
 
 TEST(Whitted, PictureOfExactSpheresMatchesEmbree) {
-    for (const int depth : {1, 4}) expect_the_same(scene::cornell_mirrors(), depth, true);
+    for (const int depth : {1, 4}) expect_the_same(scene::make_cornell_mirrors(), depth, true);
 }
 
 // The scene `room` has textures, smooth dielectrics, two-sided surfaces, lamps without a cosine

@@ -21,9 +21,9 @@ struct Batch {
 
 /// Returns the triangles of the built-in scene as the ray tracer stores them, in scene units.
 inline std::vector<bvh::Triangle> built_in_scene() {
-    const scene::Scene scene = scene::cornell_mirrors();
-    const render::Geometry geometry = render::make_geometry(scene::at(scene, 0),
-                                                            render::space_of(scene));
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const render::Geometry geometry = render::make_geometry(scene::scene_at_time(scene, 0),
+                                                            render::make_scene_units(scene));
     std::vector<bvh::Triangle> result;
     const auto corner = [&](std::size_t i) {
         return geometry.vertices[geometry.indices[i]].position;

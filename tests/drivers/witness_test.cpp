@@ -126,8 +126,9 @@ bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& 
                          radius = ring == 0 ? 0 : std::ldexp(distance, ring - kRings);
             const dvec3 origin = start(ray) +
                                  radius * (std::cos(angle) * side + std::sin(angle) * up);
-            const auto hit = bvh::closest_hit<double>(hierarchy, {origin, dvec3(ray.direction), 0},
-                                                      std::numeric_limits<double>::infinity());
+            const auto hit = bvh::find_closest_hit<double>(hierarchy,
+                                                           {origin, dvec3(ray.direction), 0},
+                                                           std::numeric_limits<double>::infinity());
             KernelHit found;
             if (hit)
                 found = {

@@ -119,7 +119,7 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
                     if (engine.usable()) wrong += "usable though it is lost; ";
                 });
             wrong += lost.unfit();
-            if (!catoptric::app::any_abandoned()) wrong += "no device was abandoned; ";
+            if (!catoptric::app::has_abandoned_device()) wrong += "no device was abandoned; ";
             std::vector<catoptric::measure::Picture> pictures;
             for (int i = 0; i < 2; ++i) {
                 const Watched next = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {

@@ -12,8 +12,8 @@ graph::Graph frame() {
     graph::Graph graph;
     const graph::ImageHandle image = graph.image({"image", Format::rgba8_unorm, 4, 4});
     graph.pass("clear it")
-        .writes(image, graph::Use::colour, graph::Clear{})
-        .record([](graph::Commands&) {});
+        .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
+        .record([](graph::PassCommands&) {});
     graph.mark_output(image);
     return graph;
 }
@@ -36,8 +36,8 @@ TEST_F(LostInFlight, WaitReportsTheLostDevice) {
         const Watched watched = here.run(fault, [&](app::Engine&) {
             gpu::Device device({});
             gpu::Pipelines pipelines(device);
-            graph::Runner runner(device, pipelines, 3);
-            std::vector<graph::Ticket> tickets;
+            graph::GraphRunner runner(device, pipelines, 3);
+            std::vector<graph::FrameTicket> tickets;
             for (int i = 0; i < 3; ++i)
                 tickets.push_back(runner.submit(frame(), graph::PassTiming::isolated));
             const std::string first = what_of([&] { runner.wait(tickets[1]); });

@@ -59,19 +59,19 @@ void expect_only_bad_data(Body&& body) {
 /// lights.
 inline void load(const std::string& name) {
     expect_only_bad_data([&] {
-        const catoptric::scene::Budget small{.file_bytes = 1 << 20,
-                                             .json_memory = 16 << 20,
-                                             .vertices = 20'000,
-                                             .triangles = 10'000,
-                                             .objects = 1'000,
-                                             .keys = 10'000,
-                                             .texels = 1 << 18,
-                                             .made_bytes = 1 << 20,
-                                             .cuts = 100'000};
+        const catoptric::scene::LoadBudget small{.file_bytes = 1 << 20,
+                                                 .json_memory = 16 << 20,
+                                                 .vertices = 20'000,
+                                                 .triangles = 10'000,
+                                                 .objects = 1'000,
+                                                 .keys = 10'000,
+                                                 .texels = 1 << 18,
+                                                 .made_bytes = 1 << 20,
+                                                 .cuts = 100'000};
         const auto scene = catoptric::scene::load_file((folder() / name).string(),
                                                        {.budget = small});
-        catoptric::scene::hash(scene);
-        lights(catoptric::scene::at(scene, .5));
+        catoptric::scene::hash_scene(scene);
+        lights(catoptric::scene::scene_at_time(scene, .5));
     });
 }
 

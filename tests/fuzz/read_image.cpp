@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string bytes = bytes_of(fuzz::text_of(data, size));
     for (const char* name : {"x", "x.tga"})
         fuzz::expect_only_bad_data([&] {
-            Account account({.texels = 1 << 18});
+            BudgetAccount account({.texels = 1 << 18});
             decode_image(bytes, name, "x", account);
         });
     return 0;

@@ -193,8 +193,8 @@ protected:
 
     void SetUp() override {
         write("a.bin", buffer());
-        write("p.png", catoptric::measure::png_bytes(picture()));
-        write("good.exr", catoptric::measure::exr_bytes(picture()));
+        write("p.png", catoptric::measure::encode_picture_png(picture()));
+        write("good.exr", catoptric::measure::encode_exr(picture()));
         write("m.mtl", mtl());
         write("good.obj", obj());
         std::filesystem::create_directory(kept());

@@ -34,9 +34,10 @@ struct Seen {
 /// Returns the range of the distances in the capture of mirror `from` (numbered from 0). Reads the
 /// directions whose cosine with `along` is at least `cosine`. A cosine of -1 selects all
 /// directions.
-Seen seen(const test::Captured& captured, std::uint32_t from, const dvec3& along, double cosine) {
+Seen seen(const test::CapturedCubes& captured, std::uint32_t from, const dvec3& along,
+          double cosine) {
     Seen seen;
-    stress::for_texels(
+    stress::for_each_cube_texel(
         captured.face, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
             if (dot(glm::normalize(direction), along) < cosine) return;
             const double distance = captured.distance(from, face, x, y, Format::r32f) /
@@ -49,7 +50,8 @@ Seen seen(const test::Captured& captured, std::uint32_t from, const dvec3& along
 
 TEST(Crowd, CapturesShowBallsFromOutsideAndTheShellFromInside) {
     for (const bool turned_out : {false, true}) {
-        const test::Captured captured = test::capture(crowd_crowd(turned_out), 64, Format::r32f);
+        const test::CapturedCubes captured = test::capture(crowd_crowd(turned_out), 64,
+                                                           Format::r32f);
         const Seen within = seen(captured, 0, dvec3(1, 0, 0), -1);
         EXPECT_NEAR(within.nearest, kShell, .02);
         EXPECT_NEAR(within.farthest, kShell, .02) << "the shell is closed";

@@ -25,16 +25,16 @@ constexpr double kTexel = 0.03;
 
 TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
     const GlyphRoom room;
-    const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture(room.scene(), kFace, Format::r32f);
     std::size_t wrong = 0, judged = 0, inked = 0;
-    stress::for_texels(kFace,
-                       [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-                           const GlyphRoom::Seen seen = room.look(direction);
-                           // Skip texels whose centre lies on an edge of a glyph.
-                           if (seen.margin < kSnap) return;
-                           ++judged, inked += seen.glyph;
-                           wrong += captured.colour(0, face, x, y) != room.colour(seen);
-                       });
+    stress::for_each_cube_texel(
+        kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+            const GlyphRoom::SeenWallPoint seen = room.look(direction);
+            // Skip texels whose centre lies on an edge of a glyph.
+            if (seen.margin < kSnap) return;
+            ++judged, inked += seen.glyph;
+            wrong += captured.colour(0, face, x, y) != room.colour(seen);
+        });
     EXPECT_GT(judged, 6 * kFace * kFace * 95 / 100);
     EXPECT_GT(inked, 1000u);
     EXPECT_EQ(wrong, 0u);
@@ -44,7 +44,7 @@ TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
 /// specification, this point must lie on a texel with the stroke's colour.
 TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
     const GlyphRoom room;
-    const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture(room.scene(), kFace, Format::r32f);
     for (int wall = 0; wall < 6; ++wall)
         for (const GlyphRoom::Stroke& stroke : GlyphRoom::kStrokes) {
             const dvec3 middle = room.place(wall, (stroke.u0 + stroke.u1) / 2,
@@ -79,21 +79,21 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
                       gpu::BufferUsage::plain);
     asked.write(std::span<const vec4>(directions));
 
-    graph::Runner runner(device, pipelines);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     render::CaptureOptions options;
     options.face = 256, options.distance = Format::r32f;
-    const render::Cubes cubes = test::add_black_captures(graph, inputs, options);
+    const render::CubeArray cubes = test::add_black_captures(graph, inputs, options);
     const graph::BufferHandle found = graph.buffer({"found", directions.size() * sizeof(vec4)});
     graph.pass("look")
-        .reads(cubes.colour, graph::Use::sampled)
-        .reads(*cubes.distance, graph::Use::sampled)
-        .writes(found, graph::Use::storage_write)
-        .record([&, cubes, found](graph::Commands& commands) {
+        .reads(cubes.colour, graph::ResourceUse::sampled)
+        .reads(*cubes.distance, graph::ResourceUse::sampled)
+        .writes(found, graph::ResourceUse::storage_write)
+        .record([&, cubes, found](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"tests/cube_sample.comp", {}});
-            commands.bind("colour_cubes", cubes.colour, graph::Filter::linear);
-            commands.bind("distance_cubes", *cubes.distance, graph::Filter::nearest);
+            commands.bind("colour_cubes", cubes.colour, graph::TextureFilter::linear);
+            commands.bind("distance_cubes", *cubes.distance, graph::TextureFilter::nearest);
             commands.bind("Directions", asked);
             commands.bind("Found", found);
             commands.dispatch(static_cast<std::uint32_t>((directions.size() + 63) / 64), 1);
@@ -103,7 +103,7 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     const std::vector<vec4> answers = test::read_as<vec4>(runner, found);
     std::size_t judged = 0, wrong = 0;
     for (std::size_t i = 0; i < answers.size(); ++i) {
-        const GlyphRoom::Seen seen = room.look(dvec3(directions[i]));
+        const GlyphRoom::SeenWallPoint seen = room.look(dvec3(directions[i]));
         if (seen.margin < kTexel) continue;
         ++judged;
         wrong += vec3(answers[i]) != room.colour(seen);
@@ -125,10 +125,10 @@ TEST_P(Distances, CapturedDistancesEqualTheDistancesOfTheWalls) {
     const GlyphRoom room;
     constexpr double kRange = 5; // range of unorm8 in world units; some walls are farther away
     const bool unorm = GetParam() == Format::r8_unorm;
-    const test::Captured captured = test::capture(room.scene(), kFace, GetParam(), kRange);
+    const test::CapturedCubes captured = test::capture(room.scene(), kFace, GetParam(), kRange);
     const double unit = unorm ? captured.space.length(kRange) : 1.0;
     double worst = 0;
-    stress::for_texels(
+    stress::for_each_cube_texel(
         kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
             const double wanted = captured.space.length(room.look(direction).distance) / unit;
             const double found = captured.distance(0, face, x, y, GetParam());
@@ -148,7 +148,7 @@ TEST_P(Distances, EmptyDirectionsHaveInfiniteOrLargestDistance) {
     test::add_mesh(scene, test::wall(0, {-2, -9, -9}, {2, 9, 9}), hot);
     test::add_ball(scene, "ball", mirror, {0, 0, 0}, 1);
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
-    const test::Captured captured = test::capture(scene, kFace, GetParam(), 100);
+    const test::CapturedCubes captured = test::capture(scene, kFace, GetParam(), 100);
     const float nothing = GetParam() == Format::r8_unorm ? 1.0f
                                                          : std::numeric_limits<float>::infinity();
     std::size_t wrong = 0;
@@ -162,14 +162,15 @@ TEST_P(Distances, EmptyDirectionsHaveInfiniteOrLargestDistance) {
 }
 
 TEST(CubeFace, CaptureLeavesOutItsOwnMirrorAndShowsOtherMirrors) {
-    const test::Captured captured = test::capture(test::furnace(2), kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture(test::furnace(2), kFace, Format::r32f);
     std::size_t black[2] = {0, 0}, hot[2] = {0, 0};
     for (std::uint32_t mirror = 0; mirror < 2; ++mirror)
-        stress::for_texels(kFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
-            const vec3 colour = captured.colour(mirror, face, x, y);
-            black[mirror] += colour == vec3(0);
-            hot[mirror] += colour == test::kFurnace;
-        });
+        stress::for_each_cube_texel(kFace,
+                                    [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+                                        const vec3 colour = captured.colour(mirror, face, x, y);
+                                        black[mirror] += colour == vec3(0);
+                                        hot[mirror] += colour == test::kFurnace;
+                                    });
     // The other ball is seen from outside. Its radius over its distance is the sine of the half
     // angle under which it is seen, and gives its share of all directions.
     const double gap = glm::length(dvec3(-1.2, -0.3, 1) - dvec3(1.3, 0.4, 1.5)),

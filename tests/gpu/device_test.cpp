@@ -37,12 +37,12 @@ TEST(Device, ListNamesDriverVersionAndThreads) {
 }
 
 TEST(Device, LayeredRenderingCanBeSwitchedOff) {
-    EXPECT_FALSE(gpu::Device({.layered = false}).layered());
+    EXPECT_FALSE(gpu::Device({.layered = false}).supports_layered_rendering());
 }
 
 TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
     auto& [device, pipelines] = test::bench();
-    graph::Runner runner(device, pipelines);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     // All images of 1 GiB together need more memory than the device has.
     const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
@@ -50,8 +50,8 @@ TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
         const graph::ImageHandle image = graph.image(
             {"huge" + std::to_string(i), Format::rgba32f, 8192, 8192});
         graph.pass("fill" + std::to_string(i))
-            .writes(image, graph::Use::colour, graph::Clear{})
-            .record([](graph::Commands&) {});
+            .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
+            .record([](graph::PassCommands&) {});
         graph.mark_output(image);
     }
     test::expect_refused([&] { test::run(runner, graph); }, Failure::exhausted,

@@ -42,10 +42,10 @@ embed::Device given_device() {
 class Own {
 public:
     explicit Own(uvec2 size)
-        : size_(size), image_(graph::make_physical(device_, {.name = "target",
-                                                             .format = Format::rgba8_unorm,
-                                                             .width = size.x,
-                                                             .height = size.y})) {
+        : size_(size), image_(graph::make_physical_image(device_, {.name = "target",
+                                                                   .format = Format::rgba8_unorm,
+                                                                   .width = size.x,
+                                                                   .height = size.y})) {
         VkMemoryRequirements wants;
         vkGetImageMemoryRequirements(device_.handle(), image_.image, &wants);
         memory_ = device_.allocate(
@@ -85,12 +85,12 @@ private:
     gpu::Device& device_ = test::bench().device;
     uvec2 size_;
     gpu::UniqueMemory memory_;
-    graph::Physical image_;
+    graph::PhysicalImage image_;
 };
 
 TEST(Embed, TargetImageHoldsTheFrameInTheRequestedLayout) {
     app::Engine engine = embed::make_engine(given_device());
-    app::Session session(engine, scene::cornell_mirrors(), 2);
+    app::Session session(engine, scene::make_cornell_mirrors(), 2);
     const app::FrameSpec spec{.techniques = {"reuse:face=16,shadow_map=16"},
                               .camera = session.scene().cameras.front(),
                               .size = {32, 16}};
@@ -98,7 +98,7 @@ TEST(Embed, TargetImageHoldsTheFrameInTheRequestedLayout) {
     for (const VkImageLayout left_in :
          {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
           VK_IMAGE_LAYOUT_GENERAL}) {
-        const app::Frame frame = embed::frame_into(session, spec, {own.image(), left_in});
+        const app::Frame frame = embed::render_frame_into(session, spec, {own.image(), left_in});
         EXPECT_TRUE(own.read(left_in).pixels == frame.read().display.pixels) << left_in;
     }
 }
@@ -116,18 +116,19 @@ TEST(Embed, MissingDeviceHandlesAreRefused) {
 }
 
 TEST(Embed, UnusableTargetIsRefused) {
-    app::Session session(test::engine(), scene::flat());
+    app::Session session(test::engine(), scene::make_flat_mirror_room());
     app::FrameSpec spec{
         .techniques = {"reuse"}, .camera = session.scene().cameras.front(), .size = {16, 16}};
     // The image is a placeholder, because the calls are refused before they use it.
     const auto image = reinterpret_cast<VkImage>(std::uintptr_t{1});
-    EXPECT_THAT(refused([&] { embed::frame_into(session, spec, {}); }), HasSubstr("an image"));
+    EXPECT_THAT(refused([&] { embed::render_frame_into(session, spec, {}); }),
+                HasSubstr("an image"));
     EXPECT_THAT(refused([&] {
-                    embed::frame_into(session, spec, {image, VK_IMAGE_LAYOUT_UNDEFINED});
+                    embed::render_frame_into(session, spec, {image, VK_IMAGE_LAYOUT_UNDEFINED});
                 }),
                 HasSubstr("PRESENT_SRC_KHR, not in number 0"));
     spec.techniques.push_back("parallax");
-    EXPECT_THAT(refused([&] { embed::frame_into(session, spec, {image}); }),
+    EXPECT_THAT(refused([&] { embed::render_frame_into(session, spec, {image}); }),
                 HasSubstr("one technique, not 2"));
     EXPECT_EQ(app::Access::counts(session).frames, 0u);
 }

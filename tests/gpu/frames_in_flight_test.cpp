@@ -33,9 +33,9 @@ INSTANTIATE_TEST_SUITE_P(Frames, InFlight, testing::Values(1u, 2u, 3u));
 
 TEST_P(InFlight, FramesInFlightEqualFramesOneByOne) {
     constexpr int kFrames = 12;
-    graph::Runner runner(test::bench().device, test::bench().pipelines, GetParam());
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, GetParam());
     std::vector<float> kept(test::kWidth * test::kHeight, 0.0f);
-    std::vector<std::pair<graph::Ticket, graph::ImageHandle>> waiting;
+    std::vector<std::pair<graph::FrameTicket, graph::ImageHandle>> waiting;
     int read = 0;
     const auto read_oldest = [&] {
         const auto [ticket, image] = waiting.front();
@@ -58,8 +58,8 @@ TEST_P(InFlight, FramesInFlightEqualFramesOneByOne) {
 }
 
 TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines, GetParam());
-    std::vector<graph::Ticket> tickets;
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, GetParam());
+    std::vector<graph::FrameTicket> tickets;
     for (std::uint32_t frame = 1; frame <= GetParam(); ++frame) {
         graph::Graph graph;
         const graph::ImageHandle image = test::add_image(graph, "image");
@@ -85,8 +85,8 @@ TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
 }
 
 TEST(InFlight, ReadingAFrameWhoseSlotWasReusedIsRefused) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
-    std::vector<graph::Ticket> tickets;
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 2);
+    std::vector<graph::FrameTicket> tickets;
     graph::ImageHandle out;
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
@@ -106,13 +106,13 @@ TEST(InFlight, ReadingAFrameWhoseSlotWasReusedIsRefused) {
 
 TEST(InFlight, FewerThanOneOrMoreThanThreeFramesInFlightAreRefused) {
     for (const std::uint32_t count : {0u, 4u})
-        expect_refused([&] { graph::Runner(test::bench().device, test::bench().pipelines, count); },
-                       Failure::usage,
-                       {"frames in flight must be 1 to 3, not " + std::to_string(count)});
+        expect_refused(
+            [&] { graph::GraphRunner(test::bench().device, test::bench().pipelines, count); },
+            Failure::usage, {"frames in flight must be 1 to 3, not " + std::to_string(count)});
 }
 
 TEST(InFlight, RunnerCanBeDestroyedWithFramesInFlight) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines, 3);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 3);
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
         add_frame(graph, frame);
@@ -141,7 +141,7 @@ std::vector<float> expected_of_shape(int kind) {
 }
 
 TEST(Shapes, TheLastEightShapesAreNotPlannedAgain) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 2);
     for (int round = 0; round < 4; ++round)
         for (int kind = 0; kind < 8; ++kind) {
             graph::Graph graph;
@@ -163,13 +163,13 @@ TEST(Shapes, TheLastEightShapesAreNotPlannedAgain) {
 }
 
 TEST(Shapes, ShapeDependsOnAllDeclarationsExceptBodiesAndClearValues) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     const auto frame = [&](const std::string& name, float red) {
         graph::Graph graph;
         const graph::ImageHandle image = graph.image({"image", Format::rgba32f, 2, 1});
         graph.pass(name)
-            .writes(image, graph::Use::colour, graph::Clear{red, 0, 0, 1})
-            .record([](graph::Commands&) {});
+            .writes(image, graph::ResourceUse::colour, graph::ClearValue{red, 0, 0, 1})
+            .record([](graph::PassCommands&) {});
         graph.mark_output(image);
         runner.compiled(graph);
         test::run(runner, graph);
@@ -183,13 +183,13 @@ TEST(Shapes, ShapeDependsOnAllDeclarationsExceptBodiesAndClearValues) {
 }
 
 TEST(Shapes, InvalidGraphOfAPlannedShapeIsRefused) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     for (const bool wrong : {false, true}) {
         graph::Graph graph;
         const graph::ImageHandle image = test::add_image(graph, "image");
-        graph::PassBuilder pass = graph.pass("clear").writes(image, graph::Use::colour,
-                                                             graph::Clear{});
-        if (!wrong) pass.record([](graph::Commands&) {});
+        graph::PassBuilder pass = graph.pass("clear").writes(image, graph::ResourceUse::colour,
+                                                             graph::ClearValue{});
+        if (!wrong) pass.record([](graph::PassCommands&) {});
         graph.mark_output(image);
         if (wrong)
             expect_refused([&] { test::run(runner, graph); }, Failure::internal,

@@ -13,21 +13,22 @@ constexpr std::uint32_t kTurns = 7;
 /// work groups counted; 0: the group did not run. `declared`: the pass declares the buffer as
 /// indirect arguments.
 std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::BufferHandle counts = graph.buffer({"counts", 16}),
                               arguments = graph.buffer({"arguments", 16});
     graph.pass("fill")
-        .writes(counts, graph::Use::copy_to)
-        .writes(arguments, graph::Use::copy_to)
-        .record([=](graph::Commands& commands) {
+        .writes(counts, graph::ResourceUse::copy_to)
+        .writes(arguments, graph::ResourceUse::copy_to)
+        .record([=](graph::PassCommands& commands) {
             commands.fill(counts, 0);
             commands.fill(arguments, groups);
         });
     graph.pass("spin")
-        .reads(arguments, declared ? graph::Use::indirect : graph::Use::storage_read)
-        .writes(counts, graph::Use::storage)
-        .record([=](graph::Commands& commands) {
+        .reads(arguments,
+               declared ? graph::ResourceUse::indirect : graph::ResourceUse::storage_read)
+        .writes(counts, graph::ResourceUse::storage)
+        .record([=](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"tests/spin.comp", {}});
             commands.bind("Counts", counts);
             commands.push(kTurns);

@@ -24,8 +24,8 @@ std::vector<bvh::Triangle> drawn(test::Numbers& numbers) {
             continue;
         }
         const float radius = i % 10 == 1 ? 3.0f : .01f + .1f * std::abs(numbers.in_cube().x);
-        things.push_back(bvh::sphere(i % 14 == 1 ? 50.0f * place : place, radius, i,
-                                     i % 6 == 1 ? bvh::kHidden : 0));
+        things.push_back(bvh::make_sphere_primitive(i % 14 == 1 ? 50.0f * place : place, radius, i,
+                                                    i % 6 == 1 ? bvh::kHidden : 0));
     }
     return things;
 }
@@ -57,7 +57,7 @@ std::vector<KernelRay> kernel_balls_rays_among(std::span<const bvh::Triangle> th
 KernelHit nearest(std::span<const bvh::Triangle> things, const KernelRay& from,
                   std::uint32_t skipped) {
     const f32::Ray ray{from.origin, from.direction, 0};
-    const f32::RayShear shear = f32::ray_shear(from.direction);
+    const f32::RayShear shear = f32::make_ray_shear(from.direction);
     KernelHit best;
     best.t = from.t_max;
     for (std::uint32_t i = 0; i < things.size(); ++i) {
@@ -107,7 +107,7 @@ TEST(KernelBalls, RaysHitBallsAsExactSpheres) {
 TEST(KernelBalls, RaysHitMovedBallsInARefittedTree) {
     test::Numbers numbers(52);
     std::vector<bvh::Triangle> things = drawn(numbers);
-    bvh::Bvh tree = bvh::build(things);
+    bvh::Bvh tree = bvh::build_bvh(things);
     for (bvh::Triangle& thing : things) {
         const vec3 by = .2f * numbers.in_cube();
         thing.a += by;
@@ -116,7 +116,7 @@ TEST(KernelBalls, RaysHitMovedBallsInARefittedTree) {
         else
             thing.b += by, thing.c += by;
     }
-    bvh::refit(tree, things);
+    bvh::refit_bvh(tree, things);
     Kernel kernel(std::move(tree));
     expect_nearest(kernel, things, kernel_balls_rays_among(things, numbers));
 }

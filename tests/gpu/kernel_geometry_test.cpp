@@ -33,7 +33,7 @@ std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
         mesh.positions.insert(mesh.positions.end(), {dvec3(t.a), dvec3(t.b), dvec3(t.c)});
         mesh.triangles.push_back({first, first + 1, first + 2});
     }
-    dropped += scene::repair(mesh);
+    dropped += scene::repair_mesh(mesh);
     for (const vec3& normal : mesh.normals) EXPECT_TRUE(f32::is_finite(normal));
     std::vector<bvh::Triangle> result;
     for (const uvec3& t : mesh.triangles)
@@ -80,10 +80,10 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
         Kernel kernel(triangles);
         const bvh::Bvh& hierarchy = kernel.hierarchy();
         ASSERT_EQ(hierarchy.dropped, kTriangles - finite.size());
-        ASSERT_EQ(bvh::triangle_count(hierarchy), finite.size());
+        ASSERT_EQ(bvh::count_triangles(hierarchy), finite.size());
         for (const vec4& corner : hierarchy.triangles) ASSERT_TRUE(f32::is_finite(vec3(corner)));
         const std::vector<bvh::Triangle> area = loaded(good, flat);
-        ASSERT_EQ(bvh::build(area).dropped, 0u);
+        ASSERT_EQ(bvh::build_bvh(area).dropped, 0u);
         not_finite += hierarchy.dropped;
         kept += area.size();
 
@@ -91,7 +91,7 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
         for (const KernelHit& hit : kernel.closest(rays)) {
             ASSERT_FALSE(hit.exhausted());
             most_steps = std::max(most_steps, hit.steps);
-            ASSERT_LE(hit.steps, bvh::node_count(hierarchy) + bvh::triangle_count(hierarchy))
+            ASSERT_LE(hit.steps, bvh::count_nodes(hierarchy) + bvh::count_triangles(hierarchy))
                 << "nothing is looked at twice";
             if (!hit.found()) continue;
             ++hits;
@@ -133,7 +133,7 @@ std::vector<KernelRay> rays_at_the_copies() {
 TEST(KernelGeometry, N21_CopiesOfOneTriangleAreTracedAsOne) {
     const std::vector<bvh::Triangle> triangles = copies(100000, true);
     const auto start = std::chrono::steady_clock::now();
-    bvh::Bvh hierarchy = bvh::build(triangles);
+    bvh::Bvh hierarchy = bvh::build_bvh(triangles);
     const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
     Kernel kernel(std::move(hierarchy));
     const std::vector<KernelRay> rays = rays_at_the_copies();
@@ -160,7 +160,7 @@ TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
     const std::vector<KernelRay> rays = rays_at_the_copies();
     for (const std::size_t count : {std::size_t{5000}, std::size_t{100000}}) {
         Kernel kernel(copies(count, false));
-        ASSERT_EQ(bvh::triangle_count(kernel.hierarchy()), count);
+        ASSERT_EQ(bvh::count_triangles(kernel.hierarchy()), count);
         const std::vector<KernelHit> hits = kernel.closest(rays);
         std::size_t found = 0, gave_up = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -203,7 +203,7 @@ TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
     std::size_t not_lowest = 0;
     std::uint64_t checksum = 14695981039346656037u; // offset basis of the FNV-1a hash
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const auto lowest = bvh::closest_hit<float>(
+        const auto lowest = bvh::find_closest_hit<float>(
             kernel.hierarchy(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
         const bool second = hits[i].triangle >= once && hits[i].triangle < 2 * once;
         not_lowest += lowest && !second && hits[i].triangle == lowest->triangle &&

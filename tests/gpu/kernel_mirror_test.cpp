@@ -26,9 +26,9 @@ std::vector<KernelRay> random_rays(std::size_t count, vec3 lo, vec3 hi, unsigned
 }
 
 TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
-    const scene::Scene room = scene::cornell_mirrors();
-    const render::Geometry geometry = render::make_geometry(room, render::space_of(room));
-    Kernel kernel(app::hierarchy_without(geometry, geometry.ranges.size()));
+    const scene::Scene room = scene::make_cornell_mirrors();
+    const render::Geometry geometry = render::make_geometry(room, render::make_scene_units(room));
+    Kernel kernel(app::build_bvh_without_object(geometry, geometry.ranges.size()));
     const std::vector<KernelRay> rays = random_rays(100000, vec3(kernel.hierarchy().nodes[0]),
                                                     vec3(kernel.hierarchy().nodes[1]), 1);
     for (const std::uint32_t skipped : {0u, bvh::kHidden, bvh::kHidden | bvh::kOneSided}) {

@@ -101,7 +101,7 @@ TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
 /// flags, and the meshes otherwise.
 TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
     Crowd crowd(43);
-    for (bvh::Instance& thing : crowd.things())
+    for (bvh::BvhInstance& thing : crowd.things())
         if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kSphere;
     const Batch batch(crowd.rays(20000));
     Kernel kernel(crowd.hierarchy());
@@ -115,11 +115,12 @@ TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
         const KernelRay& ray = batch.rays[i];
         KernelHit wanted = test::mirror_of(kernel.hierarchy(), ray, bvh::kSphere, low);
         float nearest = wanted.found() ? wanted.t : ray.t_max, t;
-        for (const bvh::Instance& thing : crowd.things())
+        for (const bvh::BvhInstance& thing : crowd.things())
             if (thing.radius > 0 &&
                 f32::sphere_test(vec3(0), thing.radius,
-                                 f32::own_ray(test::place_of(thing),
-                                              {ray.origin, ray.direction, ray.leaves}, low),
+                                 f32::ray_in_object_space(test::place_of(thing),
+                                                          {ray.origin, ray.direction, ray.leaves},
+                                                          low),
                                  nearest, t))
                 nearest = t, wanted = {t, vec3(0), 0, thing.object, 1};
         on_spheres += wanted.found() && wanted.object > 0 && wanted.object % 2 == 0;

@@ -23,7 +23,7 @@ struct SelfHits {
 /// Traces 1000 rays from random points of the triangle into random directions, and counts their
 /// hits on the same triangle.
 void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& count,
-           const gpu::Constants& rules = {}) {
+           const gpu::ShaderConstants& rules = {}) {
     constexpr std::size_t kRays = 1000;
     Kernel kernel(std::span(&triangle, 1));
     kernel.rules = rules;
@@ -154,7 +154,7 @@ TEST(KernelHit, N18_HitsLieWithin16UlpOfDoublePrecision) {
         double exact_t;
         dvec3 weights, error;
         const bool met = f64::triangle_test(a, b, c, dvec3(rays[i].origin),
-                                            f64::ray_shear(dvec3(rays[i].direction)), exact_t,
+                                            f64::make_ray_shear(dvec3(rays[i].direction)), exact_t,
                                             weights);
         ASSERT_EQ(hits[i].found(), met) << test::text(rays[i]);
         if (!met) continue; // a ray aimed at an edge passes beside it because of rounding

@@ -17,22 +17,24 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Layered,
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
-    app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {96, 96});
+    app::Request request = test::request(scene::make_cornell_mirrors(), {GetParam()}, {96, 96});
     request.frames = 3;
-    const app::Part at_once = std::move(app::run(test::engine(true), request).parts.front());
-    const app::Part one_by_one = std::move(app::run(test::engine(false), request).parts.front());
+    const app::TechniqueResult at_once = std::move(
+        app::run(test::engine(true), request).parts.front());
+    const app::TechniqueResult one_by_one = std::move(
+        app::run(test::engine(false), request).parts.front());
     EXPECT_TRUE(test::same_bytes(at_once.hdr, one_by_one.hdr));
     EXPECT_TRUE(test::same_bytes(at_once.display, one_by_one.display));
     EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);
 }
 
-/// Draws captures as render::add_captures does, but draws every object into every face. Returns the
-/// colours.
+/// Draws captures as render::add_capture_passes does, but draws every object into every face.
+/// Returns the colours.
 std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32_t face) {
     auto& [device, pipelines] = test::bench();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
-    graph::Runner runner(device, pipelines);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const std::uint32_t mirrors = gpu_scene.mirror_count();
     const graph::ImageHandle colour = graph.image(
@@ -41,10 +43,11 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
         const graph::ImageHandle depth = graph.image(
             {"depth" + std::to_string(mirror), Format::d32f, face, face, 6, true});
         graph.pass("capture" + std::to_string(mirror))
-            .writes(colour.layers(6 * mirror, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
-            .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
+            .writes(colour.layers(6 * mirror, 6), graph::ResourceUse::colour,
+                    graph::ClearValue{0, 0, 0, 1})
+            .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
             .layers(6)
-            .record([&gpu_scene, mirror](graph::Commands& commands) {
+            .record([&gpu_scene, mirror](graph::PassCommands& commands) {
                 gpu_scene.bind(commands);
                 for (const bool mirrors_now : {false, true}) {
                     commands.use(gpu::RasterState{
@@ -53,7 +56,7 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
                         const render::DrawRange& range = gpu_scene.ranges()[i];
                         if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
                             continue;
-                        commands.push(shared::Draw{gpu_scene.capture_view(mirror), 0});
+                        commands.push(shared::DrawParameters{gpu_scene.capture_view(mirror), 0});
                         gpu_scene.bind_vertices(commands, i);
                         commands.draw(range.first_index, range.index_count, 0, 6,
                                       static_cast<std::uint32_t>(i) << shared::kLayerBits);
@@ -68,8 +71,8 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
 
 TEST(Culling, CulledCapturesKeepTheirBytes) {
     for (const scene::Scene& scene :
-         {scene::cornell_mirrors(), test::room(3, 2), test::furnace(2)}) {
-        const test::Captured captured = test::capture(scene, 128, Format::r32f);
+         {scene::make_cornell_mirrors(), test::room(3, 2), test::furnace(2)}) {
+        const test::CapturedCubes captured = test::capture(scene, 128, Format::r32f);
         EXPECT_EQ(captured.colour_bytes, capture_everything(scene, 128)) << scene.name;
     }
 }
@@ -84,8 +87,8 @@ TEST(Culling, BoxWithAVisiblePointIsNeverCulled) {
         Bounds<float> box;
         box.add(corner);
         box.add(corner + vec3(size(random), size(random), size(random)));
-        for (const shared::View& view : render::cube_views(eye, .01f)) {
-            if (render::may_meet(view, box)) continue;
+        for (const shared::View& view : render::make_cube_views(eye, .01f)) {
+            if (render::may_view_show_box(view, box)) continue;
             ++left_out;
             for (int i = 0; i < 20; ++i) {
                 const vec3 v = box.lo +
@@ -112,9 +115,9 @@ TEST(Culling, BallWithAVisiblePointIsNeverCulled) {
         render::DrawRange ball;
         ball.radius = size(random);
         ball.bounds = {centre - ball.radius, centre + ball.radius};
-        for (const shared::View& view : render::cube_views(eye, .01f)) {
-            by_box += !render::may_meet(view, ball.bounds);
-            if (render::may_meet(view, ball)) continue;
+        for (const shared::View& view : render::make_cube_views(eye, .01f)) {
+            by_box += !render::may_view_show_box(view, ball.bounds);
+            if (render::may_view_show_box(view, ball)) continue;
             ++left_out;
             for (int i = 0; i < 40; ++i) {
                 const vec3 out(normal(random), normal(random), normal(random));
@@ -130,7 +133,7 @@ TEST(Culling, BallWithAVisiblePointIsNeverCulled) {
 
 TEST(NearPlanes, NearPlaneIsTheLargestPowerOfTwoThatCutsNothingOff) {
     for (const float gap : {1e-3f, .3f, .5f, .51f, 1.f, 3.9f, 4.f, 100.f}) {
-        const float near = render::cube_views(vec3(1, 2, 3), gap)[4].near;
+        const float near = render::make_cube_views(vec3(1, 2, 3), gap)[4].near;
         int exponent = 0;
         EXPECT_EQ(std::frexp(near, &exponent), .5f) << gap;
         // The nearest point may lie in a corner of the view, where its depth along the view axis is

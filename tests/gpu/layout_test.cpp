@@ -66,17 +66,17 @@ const std::vector<Member> kMembers{MEMBER(Vertex, position),
                                    MEMBER(Frame, mirror_count),
                                    MEMBER(Frame, object_count),
                                    MEMBER(Frame, shadow_faces),
-                                   MEMBER(Draw, first_view),
-                                   MEMBER(Draw, ablated),
+                                   MEMBER(DrawParameters, first_view),
+                                   MEMBER(DrawParameters, ablated),
                                    MEMBER(Placement, x),
                                    MEMBER(Placement, y),
                                    MEMBER(Placement, z),
                                    MEMBER(Placement, centre),
                                    MEMBER(Placement, centre_low),
-                                   MEMBER(Trace, sample_offset),
-                                   MEMBER(Trace, sample_index),
-                                   MEMBER(Trace, sample_count),
-                                   MEMBER(Trace, size),
+                                   MEMBER(TraceParameters, sample_offset),
+                                   MEMBER(TraceParameters, sample_index),
+                                   MEMBER(TraceParameters, sample_count),
+                                   MEMBER(TraceParameters, size),
                                    MEMBER(Counters, primary_rays),
                                    MEMBER(Counters, mirror_rays),
                                    MEMBER(Counters, shadow_rays),
@@ -103,12 +103,12 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
             names.push_back(member.name);
         }
 
-    graph::Runner runner(device, pipelines);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle output = graph.buffer({"output", 4 * expected.size()});
     graph.pass("layout")
-        .writes(output, graph::Use::storage_write)
-        .record([&](graph::Commands& commands) {
+        .writes(output, graph::ResourceUse::storage_write)
+        .record([&](graph::PassCommands& commands) {
             for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies",
                                      "Frames", "Draws", "Placements", "Traces", "AllCounters"})
                 commands.bind(name, input);
@@ -136,11 +136,11 @@ TEST(Layout, TestedMembersFillTheirStructures) {
 
 TEST(Layout, PushConstantsHaveTheSizeOfTheirStructure) {
     const auto push_bytes = [](const char* shader) {
-        return gpu::reflect(shader, gpu::find_shader(shader).words).push_bytes;
+        return gpu::reflect_spirv(shader, gpu::find_shader(shader).words).push_bytes;
     };
-    EXPECT_EQ(push_bytes("scene.vert"), sizeof(Draw));
-    EXPECT_EQ(push_bytes("diffuse.frag"), sizeof(Draw));
-    EXPECT_EQ(push_bytes("raytrace.comp"), sizeof(Trace));
+    EXPECT_EQ(push_bytes("scene.vert"), sizeof(DrawParameters));
+    EXPECT_EQ(push_bytes("diffuse.frag"), sizeof(DrawParameters));
+    EXPECT_EQ(push_bytes("raytrace.comp"), sizeof(TraceParameters));
 }
 
 } // namespace

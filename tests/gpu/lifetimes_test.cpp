@@ -6,7 +6,7 @@
 namespace {
 
 using namespace catoptric;
-using graph::Use;
+using graph::ResourceUse;
 using test::add_start, test::add_step, test::expect_refused, test::started, test::stepped;
 using test::kHeight, test::kWidth;
 
@@ -15,7 +15,7 @@ const graph::ImageDesc kDesc{"cubes", Format::r32f, kWidth, kHeight};
 /// Renders a frame from a persistent image with content hash `stamp`. If the image does not hold
 /// that content, the frame writes it first. `shown` receives a step computed from the image.
 /// Returns the number of passes that ran.
-std::size_t show(graph::Runner& runner, float stamp, std::vector<float>& shown) {
+std::size_t show(graph::GraphRunner& runner, float stamp, std::vector<float>& shown) {
     graph::Graph graph(runner.history());
     const graph::ImageHandle cubes = graph.persistent(kDesc);
     const auto number = static_cast<std::uint64_t>(stamp);
@@ -33,7 +33,7 @@ std::size_t show(graph::Runner& runner, float stamp, std::vector<float>& shown) 
 
 TEST(Kept, ImageIsWrittenOnceUntilItsContentHashChanges) {
     for (const std::uint32_t in_flight : {1u, 3u}) {
-        graph::Runner runner(test::bench().device, test::bench().pipelines, in_flight);
+        graph::GraphRunner runner(test::bench().device, test::bench().pipelines, in_flight);
         std::vector<float> shown;
         for (const auto& [stamp, passes] : std::vector<std::pair<float, std::size_t>>{
                  {2, 2}, {2, 1}, {2, 1}, {3, 2}, {3, 1}, {2, 2}, {2, 1}}) {
@@ -50,7 +50,7 @@ TEST(Kept, ImageIsWrittenOnceUntilItsContentHashChanges) {
 }
 
 TEST(Kept, ImageStaysThroughFramesThatDoNotUseIt) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> shown;
     EXPECT_EQ(show(runner, 2, shown), 2u);
     for (int frame = 0; frame < 3; ++frame) {
@@ -65,7 +65,7 @@ TEST(Kept, ImageStaysThroughFramesThatDoNotUseIt) {
 }
 
 TEST(Kept, LayersAreWrittenOneByOne) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::ImageDesc desc = kDesc;
     desc.layers = 3;
     for (std::uint32_t frame = 0; frame < 5; ++frame) {
@@ -75,12 +75,14 @@ TEST(Kept, LayersAreWrittenOneByOne) {
             const graph::ImageHandle part = cubes.layers(layer, 1);
             EXPECT_EQ(graph.holds_content(part, layer), layer < frame);
             if (layer != frame) continue;
-            graph.pass("fill").writes(part, Use::storage_write).record([=](graph::Commands& c) {
-                c.use(gpu::ComputeState{"tests/start.comp", {}});
-                c.bind("after", part);
-                c.push(static_cast<float>(layer + 1));
-                c.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
-            });
+            graph.pass("fill")
+                .writes(part, ResourceUse::storage_write)
+                .record([=](graph::PassCommands& c) {
+                    c.use(gpu::ComputeState{"tests/start.comp", {}});
+                    c.bind("after", part);
+                    c.push(static_cast<float>(layer + 1));
+                    c.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+                });
             graph.set_content_hash(part, layer);
         }
         EXPECT_EQ(graph.holds_content(cubes, 0), false);
@@ -97,7 +99,7 @@ TEST(Kept, LayersAreWrittenOneByOne) {
 }
 
 TEST(Kept, ImageOfAnotherSizeHasNoContent) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> shown;
     show(runner, 2, shown);
     graph::Graph graph(runner.history());
@@ -110,21 +112,22 @@ TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
     auto& [device, pipelines] = test::bench();
     graph::ImageDesc desc = kDesc;
     desc.name = "outside";
-    const graph::OwnedImage owned = graph::make_image(device, desc);
-    graph::Physical outside = graph::adopt(desc, owned.image.image);
-    graph::Runner runner(device, pipelines, 2);
+    const graph::OwnedImage owned = graph::make_importable_image(device, desc);
+    graph::PhysicalImage outside = graph::wrap_external_image(desc, owned.image.image);
+    graph::GraphRunner runner(device, pipelines, 2);
     for (int frame = 0; frame < 4; ++frame) {
         graph::Graph graph;
         const bool first = frame == 0;
         // The first frame writes the image, and later frames sample it. Each frame declares that
         // the next frame samples the image, which sets its layout.
         const graph::ImageHandle image = graph.import(
-            desc, &outside, first ? std::nullopt : std::optional(Use::sampled), Use::sampled);
+            desc, &outside, first ? std::nullopt : std::optional(ResourceUse::sampled),
+            ResourceUse::sampled);
         const graph::ImageHandle out = test::add_image(graph, "out");
         if (first) add_start(graph, image, 4);
         add_step(graph, "view", image, out, 5);
         graph.mark_output(out);
-        const graph::Ticket ticket = runner.submit(graph, graph::PassTiming::pipelined);
+        const graph::FrameTicket ticket = runner.submit(graph, graph::PassTiming::pipelined);
         std::vector<std::byte> bytes = runner.read(ticket, out);
         std::vector<float> values(bytes.size() / sizeof(float));
         std::memcpy(values.data(), bytes.data(), bytes.size());
@@ -136,12 +139,12 @@ TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
 TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
     auto& [device, pipelines] = test::bench();
     constexpr std::uint32_t kFrames = 6, kSlots = 3;
-    graph::Runner runner(device, pipelines, kSlots);
+    graph::GraphRunner runner(device, pipelines, kSlots);
     std::vector<gpu::Buffer> targets;
     for (std::uint32_t i = 0; i < kSlots; ++i)
         targets.emplace_back(device, "read-back", kWidth * kHeight * sizeof(float),
                              gpu::BufferUsage::read_back);
-    std::vector<graph::Ticket> tickets;
+    std::vector<graph::FrameTicket> tickets;
     const auto expect_read = [&](std::uint32_t frame) {
         runner.wait(tickets[frame]);
         const std::vector<std::byte> bytes = targets[frame % kSlots].read();
@@ -157,9 +160,9 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
         const graph::BufferHandle out = graph.import({target.name(), target.bytes()}, &target);
         add_start(graph, image, static_cast<float>(frame));
         graph.pass("copy")
-            .reads(image, Use::copy_from)
-            .writes(out, Use::copy_to)
-            .record([=](graph::Commands& commands) { commands.copy(image, out); });
+            .reads(image, ResourceUse::copy_from)
+            .writes(out, ResourceUse::copy_to)
+            .record([=](graph::PassCommands& commands) { commands.copy(image, out); });
         // The frame has no output. The imported buffer alone keeps the passes.
         tickets.push_back(runner.submit(graph, graph::PassTiming::pipelined));
     }
@@ -168,16 +171,17 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
 }
 
 TEST(Imported, ImageWithoutASourceIsRefused) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::ImageHandle image = graph.import(kDesc, nullptr, std::nullopt, Use::sampled);
+    const graph::ImageHandle image = graph.import(kDesc, nullptr, std::nullopt,
+                                                  ResourceUse::sampled);
     add_start(graph, image, 1);
     expect_refused([&] { test::run(runner, graph); }, Failure::internal,
                    {"image 'cubes' is imported from nowhere"});
 }
 
 TEST(Mips, EachMipIsComputedFromTheOneBefore) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     for (int frame = 0; frame < 2; ++frame) {
         graph::Graph graph;
         graph::ImageDesc desc = kDesc;
@@ -190,8 +194,8 @@ TEST(Mips, EachMipIsComputedFromTheOneBefore) {
         test::run(runner, graph);
         std::vector<float> expected, before;
         for (std::uint32_t m = 0; m < desc.mips; ++m) {
-            const std::uint32_t width = graph::at_mip(kWidth, m),
-                                height = graph::at_mip(kHeight, m);
+            const std::uint32_t width = graph::size_at_mip(kWidth, m),
+                                height = graph::size_at_mip(kHeight, m);
             std::vector<float> mip;
             for (std::uint32_t y = 0; y < height; ++y)
                 for (std::uint32_t x = 0; x < width; ++x) {
@@ -208,22 +212,23 @@ TEST(Mips, EachMipIsComputedFromTheOneBefore) {
 }
 
 TEST(Mips, MipsAreSampledAsOneImage) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     for (const float lod : {0.0f, 1.0f, 1.5f, 2.25f, 9.0f}) {
         graph::Graph graph;
         const graph::ImageHandle image = graph.image(
             {"pyramid", Format::r16f, 16, 16, 1, false, 5});
         for (std::uint32_t m = 0; m < 5; ++m)
             graph.pass("mip" + std::to_string(m))
-                .writes(image.mip(m), Use::colour, graph::Clear{10.0f * static_cast<float>(m)})
-                .record([](graph::Commands&) {});
+                .writes(image.mip(m), ResourceUse::colour,
+                        graph::ClearValue{10.0f * static_cast<float>(m)})
+                .record([](graph::PassCommands&) {});
         const graph::ImageHandle out = test::add_image(graph, "out");
         graph.pass("look")
-            .reads(image, Use::sampled)
-            .writes(out, Use::storage_write)
-            .record([=](graph::Commands& commands) {
+            .reads(image, ResourceUse::sampled)
+            .writes(out, ResourceUse::storage_write)
+            .record([=](graph::PassCommands& commands) {
                 commands.use(gpu::ComputeState{"tests/lod.comp", {}});
-                commands.bind("before", image, graph::Filter::mipmapped);
+                commands.bind("before", image, graph::TextureFilter::mipmapped);
                 commands.bind("after", out);
                 commands.push(lod);
                 commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
@@ -235,14 +240,14 @@ TEST(Mips, MipsAreSampledAsOneImage) {
 }
 
 TEST(Unread, AttachmentsThatAreNotStoredDoNotChangeThePicture) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::ImageHandle colour = graph.image({"colour", Format::rgba32f, 8, 8});
     const graph::ImageHandle depth = graph.image({"depth", Format::d32f, 8, 8});
     graph.pass("draw")
-        .writes(colour, Use::colour, graph::Clear{1, 2, 3, 4})
-        .writes(depth, Use::depth, graph::Clear{})
-        .record([](graph::Commands&) {});
+        .writes(colour, ResourceUse::colour, graph::ClearValue{1, 2, 3, 4})
+        .writes(depth, ResourceUse::depth, graph::ClearValue{})
+        .record([](graph::PassCommands&) {});
     graph.mark_output(colour);
     EXPECT_EQ(runner.compiled(graph).passes[0].unread, 2u);
     test::run(runner, graph);
@@ -254,15 +259,15 @@ TEST(Unread, AttachmentsThatAreNotStoredDoNotChangeThePicture) {
 // Frames in flight write an image that no pass reads. Each frame must wait for the write of the
 // frame before, which the validation layer checks.
 TEST(Unread, UnreadImageIsWrittenAgainInTheNextFrame) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines, 3);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 3);
     for (int frame = 0; frame < 6; ++frame) {
         graph::Graph graph;
         const graph::ImageHandle unread = test::add_image(graph, "unread");
         const graph::ImageHandle out = test::add_image(graph, "out");
         graph.pass("both")
-            .writes(unread, Use::storage_write)
-            .writes(out, Use::storage_write)
-            .record([=](graph::Commands& commands) {
+            .writes(unread, ResourceUse::storage_write)
+            .writes(out, ResourceUse::storage_write)
+            .record([=](graph::PassCommands& commands) {
                 commands.use(gpu::ComputeState{"tests/start.comp", {}});
                 for (const graph::ImageHandle& after : {unread, out}) {
                     commands.bind("after", after);
@@ -278,7 +283,7 @@ TEST(Unread, UnreadImageIsWrittenAgainInTheNextFrame) {
 // Graphs of five shapes take turns, one of them with a persistent image. The memory must not exceed
 // that of the largest shape.
 TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 2);
     std::uint64_t after_two_rounds = 0;
     for (int frame = 0; frame < 2000; ++frame) {
         const int kind = frame % 5;
@@ -287,15 +292,15 @@ TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
         const graph::ImageHandle out = graph.image({"out", Format::rgba16f, 64u << (4 - kind), 64});
         for (const graph::ImageHandle& image : {last, out})
             graph.pass("clear/" + graph.images()[image.id].name)
-                .reads(graph.previous(last), Use::sampled)
-                .writes(image, Use::colour, graph::Clear{})
-                .record([](graph::Commands&) {});
+                .reads(graph.previous(last), ResourceUse::sampled)
+                .writes(image, ResourceUse::colour, graph::ClearValue{})
+                .record([](graph::PassCommands&) {});
         if (kind == 3) {
             const graph::ImageHandle kept = graph.persistent({"kept", Format::rgba16f, 64, 64});
             if (!graph.holds_content(kept, 1)) {
                 graph.pass("keep")
-                    .writes(kept, Use::colour, graph::Clear{})
-                    .record([](graph::Commands&) {});
+                    .writes(kept, ResourceUse::colour, graph::ClearValue{})
+                    .record([](graph::PassCommands&) {});
                 graph.set_content_hash(kept, 1);
             }
         }

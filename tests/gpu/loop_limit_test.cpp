@@ -11,12 +11,12 @@ namespace {
 using namespace catoptric;
 
 std::uint32_t turns_of(std::uint32_t wanted) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::BufferHandle counts = graph.buffer({"counts", 16});
     graph.pass("spin")
-        .writes(counts, graph::Use::storage_write)
-        .record([=](graph::Commands& commands) {
+        .writes(counts, graph::ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"tests/spin.comp", {}});
             commands.bind("Counts", counts);
             commands.push(wanted);
@@ -80,7 +80,8 @@ TEST(LoopLimit, RayThatReachesItsStepLimitFailsTheRun) {
 }
 
 TEST(LoopLimit, SameSceneRendersWithLessDepth) {
-    const app::Part part = test::render(hall_of_mirrors(3000), "raytrace:depth=4", {32, 32});
+    const app::TechniqueResult part = test::render(hall_of_mirrors(3000), "raytrace:depth=4",
+                                                   {32, 32});
     ASSERT_TRUE(part.rays);
     std::cout << "[ MEASURED ] longest walk at depth 4: " << part.rays->longest_walk << " steps\n";
     EXPECT_GT(part.rays->longest_walk, 1000u);

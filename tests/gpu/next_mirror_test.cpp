@@ -33,18 +33,20 @@ std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
                             const std::vector<MirrorRay>& rays, bool by_tree) {
     auto& [device, pipelines] = test::bench();
     gpu::Buffer input, mirrors, tree, frame;
-    upload(device, input, "rays", rays, gpu::BufferUsage::plain);
-    upload(device, mirrors, "probes", render::texels_of(probes), gpu::BufferUsage::texels);
-    upload(device, tree, "tree", render::mirror_tree(probes), gpu::BufferUsage::texels);
+    upload_to_buffer(device, input, "rays", rays, gpu::BufferUsage::plain);
+    upload_to_buffer(device, mirrors, "probes", render::pack_into_texels(probes),
+                     gpu::BufferUsage::texels);
+    upload_to_buffer(device, tree, "tree", render::build_mirror_tree(probes),
+                     gpu::BufferUsage::texels);
     const auto count = static_cast<std::uint32_t>(probes.size());
-    upload(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},
-           gpu::BufferUsage::uniform);
-    graph::Runner runner(device, pipelines);
+    upload_to_buffer(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},
+                     gpu::BufferUsage::uniform);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle out = graph.buffer({"answers", rays.size() * sizeof(Answer)});
     graph.pass("next_mirror")
-        .writes(out, graph::Use::storage_write)
-        .record([&](graph::Commands& commands) {
+        .writes(out, graph::ResourceUse::storage_write)
+        .record([&](graph::PassCommands& commands) {
             commands.bind("frame", frame);
             commands.bind("probe_texels", mirrors);
             commands.bind("mirror_nodes", tree);

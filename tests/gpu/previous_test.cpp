@@ -9,7 +9,7 @@ using test::add_image, test::add_start, test::add_step, test::stepped;
 using test::kHeight, test::kWidth;
 
 TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> expected(kWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 4; ++frame) {
         graph::Graph graph(runner.history());
@@ -25,7 +25,7 @@ TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
 
 TEST(Previous, HistoryBelongsToItsRunner) {
     for (int run = 0; run < 2; ++run) {
-        graph::Runner runner(test::bench().device, test::bench().pipelines);
+        graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
         EXPECT_TRUE(runner.history().previous.empty());
         graph::Graph graph(runner.history());
         const graph::ImageHandle image = add_image(graph, "kept");
@@ -38,7 +38,7 @@ TEST(Previous, HistoryBelongsToItsRunner) {
 }
 
 TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     std::vector<float> expected(kWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
@@ -77,7 +77,7 @@ TEST(Aliasing, ImagesThatShareMemoryEqualImagesApart) {
     std::vector<float> found[2];
     std::uint64_t bytes[2];
     for (const bool apart : {false, true}) {
-        graph::Runner runner(test::bench().device, test::bench().pipelines);
+        graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
         for (int frame = 0; frame < 3; ++frame) { // later frames reuse memory
             graph::Graph graph;
             const graph::ImageHandle last = add_chain(graph, 9, apart);

@@ -19,37 +19,40 @@ using namespace catoptric;
 using gpu::BindingKind;
 using gpu::ImageViewType;
 
-gpu::Reflection reflection(const char* name) {
-    return gpu::reflect(name, gpu::find_shader(name).words);
+gpu::ShaderReflection reflection(const char* name) {
+    return gpu::reflect_spirv(name, gpu::find_shader(name).words);
 }
 
 /// Returns what the shader uses if its constants have these values, and all others their defaults.
-gpu::Reflection specialised(const char* shader,
-                            const std::map<std::string, std::uint32_t>& constants) {
-    const gpu::Reflection all = reflection(shader);
+gpu::ShaderReflection specialised(const char* shader,
+                                  const std::map<std::string, std::uint32_t>& constants) {
+    const gpu::ShaderReflection all = reflection(shader);
     std::map<std::uint32_t, std::uint32_t> values;
     for (const auto& [name, value] : constants) {
-        const auto constant = std::ranges::find(all.constants, name, &gpu::Constant::name);
+        const auto constant = std::ranges::find(all.constants, name,
+                                                &gpu::SpecialisationConstant::name);
         if (constant == all.constants.end()) ADD_FAILURE() << shader << " has no constant " << name;
         if (constant != all.constants.end()) values[constant->id] = value;
     }
-    return gpu::reflect(shader, gpu::specialise(shader, gpu::find_shader(shader).words, values));
+    return gpu::reflect_spirv(
+        shader, gpu::specialise_shader(shader, gpu::find_shader(shader).words, values));
 }
 
-const gpu::Binding* find(const gpu::Reflection& reflection, std::string_view name) {
-    const auto found = std::ranges::find(reflection.bindings, name, &gpu::Binding::name);
+const gpu::ShaderBinding* find(const gpu::ShaderReflection& reflection, std::string_view name) {
+    const auto found = std::ranges::find(reflection.bindings, name, &gpu::ShaderBinding::name);
     return found == reflection.bindings.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> constants(const gpu::Reflection& reflection) {
+std::vector<std::string> constants(const gpu::ShaderReflection& reflection) {
     std::vector<std::string> names;
-    for (const gpu::Constant& constant : reflection.constants) names.push_back(constant.name);
+    for (const gpu::SpecialisationConstant& constant : reflection.constants)
+        names.push_back(constant.name);
     std::ranges::sort(names);
     return names;
 }
 
 TEST(Reflection, BindingsOfTheRayTracerAreFound) {
-    const gpu::Reflection found = reflection("raytrace.comp");
+    const gpu::ShaderReflection found = reflection("raytrace.comp");
     struct Expected {
         const char* name;
         std::uint32_t binding;
@@ -61,7 +64,7 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
           Expected{"bvh_nodes", 9, BindingKind::texel_buffer},
           Expected{"picture", 12, BindingKind::storage_image},
           Expected{"counters", 14, BindingKind::storage_buffer}}) {
-        const gpu::Binding* one = find(found, name);
+        const gpu::ShaderBinding* one = find(found, name);
         ASSERT_TRUE(one) << name;
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
@@ -91,7 +94,7 @@ TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
 }
 
 TEST(Reflection, ShapesOfImagesAreFound) {
-    const gpu::Reflection parallax = reflection("reflect/parallax.frag");
+    const gpu::ShaderReflection parallax = reflection("reflect/parallax.frag");
     ASSERT_TRUE(find(parallax, "colour_cubes") && find(parallax, "distance_cubes"));
     EXPECT_EQ(find(parallax, "colour_cubes")->shape, ImageViewType::cube_array);
     EXPECT_EQ(find(parallax, "colour_cubes")->kind, BindingKind::texture);
@@ -99,7 +102,7 @@ TEST(Reflection, ShapesOfImagesAreFound) {
     ASSERT_TRUE(find(reflection("reflect/planar.frag"), "mirrored"));
     EXPECT_EQ(find(reflection("reflect/planar.frag"), "mirrored")->kind,
               BindingKind::sampled_image);
-    const gpu::Reflection diffuse = reflection("diffuse.frag");
+    const gpu::ShaderReflection diffuse = reflection("diffuse.frag");
     ASSERT_TRUE(find(diffuse, "shadow_map"));
     EXPECT_EQ(find(diffuse, "shadow_map")->shape, ImageViewType::flat_array);
     EXPECT_EQ(reflection("compose.frag").push_bytes, 4u);
@@ -109,10 +112,10 @@ TEST(Reflection, InvalidShadersAreRefused) {
     test::expect_refused([] { gpu::find_shader("no/such.frag"); }, Failure::internal,
                          {"there is no shader 'no/such.frag'"});
     const std::vector<std::uint32_t> text(10, 0x20202020);
-    test::expect_refused([&] { gpu::reflect("text", text); }, Failure::internal,
+    test::expect_refused([&] { gpu::reflect_spirv("text", text); }, Failure::internal,
                          {"'text' is not SPIR-V"});
     const auto words = gpu::find_shader("compose.frag").words;
-    test::expect_refused([&] { gpu::reflect("half", words.first(6)); }, Failure::internal,
+    test::expect_refused([&] { gpu::reflect_spirv("half", words.first(6)); }, Failure::internal,
                          {"'half' is cut off"});
 }
 
@@ -120,29 +123,29 @@ TEST(Specialise, CodeUnreachableWithTheConstantsIsRemoved) {
     const auto words = gpu::find_shader("raytrace.comp").words;
     // Values of the specialisation constants: all features off, and all on.
     std::map<std::uint32_t, std::uint32_t> plain, rich;
-    for (const gpu::Constant& constant : reflection("raytrace.comp").constants)
+    for (const gpu::SpecialisationConstant& constant : reflection("raytrace.comp").constants)
         plain[constant.id] = 0, rich[constant.id] = 1;
-    const auto without = gpu::specialise("raytrace.comp", words, plain),
-               with = gpu::specialise("raytrace.comp", words, rich);
+    const auto without = gpu::specialise_shader("raytrace.comp", words, plain),
+               with = gpu::specialise_shader("raytrace.comp", words, rich);
     EXPECT_LT(without.size(), with.size());
     EXPECT_LT(3 * without.size(), 2 * words.size());
-    const gpu::Reflection left = gpu::reflect("specialised", without);
+    const gpu::ShaderReflection left = gpu::reflect_spirv("specialised", without);
     EXPECT_THAT(left.constants, testing::IsEmpty()) << "the driver has nothing to put in";
     EXPECT_TRUE(find(left, "bvh_nodes"));
     test::expect_refused(
-        [] { gpu::specialise("text", std::vector<std::uint32_t>(10, 0x20202020), {}); },
+        [] { gpu::specialise_shader("text", std::vector<std::uint32_t>(10, 0x20202020), {}); },
         Failure::internal, {"shader 'text' cannot be specialised: "});
 }
 
 /// A graph of one dispatch into a buffer of 16 words.
 void dispatch(const gpu::ComputeState& state,
-              const std::function<void(graph::Commands&, graph::BufferHandle)>& prepare) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+              const std::function<void(graph::PassCommands&, graph::BufferHandle)>& prepare) {
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::BufferHandle buffer = graph.buffer({"counts", 64});
     graph.pass("lonely")
-        .writes(buffer, graph::Use::storage_write)
-        .record([&](graph::Commands& commands) {
+        .writes(buffer, graph::ResourceUse::storage_write)
+        .record([&](graph::PassCommands& commands) {
             commands.use(state);
             prepare(commands, buffer);
             commands.dispatch(1, 1);
@@ -155,18 +158,18 @@ TEST(Binding, UnboundNameIsRefusedWithPassAndShader) {
     test::expect_refused(
         [] {
             dispatch({"tests/spin.comp", {}},
-                     [](graph::Commands& commands, graph::BufferHandle) { commands.push(1u); });
+                     [](graph::PassCommands& commands, graph::BufferHandle) { commands.push(1u); });
         },
         Failure::internal, {"pass 'lonely'", "nothing is bound to 'Counts'", "tests/spin.comp"});
 }
 
 TEST(Binding, ImageBoundAsABufferIsRefused) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::ImageHandle image = graph.image({"image", Format::r32f, 8, 8});
     graph.pass("mixed")
-        .writes(image, graph::Use::storage_write)
-        .record([=](graph::Commands& commands) {
+        .writes(image, graph::ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"tests/spin.comp", {}});
             commands.push(1u);
             commands.bind("Counts", image);
@@ -178,13 +181,13 @@ TEST(Binding, ImageBoundAsABufferIsRefused) {
 }
 
 TEST(Binding, UndeclaredResourceIsRefused) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::BufferHandle declared = graph.buffer({"declared", 64}),
                               other = graph.buffer({"other", 64});
     graph.pass("sly")
-        .writes(declared, graph::Use::storage_write)
-        .record([=](graph::Commands& commands) { commands.bind("Counts", other); });
+        .writes(declared, graph::ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) { commands.bind("Counts", other); });
     graph.mark_output(declared);
     test::expect_refused([&] { test::run(runner, graph); }, Failure::internal,
                          {"pass 'sly'", "'other'", "does not declare it"});
@@ -194,7 +197,7 @@ TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
     test::expect_refused(
         [] {
             dispatch({"tests/spin.comp", {}},
-                     [](graph::Commands& commands, graph::BufferHandle buffer) {
+                     [](graph::PassCommands& commands, graph::BufferHandle buffer) {
                          commands.bind("Counts", buffer);
                          commands.push(uvec2(1, 2));
                      });
@@ -206,7 +209,7 @@ TEST(Binding, UnknownConstantIsRefused) {
     test::expect_refused(
         [] {
             dispatch({"tests/spin.comp", {{"speed", 1u}}},
-                     [](graph::Commands&, graph::BufferHandle) {});
+                     [](graph::PassCommands&, graph::BufferHandle) {});
         },
         Failure::internal, {"tests/spin.comp", "has no constant 'speed'"});
 }

@@ -19,10 +19,10 @@ gpu::Device& device() { return test::bench().device; }
 std::vector<std::byte> resident_picture(const render::GpuScene& scene,
                                         const std::string& technique) {
     auto& [device, pipelines] = test::bench();
-    graph::Runner runner(device, pipelines);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const reflect::Outputs outputs = test::add_technique(graph, {scene, kResidentSize, ""},
-                                                         technique);
+    const reflect::TechniqueOutputs outputs = test::add_technique(graph, {scene, kResidentSize, ""},
+                                                                  technique);
     graph.mark_output(outputs.hdr);
     scene.prepare();
     test::run(runner, graph);
@@ -111,7 +111,7 @@ void change(Live& live, test::Numbers& numbers) {
     case 5: // add a light without a surface, or move the last one
         if (live.now.punctual.empty() || numbers.below(2) == 0)
             live.now.punctual.push_back(
-                {.kind = static_cast<scene::Punctual::Kind>(numbers.below(3)),
+                {.kind = static_cast<scene::PunctualLight::Kind>(numbers.below(3)),
                  .intensity = vec3(1)});
         live.now.punctual.back().world_from_light[3] += dvec4(by, 0);
         break;
@@ -197,7 +197,7 @@ std::vector<std::uint32_t> words(const gpu::Buffer& buffer, std::size_t count) {
 /// The buffer that a slot binds must keep its content until that slot writes again.
 TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kSlots = 3, kWords = 9000;
-    render::Resident list("list", gpu::BufferUsage::plain, kSlots);
+    render::DeviceList list("list", gpu::BufferUsage::plain, kSlots);
     std::vector<std::uint32_t> now(kWords, 1);
     list.set(now);
     for (std::size_t slot = 0; slot < kSlots; ++slot) list.write(device(), slot);
@@ -217,7 +217,7 @@ TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
 }
 
 TEST(Resident, OnlyChangedPartsOfABufferAreWritten) {
-    render::Resident list("list", gpu::BufferUsage::plain, 1);
+    render::DeviceList list("list", gpu::BufferUsage::plain, 1);
     std::vector<std::uint32_t> now(100000, 1);
     list.set(now);
     EXPECT_EQ(list.write(device(), 0), 1u);

@@ -79,7 +79,7 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
                                            {"raytrace", false},
                                            {"raytrace", true}}) {
         scene::Scene at_rest = test::room(3, 2);
-        if (moves) at_rest.objects.back().motion = scene::Harmonic{.amplitude = {.1, 0, 0}};
+        if (moves) at_rest.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}};
         app::Session session(test::engine(), at_rest);
         app::FrameSpec spec = spec_of(at_rest, technique);
         measure::Picture before = session.frame(spec).hdr();
@@ -137,7 +137,7 @@ TEST(Session, ResumedSequenceContinues) {
     const scene::Scene scene = test::room(3, 1);
     app::Session session(test::engine(), scene), alone(test::engine(), scene);
     const std::string techniques[] = {"reuse:face=16", "reuse:face=auto", "raytrace"};
-    std::vector<app::Sequence> aside;
+    std::vector<app::FrameSequence> aside;
     for (int k = 1; k <= 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
             const app::FrameSpec spec = spec_of(scene, techniques[i]);
@@ -164,7 +164,7 @@ TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
     session.frame(spec), session.frame(spec);
-    app::Sequence sequence = app::Access::suspend(session);
+    app::FrameSequence sequence = app::Access::suspend(session);
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
@@ -257,13 +257,13 @@ TEST(Session, PicturesDoNotDependOnFramesInFlight) {
 }
 
 TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     app::Session session(test::engine(), scene);
     std::uint64_t uploads = 0;
     for (const std::string technique : {"reuse:face=16", "raytrace", "hybrid:face=16"}) {
         session.forget();
         for (int k = 0; k < 3; ++k) session.frame(spec_of(scene, technique));
-        const app::Counts counts = app::Access::counts(session);
+        const app::SessionCounters counts = app::Access::counts(session);
         EXPECT_EQ(counts.hierarchies_built, technique == "reuse:face=16" ? 0u : 1u);
         EXPECT_EQ(counts.hierarchies_refitted, 0u);
         if (technique == "hybrid:face=16") {
@@ -274,7 +274,7 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
 }
 
 TEST(Session, OnlyTracingTechniquesRefitTrees) {
-    const scene::Scene scene = scene::cornell_mirrors(); // a scene with a moving ball
+    const scene::Scene scene = scene::make_cornell_mirrors(); // a scene with a moving ball
     for (const std::string technique : {"parallax:face=16", "raytrace"}) {
         app::Session session(test::engine(), scene);
         for (int k = 0; k < 5; ++k) {
@@ -282,7 +282,7 @@ TEST(Session, OnlyTracingTechniquesRefitTrees) {
             spec.time = .1 * k;
             session.frame(spec);
         }
-        const app::Counts counts = app::Access::counts(session);
+        const app::SessionCounters counts = app::Access::counts(session);
         const bool traces = technique == "raytrace";
         EXPECT_EQ(counts.hierarchies_built, traces ? 1u : 0u);
         EXPECT_EQ(counts.hierarchies_refitted, traces ? 4u : 0u);
@@ -292,7 +292,7 @@ TEST(Session, OnlyTracingTechniquesRefitTrees) {
 /// Tests that the host's work time excludes the time from submit to the end of the frame. The sum
 /// of both may not exceed the whole frame's duration.
 TEST(Session, WaitingTimeIsNotHostWork) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
     spec.size = {256, 256};
@@ -313,7 +313,7 @@ TEST(Session, WaitingTimeIsNotHostWork) {
 /// A caller that asks after the frame has ended waits for nothing. A new frame for which no slot is
 /// free waits for an older frame.
 TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     app::FrameSpec spec = spec_of(scene, "raytrace");
     spec.size = {256, 256};
     app::Session two(test::engine(), scene, 2), one(test::engine(), scene);
@@ -339,11 +339,11 @@ TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     EXPECT_EQ(app::Access::setup(session).upload_ms, 0)
         << "nothing is written before the first frame";
     session.frame(spec_of(scene, "reuse:face=16"));
-    const app::Setup raster = app::Access::setup(session);
+    const app::SetupTimes raster = app::Access::setup(session);
     EXPECT_GT(raster.upload_ms, 0);
     EXPECT_EQ(raster.hierarchy_ms, 0) << "nobody has traced";
     session.frame(spec_of(scene, "raytrace"));
-    const app::Setup traced = app::Access::setup(session);
+    const app::SetupTimes traced = app::Access::setup(session);
     EXPECT_GT(traced.hierarchy_ms, 0);
     EXPECT_GT(traced.upload_ms, raster.upload_ms) << "the trees' way to the device";
     EXPECT_LE(traced.upload_ms + traced.hierarchy_ms, milliseconds_since(begin));
@@ -363,10 +363,10 @@ TEST(Session, EngineCompilesEachPipelineOnce) {
     const auto begin = std::chrono::steady_clock::now();
     app::Engine engine({.device = test::wanted_device()});
     EXPECT_EQ(app::Access::compiled(engine).pipelines, 0u);
-    EXPECT_EQ(app::Access::cache_use(engine), app::CacheUse::none);
+    EXPECT_EQ(app::Access::cache_use(engine), app::PipelineCacheState::none);
     const app::FrameSpec spec = spec_of(scene, "raytrace:depth=1");
     app::Session(engine, scene).frame(spec).times();
-    const app::Compiled once = app::Access::compiled(engine);
+    const app::CompiledPipelines once = app::Access::compiled(engine);
     EXPECT_GT(once.pipelines, 0u);
     EXPECT_GT(once.ms, 0);
     EXPECT_LE(once.ms, milliseconds_since(begin));

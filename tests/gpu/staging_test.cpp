@@ -20,7 +20,7 @@ INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true),
                          [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
 
 TEST_P(Staging, BufferReturnsTheWrittenData) {
-    ASSERT_EQ(device().staged(), GetParam());
+    ASSERT_EQ(device().needs_staging(), GetParam());
     std::vector<std::uint32_t> words(1000);
     std::iota(words.begin(), words.end(), 17u);
     gpu::Buffer buffer(device(), "words", 4 * words.size(), gpu::BufferUsage::plain);
@@ -47,7 +47,7 @@ TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
     for (const auto& [use, bytes] : {std::pair{gpu::BufferUsage::words, 4u},
                                      {gpu::BufferUsage::quads, 16u},
                                      {gpu::BufferUsage::texels, 16u}}) {
-        const std::uint64_t most = device().most_texels(bytes);
+        const std::uint64_t most = device().max_texel_count(bytes);
         test::expect_refused([&] { gpu::Buffer(device(), "list", (most + 1) * bytes, use); },
                              Failure::exhausted,
                              {"buffer 'list' wants " + std::to_string(most + 1) +
@@ -57,17 +57,17 @@ TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
 
 TEST_P(Staging, EmptyBufferCanBeMadeAndWritten) {
     gpu::Buffer buffer;
-    gpu::upload(device(), buffer, "empty", std::vector<float>{}, gpu::BufferUsage::plain);
+    gpu::upload_to_buffer(device(), buffer, "empty", std::vector<float>{}, gpu::BufferUsage::plain);
     EXPECT_TRUE(buffer.handle());
     EXPECT_GE(buffer.bytes(), 16u);
 }
 
 TEST_P(Staging, UploadGrowsTheBuffer) {
     gpu::Buffer buffer;
-    gpu::upload(device(), buffer, "list", std::vector<std::uint32_t>(10, 5u),
-                gpu::BufferUsage::plain);
+    gpu::upload_to_buffer(device(), buffer, "list", std::vector<std::uint32_t>(10, 5u),
+                          gpu::BufferUsage::plain);
     std::vector<std::uint32_t> longer(100, 9u);
-    gpu::upload(device(), buffer, "list", longer, gpu::BufferUsage::plain);
+    gpu::upload_to_buffer(device(), buffer, "list", longer, gpu::BufferUsage::plain);
     ASSERT_EQ(buffer.bytes(), 400u);
     EXPECT_EQ(std::memcmp(buffer.read().data(), longer.data(), 400), 0);
 }
@@ -123,11 +123,11 @@ TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
         const scene::Scene room = test::room(0, 1);
         render::GpuScene gpu_scene(device, room);
         gpu_scene.update(room, room.cameras.front(), {48, 32}, 0.05);
-        graph::Runner runner(device, pipelines);
+        graph::GraphRunner runner(device, pipelines);
         graph::Graph graph;
         const render::FrameInputs inputs{gpu_scene, {48, 32}, ""};
-        const render::Lighting lighting{render::add_shadow(graph, inputs, 64)};
-        const graph::ImageHandle hdr = render::add_view(graph, inputs, lighting, {}).hdr;
+        const render::Lighting lighting{render::add_shadow_passes(graph, inputs, 64)};
+        const graph::ImageHandle hdr = render::add_camera_view(graph, inputs, lighting, {}).hdr;
         graph.mark_output(hdr);
         test::run(runner, graph);
         return test::read_as<float>(runner, hdr);

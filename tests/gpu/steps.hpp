@@ -8,7 +8,7 @@
 /// one float, and the same computations in C++.
 namespace test {
 
-using graph::Use;
+using graph::ResourceUse;
 
 constexpr std::uint32_t kWidth = 40, kHeight = 24;
 
@@ -19,8 +19,8 @@ inline graph::ImageHandle add_image(graph::Graph& graph, const std::string& name
 /// Adds a pass that sets each texel of `after` to number * (1 + the texel's index).
 inline void add_start(graph::Graph& graph, graph::ImageHandle after, float number) {
     graph.pass("start/" + graph.images()[after.id].name)
-        .writes(after, Use::storage_write)
-        .record([=](graph::Commands& commands) {
+        .writes(after, ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"tests/start.comp", {}});
             commands.bind("after", after);
             commands.push(number);
@@ -31,9 +31,9 @@ inline void add_start(graph::Graph& graph, graph::ImageHandle after, float numbe
 inline void add_step(graph::Graph& graph, const std::string& name, graph::ImageHandle before,
                      graph::ImageHandle after, float number) {
     graph.pass(name)
-        .reads(before, Use::sampled)
-        .writes(after, Use::storage_write)
-        .record([=](graph::Commands& commands) {
+        .reads(before, ResourceUse::sampled)
+        .writes(after, ResourceUse::storage_write)
+        .record([=](graph::PassCommands& commands) {
             commands.use(gpu::ComputeState{"tests/step.comp", {}});
             commands.bind("before", before);
             commands.bind("after", after);

@@ -32,7 +32,7 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     std::vector<shared::Surface> surfaces;
     std::vector<shared::Probe> probes;
     std::vector<shared::MaterialParameters> details;
-    std::vector<shared::Attribute> attributes;
+    std::vector<shared::VertexAttribute> attributes;
     std::vector<std::uint32_t> texels;
     for (std::uint32_t i = 0; i < kAsked + 2; ++i) {
         surfaces.push_back(filled<shared::Surface>(next));
@@ -42,7 +42,7 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
         details.push_back(filled<shared::MaterialParameters>(next));
         // Read as a float, this word is a denormal number, which some devices flush to zero.
         details.back().flags = 1 + i;
-        attributes.push_back(filled<shared::Attribute>(next));
+        attributes.push_back(filled<shared::VertexAttribute>(next));
         texels.push_back(0x7fc00001u + i); // read as a float, this is NaN
     }
     std::vector<std::uint32_t> expected;
@@ -55,17 +55,19 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     auto& [device, pipelines] = test::bench();
     gpu::Buffer surface_list, probe_list, detail_list, attribute_list, texture_list;
     using gpu::BufferUsage;
-    upload(device, surface_list, "surfaces", render::texels_of(surfaces), BufferUsage::texels);
-    upload(device, probe_list, "probes", render::texels_of(probes), BufferUsage::texels);
-    upload(device, detail_list, "details", details, BufferUsage::quads);
-    upload(device, attribute_list, "attributes", attributes, BufferUsage::texels);
-    upload(device, texture_list, "texels", texels, BufferUsage::words);
-    graph::Runner runner(device, pipelines);
+    upload_to_buffer(device, surface_list, "surfaces", render::pack_into_texels(surfaces),
+                     BufferUsage::texels);
+    upload_to_buffer(device, probe_list, "probes", render::pack_into_texels(probes),
+                     BufferUsage::texels);
+    upload_to_buffer(device, detail_list, "details", details, BufferUsage::quads);
+    upload_to_buffer(device, attribute_list, "attributes", attributes, BufferUsage::texels);
+    upload_to_buffer(device, texture_list, "texels", texels, BufferUsage::words);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle output = graph.buffer({"output", 4 * expected.size()});
     graph.pass("texels")
-        .writes(output, graph::Use::storage_write)
-        .record([&](graph::Commands& commands) {
+        .writes(output, graph::ResourceUse::storage_write)
+        .record([&](graph::PassCommands& commands) {
             commands.bind("surface_texels", surface_list);
             commands.bind("probe_texels", probe_list);
             commands.bind("detail_quads", detail_list);

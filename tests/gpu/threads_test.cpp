@@ -24,7 +24,7 @@ measure::Picture threads_picture(app::Engine& engine, const scene::Scene& scene)
 }
 
 TEST(Threads, TwoEnginesInTwoThreadsRenderTheSame) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     app::Engine one({}), other({});
     const measure::Picture truth = threads_picture(one, scene);
     for (int round = 0; round < 3; ++round) {

@@ -34,9 +34,9 @@ INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
-    app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {384, 384});
+    app::Request request = test::request(scene::make_cornell_mirrors(), {GetParam()}, {384, 384});
     request.warmup = 2, request.frames = 7;
-    const app::Result result = app::run(test::engine(), request);
+    const app::RunResult result = app::run(test::engine(), request);
     const bool cpu = test::engine().device().type == "cpu";
     std::vector<double> shares, walls;
     for (const app::FrameTimes& frame : result.frames) {
@@ -46,10 +46,10 @@ TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
         shares.push_back(sum / (cpu ? frame.wall_ms : frame.gpu_ms));
         walls.push_back(frame.wall_ms);
     }
-    const double share = measure::summarise(shares).median;
+    const double share = measure::summarise_samples(shares).median;
     std::cout << "[ MEASURED ] passes are " << 100 * share << " % of a frame of "
-              << measure::summarise(walls).median << " ms\n";
-    if (cpu && measure::summarise(walls).median < 20)
+              << measure::summarise_samples(walls).median << " ms\n";
+    if (cpu && measure::summarise_samples(walls).median < 20)
         GTEST_SKIP() << "frames below 20 ms: the cost of a submit is not small beside them";
     EXPECT_GE(share, .95);
     EXPECT_LE(share, 1.01);
@@ -57,7 +57,7 @@ TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
 
 TEST(Timing, PipelinedPassesLieWithinTheFrame) {
     app::Request request = test::request(test::room(2, 1), {"reuse"}, {64, 64});
-    request.timing = app::Timing::pipelined;
+    request.timing = app::PassTimingMode::pipelined;
     request.frames = 3;
     for (const app::FrameTimes& frame : app::run(test::engine(), request).frames)
         for (const app::PassTime& pass : frame.passes) {
@@ -81,7 +81,7 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
     EXPECT_DOUBLE_EQ(frames.back().passes_ms, sum);
     const report::Row row = [&] {
         report::Row filled;
-        app::fill_times(filled, {{frames}}, "", true);
+        app::fill_row_times(filled, {{frames}}, "", true);
         return filled;
     }();
     EXPECT_EQ(row.gpu_ms.samples.size(), frames.size());
@@ -91,20 +91,20 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
 }
 
 TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
-    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
     constexpr std::uint32_t kGroups = 256;
     std::vector<double> one, four;
     for (int frame = 0; frame < 9; ++frame) {
         graph::Graph graph;
         const graph::BufferHandle counts = graph.buffer({"counts", 4 * 4 * kGroups});
         graph.pass("clear")
-            .writes(counts, graph::Use::copy_to)
-            .record([=](graph::Commands& commands) { commands.fill(counts, 0); });
+            .writes(counts, graph::ResourceUse::copy_to)
+            .record([=](graph::PassCommands& commands) { commands.fill(counts, 0); });
         for (int i = 0; i < 4; ++i) {
             const std::uint32_t groups = i % 2 ? 4 * kGroups : kGroups;
             graph.pass((i % 2 ? "four/" : "one/") + std::to_string(i))
-                .writes(counts, graph::Use::storage)
-                .record([=](graph::Commands& commands) {
+                .writes(counts, graph::ResourceUse::storage)
+                .record([=](graph::PassCommands& commands) {
                     commands.use(gpu::ComputeState{"tests/spin.comp", {}});
                     commands.bind("Counts", counts);
                     commands.push(4000u);
@@ -119,9 +119,10 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
             if (pass.name.starts_with("four")) four.push_back(pass.ms());
         }
     }
-    const double ratio = measure::summarise(four).median / measure::summarise(one).median;
-    std::cout << "[ MEASURED ] 4x the work: " << ratio << "x (" << measure::summarise(one).median
-              << " ms)\n";
+    const double ratio = measure::summarise_samples(four).median /
+                         measure::summarise_samples(one).median;
+    std::cout << "[ MEASURED ] 4x the work: " << ratio << "x ("
+              << measure::summarise_samples(one).median << " ms)\n";
     EXPECT_GE(ratio, 2.5);
     EXPECT_LE(ratio, 6);
 }

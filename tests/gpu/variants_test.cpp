@@ -15,9 +15,9 @@ using testing::Not;
 
 /// Returns the names of the bindings of the ray tracing shader when it is built with these
 /// constants.
-std::vector<std::string> bindings_with(const gpu::Constants& constants) {
+std::vector<std::string> bindings_with(const gpu::ShaderConstants& constants) {
     std::vector<std::string> names;
-    for (const gpu::Binding& binding :
+    for (const gpu::ShaderBinding& binding :
          test::bench().pipelines.compute({"raytrace.comp", {}, constants}).bindings)
         names.push_back(binding.name);
     return names;
@@ -26,17 +26,17 @@ std::vector<std::string> bindings_with(const gpu::Constants& constants) {
 TEST(Variants, EachVariantIsAConstantOfTheRayTracer) {
     std::vector<std::string> known;
     for (const char* build : {"raytrace.comp", "raytrace.comp#listed"})
-        for (const gpu::Constant& constant :
-             gpu::reflect(build, gpu::find_shader(build).words).constants)
+        for (const gpu::SpecialisationConstant& constant :
+             gpu::reflect_spirv(build, gpu::find_shader(build).words).constants)
             known.push_back(constant.name);
-    for (const gpu::Variant& variant : gpu::variants())
+    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
         EXPECT_THAT(known, Contains(std::string(variant.constant)));
 }
 
 TEST(Variants, UnusedNodeBuffersAreNotBound) {
     const std::vector<std::string> texels = bindings_with({}),
                                    stored = bindings_with({{"bvh_in_storage", 1u}});
-    if (!test::bench().device.texels_in_storage()) {
+    if (!test::bench().device.reads_texels_from_storage()) {
         EXPECT_THAT(texels, testing::IsSupersetOf({"bvh_nodes", "bvh_triangles"}));
         EXPECT_THAT(texels, Not(Contains("bvh_nodes_in_storage")));
     }
@@ -46,11 +46,11 @@ TEST(Variants, UnusedNodeBuffersAreNotBound) {
 }
 
 /// Returns the linear picture of a technique under some variants.
-std::vector<vec3> variants_picture(const char* technique, const app::Variants& variants) {
+std::vector<vec3> variants_picture(const char* technique, const app::VariantNames& variants) {
     app::Engine engine({.device = test::wanted_device(), .validate = true, .variants = variants});
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
-    app::Session session(engine, test::with_coarse_balls(scene::cornell_mirrors()));
-    app::Request request = test::request(scene::cornell_mirrors(), {technique}, {61, 53});
+    app::Session session(engine, test::with_coarse_balls(scene::make_cornell_mirrors()));
+    app::Request request = test::request(scene::make_cornell_mirrors(), {technique}, {61, 53});
     // Render a brighter picture first. If a variant leaves out a pixel, the old value stays in
     // memory and the comparison fails.
     request.ambient += .5, request.frames = 3;
@@ -67,7 +67,7 @@ void expect_same_bytes(const std::vector<vec3>& a, const std::vector<vec3>& b) {
 
 TEST(Variants, EachVariantRendersTheSameBytes) {
     const std::vector<vec3> wanted = variants_picture("raytrace:depth=3", {});
-    for (const gpu::Variant& variant : gpu::variants()) {
+    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants()) {
         SCOPED_TRACE(variant.name);
         expect_same_bytes(
             wanted, variants_picture("raytrace:depth=3", {{std::string(variant.name),
@@ -77,8 +77,8 @@ TEST(Variants, EachVariantRendersTheSameBytes) {
 
 /// Tests all variants together in `hybrid`, which traces only a list of pixels.
 TEST(Variants, AllVariantsTraceListedPixelsTheSame) {
-    app::Variants all;
-    for (const gpu::Variant& variant : gpu::variants())
+    app::VariantNames all;
+    for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
         all.emplace_back(variant.name, variant.choices[1]);
     expect_same_bytes(variants_picture("hybrid:face=16", {}),
                       variants_picture("hybrid:face=16", all));

@@ -17,9 +17,9 @@ std::vector<measure::Picture> pictures_of(const app::Request& request,
                                           const std::vector<std::uint32_t>& masks) {
     std::vector<measure::Picture> pictures;
     app::Session session(test::engine(), request.scene);
-    app::last_pictures(session, request, masks, [&](std::size_t, const measure::Picture& picture) {
-        pictures.push_back(picture);
-    });
+    app::render_ablated_pictures(
+        session, request, masks,
+        [&](std::size_t, const measure::Picture& picture) { pictures.push_back(picture); });
     return pictures;
 }
 
@@ -28,8 +28,8 @@ std::vector<measure::Picture> pictures_of(const app::Request& request,
 std::vector<test::Compared> ablated(const scene::Scene& scene, const std::string& technique,
                                     std::vector<std::uint32_t> masks,
                                     const std::string& shadow = "none", int frames = 1) {
-    const app::Part truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow,
-                                         kAblationSize);
+    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow,
+                                                    kAblationSize);
     app::Request request = test::request(scene, {technique}, kAblationSize);
     request.warmup = frames - 1;
     masks.insert(masks.begin(), 0);
@@ -61,7 +61,8 @@ TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
 
 // With these causes removed, neither distances nor colours come from the captures.
 TEST(Mended, PicturesDoNotDependOnTheCaptureEdge) {
-    const app::Part truth = test::render(test::box({}), "raytrace:shadow=none", kAblationSize);
+    const app::TechniqueResult truth = test::render(test::box({}), "raytrace:shadow=none",
+                                                    kAblationSize);
     std::vector<measure::Picture> pictures;
     for (const std::string face : {"2", "64"}) {
         app::Request request = test::request(test::box({}), {"parallax:shadow=none,face=" + face},

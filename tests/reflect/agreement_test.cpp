@@ -26,10 +26,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
     const auto& [name, raster, traced, most] = GetParam();
-    for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(2, 2)}) {
-        const app::Part truth = test::render(scene, traced, {512, 512});
+    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::room(2, 2)}) {
+        const app::TechniqueResult truth = test::render(scene, traced, {512, 512});
         const double error = test::rmse(test::render(scene, raster, {512, 512}).hdr, truth.hdr,
-                                        measure::non_mirror(truth.hits));
+                                        measure::mask_non_mirror_pixels(truth.hits));
         std::cout << "[ MEASURED ] " << scene.name << ", shadows " << name << ": rmse " << error
                   << " on non-mirror pixels\n";
         EXPECT_LE(error, most) << scene.name;
@@ -40,12 +40,12 @@ TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
 /// else in the scene is as bright.
 std::pair<std::size_t, std::size_t> lamp_pixels(const scene::Scene& scene,
                                                 const std::string& technique) {
-    const app::Part truth = test::render(scene, "raytrace:depth=16", {128, 128});
-    const app::Part part = test::render(scene, technique, {128, 128}, 3);
+    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", {128, 128});
+    const app::TechniqueResult part = test::render(scene, technique, {128, 128}, 3);
     std::pair<std::size_t, std::size_t> found{0, 0};
     for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
         if (part.hdr.pixels[i].x > 4)
-            ++(measure::first_mirror(truth.hits[i]) ? found.first : found.second);
+            ++(measure::first_mirror_of_hit(truth.hits[i]) ? found.first : found.second);
     return found;
 }
 
@@ -91,7 +91,7 @@ scene::Camera drawn_camera(test::Numbers& random, int kind) {
 }
 
 /// Returns the share of pixels outside mirrors in which the pictures differ by more than .02.
-double agreement_share_off(const app::Part& raster, const app::Part& traced) {
+double agreement_share_off(const app::TechniqueResult& raster, const app::TechniqueResult& traced) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
@@ -110,7 +110,7 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
     test::Numbers random(20);
     double worst = 0, sum = 0;
     for (int i = 0; i < kCameras; ++i) {
-        app::Request request = test::request(scene::cornell_mirrors(),
+        app::Request request = test::request(scene::make_cornell_mirrors(),
                                              {"naive:bounces=0", "raytrace:depth=0,shadow=map"},
                                              {256, 256});
         request.camera = i == 0   ? scene::Camera{.eye = {540, 12, -60},
@@ -121,7 +121,7 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
                                                   .vertical_fov_degrees = 50}
                                   : drawn_camera(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
-        const app::Result result = app::run(test::engine(), request);
+        const app::RunResult result = app::run(test::engine(), request);
         const double off = agreement_share_off(result.parts[0], result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
                              << request.camera.eye.z;
@@ -135,10 +135,12 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
 // not be larger than needed. A coarse map shows an excess, because the offset grows with the size
 // of a texel.
 TEST(ShadowMap, OffsetIsNoLargerThanNeeded) {
-    const app::Part truth = test::render(scene::cornell_mirrors(), "raytrace:depth=16", {256, 256});
+    const app::TechniqueResult truth = test::render(scene::make_cornell_mirrors(),
+                                                    "raytrace:depth=16", {256, 256});
     const double error = test::rmse(
-        test::render(scene::cornell_mirrors(), "naive:bounces=0,shadow_map=64", {256, 256}).hdr,
-        truth.hdr, measure::non_mirror(truth.hits));
+        test::render(scene::make_cornell_mirrors(), "naive:bounces=0,shadow_map=64", {256, 256})
+            .hdr,
+        truth.hdr, measure::mask_non_mirror_pixels(truth.hits));
     std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";
     EXPECT_LE(error, .0052); // measured .0049; with twice the offset .0055
 }

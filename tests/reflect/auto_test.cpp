@@ -12,8 +12,8 @@ constexpr uvec2 kAutoSize{64, 64};
 
 TEST(Auto, EachMirrorIsDrawnByASuitableTechniqueWithAReason) {
     const scene::Scene hall = test::hall();
-    const app::Part part = test::render(hall, "auto", kAutoSize, 3),
-                    plan = test::render(hall, "2,3=planar *=march", kAutoSize, 3);
+    const app::TechniqueResult part = test::render(hall, "auto", kAutoSize, 3),
+                               plan = test::render(hall, "2,3=planar *=march", kAutoSize, 3);
     EXPECT_TRUE(test::same_bytes(part.hdr, plan.hdr));
     ASSERT_EQ(part.plan.size(), 3u);
     const std::pair<const char*, const char*> wanted[] = {{"march", "march: a sphere, "},
@@ -28,8 +28,8 @@ TEST(Auto, EachMirrorIsDrawnByASuitableTechniqueWithAReason) {
 
 /// If one technique suits all mirrors, the picture must equal that of a request for this technique.
 TEST(Auto, OneTechniqueForAllMirrorsEqualsThatTechnique) {
-    const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part part = test::render(scene, "auto", kAutoSize, 2);
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const app::TechniqueResult part = test::render(scene, "auto", kAutoSize, 2);
     EXPECT_TRUE(test::same_bytes(part.hdr, test::render(scene, "hybrid", kAutoSize, 2).hdr));
     EXPECT_EQ(part.scene_passes, 6);
 }
@@ -63,7 +63,7 @@ TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
     app::Session session(test::engine(), hall);
     app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
     EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
-    app::Sequence sequence = app::Access::suspend(session);
+    app::FrameSequence sequence = app::Access::suspend(session);
     app::FrameSpec other = spec;
     other.techniques = {"reuse:face=16"};
     session.frame(other);

@@ -17,20 +17,20 @@ class KeptFrames : public testing::Test {
 protected:
     KeptFrames() {
         scene_.update(room_, room_.cameras.front(), kSize, .05);
-        model_ = require::required({room_, room_.cameras.front(), kSize});
+        model_ = require::make_required_model({room_, room_.cameras.front(), kSize});
     }
 
     /// Renders a frame and returns the names of its passes, except `view` and `compose`.
     Names frame(const std::string& technique = "parallax:face=8") {
         graph::Graph graph(runner_.history());
-        const reflect::Assignment assignment = reflect::assign(reflect::parse_plan(technique),
-                                                               std::vector<std::string>(3, "ball"));
-        outputs_ = reflect::add_frame(graph, {scene_, kSize, ""}, assignment,
-                                      {model_, kept_, &comparisons_, most_});
+        const reflect::MirrorAssignment assignment = reflect::assign_mirrors(
+            reflect::parse_plan(technique), std::vector<std::string>(3, "ball"));
+        outputs_ = reflect::add_frame_passes(graph, {scene_, kSize, ""}, assignment,
+                                             {model_, kept_, &comparisons_, most_});
         graph.mark_output(outputs_.hdr);
         runner_.run(graph, graph::PassTiming::isolated);
         kept_ = outputs_.kept;
-        if (learns_) render::learn(kept_, [](std::uint64_t) { return true; });
+        if (learns_) render::read_finished_comparisons(kept_, [](std::uint64_t) { return true; });
         Names names;
         for (const graph::PlannedPass& planned : runner_.compiled(graph).passes)
             if (graph.passes()[planned.pass].name != "view")
@@ -54,14 +54,14 @@ protected:
     test::Bench& bench_ = test::bench();
     scene::Scene room_ = test::room(3, 2);
     render::GpuScene scene_{bench_.device, room_};
-    render::Comparisons comparisons_{
+    render::ComparisonBuffers comparisons_{
         bench_.device, [this](std::uint64_t frame) { return runner_.has_ended({frame}); }};
-    graph::Runner runner_{bench_.device, bench_.pipelines};
+    graph::GraphRunner runner_{bench_.device, bench_.pipelines};
     require::Model model_;
     std::shared_ptr<render::CaptureCache> kept_;
     std::uint32_t most_ = 0; ///< mirrors whose captures a frame draws again at most; 0: all
     bool learns_ = true;
-    reflect::Outputs outputs_;
+    reflect::TechniqueOutputs outputs_;
 };
 
 TEST_F(KeptFrames, FacesWithAChangedContentHashAreDrawn) {
@@ -87,7 +87,7 @@ TEST_F(KeptFrames, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
     const std::string technique = "parallax:face=32";
     for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
     const auto tell = [&](std::uint64_t content_hash, const require::FacePart& part) {
-        const auto pieces = std::make_shared<require::Pieces>();
+        const auto pieces = std::make_shared<require::FacePieces>();
         pieces->faces[5] = {{content_hash, part}};
         model_.mirrors[0].pieces = pieces;
         model_.mirrors[0].content_hashes[5] += 1;

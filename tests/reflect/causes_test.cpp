@@ -39,9 +39,10 @@ Split split(const app::Request& request, const std::string& technique) {
     reference.techniques = {app::kReference};
     if (request.animate)
         reference.time = request.instant(request.total()), reference.animate = false;
-    const app::Part truth = std::move(app::run(test::engine(), reference).parts.front());
+    const app::TechniqueResult truth = std::move(app::run(test::engine(), reference).parts.front());
     app::Session session(test::engine(), request.scene);
-    return {app::CauseFinder(session, request, truth.hdr, truth.hits).find(technique), truth.hits};
+    return {app::ErrorCauseFinder(session, request, truth.hdr, truth.hits).find(technique),
+            truth.hits};
 }
 
 /// Returns a request for a settled picture. Its 16 warm-up frames let one sequence of frames serve
@@ -58,9 +59,10 @@ Split split(const scene::Scene& scene, const std::string& technique, uvec2 size 
 
 /// Returns the mean squared error over all mirrors, as `split` reports it, without splitting it.
 double squared_error(const scene::Scene& scene, const std::string& technique) {
-    const app::Part truth = test::render(scene, app::kReference, kCausesSize);
-    const app::Result row = app::run(test::engine(), settled(scene, technique, kCausesSize));
-    return std::pow(test::rmse(row.parts.front().hdr, truth.hdr, measure::mirrors(truth.hits)), 2);
+    const app::TechniqueResult truth = test::render(scene, app::kReference, kCausesSize);
+    const app::RunResult row = app::run(test::engine(), settled(scene, technique, kCausesSize));
+    return std::pow(
+        test::rmse(row.parts.front().hdr, truth.hdr, measure::mask_mirror_pixels(truth.hits)), 2);
 }
 
 /// Expects that the shares of all causes add up to the whole error. The shares of a cause by pixel
@@ -93,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(EveryCause, CausesAddUpToTheWholeErrorOfEachTechnique) {
-    const Split found = split(test::with_coarse_balls(scene::cornell_mirrors()),
+    const Split found = split(test::with_coarse_balls(scene::make_cornell_mirrors()),
                               test::with(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
                               kCausesSmall);
     std::cout << "[ MEASURED ] " << GetParam().name << ": rmse "
@@ -117,7 +119,7 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
           "parallax:face=32,distance=unorm8,shadow=none",
           "hybrid:face=32,shadow_map=64,captures=own,continue=0",
           "march:face=32,shadow_map=64,mirrors=left_out,lookup=object"})
-        expect_whole(split(test::with_coarse_balls(scene::cornell_mirrors_closed()), technique,
+        expect_whole(split(test::with_coarse_balls(scene::make_closed_cornell_mirrors()), technique,
                            kCausesSmall),
                      technique);
     expect_whole(split(test::room(2, 3), "parallax:face=32,shadow_map=64", kCausesSmall),
@@ -128,29 +130,30 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
 
 // The error that is split must be the error that the report gives for the row.
 TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"parallax:face=32"},
+    app::Request request = test::request(scene::make_cornell_mirrors(), {"parallax:face=32"},
                                          kCausesSize);
-    const app::Part truth = test::render(request.scene, app::kReference, kCausesSize);
-    const app::Part row = test::render(request.scene, "parallax:face=32", kCausesSize);
+    const app::TechniqueResult truth = test::render(request.scene, app::kReference, kCausesSize);
+    const app::TechniqueResult row = test::render(request.scene, "parallax:face=32", kCausesSize);
     const Split found = split(request, "parallax:face=32");
     const auto squared = [&](const measure::Mask& mask) {
         return std::pow(test::rmse(row.hdr, truth.hdr, mask), 2);
     };
-    EXPECT_NEAR(found.causes.squared_error, squared(measure::mirrors(truth.hits)), 1e-12);
+    EXPECT_NEAR(found.causes.squared_error, squared(measure::mask_mirror_pixels(truth.hits)),
+                1e-12);
     for (std::uint32_t i = 0; i < 4; ++i)
         EXPECT_NEAR(found.causes.squared_error_per_mirror[i],
-                    squared(measure::of_mirror(truth.hits, MirrorId(i + 1))), 1e-12);
+                    squared(measure::mask_one_mirror(truth.hits, MirrorId(i + 1))), 1e-12);
 }
 
 // Distances stored in eight bits must count as storage format, both by their share and alone.
 TEST(Causes, EightBitDistancesCountAsStorageFormat) {
-    const Split coarse = split(scene::cornell_mirrors(), "parallax:face=128,distance=unorm8");
+    const Split coarse = split(scene::make_cornell_mirrors(), "parallax:face=128,distance=unorm8");
     EXPECT_GT(coarse.share("storage format"), .7);
     EXPECT_GT(coarse.alone("storage format"), .7);
     expect_adds_up(coarse);
-    EXPECT_EQ(
-        split(scene::cornell_mirrors(), "parallax:face=64", kCausesSmall).share("storage format"),
-        0.0);
+    EXPECT_EQ(split(scene::make_cornell_mirrors(), "parallax:face=64", kCausesSmall)
+                  .share("storage format"),
+              0.0);
 }
 
 // Compares two rows that differ in one cause. The difference of their errors must equal the part of
@@ -228,7 +231,7 @@ TEST(Causes, CauseThatCannotOccurHasNoShare) {
 }
 
 TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
-    const Split found = split(scene::cornell_mirrors(), "parallax:face=64");
+    const Split found = split(scene::make_cornell_mirrors(), "parallax:face=64");
     const auto number_of = [&](const std::string& name) {
         return &found.find(name) - found.causes.list.data() + 1;
     };
@@ -237,9 +240,9 @@ TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
     std::size_t mirrored = 0, by_direction = 0;
     for (std::size_t i = 0; i < painted.size(); ++i) {
         if (painted[i] == 0) continue;
-        EXPECT_TRUE(measure::first_mirror(found.hits[i])) << "pixel " << i;
+        EXPECT_TRUE(measure::first_mirror_of_hit(found.hits[i])) << "pixel " << i;
         if (painted[i] == number_of("mirror in mirror")) {
-            EXPECT_TRUE(measure::second_mirror(found.hits[i])) << "pixel " << i;
+            EXPECT_TRUE(measure::second_mirror_of_hit(found.hits[i])) << "pixel " << i;
             ++mirrored;
         }
         by_direction += painted[i] == number_of("direction");
@@ -250,7 +253,7 @@ TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
 }
 
 TEST(Causes, UncorrectedLookupCountsAsDirection) {
-    EXPECT_GT(split(scene::cornell_mirrors(), "reuse:face=64").share("direction"), .6);
+    EXPECT_GT(split(scene::make_cornell_mirrors(), "reuse:face=64").share("direction"), .6);
 }
 
 TEST(Causes, MissingShadowsCountAsShadowMap) {
@@ -273,7 +276,7 @@ TEST(Causes, HollowMirrorsOwnReflectionCountsAsMirrorInMirror) {
 }
 
 TEST(Causes, OnlyMovingScenesHaveLag) {
-    app::Request request = test::request(scene::cornell_mirrors(), {}, kCausesSize);
+    app::Request request = test::request(scene::make_cornell_mirrors(), {}, kCausesSize);
     request.warmup = 7;
     const Split still = split(request, "reuse:face=64");
     EXPECT_EQ(still.share("last frame"), 0.0);

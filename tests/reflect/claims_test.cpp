@@ -38,22 +38,24 @@ struct Behind {
     test::Compared board, ball;
 };
 
-Behind behind(const scene::Scene& scene, const app::Part& truth, const std::string& search) {
+Behind behind(const scene::Scene& scene, const app::TechniqueResult& truth,
+              const std::string& search) {
     const measure::Picture picture =
         test::render(scene, search + ":face=128,shadow=none,continue=8", kClaimsSize).hdr;
     const Behind found{test::compared(picture, truth,
                                       [](std::uint32_t hit, const vec3& colour) {
-                                          return !measure::second_mirror(hit) && colour.x < .01f;
+                                          return !measure::second_mirror_of_hit(hit) &&
+                                                 colour.x < .01f;
                                       }),
                        test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
-                           return bool(measure::second_mirror(hit));
+                           return bool(measure::second_mirror_of_hit(hit));
                        })};
     std::cout << "[ MEASURED ] " << search << ": board " << found.board << ", other ball "
               << found.ball << "\n";
     return found;
 }
 
-app::Part claims_traced(const scene::Scene& scene, bool exact) {
+app::TechniqueResult claims_traced(const scene::Scene& scene, bool exact) {
     return test::render(
         scene, std::string("raytrace:depth=9,shadow=none,sphere=") + (exact ? "exact" : "mesh"),
         kClaimsSize);
@@ -63,7 +65,7 @@ TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
     for (const bool exact : {true, false})
         for (const std::size_t seen : {0u, 1u}) {
             const scene::Scene scene = two_balls(seen, {.02, .1, .05}, .6, exact);
-            const app::Part truth = claims_traced(scene, exact);
+            const app::TechniqueResult truth = claims_traced(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const Behind found = behind(scene, truth, search);
                 EXPECT_GT(found.board.pixels, 100u);
@@ -78,7 +80,7 @@ TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
             // Choose the ball that has the board behind the other ball.
             const std::size_t seen = board.x > 0 ? 0 : 1;
             const scene::Scene scene = two_balls(seen, board, .35, exact);
-            const app::Part truth = claims_traced(scene, exact);
+            const app::TechniqueResult truth = claims_traced(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const Behind found = behind(scene, truth, search);
                 EXPECT_GT(found.ball.pixels, 80u);
@@ -105,7 +107,7 @@ scene::Scene row_of_balls(bool near_first) {
 TEST(Claims, NearerOfTwoMirrorsOnARayIsMet) {
     for (const bool near_first : {true, false}) {
         const scene::Scene scene = row_of_balls(near_first);
-        const app::Part truth = claims_traced(scene, true);
+        const app::TechniqueResult truth = claims_traced(scene, true);
         for (const std::string search : {"secant", "pyramid"}) {
             const test::Compared found = behind(scene, truth, search).ball;
             EXPECT_GT(found.pixels, 100u);
@@ -132,11 +134,12 @@ scene::Scene flat_mirrors_beside_a_ball() {
 
 TEST(Claims, SurfaceInTheSecondLayerBehindAMirrorIsNoMirror) {
     const scene::Scene scene = flat_mirrors_beside_a_ball();
-    const app::Part truth = claims_traced(scene, true);
+    const app::TechniqueResult truth = claims_traced(scene, true);
     const measure::Picture picture =
         test::render(scene, "layered:face=128,shadow=none,continue=8", kClaimsSize).hdr;
     const test::Compared once = test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
-        return measure::first_mirror(hit) == MirrorId(1) && !measure::second_mirror(hit);
+        return measure::first_mirror_of_hit(hit) == MirrorId(1) &&
+               !measure::second_mirror_of_hit(hit);
     });
     std::cout << "[ MEASURED ] no second mirror: " << once << "\n";
     EXPECT_GT(once.pixels, 1000u);
@@ -173,24 +176,24 @@ struct Answers {
 };
 
 Answers answers(const scene::Scene& scene, const std::string& search, const std::string& hops) {
-    const app::Part truth = test::render(
+    const app::TechniqueResult truth = test::render(
         scene, "raytrace:shadow=none,sphere=exact,depth=" + std::string(hops == "0" ? "1" : "9"),
         kClaimsSize);
     const std::string technique = search + ":face=128,shadow=none,continue=" + hops + ",captures=";
     app::Request request = test::request(scene, {technique + "own", technique + "all"},
                                          kClaimsSize);
     request.with_lookup = true;
-    const app::Result result = app::run(test::engine(), request);
+    const app::RunResult result = app::run(test::engine(), request);
     const auto is_unknown = [&](std::size_t part, std::size_t i) {
         return ((static_cast<int>(result.parts[part].lookup[i].w) - 1) & 3) == 1;
     };
     Answers found;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         if (!is_unknown(0, i) || is_unknown(1, i)) continue;
         const vec3 own = result.parts[0].hdr.pixels[i], all = result.parts[1].hdr.pixels[i];
         const bool is_off = test::is_off(all, truth.hdr.pixels[i]),
-                   meets = bool(measure::second_mirror(truth.hits[i]));
+                   meets = bool(measure::second_mirror_of_hit(truth.hits[i]));
         ++found.all, found.off += is_off;
         found.mirrors += meets, found.mirrors_off += meets && is_off;
         found.black += all == vec3(0) && own != vec3(0);

@@ -20,17 +20,18 @@ struct ColourError {
 };
 
 ColourError continue_error_of(const scene::Scene& scene, const std::string& technique) {
-    static std::map<std::string, app::Part> truths; // cached by the scene's name
+    static std::map<std::string, app::TechniqueResult> truths; // cached by the scene's name
     if (!truths.contains(scene.name))
         truths.emplace(scene.name, test::render(scene, app::kReference, kContinueSize));
-    const app::Part& truth = truths.at(scene.name);
+    const app::TechniqueResult& truth = truths.at(scene.name);
     const measure::Picture picture = test::last_of(test::request(scene, {technique}, kContinueSize),
                                                    kContinueFrames)
                                          .front()
                                          .hdr;
     const auto of = [&](const measure::Mask& mask) { return test::rmse(picture, truth.hdr, mask); };
-    const ColourError error{of(measure::mirrors(truth.hits)), of(measure::first_order(truth.hits)),
-                            of(measure::mirror_in_mirror(truth.hits))};
+    const ColourError error{of(measure::mask_mirror_pixels(truth.hits)),
+                            of(measure::mask_first_order_pixels(truth.hits)),
+                            of(measure::mask_mirror_in_mirror(truth.hits))};
     std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": rmse " << error.all
               << ", first order " << error.first_order << ", mirror in mirror "
               << error.mirror_in_mirror << "\n";
@@ -81,9 +82,9 @@ TEST(Continue, EachMirrorOnTheWayHalvesTheLight) {
 
 TEST(Captures, OtherMirrorsCapturesAnswerUnknownPixels) {
     for (const std::string search : {"pyramid:face=128", "march:face=128", "secant:face=128"}) {
-        const auto judged = test::judge(scene::cornell_mirrors(), test::looks().front(),
+        const auto judged = test::judge(scene::make_cornell_mirrors(), test::looks().front(),
                                         {search, search + ",captures=all"});
-        const measure::LookupError &own = judged[0].lookup, &all = judged[1].lookup;
+        const measure::LookupErrorSummary &own = judged[0].lookup, &all = judged[1].lookup;
         EXPECT_LE(all.unknown, .75 * own.unknown) << search;
         EXPECT_LE(all.wrong_object, own.wrong_object)
             << search << ": an answer from elsewhere is no guess";
@@ -115,11 +116,11 @@ TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
             scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"},
             kContinueSize);
         request.with_lookup = true;
-        const app::Result result = app::run(test::engine(), request);
-        const app::Part &own = result.parts[0], &all = result.parts[1];
+        const app::RunResult result = app::run(test::engine(), request);
+        const app::TechniqueResult &own = result.parts[0], &all = result.parts[1];
         std::size_t unknown = 0, changed = 0;
         for (std::size_t i = 0; i < own.lookup.size(); ++i) {
-            const auto state = [&](const app::Part& part) {
+            const auto state = [&](const app::TechniqueResult& part) {
                 return (static_cast<int>(part.lookup[i].w) - 1) & 3;
             };
             if (!(own.lookup[i].w > 0) || state(own) != 1 || state(all) != 1) continue;
@@ -136,25 +137,25 @@ TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
 // If rays are followed through all other mirrors, captures may leave out mirrors.
 TEST(Mirrors, CapturesMayLeaveOutMirrorsWhereRaysAreFollowed) {
     for (const std::string search : {"secant", "pyramid", "layered"}) {
-        const ColourError with = continue_error_of(scene::cornell_mirrors(),
+        const ColourError with = continue_error_of(scene::make_cornell_mirrors(),
                                                    search + ":continue=4"),
-                          without = continue_error_of(scene::cornell_mirrors(),
+                          without = continue_error_of(scene::make_cornell_mirrors(),
                                                       search + ":continue=4,mirrors=left_out");
         EXPECT_LE(without.all, 1.05 * with.all) << search;
     }
     // Captures without mirrors do not depend on the frame before, so the first picture equals the
     // last.
     const std::string settled = "pyramid:face=64,continue=8,mirrors=left_out";
-    EXPECT_TRUE(
-        test::same_bytes(test::render(scene::cornell_mirrors(), settled, kContinueSize, 1).hdr,
-                         test::render(scene::cornell_mirrors(), settled, kContinueSize, 5).hdr));
+    EXPECT_TRUE(test::same_bytes(
+        test::render(scene::make_cornell_mirrors(), settled, kContinueSize, 1).hdr,
+        test::render(scene::make_cornell_mirrors(), settled, kContinueSize, 5).hdr));
 }
 
 TEST(Show, SearchStateAndResidualArePainted) {
     app::Request request = test::request(
-        scene::cornell_mirrors(), {"pyramid:face=64,captures=own,show=state"}, kContinueSize);
+        scene::make_cornell_mirrors(), {"pyramid:face=64,captures=own,show=state"}, kContinueSize);
     request.with_lookup = true;
-    const app::Part part = std::move(app::run(test::engine(), request).parts.front());
+    const app::TechniqueResult part = std::move(app::run(test::engine(), request).parts.front());
     const std::array<vec3, 3> paint{
         {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // colours of hit, unknown and miss
     std::array<std::size_t, 3> count{};
@@ -166,7 +167,8 @@ TEST(Show, SearchStateAndResidualArePainted) {
     }
     for (const std::size_t pixels : count) EXPECT_GT(pixels, 10u);
     request.techniques = {"pyramid:face=64,show=residual"};
-    const app::Part residual = std::move(app::run(test::engine(), request).parts.front());
+    const app::TechniqueResult residual = std::move(
+        app::run(test::engine(), request).parts.front());
     for (std::size_t i = 0; i < residual.lookup.size(); ++i) {
         const float code = residual.lookup[i].w;
         if (!(code > 0)) continue;

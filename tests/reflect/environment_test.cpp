@@ -71,7 +71,7 @@ TEST(Environment, RadianceFollowsTheMapAndItsRotation) {
         return dvec3(map.texels[static_cast<std::size_t>(8 * row + column)]);
     };
     const auto expect = [&](const dvec3& direction, const dvec3& wanted) {
-        EXPECT_LE(glm::length(scene::radiance(map, direction) - wanted), 1e-6)
+        EXPECT_LE(glm::length(scene::environment_radiance(map, direction) - wanted), 1e-6)
             << direction.x << ' ' << direction.y << ' ' << direction.z;
     };
     const auto level = [&](int left, int right) { // mean of two columns at the horizon
@@ -109,10 +109,11 @@ TEST(Environment, BackgroundEqualsTheEnvironmentInRasterAndRays) {
                     for (int y = 0; y < kEdge; ++y)
                         for (int x = 0; x < kEdge; ++x)
                             worst = std::max(
-                                worst, glm::length(dvec3(picture.at(x, y)) -
-                                                   scene::radiance(*environment,
-                                                                   pixel_direction(scene.cameras[0],
-                                                                                   x, y, kEdge))));
+                                worst,
+                                glm::length(dvec3(picture.at(x, y)) -
+                                            scene::environment_radiance(
+                                                *environment,
+                                                pixel_direction(scene.cameras[0], x, y, kEdge))));
                     EXPECT_LE(worst, 1e-3)
                         << technique << (studio ? ", studio, " : ", map, ") << rotation
                         << " degrees, ahead " << ahead.x << ' ' << ahead.y << ' ' << ahead.z;
@@ -124,7 +125,7 @@ TEST(Environment, BackgroundEqualsTheEnvironmentInRasterAndRays) {
 TEST(Studio, RadianceEqualsItsDescription) {
     const scene::Environment studio{.studio = true};
     const auto grey = [&](const dvec3& direction) {
-        const dvec3 light = scene::radiance(studio, glm::normalize(direction));
+        const dvec3 light = scene::environment_radiance(studio, glm::normalize(direction));
         EXPECT_EQ(light.x, light.y);
         EXPECT_EQ(light.x, light.z);
         return light.x;
@@ -163,7 +164,7 @@ TEST(Studio, RadianceEqualsItsDescription) {
 
 /// Returns the irradiance of a surface with normal `n`.
 dvec3 falls_on(const scene::Environment& environment, const dvec3& n) {
-    std::array<dvec3, 9> of = scene::irradiance_coefficients(environment);
+    std::array<dvec3, 9> of = scene::compute_irradiance_coefficients(environment);
     return f64::irradiance(of.data(), n);
 }
 
@@ -223,11 +224,11 @@ TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
 /// picture by more than .02.
 double off_in_mirrors(const scene::Scene& scene, const std::string& technique) {
     constexpr uvec2 kSize{96, 96};
-    const app::Part truth = test::render(scene, "raytrace", kSize),
-                    part = test::render(scene, technique, kSize, 3);
+    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize),
+                               part = test::render(scene, technique, kSize, 3);
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         ++all;
         off += test::apart(part.hdr.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
     }
@@ -260,7 +261,7 @@ scene::Scene yard_at_dusk() {
     scene.environment = dusk();
     scene.punctual.push_back(
         {.intensity = vec3(4), .world_from_light = test::shining({1, 2, 2}, {0, 0, -1})});
-    scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
+    scene.punctual.push_back({.kind = scene::PunctualLight::Kind::directional,
                               .intensity = vec3(1),
                               .world_from_light = test::shining({0, 0, 0}, {-.5, -1, -.4})});
     return scene;
@@ -297,7 +298,7 @@ TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
     scene::Scene scene = yard_at_dusk();
     scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
     app::Request asked = test::request(scene, {"parallax"}, {64, 64});
-    const app::Part truth = test::render(scene, "raytrace", {64, 64});
+    const app::TechniqueResult truth = test::render(scene, "raytrace", {64, 64});
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = asked;
     session.frame(spec);
@@ -309,7 +310,7 @@ TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
         app::Access::frame(session, spec, {.ablated = causes}).read().hdr;
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         ++all, off += test::apart(ablated.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
     }
     std::cout << "[ MEASURED ] off " << off << " of " << all << "\n";

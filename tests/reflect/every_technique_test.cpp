@@ -103,10 +103,11 @@ TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                 // Determine the technique that draws balls, because some techniques leave them to
                 // another technique.
                 const std::size_t balls = static_cast<std::size_t>(mirrors);
-                const reflect::Choice choice =
-                    reflect::fitted(reflect::assign(reflect::parse_plan(text),
-                                                    std::vector<std::string>(balls, "ball")),
-                                    std::vector<scene::FlatFaces>(balls), 0)
+                const reflect::TechniqueChoice choice =
+                    reflect::replace_unfit_techniques(
+                        reflect::assign_mirrors(reflect::parse_plan(text),
+                                                std::vector<std::string>(balls, "ball")),
+                        std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
                 const app::Request asked = test::request(test::room(mirrors, lights), {text},
                                                          {16, 16});
@@ -147,7 +148,7 @@ TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
                 // `range` has an effect only on unorm8 distances.
                 settings.push_back({"distance", "unorm8"});
             const std::string text = small(settings);
-            const app::Part part = test::render(room, text, {32, 24}, 3);
+            const app::TechniqueResult part = test::render(room, text, {32, 24}, 3);
             EXPECT_EQ(test::nonfinite(part.hdr), 0u) << text;
             EXPECT_EQ(
                 std::ranges::count_if(part.hdr.pixels,
@@ -158,12 +159,15 @@ TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
 }
 
 TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
-    app::Request request = test::request(scene::cornell_mirrors(), {small()}, kEveryTechniqueSize);
+    app::Request request = test::request(scene::make_cornell_mirrors(), {small()},
+                                         kEveryTechniqueSize);
     for (const bool animate : {false, true}) {
         request.animate = animate;
         request.frames = 3;
-        const app::Part first = std::move(app::run(test::engine(), request).parts.front());
-        const app::Part second = std::move(app::run(test::engine(), request).parts.front());
+        const app::TechniqueResult first = std::move(
+            app::run(test::engine(), request).parts.front());
+        const app::TechniqueResult second = std::move(
+            app::run(test::engine(), request).parts.front());
         EXPECT_TRUE(test::same_bytes(first.hdr, second.hdr));
         EXPECT_TRUE(test::same_bytes(first.display, second.display));
         EXPECT_EQ(first.hits, second.hits);
@@ -174,8 +178,9 @@ TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
 /// mirrors seen in mirrors start black.
 TEST_P(EveryTechnique, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
     const std::string text = small({{"continue", "0"}});
-    const app::Part first = test::render(test::room(3, 1), text, kEveryTechniqueSize),
-                    second = test::render(test::room(3, 1), text, kEveryTechniqueSize, 2);
+    const app::TechniqueResult first = test::render(test::room(3, 1), text, kEveryTechniqueSize),
+                               second = test::render(test::room(3, 1), text, kEveryTechniqueSize,
+                                                     2);
     EXPECT_EQ(first.remembers, second.remembers);
     EXPECT_EQ(test::same_bytes(first.hdr, second.hdr), !first.remembers);
 }
@@ -202,9 +207,10 @@ TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
 
 TEST_P(EveryTechnique, ScenesWithoutMirrorsOrLightsAreRendered) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
-        const app::Part part = test::render(test::room(mirrors, lights), small(), {24, 24}, 2);
+        const app::TechniqueResult part = test::render(test::room(mirrors, lights), small(),
+                                                       {24, 24}, 2);
         EXPECT_EQ(test::nonfinite(part.hdr), 0u);
-        EXPECT_GT(measure::mean_of(part.hdr, measure::Range::unclamped).all, 0.0)
+        EXPECT_GT(measure::mean_of(part.hdr, measure::ValueRange::unclamped).all, 0.0)
             << "ambient light is left";
     }
 }

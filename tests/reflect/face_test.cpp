@@ -11,8 +11,9 @@ namespace {
 using namespace catoptric;
 
 TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
-    const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part chosen = test::render(scene, "secant:face=auto", test::kContractSize, 2);
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const app::TechniqueResult chosen = test::render(scene, "secant:face=auto", test::kContractSize,
+                                                     2);
     ASSERT_TRUE(chosen.auto_face.has_value());
     ASSERT_EQ(chosen.auto_face->needs.size(), 4u);
     // Expected edge: (pi/2) / (p cos^2 (1 + 2 z / r)), for a pixel of size p at the ball's nearest
@@ -32,7 +33,8 @@ TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
         EXPECT_LE(chosen.auto_face->needs[i], 1.01 * next) << "ball " << i + 1;
     }
     EXPECT_EQ(chosen.auto_face->edge, 64u);
-    const app::Part named = test::render(scene, "secant:face=64", test::kContractSize, 2);
+    const app::TechniqueResult named = test::render(scene, "secant:face=64", test::kContractSize,
+                                                    2);
     EXPECT_FALSE(named.auto_face.has_value());
     EXPECT_TRUE(test::same_bytes(chosen.hdr, named.hdr));
 }
@@ -40,14 +42,14 @@ TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
 TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
     scene::Scene away = test::room(2, 1);
     away.cameras = {{.name = "away", .eye = {0, 0, -2}, .target = {0, 0, -4}}};
-    const app::Part part = test::render(away, "parallax:face=auto", {32, 32});
+    const app::TechniqueResult part = test::render(away, "parallax:face=auto", {32, 32});
     ASSERT_TRUE(part.auto_face.has_value());
     EXPECT_EQ(part.auto_face->needs, std::vector<double>(2, 0));
     EXPECT_EQ(part.auto_face->edge, 16u);
 }
 
 TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
-    scene::Scene scene = scene::cornell_mirrors();
+    scene::Scene scene = scene::make_cornell_mirrors();
     const auto needs = [&] {
         return test::render(scene, "reuse:face=auto", {512, 512}).auto_face->needs;
     };
@@ -58,16 +60,17 @@ TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
 }
 
 TEST(AutoFace, EdgeStaysTheSameWhileTheSceneMoves) {
-    app::Request asked = test::request(scene::cornell_mirrors(), {"secant:face=auto"}, {64, 64});
+    app::Request asked = test::request(scene::make_cornell_mirrors(), {"secant:face=auto"},
+                                       {64, 64});
     asked.animate = true;
     asked.frames = 3;
-    const app::Part moving = std::move(app::run(test::engine(), asked).parts.front());
+    const app::TechniqueResult moving = std::move(app::run(test::engine(), asked).parts.front());
     asked.techniques = {"secant:face=" + std::to_string(moving.auto_face->edge)};
     EXPECT_TRUE(test::same_bytes(moving.hdr, app::run(test::engine(), asked).parts.front().hdr));
 }
 
 std::uint32_t auto_edge(const test::Look& look) {
-    app::Request asked = test::request(scene::cornell_mirrors(), {"secant:face=auto"},
+    app::Request asked = test::request(scene::make_cornell_mirrors(), {"secant:face=auto"},
                                        test::kContractSize);
     asked.camera = look.camera;
     asked.time = look.time;
@@ -87,7 +90,7 @@ TEST(AutoFace, DoublingTheEdgeHardlyImprovesDirections) {
     for (const test::Look& look : test::looks()) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = auto_edge(look);
-        const auto judged = test::judge(scene::cornell_mirrors(), look,
+        const auto judged = test::judge(scene::make_cornell_mirrors(), look,
                                         with_faces({edge / 2, edge, 2 * edge}));
         const double pixel = look.camera.vertical_fov_degrees / test::kContractSize.y;
         const double half = judged[0].lookup.mean_degrees, at = judged[1].lookup.mean_degrees,
@@ -104,7 +107,7 @@ TEST(AutoFace, LargerEdgeDoesNotImprovePixelColours) {
     for (const test::Look& look : test::looks()) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = auto_edge(look);
-        const auto judged = test::judge(scene::cornell_mirrors(), look,
+        const auto judged = test::judge(scene::make_cornell_mirrors(), look,
                                         with_faces({edge / 2, edge, 4 * edge}),
                                         "raytrace:depth=16,samples=16");
         EXPECT_GE(judged[0].first_order, 1.2 * judged[1].first_order);

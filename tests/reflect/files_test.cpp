@@ -24,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Files, Shipped, testing::Values("glb", "obj"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Shipped, FileRendersAsTheBuiltInScene) {
-    const scene::Scene built_in = scene::cornell_mirrors();
+    const scene::Scene built_in = scene::make_cornell_mirrors();
     const scene::Scene loaded = scene::load(shipped(GetParam()));
     for (const char* technique : {"raytrace", "parallax"})
         for (const double time : {0.0, 0.7}) {

@@ -26,8 +26,9 @@ std::size_t count_off(const measure::Picture& a, const measure::Picture& b) {
 
 /// Expects the traced picture, with a camera ray in at most 2 % of the pixels.
 void expect_traced(const scene::Scene& scene, const std::string& what, std::size_t most_off) {
-    const app::Part wanted = test::render(scene, "raytrace:depth=4", kFirstSize),
-                    found = test::render(scene, "raytrace:depth=4,first=raster", kFirstSize);
+    const app::TechniqueResult wanted = test::render(scene, "raytrace:depth=4", kFirstSize),
+                               found = test::render(scene, "raytrace:depth=4,first=raster",
+                                                    kFirstSize);
     ASSERT_TRUE(found.rays && wanted.rays) << what;
     const std::size_t off = count_off(found.hdr, wanted.hdr);
     std::cout << "[ MEASURED ] " << what << ": " << off << " pixels off, rays "
@@ -102,9 +103,9 @@ TEST(FirstRaster, PictureFollowsMovedObjects) {
             dmat4 place = scene.objects[object].world_from_object;
             place[3] += dvec4(.1, .2, -.3, 0);
             session.change(scene::move(object, place));
-            scene::apply(scene, scene::move(object, place));
+            scene::apply_edit(scene, scene::move(object, place));
         }
-        const std::vector<app::Part> moved = session.frame(spec).read_all();
+        const std::vector<app::TechniqueResult> moved = session.frame(spec).read_all();
         EXPECT_LE(count_off(moved.front().hdr, test::render(scene, "raytrace", kFirstSize).hdr),
                   8u);
         EXPECT_LE(moved.front().rays->primary, kFirstPixels / 50);
@@ -113,10 +114,12 @@ TEST(FirstRaster, PictureFollowsMovedObjects) {
 
 TEST(FirstRaster, ShadowsOfTheMapAreThoseOfTheTracerWithTheMap) {
     const scene::Scene scene = test::hall();
-    const app::Part part = test::render(scene, "raytrace:first=raster,shadow=map", kFirstSize);
+    const app::TechniqueResult part = test::render(scene, "raytrace:first=raster,shadow=map",
+                                                   kFirstSize);
     EXPECT_LE(count_off(part.hdr, test::render(scene, "raytrace:shadow=map", kFirstSize).hdr), 8u);
     EXPECT_EQ(part.rays->shadow, 0u);
-    const app::Part lit = test::render(scene, "raytrace:first=raster,shadow=none", kFirstSize);
+    const app::TechniqueResult lit = test::render(scene, "raytrace:first=raster,shadow=none",
+                                                  kFirstSize);
     EXPECT_LE(count_off(lit.hdr, test::render(scene, "raytrace:shadow=none", kFirstSize).hdr), 8u);
     EXPECT_EQ(lit.rays->shadow, 0u);
 }
@@ -125,7 +128,7 @@ TEST(FirstRaster, ShadowsOfTheMapAreThoseOfTheTracerWithTheMap) {
 TEST(FirstRaster, TracedPixelsOfOtherTechniquesStartAtTheirTriangle) {
     const scene::Scene scene = test::hall();
     const measure::Picture wanted = test::render(scene, "raytrace:depth=16", kFirstSize).hdr;
-    const app::Part all = test::render(scene, "hybrid:force=unknown", kFirstSize);
+    const app::TechniqueResult all = test::render(scene, "hybrid:force=unknown", kFirstSize);
     EXPECT_GT(all.rays->mirror, 1000u);
     EXPECT_LE(all.rays->primary, kFirstPixels / 100);
     EXPECT_LE(count_off(all.hdr, wanted), kFirstPixels / 100) << "edges of shadow maps";
@@ -133,7 +136,7 @@ TEST(FirstRaster, TracedPixelsOfOtherTechniquesStartAtTheirTriangle) {
 
 TEST(FirstRaster, SettingsThatNeedOtherCameraRaysAreRefused) {
     const auto parse = [](const char* text) {
-        return [text] { (void)reflect::parse_choice(text); };
+        return [text] { (void)reflect::parse_technique_choice(text); };
     };
     test::expect_refused(parse("raytrace:samples=4,first=raster"), Failure::usage,
                          {"first=raster", "wanted samples=1, found samples=4"});

@@ -11,7 +11,7 @@ using namespace catoptric;
 
 constexpr uvec2 kHopsSize{64, 64};
 
-app::Part hops_traced(const scene::Scene& scene, int depth) {
+app::TechniqueResult hops_traced(const scene::Scene& scene, int depth) {
     return test::render(scene, "raytrace:shadow=none,sphere=exact,depth=" + std::to_string(depth),
                         kHopsSize);
 }
@@ -28,7 +28,7 @@ struct ByMirrors {
 };
 
 ByMirrors by_mirrors(const std::string& what, const measure::Picture& picture,
-                     const app::Part& truth) {
+                     const app::TechniqueResult& truth) {
     const auto where = [&](const auto& holds) {
         return test::compared(picture, truth, [&](std::uint32_t, const vec3& colour) {
             return holds(test::mirrors_met(colour));
@@ -63,7 +63,7 @@ scene::Scene hops_bright_hall() {
 // followed through is black. Ray tracing with the same depth gives the same result.
 TEST(Hops, EachSphereOnTheWayReflectsItsOwnShare) {
     for (const int hops : {0, 1, 2}) {
-        const app::Part truth = hops_traced(test::three_balls(), hops + 1);
+        const app::TechniqueResult truth = hops_traced(test::three_balls(), hops + 1);
         for (const std::string search : {"secant", "march", "pyramid", "layered", "proxy"}) {
             SCOPED_TRACE(search + ", continue=" + std::to_string(hops));
             const std::string settings = "continue=" + std::to_string(hops);
@@ -84,7 +84,7 @@ TEST(Hops, EachSphereOnTheWayReflectsItsOwnShare) {
 
 TEST(Hops, EachMirrorOfAnyShapeOnTheWayReflectsItsOwnShare) {
     for (const int hops : {1, 2}) {
-        const app::Part truth = hops_traced(hops_bright_hall(), hops + 1);
+        const app::TechniqueResult truth = hops_traced(hops_bright_hall(), hops + 1);
         for (const std::string search : {"march", "pyramid", "layered"}) {
             SCOPED_TRACE(search + ", continue=" + std::to_string(hops));
             const std::string settings = "continue=" + std::to_string(hops);
@@ -108,7 +108,7 @@ std::size_t shows_two(const measure::Picture& picture) {
 // If rays are not followed, the captured colours of a mirror must include that mirror's
 // reflectance. The captures show such colours in about as many pixels as ray tracing.
 TEST(Hops, CapturedMirrorsHaveTheirOwnReflectance) {
-    const app::Part truth = hops_traced(test::three_balls(), 8);
+    const app::TechniqueResult truth = hops_traced(test::three_balls(), 8);
     const double wanted = static_cast<double>(shows_two(truth.hdr));
     ASSERT_GT(wanted, 100);
     for (const std::string technique : {"naive:bounces=4,face=128", "reuse:face=128",

@@ -28,38 +28,38 @@ app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::st
             .most_instants = most_instants};
 }
 
-void measure_lag_of(const app::LagRequest& request, report::Lag& lag) {
+void measure_lag_of(const app::LagRequest& request, report::LagResults& lag) {
     app::Session session(test::engine(), request.base.scene);
     app::measure_lag(session, request, lag);
 }
 
-report::Lag measure(const app::LagRequest& request) {
-    report::Lag lag;
+report::LagResults measure(const app::LagRequest& request) {
+    report::LagResults lag;
     measure_lag_of(request, lag);
     return lag;
 }
 
-void expect_no_lag(const report::Lag& lag, std::size_t rows, std::size_t speeds) {
+void expect_no_lag(const report::LagResults& lag, std::size_t rows, std::size_t speeds) {
     ASSERT_EQ(lag.rows.size(), rows);
     for (const report::LagRow& row : lag.rows) {
         EXPECT_EQ(row.restless_stills, 0) << row.label;
         ASSERT_EQ(row.speeds.size(), speeds) << row.label;
         for (const report::LagAtSpeed& at : row.speeds) {
             for (const auto figure : {kFlip, &Difference::off, &Difference::mae, kRmse}) {
-                const std::vector<double> errors = measure::figures_of(at.errors, figure);
+                const std::vector<double> errors = measure::list_metric_values(at.errors, figure);
                 EXPECT_THAT(errors, testing::Each(0.0)) << row.label << " at " << at.speed;
                 EXPECT_EQ(errors.size(), lag.seconds.size());
-                EXPECT_EQ(measure::figures_of(at.reference_errors, figure),
-                          measure::figures_of(row.still_reference_errors, figure))
+                EXPECT_EQ(measure::list_metric_values(at.reference_errors, figure),
+                          measure::list_metric_values(row.still_reference_errors, figure))
                     << row.label << " at " << at.speed;
             }
-            EXPECT_EQ(measure::percentile_of(at.errors, kFlip, 1), 0);
+            EXPECT_EQ(measure::metric_percentile(at.errors, kFlip, 1), 0);
         }
     }
 }
 
 TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
-    const report::Lag lag = measure(
+    const report::LagResults lag = measure(
         lag_request(test::room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
     EXPECT_THAT(lag.seconds, ElementsAre(0.0))
         << "where nothing moves, one instant is all there is";
@@ -76,14 +76,14 @@ TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
 /// from the frame before, and this scene has no other mirror.
 TEST(Lag, SingleMovingMirrorHasNoLag) {
     scene::Scene scene = test::room(1, 1);
-    scene.objects.back().motion = scene::Harmonic{.amplitude = {.2, .4, 0}, .period = 1.6};
-    const report::Lag lag = measure(
+    scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.2, .4, 0}, .period = 1.6};
+    const report::LagResults lag = measure(
         lag_request(scene, {"reuse:face=32", "parallax:face=32"}, {1, 4}, 6));
     ASSERT_EQ(lag.seconds.size(), 6u);
     expect_no_lag(lag, 2, 2);
     for (const report::LagRow& row : lag.rows) {
         EXPECT_EQ(row.still_frames, 1);
-        for (const report::Settling& cut : {row.after_black, row.after_jump}) {
+        for (const report::SettlingAfterCut& cut : {row.after_black, row.after_jump}) {
             EXPECT_EQ(cut.rmse_settled, 1);
             EXPECT_EQ(cut.max_settled, 1);
         }
@@ -96,11 +96,11 @@ TEST(Lag, SingleMovingMirrorHasNoLag) {
 /// than white, because the image of a brighter lamp in one pixel would dominate the error.
 TEST(Lag, LagGrowsWithSpeed) {
     scene::Scene scene = test::room(2, 1);
-    scene.objects.back().motion = scene::Harmonic{.amplitude = {0, .3, 0}, .period = 4};
+    scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, .3, 0}, .period = 4};
     for (scene::Material& material : scene.materials) material.emission /= 9.0f;
     app::LagRequest request = lag_request(scene, {"reuse:face=64"}, {2, 4, 8}, 10);
     request.base.ambient = .5;
-    const report::Lag lag = measure(request);
+    const report::LagResults lag = measure(request);
     ASSERT_EQ(lag.seconds.size(), 10u);
     EXPECT_DOUBLE_EQ(lag.path, 4);
     EXPECT_DOUBLE_EQ(lag.jump_from, 2);
@@ -120,11 +120,11 @@ TEST(Lag, LagGrowsWithSpeed) {
 /// Checks the lag by another computation: the last frame of an animation against a still picture
 /// with the same number of bounces.
 TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
-    scene::Scene scene = scene::cornell_mirrors();
-    scene.objects.back().motion = scene::Harmonic{.amplitude = {0, 50, 0}, .period = .5};
+    scene::Scene scene = scene::make_cornell_mirrors();
+    scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, 50, 0}, .period = .5};
     app::LagRequest request = lag_request(scene, {"reuse:face=32"}, {1}, 4);
     request.base.time = .25;
-    const report::Lag lag = measure(request);
+    const report::LagResults lag = measure(request);
     ASSERT_EQ(lag.seconds.size(), 4u);
     const double instant = .25 + 8 / 60.0; // 30 frames give four instants, 8 frames apart
     ASSERT_DOUBLE_EQ(lag.seconds[1], instant);
@@ -134,10 +134,10 @@ TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
     app::Request still = test::request(scene, {"naive:face=32,bounces=8"}, kLagSize),
                  traced = test::request(scene, {"raytrace"}, kLagSize);
     still.time = traced.time = instant;
-    const measure::Mask mirrors = measure::mirrors(
+    const measure::Mask mirrors = measure::mask_mirror_pixels(
         app::run(test::engine(), traced).parts.front().hits);
-    const app::Part at_speed = app::run(test::engine(), moving).parts.front(),
-                    at_rest = app::run(test::engine(), still).parts.front();
+    const app::TechniqueResult at_speed = app::run(test::engine(), moving).parts.front(),
+                               at_rest = app::run(test::engine(), still).parts.front();
     const Difference wanted = measure::difference(
         at_speed.hdr, at_rest.hdr, mirrors,
         measure::flip(measure::to_unrounded_display(at_speed.hdr),
@@ -153,19 +153,19 @@ TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
 /// Frame k of `reuse` equals `naive` with k bounces byte for byte, as reuse_test.cpp proves. After
 /// a black start the picture therefore settles after as many frames as bounces are needed.
 TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     app::LagRequest request = lag_request(scene, {"reuse:face=64"}, {8}, 1);
     request.base.size = {128, 128};
-    const report::Lag lag = measure(request);
+    const report::LagResults lag = measure(request);
     ASSERT_EQ(lag.rows.size(), 1u);
-    const report::Settling& cut = lag.rows[0].after_black;
+    const report::SettlingAfterCut& cut = lag.rows[0].after_black;
 
     const auto naive = [&](int bounces) {
         return test::render(scene, "naive:face=64,bounces=" + std::to_string(bounces),
                             request.base.size)
             .hdr;
     };
-    const measure::Mask mirrors = measure::mirrors(
+    const measure::Mask mirrors = measure::mask_mirror_pixels(
         test::render(scene, "raytrace", request.base.size).hits);
     const measure::Picture converged = naive(8);
     int rmse_settled = 0,
@@ -186,7 +186,7 @@ TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
 }
 
 TEST(Lag, RowsWithoutHistoryAreNotMeasured) {
-    const report::Lag lag = measure(
+    const report::LagResults lag = measure(
         lag_request(test::room(2, 1), {"naive:face=32", "raytrace", "reuse:face=32"}, {1}));
     EXPECT_THAT(lag.without_history, ElementsAre("naive:face=32", "raytrace"));
     ASSERT_EQ(lag.rows.size(), 1u);
@@ -221,7 +221,7 @@ TEST(Lag, FinishedRowsAreKeptWhenStopped) {
     };
     int finished = 0;
     request.on_finished_row = [&] { ++finished; };
-    report::Lag lag;
+    report::LagResults lag;
     test::expect_refused([&] { measure_lag_of(request, lag); }, Failure::interrupted, {"signal 2"});
     EXPECT_EQ(finished, 1);
     EXPECT_FALSE(lag.complete);

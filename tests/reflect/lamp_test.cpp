@@ -63,7 +63,7 @@ TEST(Lamp, TwoSidedBoardShinesByTheCosineOnBothSides) {
 double leaning_pixel(double lean, double sine, const std::string& technique) {
     scene::Scene scene = floor_below(.5);
     for (vec3& normal : scene.meshes[0].normals) normal = vec3(std::sin(lean), std::cos(lean), 0);
-    scene::Punctual light{.intensity = vec3(9)};
+    scene::PunctualLight light{.intensity = vec3(9)};
     light.world_from_light[3] = dvec4(3 * std::sqrt(1 - sine * sine), 3 * sine, 0, 1);
     scene.punctual.push_back(light);
     // Divide by the brightness under a light straight above.
@@ -104,7 +104,7 @@ scene::Scene lit_ball(int levels) {
     scene::Scene scene{.name = "ball"};
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "white", .albedo = vec3(1)}),
                    {0, 0, 0}, 1, levels);
-    scene::Punctual light{.intensity = vec3(static_cast<float>(36 * test::kPi))};
+    scene::PunctualLight light{.intensity = vec3(static_cast<float>(36 * test::kPi))};
     light.world_from_light[3] = dvec4(-6, 0, 0, 1);
     scene.punctual.push_back(light);
     scene.cameras.push_back(

@@ -103,12 +103,13 @@ TEST(Layered, ParallelMirrorsAreAsBrightAsInRayTracing) {
     test::add_quad(scene, "right", mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
     scene.cameras.push_back(
         {.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60});
-    const app::Part truth = test::render(scene, "raytrace:depth=16", {96, 96});
-    const measure::Mask seen = measure::mirror_in_mirror(truth.hits);
-    const double wanted = measure::mean_of(truth.hdr, measure::Range::unclamped, seen).all;
+    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", {96, 96});
+    const measure::Mask seen = measure::mask_mirror_in_mirror(truth.hits);
+    const double wanted = measure::mean_of(truth.hdr, measure::ValueRange::unclamped, seen).all;
     const auto judged = [&](const std::string& technique) {
-        const app::Part part = test::render(scene, technique + ":continue=8,face=128", {96, 96}, 4);
-        const double found = measure::mean_of(part.hdr, measure::Range::unclamped, seen).all;
+        const app::TechniqueResult part = test::render(scene, technique + ":continue=8,face=128",
+                                                       {96, 96}, 4);
+        const double found = measure::mean_of(part.hdr, measure::ValueRange::unclamped, seen).all;
         std::cout << "[ MEASURED ] " << technique << ": " << found << " where rays say " << wanted
                   << "\n";
         EXPECT_LE(found, (technique == "layered" ? 1.01 : 1.03) * wanted);
@@ -146,7 +147,7 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
         request.ambient = 0;
         return std::move(app::run(test::engine(), request).parts.front());
     };
-    const app::Part truth = render("raytrace:depth=4");
+    const app::TechniqueResult truth = render("raytrace:depth=4");
     const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr,
                            layered = render("layered").hdr;
     // Classify each pixel as a wall, 0 to 5, or the ball, 6, by the nearest colour, because lookups
@@ -161,7 +162,7 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
     };
     std::size_t mirror = 0, hidden = 0, found = 0, wrong_secant = 0, wrong_layered = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         const std::size_t wanted = seen(truth.hdr.pixels[i]);
         ++mirror;
         wrong_secant += seen(secant.pixels[i]) != wanted;
@@ -181,13 +182,14 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
 // The distance by which the second layer must lie behind the first covers the rounding of eight
 // bits. It must not depend on the number that is given as range.
 TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
-    const app::Part truth = test::render(scene::cornell_mirrors(), "raytrace:depth=16", {256, 256});
+    const app::TechniqueResult truth = test::render(scene::make_cornell_mirrors(),
+                                                    "raytrace:depth=16", {256, 256});
     const auto error = [&](const std::string& range) {
-        return test::rmse(test::render(scene::cornell_mirrors(),
+        return test::rmse(test::render(scene::make_cornell_mirrors(),
                                        "layered:face=128,distance=unorm8,range=" + range,
                                        {256, 256}, 4)
                               .hdr,
-                          truth.hdr, measure::mirrors(truth.hits));
+                          truth.hdr, measure::mask_mirror_pixels(truth.hits));
     };
     // On the device the built-in scene is divided by 1024. With a range of 1024 world units, stored
     // distances therefore equal distances in scene units. A range of 1023 avoids this special case.
@@ -198,8 +200,8 @@ TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
 }
 
 TEST(Layered, SceneIsRenderedTwicePerMirror) {
-    const app::Part part = test::render(scene::cornell_mirrors(), "layered:face=16,shadow_map=16",
-                                        {16, 16});
+    const app::TechniqueResult part = test::render(scene::make_cornell_mirrors(),
+                                                   "layered:face=16,shadow_map=16", {16, 16});
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);
 }
 

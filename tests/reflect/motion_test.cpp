@@ -12,9 +12,9 @@ TEST(Motion, LastFrameOfAnAnimationEqualsAStillOfItsInstant) {
     // These techniques have no history, so the last frame of an animation must equal a still
     // picture of the same instant.
     for (const char* technique : {"naive:bounces=1,face=64", "raytrace"}) {
-        app::Request moving = test::request(scene::cornell_mirrors(), {technique}, {64, 64});
+        app::Request moving = test::request(scene::make_cornell_mirrors(), {technique}, {64, 64});
         moving.animate = true, moving.time = .5, moving.warmup = 3, moving.frames = 4;
-        app::Request still = test::request(scene::cornell_mirrors(), {technique}, {64, 64});
+        app::Request still = test::request(scene::make_cornell_mirrors(), {technique}, {64, 64});
         still.time = .5 + 6 / 60.0;
         const measure::Picture last = app::run(test::engine(), moving).parts.front().hdr;
         EXPECT_TRUE(test::same_bytes(last, app::run(test::engine(), still).parts.front().hdr))
@@ -26,7 +26,7 @@ TEST(Motion, LastFrameOfAnAnimationEqualsAStillOfItsInstant) {
 }
 
 TEST(Motion, FramesWithoutAnimationAreEqual) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
+    app::Request request = test::request(scene::make_cornell_mirrors(), {"naive:bounces=1,face=64"},
                                          {64, 64});
     const measure::Picture one = app::run(test::engine(), request).parts.front().hdr;
     request.frames = 5;
@@ -34,8 +34,8 @@ TEST(Motion, FramesWithoutAnimationAreEqual) {
 }
 
 TEST(Motion, SessionShowsInstantsInAnyOrder) {
-    const app::Request still = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
-                                             {64, 64});
+    const app::Request still = test::request(scene::make_cornell_mirrors(),
+                                             {"naive:bounces=1,face=64"}, {64, 64});
     app::Session session(test::engine(), still.scene);
     std::vector<measure::Picture> seen;
     for (const double time : {1.5, .5, 1.5}) {
@@ -60,7 +60,7 @@ TEST(Motion, FramesAreNumberedFromOne) {
         EXPECT_EQ(frames.number(), k);
     }
     EXPECT_FALSE(frames.next());
-    const app::Result result = frames.result();
+    const app::RunResult result = frames.result();
     EXPECT_EQ(result.frames.size(), 3u) << "the measured ones of four";
     EXPECT_TRUE(test::same_bytes(result.parts.front().hdr,
                                  test::render(test::room(2, 1), "reuse:face=32", {32, 32}, 4).hdr));

@@ -70,9 +70,9 @@ scene::Scene plates() {
 std::size_t wrong_texels(const scene::Scene& scene, const std::vector<Board>& boards,
                          const vec3& colour) {
     constexpr std::uint32_t kFace = 32;
-    const test::Captured captured = test::capture(scene, kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture(scene, kFace, Format::r32f);
     std::size_t wrong = 0, shown = 0;
-    stress::for_texels(
+    stress::for_each_cube_texel(
         kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
             double inside = -1;
             for (const Board& board : boards)
@@ -130,9 +130,10 @@ TEST(NearPlane, ViewShowsBoardsInItsCorners) {
                 Board(camera.eye, glm::normalize(dvec3(3.8 * x * tangent, .95 * y * tangent, 1)),
                       .03, .004)
                     .add(scene, add_glow(scene));
-        const app::Part truth = test::render(scene, "raytrace:shadow=none", kNearPlaneSize),
-                        drawn = test::render(scene, "naive:shadow=none,face=1,bounces=1",
-                                             kNearPlaneSize);
+        const app::TechniqueResult truth = test::render(scene, "raytrace:shadow=none",
+                                                        kNearPlaneSize),
+                                   drawn = test::render(scene, "naive:shadow=none,face=1,bounces=1",
+                                                        kNearPlaneSize);
         std::size_t shown = 0, off = 0;
         for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
             shown += truth.hdr.pixels[i] == kGlow;
@@ -159,9 +160,10 @@ TEST(NearPlane, ShadowMapsHoldBoardsInTheCornersOfFaces) {
     scene.cameras.push_back(
         {.eye = {0, 1.5, 0}, .target = {0, -2, 0}, .up = {0, 0, 1}, .vertical_fov_degrees = 130});
     constexpr uvec2 kSquare{48, 48};
-    const app::Part lit = test::render(scene, "raytrace:shadow=none", kSquare),
-                    truth = test::render(scene, "raytrace:shadow=ray", kSquare),
-                    drawn = test::render(scene, "naive:face=1,bounces=1,shadow_map=512", kSquare);
+    const app::TechniqueResult lit = test::render(scene, "raytrace:shadow=none", kSquare),
+                               truth = test::render(scene, "raytrace:shadow=ray", kSquare),
+                               drawn = test::render(scene, "naive:face=1,bounces=1,shadow_map=512",
+                                                    kSquare);
     std::size_t dark = 0, off = 0;
     for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
         dark += test::is_off(lit.hdr.pixels[i], truth.hdr.pixels[i]);

@@ -42,7 +42,7 @@ scene::Scene far_balls(int count, bool mirrors) {
     return scene;
 }
 
-double flip(const app::Part& a, const app::Part& b) {
+double flip(const app::TechniqueResult& a, const app::TechniqueResult& b) {
     return measure::flip_mean(measure::flip(a.display, b.display));
 }
 
@@ -51,8 +51,8 @@ TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
     for (const std::string technique :
          {"raytrace", "raytrace:sphere=exact", "raytrace:hit=f64", "raytrace:shadow=map",
           "parallax", "pyramid", "hybrid", "layered"}) {
-        const app::Part wanted = test::render(alone, technique, kObjectSpaceSize),
-                        found = test::render(both, technique, kObjectSpaceSize);
+        const app::TechniqueResult wanted = test::render(alone, technique, kObjectSpaceSize),
+                                   found = test::render(both, technique, kObjectSpaceSize);
         EXPECT_EQ(test::nonfinite(found.hdr), 0u) << technique;
         EXPECT_LE(flip(found, wanted), .001) << technique;
     }
@@ -65,7 +65,8 @@ TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
         const scene::Scene scene = far_balls(2, mirrors);
         const app::Request request = test::request(scene, {"raytrace:sphere=exact"},
                                                    kObjectSpaceSize);
-        const app::Part part = test::render(scene, "raytrace:sphere=exact", kObjectSpaceSize);
+        const app::TechniqueResult part = test::render(scene, "raytrace:sphere=exact",
+                                                       kObjectSpaceSize);
         const stress::DoubleTracer tracer(scene, request.ambient);
         measure::Picture truth(static_cast<int>(kObjectSpaceSize.x),
                                static_cast<int>(kObjectSpaceSize.y));

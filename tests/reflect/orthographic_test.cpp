@@ -47,7 +47,7 @@ TEST(Orthographic, PositionDoesNotDependOnDepth) {
 /// front of it.
 TEST(Orthographic, RasterisationEqualsRayTracing) {
     scene::Scene scene = test::yard();
-    scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
+    scene.punctual.push_back({.kind = scene::PunctualLight::Kind::directional,
                               .intensity = vec3(2),
                               .world_from_light = test::shining({0, 0, 0}, {-.4, -1, -.6})});
     for (const double far : {1.0, 200.0}) {
@@ -64,11 +64,11 @@ TEST(Orthographic, MirrorsReflectParallelViewRays) {
     scene::Scene scene = test::room(2, 1);
     scene.cameras = {along({.1, .2, -2.9}, {0, -.2, 0}, 3)};
     constexpr uvec2 kSize{96, 96};
-    const app::Part truth = test::render(scene, "raytrace", kSize);
-    const measure::Mask mirrors = measure::mirrors(truth.hits);
+    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize);
+    const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
     for (const auto& [technique, most] :
          {std::pair{"hybrid", .02}, {"secant:face=auto", .1}, {"layered", .05}}) {
-        const app::Part part = test::render(scene, technique, kSize, 4);
+        const app::TechniqueResult part = test::render(scene, technique, kSize, 4);
         std::size_t off = 0, all = 0;
         for (std::size_t i = 0; i < mirrors.size(); ++i) {
             if (mirrors[i] == 0) continue;

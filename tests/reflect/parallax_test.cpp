@@ -14,8 +14,8 @@ constexpr uvec2 kParallaxSize{512, 512};
 constexpr int kParallaxFrames = 4; // enough frames for deeper bounces to arrive in the captures
 
 TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
-    const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
     const measure::Picture reuse = test::render(scene, "reuse", kParallaxSize, kParallaxFrames).hdr;
     const measure::Picture parallax =
         test::render(scene, "parallax", kParallaxSize, kParallaxFrames).hdr;
@@ -27,10 +27,10 @@ TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
                   << " (reuse), share " << with / without << "\n";
         EXPECT_LE(with, most * without) << where;
     };
-    expect_share("all mirrors", measure::mirrors(truth.hits), .50);
+    expect_share("all mirrors", measure::mask_mirror_pixels(truth.hits), .50);
     for (std::uint32_t ball = 1; ball <= 4; ++ball)
-        expect_share("ball " + std::to_string(ball), measure::of_mirror(truth.hits, MirrorId(ball)),
-                     .65);
+        expect_share("ball " + std::to_string(ball),
+                     measure::mask_one_mirror(truth.hits, MirrorId(ball)), .65);
 }
 
 // At the edge of an empty area some of the four texels of a lookup are infinite. Then the nearest
@@ -47,7 +47,7 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
         app::Request request = test::request(scene, {technique}, {192, 192});
         request.with_lookup = true;
         double mirror = 0, miss = 0;
-        const app::Result result = app::run(test::engine(), request);
+        const app::RunResult result = app::run(test::engine(), request);
         for (const vec4& pixel : result.parts.front().lookup) {
             if (!(pixel.w > 0)) continue;
             ++mirror;
@@ -63,9 +63,9 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
 }
 
 TEST(Parallax, DistancesClampedAt200AreWorseThanNoCorrection) {
-    const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
-    const measure::Mask mask = measure::mirrors(truth.hits);
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
+    const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto error = [&](const std::string& technique) {
         const double value = test::rmse(
             test::render(scene, technique, kParallaxSize, kParallaxFrames).hdr, truth.hdr, mask);

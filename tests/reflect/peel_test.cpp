@@ -51,11 +51,12 @@ scene::Scene double_walls(double gap) {
 TEST_P(Peel, SecondLayerBehindAWallIsEmpty) {
     const auto [first, second] = test::capture_layers(double_walls(0), kPeelFace, GetParam());
     std::size_t again = 0;
-    stress::for_texels(kPeelFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
-        EXPECT_EQ(first.colour(0, face, x, y), kWall);
-        again += !is_nothing(second.distance(0, face, x, y, GetParam())) ||
-                 second.colour(0, face, x, y) != vec3(0);
-    });
+    stress::for_each_cube_texel(
+        kPeelFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+            EXPECT_EQ(first.colour(0, face, x, y), kWall);
+            again += !is_nothing(second.distance(0, face, x, y, GetParam())) ||
+                     second.colour(0, face, x, y) != vec3(0);
+        });
     EXPECT_EQ(again, 0u);
 }
 
@@ -68,8 +69,8 @@ TEST_P(Peel, SecondLayerShowsTheWallBehindACloseBoard) {
         const dvec3 centre = scene::bounds(scene, scene.objects.back()).centre();
         std::size_t boards = 0, wrong = 0;
         double worst = 0;
-        stress::for_texels(kPeelFace, [&](const dvec3& direction, int face, std::uint32_t x,
-                                          std::uint32_t y) {
+        stress::for_each_cube_texel(kPeelFace, [&](const dvec3& direction, int face,
+                                                   std::uint32_t x, std::uint32_t y) {
             const float one = first.distance(0, face, x, y, GetParam()),
                         two = second.distance(0, face, x, y, GetParam());
             if (first.colour(0, face, x, y) == kWall) {
@@ -103,11 +104,12 @@ TEST_P(Peel, FarSideOfABallIsInNoLayer) {
         test::add_ball(scene, "occluder", glow, centre, .45, 4);
     const auto [first, second] = test::capture_layers(scene, kPeelFace, GetParam());
     std::size_t balls = 0, wrong = 0;
-    stress::for_texels(kPeelFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
-        if (first.colour(0, face, x, y) != kPeelBoard) return;
-        ++balls;
-        wrong += second.colour(0, face, x, y) != kWall;
-    });
+    stress::for_each_cube_texel(kPeelFace,
+                                [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+                                    if (first.colour(0, face, x, y) != kPeelBoard) return;
+                                    ++balls;
+                                    wrong += second.colour(0, face, x, y) != kWall;
+                                });
     EXPECT_GT(balls, 200u);
     // At outlines some facets face away from the centre, while their smooth normals do not.
     EXPECT_LE(wrong, balls / 50);

@@ -42,12 +42,13 @@ bool may_show_mirror(const scene::Scene& scene, std::size_t mirror, const dvec3&
 
 /// Compares the pixels of one mirror in a plan (`mixed`) with those of one technique (`uniform`).
 /// Leaves out the pixels that may show another mirror.
-Alike alike(const scene::Scene& scene, const app::Part& mixed, const app::Part& uniform,
-            const app::Part& truth, MirrorId mirror, int face) {
+Alike alike(const scene::Scene& scene, const app::TechniqueResult& mixed,
+            const app::TechniqueResult& uniform, const app::TechniqueResult& truth, MirrorId mirror,
+            int face) {
     Alike result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror(truth.hits[i]) != mirror) continue;
-        if (measure::second_mirror(truth.hits[i]) != MirrorId{}) continue;
+        if (measure::first_mirror_of_hit(truth.hits[i]) != mirror) continue;
+        if (measure::second_mirror_of_hit(truth.hits[i]) != MirrorId{}) continue;
         if (!uniform.lookup.empty()) {
             const vec4& lookup = uniform.lookup[i];
             const int looked_into = static_cast<int>(lookup.w) / 8;
@@ -66,12 +67,12 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
     constexpr uvec2 kSize{192, 192};
     // Two frames are enough, because pixels with deeper bounces are left out.
     constexpr int kFrames = 2;
-    const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part truth = test::render(scene, "raytrace", kSize);
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize);
     app::Request asked = test::request(
         scene, {"1=reuse:face=64 2=hybrid 3=secant *=raytrace:shadow=map"}, kSize);
     asked.warmup = kFrames - 1;
-    const app::Part mixed = std::move(app::run(test::engine(), asked).parts.front());
+    const app::TechniqueResult mixed = std::move(app::run(test::engine(), asked).parts.front());
     // Mirror 4 is traced, but has a capture, because the captures of other mirrors show it.
     EXPECT_EQ(mixed.scene_passes, 4 + 2);
     const std::vector<std::string> uniform{"reuse:face=64", "hybrid", "secant",
@@ -80,7 +81,7 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
         const bool is_traced = i == 3;
         asked.techniques = {uniform[i]};
         asked.with_lookup = !is_traced;
-        const app::Part part = std::move(app::run(test::engine(), asked).parts.front());
+        const app::TechniqueResult part = std::move(app::run(test::engine(), asked).parts.front());
         const Alike found = alike(scene, mixed, part, truth, MirrorId::at(i), i == 0 ? 64 : 256);
         std::cout << "[ MEASURED ] " << uniform[i] << ": of " << found.compared << " pixels "
                   << found.other << " differ, " << found.off << " by more than 1/255\n";
@@ -112,7 +113,7 @@ scene::Scene walled_off() {
 TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
     constexpr uvec2 kSize{256, 96};
     const scene::Scene scene = walled_off();
-    const app::Part truth = test::render(scene, "raytrace", kSize);
+    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize);
     app::Request asked = test::request(scene, {}, kSize);
     asked.warmup = 1;
     asked.with_lookup = true;
@@ -128,13 +129,14 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
           {"parallax:shadow_map=256,face=48",
            test::has_float_colour() ? "march:colour=float,face=56" : "march:face=56",
            "pyramid:captures=all,face=64"}}) {
-        const app::Part mixed = rendered("1=" + rows[0] + " 2=" + rows[1] + " *=" + rows[2]);
+        const app::TechniqueResult mixed = rendered("1=" + rows[0] + " 2=" + rows[1] +
+                                                    " *=" + rows[2]);
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const app::Part uniform = rendered(rows[i]);
+            const app::TechniqueResult uniform = rendered(rows[i]);
             std::size_t pixels = 0, other = 0;
             for (std::size_t p = 0; p < truth.hits.size(); ++p) {
                 // Compare only pixels in which both ray tracing and rasterisation show the mirror.
-                if (measure::first_mirror(truth.hits[p]) != MirrorId::at(i)) continue;
+                if (measure::first_mirror_of_hit(truth.hits[p]) != MirrorId::at(i)) continue;
                 if (uniform.lookup[p].w == 0) continue;
                 ++pixels;
                 other += mixed.hdr.pixels[p] != uniform.hdr.pixels[p];
@@ -149,10 +151,11 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
 TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
     const scene::Scene scene = scene::load("courtyard");
     const uvec2 size{48, 48};
-    const app::Part mixed = test::render(
+    const app::TechniqueResult mixed = test::render(
         scene, "1=parallax:face=32,shadow_map=256 *=parallax:face=16,shadow_map=256", size, 2);
-    const app::Part alike = test::render(scene, "parallax:face=32,shadow_map=256", size, 2);
-    const app::Part traced = test::render(scene, "raytrace:depth=1", size);
+    const app::TechniqueResult alike = test::render(scene, "parallax:face=32,shadow_map=256", size,
+                                                    2);
+    const app::TechniqueResult traced = test::render(scene, "raytrace:depth=1", size);
     // Numbers of pixels of no mirror, of mirror 1 and of other mirrors.
     std::array<std::size_t, 3> same{}, other{};
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
@@ -168,9 +171,9 @@ TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
 TEST(Plan, PlanOfOneTechniqueEqualsThatTechnique) {
     const scene::Scene scene = test::room(3, 1);
     for (const std::string technique : {"hybrid", "naive:bounces=2", "raytrace:shadow=map"}) {
-        const app::Part alone = test::render(scene, technique, {64, 48}, 2),
-                        plan = test::render(scene, "2=" + technique + " *=" + technique, {64, 48},
-                                            2);
+        const app::TechniqueResult alone = test::render(scene, technique, {64, 48}, 2),
+                                   plan = test::render(scene, "2=" + technique + " *=" + technique,
+                                                       {64, 48}, 2);
         EXPECT_TRUE(test::same_bytes(alone.hdr, plan.hdr)) << technique;
         EXPECT_EQ(alone.scene_passes, plan.scene_passes) << technique;
         EXPECT_EQ(alone.hits, plan.hits) << technique;
@@ -180,18 +183,18 @@ TEST(Plan, PlanOfOneTechniqueEqualsThatTechnique) {
 TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
     const scene::Scene scene = test::hall();
     const uvec2 size{96, 72};
-    const app::Part shown = test::render(scene, "1=secant:face=64 *=raytrace", size, 3),
-                    black = test::render(scene, "1=secant:face=64 *=raytrace:capture=none", size,
-                                         3),
-                    truth = test::render(scene, "raytrace", size);
+    const app::TechniqueResult shown = test::render(scene, "1=secant:face=64 *=raytrace", size, 3),
+                               black = test::render(
+                                   scene, "1=secant:face=64 *=raytrace:capture=none", size, 3),
+                               truth = test::render(scene, "raytrace", size);
     EXPECT_EQ(shown.scene_passes, black.scene_passes + 2) << "two captures less";
     std::size_t dark = 0, lit = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror(truth.hits[i]) != MirrorId(1)) {
+        if (measure::first_mirror_of_hit(truth.hits[i]) != MirrorId(1)) {
             EXPECT_EQ(shown.hdr.pixels[i], black.hdr.pixels[i]);
             continue;
         }
-        if (measure::second_mirror(truth.hits[i]) == MirrorId{}) continue;
+        if (measure::second_mirror_of_hit(truth.hits[i]) == MirrorId{}) continue;
         dark += black.hdr.pixels[i] == vec3(0);
         lit += shown.hdr.pixels[i] != vec3(0);
     }
@@ -202,20 +205,20 @@ TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
 TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
     const scene::Scene scene = test::room(3, 1);
     const uvec2 size{96, 72};
-    const app::Part mixed = test::render(
+    const app::TechniqueResult mixed = test::render(
         scene,
         "1=raytrace:depth=1,shadow=map 2=raytrace:depth=3,shadow=map "
         "*=raytrace:depth=8,shadow=map,samples=4",
         size);
     EXPECT_EQ(mixed.scene_passes, 2); // scene passes: the shadow map and the view
-    const app::Part truth = test::render(scene, "raytrace", size);
+    const app::TechniqueResult truth = test::render(scene, "raytrace", size);
     for (const auto& [mirror, technique] : {std::pair{1u, "raytrace:depth=1,shadow=map"},
                                             {2u, "raytrace:depth=3,shadow=map"},
                                             {3u, "raytrace:depth=8,shadow=map,samples=4"}}) {
-        const app::Part alone = test::render(scene, technique, size);
+        const app::TechniqueResult alone = test::render(scene, technique, size);
         std::size_t pixels = 0, off = 0;
         for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-            if (measure::first_mirror(truth.hits[i]) != MirrorId(mirror)) continue;
+            if (measure::first_mirror_of_hit(truth.hits[i]) != MirrorId(mirror)) continue;
             ++pixels;
             off += is_off(mixed.hdr.pixels[i], alone.hdr.pixels[i]);
         }
@@ -243,9 +246,9 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const scene::Scene scene = many_balls(350);
     const uvec2 size{64, 64};
     const std::vector<std::string> techniques{"parallax:face=4"};
-    const app::Part part = test::render(scene, techniques.front(), size, 1);
+    const app::TechniqueResult part = test::render(scene, techniques.front(), size, 1);
     EXPECT_EQ(part.scene_passes, 350 + 2);
-    const app::Part truth = test::render(scene, "raytrace:depth=1", size);
+    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=1", size);
     // Compare with a scene without the first ten mirrors, whose captures fit into one array. In a
     // first frame, captures show mirrors black. The pictures may therefore differ only where the
     // removed mirrors were seen.
@@ -253,10 +256,10 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const std::size_t first = scene::mirrors(scene).front();
     const auto begin = fewer.objects.begin() + static_cast<std::ptrdiff_t>(first);
     fewer.objects.erase(begin, begin + 10);
-    const app::Part alone = test::render(fewer, techniques.front(), size, 1);
+    const app::TechniqueResult alone = test::render(fewer, techniques.front(), size, 1);
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        const MirrorId mirror = measure::first_mirror(truth.hits[i]);
+        const MirrorId mirror = measure::first_mirror_of_hit(truth.hits[i]);
         if (mirror.number() <= 100) continue; // compare only mirrors far from the removed ones
         ++pixels;
         other += is_off(part.hdr.pixels[i], alone.hdr.pixels[i]);
@@ -270,7 +273,7 @@ TEST(Plan, TooManyCaptureEdgesAreEnlargedWithANote) {
     std::string plan;
     for (int i = 1; i <= 10; ++i)
         plan += std::to_string(i) + "=reuse:face=" + std::to_string(8 + i) + " ";
-    const app::Part part = test::render(scene, plan, {32, 32});
+    const app::TechniqueResult part = test::render(scene, plan, {32, 32});
     ASSERT_EQ(part.notes.size(), 2u);
     EXPECT_EQ(
         part.notes[0],

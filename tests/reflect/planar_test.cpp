@@ -51,7 +51,7 @@ measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_
     float next = 1;
     for (scene::Object& object : scene.objects) {
         if (scene::is_mirror(scene, object)) continue;
-        const bool is_lamp = scene::glows(scene.materials[object.material]);
+        const bool is_lamp = scene::is_visibly_emissive(scene.materials[object.material]);
         const bool is_wall = !is_lamp && scene.meshes[object.mesh].triangles.size() == 2;
         object.material = test::add_material(
             scene, {.name = "painted", .emission = vec3(is_wall ? 1 : ++next)});
@@ -60,7 +60,7 @@ measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_
     const int width = painted.width;
     const auto differ = [&](int a, int b) {
         return painted.pixels[a] != painted.pixels[b] ||
-               measure::first_mirror(hits[a]) != measure::first_mirror(hits[b]);
+               measure::first_mirror_of_hit(hits[a]) != measure::first_mirror_of_hit(hits[b]);
     };
     measure::Mask beside(painted.pixels.size(), 0);
     for (int i = 0; i < int(beside.size()); ++i) {
@@ -79,7 +79,7 @@ double planar_share_off(const measure::Picture& a, const measure::Picture& b,
     std::size_t off = 0;
     for (std::size_t i = 0; i < mask.size(); ++i)
         off += mask[i] && !(test::apart(a.pixels[i], b.pixels[i]) <= float(measure::kOff));
-    return double(off) / double(measure::pixel_count(mask));
+    return double(off) / double(measure::count_mask_pixels(mask));
 }
 
 struct Found {
@@ -87,16 +87,17 @@ struct Found {
 };
 
 /// Compares the first-order pixels with ray tracing, except those in the mask `left_out`.
-Found off_of(const app::Part& planar, const app::Part& truth, const measure::Mask& left_out) {
-    measure::Mask mask = measure::first_order(truth.hits);
-    const double whole = double(measure::pixel_count(mask));
+Found off_of(const app::TechniqueResult& planar, const app::TechniqueResult& truth,
+             const measure::Mask& left_out) {
+    measure::Mask mask = measure::mask_first_order_pixels(truth.hits);
+    const double whole = double(measure::count_mask_pixels(mask));
     EXPECT_GT(whole, 2000);
     for (std::size_t i = 0; i < mask.size(); ++i)
         if (left_out[i]) mask[i] = 0;
     const std::vector<float> no_flip(truth.hdr.pixels.size(), 0.0f);
     const measure::Difference found = measure::difference(planar.hdr, truth.hdr, mask, no_flip);
     return {planar_share_off(planar.hdr, truth.hdr, mask), found.mae, found.rmse,
-            1 - double(measure::pixel_count(mask)) / whole};
+            1 - double(measure::count_mask_pixels(mask)) / whole};
 }
 
 void print(const std::string& what, const Found& found) {
@@ -111,9 +112,9 @@ TEST(Planar, FlatMirrorsEqualRayTracing) {
     low.cameras.front() = low.cameras.at(1);
     for (const scene::Scene& scene :
          {flat(), low, flat(" parallel"), flat(" orthogonal"), flat(" touched")}) {
-        const app::Part truth = test::render(scene, app::kReference, size),
-                        planar = test::render(scene, "planar", size),
-                        lit = test::render(scene, "raytrace:depth=16,shadow=none", size);
+        const app::TechniqueResult truth = test::render(scene, app::kReference, size),
+                                   planar = test::render(scene, "planar", size),
+                                   lit = test::render(scene, "raytrace:depth=16,shadow=none", size);
         const Found whole = off_of(planar, truth, measure::Mask(truth.hits.size(), 0));
         print(scene.name + ", nothing left out", whole);
         EXPECT_LE(whole.share_off, .003) << scene.name;
@@ -147,8 +148,8 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
     const std::size_t index = scene::mirrors(quad).front();
     const Bounds<double> bounds = scene::bounds(quad, quad.objects[index]);
     const auto rmse_of = [&](const scene::Scene& scene) {
-        const app::Part truth = test::render(scene, app::kReference, size),
-                        planar = test::render(scene, "planar", size);
+        const app::TechniqueResult truth = test::render(scene, app::kReference, size),
+                                   planar = test::render(scene, "planar", size);
         EXPECT_EQ(planar.plan.front().technique, "planar");
         EXPECT_THAT(planar.notes, testing::IsEmpty());
         return off_of(planar, truth, measure::Mask(truth.hits.size(), 0)).rmse;
@@ -170,7 +171,7 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
 /// A note must name each mirror that `planar` cannot draw and the technique that draws it instead.
 TEST(Planar, NoteNamesMirrorsDrawnByAnotherTechnique) {
     const scene::Scene hall = test::hall();
-    const app::Part part = test::render(hall, "planar", kPlanarSmall, 2);
+    const app::TechniqueResult part = test::render(hall, "planar", kPlanarSmall, 2);
     ASSERT_EQ(part.notes.size(), 1u);
     EXPECT_THAT(part.notes[0], testing::MatchesRegex("mirror 1 '.*': not flat, drawn by reuse"));
 }
@@ -188,11 +189,12 @@ TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
     scene.cameras = {{.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60}};
     for (const int bounces : {0, 1, 2, 5}) {
         const std::string number = std::to_string(bounces);
-        const app::Part planar = test::render(scene, "planar:shadow=none,bounces=" + number,
-                                              kPlanarSmall),
-                        truth = test::render(scene, "raytrace:shadow=none,depth=" + number,
-                                             kPlanarSmall);
-        EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, measure::all_pixels(truth.hits)), .01)
+        const app::TechniqueResult planar = test::render(
+                                       scene, "planar:shadow=none,bounces=" + number, kPlanarSmall),
+                                   truth = test::render(
+                                       scene, "raytrace:shadow=none,depth=" + number, kPlanarSmall);
+        EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, measure::mask_all_pixels(truth.hits)),
+                  .01)
             << bounces;
         int deepest = -1;
         for (const vec3& pixel : planar.hdr.pixels) {
@@ -222,7 +224,7 @@ TEST(Planar, OnlyVisibleMirrorsGetViews) {
 /// the mirror's plane must not appear in the mirror.
 TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
     scene::Scene scene = test::yard();
-    scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
+    scene.punctual.push_back({.kind = scene::PunctualLight::Kind::directional,
                               .intensity = vec3(2),
                               .world_from_light = test::shining({0, 0, 0}, {-.4, -1, -.6})});
     test::add_quad(scene, "screen", add_mirror(scene), {-1.5, 0, -.4}, {1.8, 0, .6}, {1.8, 1.4, .6},
@@ -235,15 +237,15 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
     for (const scene::Camera& camera : {before, behind, parallel}) {
         scene.cameras = {camera};
         const uvec2 size(160, 128);
-        const app::Part truth = test::render_dark(scene, "raytrace", size),
-                        lit = test::render_dark(scene, "raytrace:shadow=none", size),
-                        planar = test::render_dark(scene, "planar", size);
-        measure::Mask mask = measure::mirrors(truth.hits);
+        const app::TechniqueResult truth = test::render_dark(scene, "raytrace", size),
+                                   lit = test::render_dark(scene, "raytrace:shadow=none", size),
+                                   planar = test::render_dark(scene, "planar", size);
+        measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
         const measure::Mask shadows = test::shadow_edges(lit.hdr, truth.hdr),
                             outlines = beside_outlines(scene, truth.hits, size);
         for (std::size_t i = 0; i < mask.size(); ++i)
             if (shadows[i] || outlines[i]) mask[i] = 0;
-        EXPECT_GT(measure::pixel_count(mask), 1500u);
+        EXPECT_GT(measure::count_mask_pixels(mask), 1500u);
         EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, mask), .003)
             << "eye at z " << camera.eye.z;
     }
@@ -253,8 +255,8 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
 /// same result as in a plan.
 TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     const scene::Scene hall = test::hall();
-    const app::Part planar = test::render(hall, "planar:rest=secant", kPlanarSmall, 3),
-                    plan = test::render(hall, "1=secant *=planar", kPlanarSmall, 3);
+    const app::TechniqueResult planar = test::render(hall, "planar:rest=secant", kPlanarSmall, 3),
+                               plan = test::render(hall, "1=secant *=planar", kPlanarSmall, 3);
     EXPECT_TRUE(test::same_bytes(planar.hdr, plan.hdr));
     ASSERT_EQ(planar.plan.size(), 3u);
     EXPECT_EQ(planar.plan[0].technique, "secant");
@@ -264,9 +266,10 @@ TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     EXPECT_EQ(planar.plan[1].technique, "planar") << "a block, whose faces are flat";
     EXPECT_EQ(planar.plan[2].technique, "planar");
     EXPECT_EQ(planar.plan[2].why, "one technique was asked for");
-    const app::Part dark = test::render(hall, "planar:shadow=none", kPlanarSmall, 3),
-                    all_dark = test::render(hall, "1=reuse:shadow=none *=planar:shadow=none",
-                                            kPlanarSmall, 3);
+    const app::TechniqueResult dark = test::render(hall, "planar:shadow=none", kPlanarSmall, 3),
+                               all_dark = test::render(hall,
+                                                       "1=reuse:shadow=none *=planar:shadow=none",
+                                                       kPlanarSmall, 3);
     EXPECT_TRUE(test::same_bytes(dark.hdr, all_dark.hdr)) << "shadows are the row's";
 }
 
@@ -275,12 +278,12 @@ TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
 TEST(Planar, CurvedMirrorInAFlatMirrorIsDrawnByItsTechnique) {
     constexpr uvec2 size{160, 160};
     const scene::Scene hall = test::hall();
-    const app::Part truth = test::render(hall, app::kReference, size);
-    measure::Mask ball = measure::mirror_in_mirror(truth.hits);
-    const measure::Mask panel = measure::of_mirror(truth.hits, MirrorId(3));
+    const app::TechniqueResult truth = test::render(hall, app::kReference, size);
+    measure::Mask ball = measure::mask_mirror_in_mirror(truth.hits);
+    const measure::Mask panel = measure::mask_one_mirror(truth.hits, MirrorId(3));
     for (std::size_t i = 0; i < ball.size(); ++i)
         if (!panel[i]) ball[i] = 0;
-    EXPECT_GT(measure::pixel_count(ball), 300u);
+    EXPECT_GT(measure::count_mask_pixels(ball), 300u);
     const double black = test::rmse(test::render(hall, "planar:bounces=0", size).hdr, truth.hdr,
                                     ball);
     for (const std::string rest : {"secant", "hybrid", "raytrace"}) {
@@ -306,12 +309,12 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
     scene.objects.back().world_from_object[3] = dvec4(1.5, .3, 3e-4, 1);
     scene.cameras = {
         {.eye = {1.5, .9, .8}, .target = {1.5, .3, 1e-4}, .vertical_fov_degrees = .08}};
-    const app::Part truth = test::render(scene, "raytrace:shadow=none", kPlanarSmall),
-                    planar = test::render(scene, "planar:shadow=none", kPlanarSmall);
-    const measure::Mask mask = measure::mirrors(truth.hits);
+    const app::TechniqueResult truth = test::render(scene, "raytrace:shadow=none", kPlanarSmall),
+                               planar = test::render(scene, "planar:shadow=none", kPlanarSmall);
+    const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto is_red = [](const vec3& pixel) { return pixel.x > .5f; };
     EXPECT_GT(std::ranges::count_if(truth.hdr.pixels, is_red), 400) << "the grain and its image";
-    EXPECT_GT(measure::pixel_count(mask), 2000u);
+    EXPECT_GT(measure::count_mask_pixels(mask), 2000u);
     EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, mask), .002);
 }
 
@@ -319,7 +322,7 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
 TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
     const auto rows_of = [](const char* name) {
         const scene::Scene scene = scene::load(name);
-        return app::default_techniques(test::request(scene, {}, kPlanarSmall));
+        return app::list_default_techniques(test::request(scene, {}, kPlanarSmall));
     };
     for (const char* name : {"flat", "room", "gallery"})
         EXPECT_THAT(rows_of(name), testing::Contains("planar")) << name;
@@ -334,7 +337,7 @@ TEST(Planar, FrameUsesTheViewsItWasSubmittedWith) {
     app::FrameSpec spec{.techniques = {"planar:bounces=4"},
                         .camera = scene.cameras.front(),
                         .size = kPlanarSmall,
-                        .timing = app::Timing::pipelined};
+                        .timing = app::PassTimingMode::pipelined};
     const measure::Picture wanted = session.frame(spec).hdr();
     for (int i = 0; i < 3; ++i) {
         app::FrameSpec other = spec; // a frame with other mirrored views

@@ -15,7 +15,7 @@ using namespace catoptric;
 /// whose centre lies on an edge.
 double off_double(const scene::Scene& scene, const std::string& technique, uvec2 size,
                   int mirrors = 1) {
-    const app::Part part = test::render(scene, technique, size);
+    const app::TechniqueResult part = test::render(scene, technique, size);
     const stress::DoubleTracer tracer(scene, .05);
     double sum = 0;
     std::size_t count = 0;
@@ -47,10 +47,12 @@ TEST(Precision, DoubleHitPointsReduceTheError) {
 }
 
 TEST(Precision, DoubleHitPointsChangeOnlyRoundings) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     for (const std::string knobs : {"", "shadow=map,"}) {
-        const app::Part f32 = test::render(scene, "raytrace:" + knobs + "hit=f32", {128, 128}),
-                        f64 = test::render(scene, "raytrace:" + knobs + "hit=f64", {128, 128});
+        const app::TechniqueResult f32 = test::render(scene, "raytrace:" + knobs + "hit=f32",
+                                                      {128, 128}),
+                                   f64 = test::render(scene, "raytrace:" + knobs + "hit=f64",
+                                                      {128, 128});
         EXPECT_FALSE(test::same_bytes(f32.hdr, f64.hdr));
         std::vector<float> off;
         for (std::size_t i = 0; i < f32.hdr.pixels.size(); ++i)
@@ -67,12 +69,12 @@ TEST(Precision, HalfFloatCapturesSaturateAt65504) {
     scene::Scene room = test::room(1, 1);
     for (scene::Material& material : room.materials)
         if (material.emission != vec3(0)) material.emission = vec3(kEmission);
-    const app::Part truth = test::render(room, "raytrace", {256, 256});
+    const app::TechniqueResult truth = test::render(room, "raytrace", {256, 256});
     for (const std::string technique : {"reuse", "parallax", "pyramid"}) {
         const auto brightest = [&](const std::string& colour) {
             float most = 0;
-            const app::Part part = test::render(room, technique + ":face=256,colour=" + colour,
-                                                {256, 256});
+            const app::TechniqueResult part = test::render(
+                room, technique + ":face=256,colour=" + colour, {256, 256});
             for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
                 if (truth.hits[i] != 0) most = std::max(most, part.hdr.pixels[i].x);
             return most;
@@ -123,10 +125,11 @@ TEST(Precision, TextbookSphereTestFailsFarAway) {
     camera.eye = camera.target + back * 1000.0;
     camera.vertical_fov_degrees = .06;
     const double stable = off_double(room, "raytrace:sphere=exact,depth=8", {64, 64});
-    const app::Part with = test::render(room, "raytrace:sphere=exact", {64, 64}),
-                    without = test::render(room, "raytrace:sphere=exact,without=stable_sphere",
-                                           {64, 64});
-    const double changed = test::rmse(with.hdr, without.hdr, measure::mirrors(with.hits));
+    const app::TechniqueResult with = test::render(room, "raytrace:sphere=exact", {64, 64}),
+                               without = test::render(
+                                   room, "raytrace:sphere=exact,without=stable_sphere", {64, 64});
+    const double changed = test::rmse(with.hdr, without.hdr,
+                                      measure::mask_mirror_pixels(with.hits));
     std::cout << "[ MEASURED ] rmse without the stable sphere: " << changed << "\n";
     EXPECT_LT(stable, 1e-4);
     EXPECT_GT(changed, 100 * stable);
@@ -140,8 +143,9 @@ TEST(Precision, ShadowRaysWithoutAnEndGapHitTheCeilingAtTheLamp) {
     for (const scene::Object& object : room.objects)
         if (room.materials[object.material].emission != vec3(0))
             for (dvec3& position : room.meshes[object.mesh].positions) position.y = ceiling;
-    const app::Part with = test::render(room, "raytrace", {96, 96}),
-                    without = test::render(room, "raytrace:without=shadow_end", {96, 96});
+    const app::TechniqueResult with = test::render(room, "raytrace", {96, 96}),
+                               without = test::render(room, "raytrace:without=shadow_end",
+                                                      {96, 96});
     std::size_t darker = 0, brighter = 0;
     for (std::size_t i = 0; i < with.hdr.pixels.size(); ++i) {
         darker += without.hdr.pixels[i].x < with.hdr.pixels[i].x;

@@ -65,12 +65,13 @@ struct Room {
     /// `range`.
     double mean(std::size_t mirror, double range = std::numeric_limits<double>::infinity()) const {
         double sum = 0, all = 0;
-        stress::for_texels(256, [&](const dvec3& direction, int, std::uint32_t, std::uint32_t) {
-            const double size = glm::length(direction), angle = 1 / (size * size * size),
-                         d = distance(mirror, direction / size);
-            if (!(d < range)) return;
-            sum += angle * d, all += angle;
-        });
+        stress::for_each_cube_texel(
+            256, [&](const dvec3& direction, int, std::uint32_t, std::uint32_t) {
+                const double size = glm::length(direction), angle = 1 / (size * size * size),
+                             d = distance(mirror, direction / size);
+                if (!(d < range)) return;
+                sum += angle * d, all += angle;
+            });
         return sum / all;
     }
 };
@@ -81,13 +82,13 @@ double radius_of(const Room& room, std::size_t mirror, const std::string& settin
     app::Request request = test::request(scene, {"proxy:shape=sphere,shadow=none," + settings},
                                          kProxyMeanSize);
     request.with_lookup = true;
-    const app::Part part = std::move(app::run(test::engine(), request).parts.front());
-    const shared::View view = render::camera_view(request.camera, {}, kProxyMeanSize, 0);
+    const app::TechniqueResult part = std::move(app::run(test::engine(), request).parts.front());
+    const shared::View view = render::make_camera_view(request.camera, {}, kProxyMeanSize, 0);
     std::vector<double> radii;
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {
         if (!(part.lookup[i].w > 0)) continue;
         const dvec3 eye = request.camera.eye, centre = room.centres[mirror],
-                    ray(app::camera_ray(view, kProxyMeanSize, i).direction),
+                    ray(app::make_camera_ray(view, kProxyMeanSize, i).direction),
                     offset = eye + ray * ((centre.z - eye.z) / ray.z) - centre,
                     onward(ray.x, ray.y, -ray.z), looked(vec3(part.lookup[i]));
         // The point in which the reflected ray meets the looked-up line lies on the sphere.

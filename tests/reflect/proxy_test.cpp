@@ -18,11 +18,13 @@ constexpr int kHit = 0, kMiss = 2; // states of a search, as in shaders/lib/prob
 // Largest errors allowed, in degrees: for the worst pixel, and for 99 % of the pixels.
 constexpr double kSnapped = .1, kMostSnapped = .01;
 
-measure::LookupError proxy_error_of(const std::string& what,
-                                    const std::vector<measure::LookedUp>& pixels, double& worst) {
+measure::LookupErrorSummary proxy_error_of(const std::string& what,
+                                           const std::vector<measure::LookupDirectionError>& pixels,
+                                           double& worst) {
     worst = 0;
-    for (const measure::LookedUp& pixel : pixels) worst = std::max(worst, pixel.angle_degrees);
-    const measure::LookupError error = measure::lookup_error(pixels);
+    for (const measure::LookupDirectionError& pixel : pixels)
+        worst = std::max(worst, pixel.angle_degrees);
+    const measure::LookupErrorSummary error = measure::summarise_lookup_errors(pixels);
     std::cout << "[ MEASURED ] " << what << ": mean angle " << error.mean_degrees << ", p99 "
               << error.p99_degrees << ", worst " << worst << " degrees\n";
     return error;
@@ -36,7 +38,8 @@ TEST(Proxy, BoxOfAnEmptyRoomIsExact) {
         double worst;
         EXPECT_LT(proxy_error_of("box, face " + face, pixels, worst).p99_degrees, kMostSnapped);
         EXPECT_LT(worst, kSnapped);
-        EXPECT_EQ(std::ranges::count(pixels, kHit, &measure::LookedUp::state), std::ssize(pixels));
+        EXPECT_EQ(std::ranges::count(pixels, kHit, &measure::LookupDirectionError::state),
+                  std::ssize(pixels));
     }
 }
 
@@ -54,7 +57,8 @@ TEST(Proxy, SphereOfARoundRoomIsExact) {
     double worst;
     EXPECT_LT(proxy_error_of("sphere", pixels, worst).p99_degrees,
               kSnapped); // the round room consists of 4^7 flat triangles
-    EXPECT_EQ(std::ranges::count(pixels, kHit, &measure::LookedUp::state), std::ssize(pixels));
+    EXPECT_EQ(std::ranges::count(pixels, kHit, &measure::LookupDirectionError::state),
+              std::ssize(pixels));
 }
 
 TEST(Proxy, RaysBesideAFloorHitTheFloorOrMiss) {
@@ -66,11 +70,11 @@ TEST(Proxy, RaysBesideAFloorHitTheFloorOrMiss) {
     scene.cameras.push_back({.eye = {0, 2.5, -5}, .target = {0, 2, 0}});
     const auto pixels = test::looked_up(scene, "proxy:face=64", kProxySize);
     double worst;
-    const measure::LookupError error = proxy_error_of("floor", pixels, worst);
+    const measure::LookupErrorSummary error = proxy_error_of("floor", pixels, worst);
     EXPECT_LT(error.mean_degrees, .1);
     EXPECT_LT(error.wrong_object, .02);
-    const double hits = static_cast<double>(
-                            std::ranges::count(pixels, kHit, &measure::LookedUp::state)) /
+    const double hits = static_cast<double>(std::ranges::count(
+                            pixels, kHit, &measure::LookupDirectionError::state)) /
                         static_cast<double>(pixels.size());
     EXPECT_GT(hits, .25);
     EXPECT_LT(hits, .75);
@@ -90,7 +94,8 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
                       0u);
             ASSERT_GT(pixels.size(), 1000u);
             // unorm8 cannot store infinity, so the number of misses is not checked for that format.
-            const auto misses = std::ranges::count(pixels, kMiss, &measure::LookedUp::state);
+            const auto misses = std::ranges::count(pixels, kMiss,
+                                                   &measure::LookupDirectionError::state);
             EXPECT_EQ(misses, distance == "r32f" ? std::ssize(pixels) : misses) << shape;
             double worst;
             EXPECT_LT(
@@ -103,7 +108,7 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
 /// With rays followed through the other balls, the box of the room leaves only the objects in the
 /// room as an error.
 TEST(Proxy, BoxReducesTheErrorInTheBuiltInScene) {
-    const auto judged = test::judge(scene::cornell_mirrors(), test::looks().front(),
+    const auto judged = test::judge(scene::make_cornell_mirrors(), test::looks().front(),
                                     {"parallax", "proxy", "proxy:continue=4"});
     EXPECT_LE(judged[2].all, .80 * judged[0].all);
     EXPECT_LE(judged[1].lookup.mean_degrees, .05 * judged[0].lookup.mean_degrees);

@@ -9,7 +9,7 @@
 namespace {
 
 using namespace catoptric;
-using Kind = scene::Punctual::Kind;
+using Kind = scene::PunctualLight::Kind;
 
 constexpr uvec2 kPunctualSize{32, 32};
 
@@ -19,7 +19,7 @@ double degrees(double angle) { return std::cos(glm::radians(angle)); }
 /// A light over a floor that the camera sees from straight above.
 struct PunctualCase {
     const char* name;
-    scene::Punctual light;
+    scene::PunctualLight light;
     dvec3 from, axis;
     friend void PrintTo(const PunctualCase& test_case, std::ostream* out) {
         *out << test_case.name;
@@ -46,7 +46,7 @@ scene::Scene under(const PunctualCase& lit, double scale) {
     scene::Scene scene = test::floor_alone();
     scene.objects.front().world_from_object = dmat4(scale);
     scene.objects.front().world_from_object[3] = dvec4(origin, 1);
-    scene::Punctual light = lit.light;
+    scene::PunctualLight light = lit.light;
     light.world_from_light = test::shining(origin + scale * lit.from, lit.axis);
     light.range *= scale;
     if (light.kind != Kind::directional) light.intensity *= float(scale * scale);
@@ -115,7 +115,7 @@ TEST_P(Punctual, FloorIsLitAsSpecified) {
 TEST_P(Punctual, ShadowsAreTheSameInRasterAndRays) {
     scene::Scene scene = test::yard();
     const PunctualCase& lit = GetParam();
-    scene::Punctual light = lit.light;
+    scene::PunctualLight light = lit.light;
     light.world_from_light = test::shining(lit.from + dvec3(0, .5, 0), lit.axis);
     scene.punctual.push_back(light);
     const double off = test::share_off_of_raster(scene, {128, 128});

@@ -41,8 +41,8 @@ struct Read {
         std::uint32_t column = 0;
         for (std::uint32_t k = 1; k < level; ++k) column += width >> k;
         const std::uint32_t both = cells[(std::size_t{layer} * height + y) * width + column + x];
-        return {from_half(static_cast<std::uint16_t>(both)),
-                from_half(static_cast<std::uint16_t>(both >> 16))};
+        return {half_to_float(static_cast<std::uint16_t>(both)),
+                half_to_float(static_cast<std::uint16_t>(both >> 16))};
     }
     std::uint32_t cells_across(std::uint32_t level) const {
         return (face + (1u << level) - 1) >> level;
@@ -54,10 +54,10 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
     auto& [device, pipelines] = test::bench();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, .05);
-    graph::Runner runner(device, pipelines);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
-    const reflect::Choice choice = reflect::parse_choice(technique);
+    const reflect::TechniqueChoice choice = reflect::parse_technique_choice(technique);
     test::add_technique(graph, inputs, technique);
     const graph::ImageHandle pyramid = image_called(graph, "pyramid"),
                              colour = image_called(graph, "capture/cubes.colour");
@@ -69,14 +69,15 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
     for (int i = 0; i < 2; ++i) {
         found[i] = graph.buffer({"found" + std::to_string(i), directions.size() * sizeof(vec4)});
         graph.pass("look" + std::to_string(i))
-            .reads(colour, graph::Use::sampled)
-            .reads(distance, graph::Use::sampled)
-            .writes(found[i], graph::Use::storage_write)
-            .record([=, &asked, count = directions.size()](graph::Commands& commands) {
+            .reads(colour, graph::ResourceUse::sampled)
+            .reads(distance, graph::ResourceUse::sampled)
+            .writes(found[i], graph::ResourceUse::storage_write)
+            .record([=, &asked, count = directions.size()](graph::PassCommands& commands) {
                 commands.use(gpu::ComputeState{"tests/cube_sample.comp", {}});
-                commands.bind("colour_cubes", colour, graph::Filter::linear);
+                commands.bind("colour_cubes", colour, graph::TextureFilter::linear);
                 commands.bind("distance_cubes", distance,
-                              i == 0 ? graph::Filter::linear : graph::Filter::nearest);
+                              i == 0 ? graph::TextureFilter::linear
+                                     : graph::TextureFilter::nearest);
                 commands.bind("Directions", asked);
                 commands.bind("Found", found[i]);
                 commands.dispatch(static_cast<std::uint32_t>((count + 63) / 64), 1);
@@ -124,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Pyramid, Bounds,
 
 TEST_P(Bounds, BoundsContainEveryLookup) {
     const std::vector<vec4> asked = directions(4);
-    const Read read = read_pyramid(scene::cornell_mirrors(), "pyramid:" + GetParam(), asked);
+    const Read read = read_pyramid(scene::make_cornell_mirrors(), "pyramid:" + GetParam(), asked);
     std::size_t outside = 0, judged = 0, nothing = 0;
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const vec3 direction(asked[i]);
@@ -154,7 +155,7 @@ TEST_P(Bounds, BoundsContainEveryLookup) {
 }
 
 TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
-    const Read read = read_pyramid(scene::cornell_mirrors(), "pyramid:" + GetParam(),
+    const Read read = read_pyramid(scene::make_cornell_mirrors(), "pyramid:" + GetParam(),
                                    directions(4));
     std::size_t wrong = 0;
     for (std::uint32_t layer = 0; layer < 24; ++layer)
@@ -177,8 +178,8 @@ TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
 /// The bounds are rounded outwards to half floats.
 TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
     constexpr std::uint32_t kFace = 64;
-    const scene::Scene scene = scene::cornell_mirrors();
-    const test::Captured captured = test::capture(scene, kFace, Format::r32f);
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const test::CapturedCubes captured = test::capture(scene, kFace, Format::r32f);
     const Read read = read_pyramid(scene, "pyramid:face=64", directions(4));
     std::size_t wrong = 0;
     for (std::uint32_t layer = 0; layer < 24; ++layer)
@@ -206,11 +207,13 @@ TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
         const auto pixels = test::looked_up(stress::GlyphRoom().scene(),
                                             "pyramid:face=" + std::to_string(face), {128, 128});
         ASSERT_GT(pixels.size(), 1000u);
-        EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookedUp::state), std::ssize(pixels))
+        EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookupDirectionError::state),
+                  std::ssize(pixels))
             << "face " << face;
-        const measure::LookupError error = measure::lookup_error(pixels);
+        const measure::LookupErrorSummary error = measure::summarise_lookup_errors(pixels);
         double worst = 0;
-        for (const measure::LookedUp& pixel : pixels) worst = std::max(worst, pixel.angle_degrees);
+        for (const measure::LookupDirectionError& pixel : pixels)
+            worst = std::max(worst, pixel.angle_degrees);
         std::cout << "[ MEASURED ] face " << face << ": mean angle " << error.mean_degrees
                   << ", worst " << worst << " degrees\n";
         // Bilinear distances are wrong by less than a texel in the corners of the room. On flat
@@ -222,11 +225,11 @@ TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
 }
 
 TEST(Pyramid, HitsAreExactAndMissesAreTrue) {
-    const auto pixels = test::looked_up(scene::cornell_mirrors(), "pyramid:face=256,continue=0",
-                                        test::kContractSize);
+    const auto pixels = test::looked_up(scene::make_cornell_mirrors(),
+                                        "pyramid:face=256,continue=0", test::kContractSize);
     std::array<std::size_t, 3> count{}, wrong{};
     double hit_angle = 0, miss_angle = 0;
-    for (const measure::LookedUp& pixel : pixels) {
+    for (const measure::LookupDirectionError& pixel : pixels) {
         ++count[static_cast<std::size_t>(pixel.state)];
         wrong[static_cast<std::size_t>(pixel.state)] += pixel.wrong_object;
         if (pixel.state == 0) hit_angle += pixel.angle_degrees;

@@ -42,7 +42,7 @@ json compared(const app::CompareRequest& request) {
     return json::parse(report::to_json(app::compare(test::engine(), request)));
 }
 
-app::Part rendered(const std::string& technique) {
+app::TechniqueResult rendered(const std::string& technique) {
     app::Request request = test::request(report_figures_bright_hall(), {technique},
                                          kReportFiguresSize);
     request.frames = kReportFiguresFrames, request.warmup = kWarmup;
@@ -55,15 +55,17 @@ app::Part rendered(const std::string& technique) {
 using Chosen = std::function<bool(unsigned, unsigned)>;
 
 /// Returns the FLIP map of two pictures as they are displayed, without rounding to eight bits.
-std::vector<float> flip_of(const app::Part& a, const app::Part& b, double stops) {
+std::vector<float> flip_of(const app::TechniqueResult& a, const app::TechniqueResult& b,
+                           double stops) {
     return measure::flip(measure::to_unrounded_display(a.hdr, stops),
                          measure::to_unrounded_display(b.hdr, stops));
 }
 
 /// Checks the error figures against their definitions: linear colours times the exposure, clamped
 /// to [0,1], over the chosen pixels and all channels.
-void expect_errors(const json& found, const app::Part& part, const app::Part& truth,
-                   const std::vector<std::uint32_t>& hits, const Chosen& chosen) {
+void expect_errors(const json& found, const app::TechniqueResult& part,
+                   const app::TechniqueResult& truth, const std::vector<std::uint32_t>& hits,
+                   const Chosen& chosen) {
     const std::vector<float> map = flip_of(part, truth, kStops);
     const double gain = std::exp2(kStops);
     double squares = 0, sum = 0, flip = 0;
@@ -118,8 +120,8 @@ TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
     const std::vector<std::string> rows{"parallax:face=32", "raytrace:depth=1",
                                         "raytrace:depth=1,samples=4"};
     const json document = compared(report_figures_asked(rows));
-    const app::Part truth = rendered(app::kReference);
-    const app::Part finer = rendered("raytrace:depth=16,samples=4");
+    const app::TechniqueResult truth = rendered(app::kReference);
+    const app::TechniqueResult finer = rendered("raytrace:depth=16,samples=4");
     // The first of four rays in a pixel hits nearly always the same mirror as the ray through its
     // centre.
     std::size_t others = 0;
@@ -144,9 +146,9 @@ TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         SCOPED_TRACE(rows[i]);
         const json& row = document["rows"][i];
-        const app::Part part = rendered(rows[i]);
+        const app::TechniqueResult part = rendered(rows[i]);
         // The reference uses the row's own number of samples.
-        const app::Part& wanted = i == 2 ? finer : truth;
+        const app::TechniqueResult& wanted = i == 2 ? finer : truth;
         for (const auto& [name, chosen] : masks) {
             SCOPED_TRACE(name);
             expect_errors(row[name], part, wanted, truth.hits, chosen);
@@ -177,7 +179,7 @@ TEST(ReportFigures, RowIsComparedAtItsOwnSampleCount) {
         EXPECT_EQ(document["rows"][i]["error_all"]["max"], 0) << rows[i];
         EXPECT_EQ(document["rows"][i]["is_reference"], true) << rows[i];
     }
-    const app::Part truth = rendered(app::kReference);
+    const app::TechniqueResult truth = rendered(app::kReference);
     expect_errors(document["rows"][3]["error"], rendered(rows[3]), truth, truth.hits,
                   [](unsigned first, unsigned) { return first != 0; });
 }
@@ -268,7 +270,7 @@ TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
 TEST(ReportFigures, MovingSceneNeedsHostWork) {
     app::CompareRequest request = report_figures_asked({"parallax:face=32", "raytrace"});
     const json still = compared(request);
-    request.base.scene = scene::cornell_mirrors(); // a scene with a moving ball
+    request.base.scene = scene::make_cornell_mirrors(); // a scene with a moving ball
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
     const json moving = compared(request);
@@ -307,7 +309,7 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     const std::vector<std::string> rows{"reuse:face=32", "pyramid:face=auto", "raytrace",
                                         "naive:face=16", "reuse:face=16"};
     app::CompareRequest request;
-    request.base = test::request(scene::cornell_mirrors(), rows, kReportFiguresSize);
+    request.base = test::request(scene::make_cornell_mirrors(), rows, kReportFiguresSize);
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
     request.base.frames = kReportFiguresFrames, request.base.warmup = kWarmup;
@@ -321,12 +323,12 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         app::Request alone = request.base;
         alone.techniques = {rows[i]};
-        const app::Part part = std::move(app::run(test::engine(), alone).parts.front());
+        const app::TechniqueResult part = std::move(app::run(test::engine(), alone).parts.front());
         EXPECT_TRUE(test::same_bytes(compared.rows[i].hdr, part.hdr)) << rows[i];
         alone.techniques = {"raytrace:depth=16"};
         alone.time = alone.instant(alone.total()), alone.animate = false;
         alone.frames = 1, alone.warmup = 0;
-        const app::Part truth = std::move(app::run(test::engine(), alone).parts.front());
+        const app::TechniqueResult truth = std::move(app::run(test::engine(), alone).parts.front());
         const std::vector<float> map = flip_of(part, truth, request.base.exposure);
         EXPECT_EQ(compared.rows[i].flip_map, map) << rows[i];
     }

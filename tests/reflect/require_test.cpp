@@ -24,7 +24,7 @@ scene::Scene hall(std::uint64_t seed) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (const std::size_t other : {mirrors[1], mirrors[2]}) scene.objects[other].material = 0;
     test::Numbers numbers(seed + 500);
-    scene.objects[mirrors[1 + numbers.below(2)]].motion = scene::Harmonic{
+    scene.objects[mirrors[1 + numbers.below(2)]].motion = scene::HarmonicMotion{
         .amplitude = dvec3(numbers.direction()), .period = 2};
     const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[0]]).centre();
     scene.cameras[0] = {.eye = centre + 2. * dvec3(numbers.direction()), .target = centre};
@@ -32,7 +32,7 @@ scene::Scene hall(std::uint64_t seed) {
 }
 
 /// Returns the colours and distances of a face as bytes.
-std::vector<std::byte> bytes_of(const render::Captured& captured, std::size_t face) {
+std::vector<std::byte> bytes_of(const render::CapturedCubes& captured, std::size_t face) {
     std::vector<std::byte> bytes;
     for (const auto& all : {captured.colour_bytes, captured.distance_bytes}) {
         const std::size_t one = all.size() / 6;
@@ -46,7 +46,7 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
     int stays = 0, changes = 0;
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
         const scene::Scene scene = hall(seed);
-        require::Requirements requirements(scene);
+        require::ModelBuilder requirements(scene);
         app::Session session(test::engine(), scene);
         app::FrameSpec spec{.techniques = {"parallax:face=" + std::to_string(kRequireFace) +
                                            ",shadow_map=" + std::to_string(kShadowEdge)},
@@ -54,8 +54,8 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
                             .size = {16, 16}};
         const auto at = [&](double seconds) {
             spec.time = seconds;
-            const scene::Scene now = scene::at(scene, seconds);
-            const require::Model model = requirements.of(
+            const scene::Scene now = scene::scene_at_time(scene, seconds);
+            const require::Model model = requirements.model_for(
                 {now, spec.camera, spec.size, kShadowEdge});
             return std::pair(model.mirrors[0], app::Access::captures(app::Access::frame(
                                                    session, spec, {.with_captures = true})));
@@ -84,14 +84,15 @@ std::size_t face_of(const vec3& direction) {
 
 TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
     std::size_t looked = 0, left_out = 0;
-    for (const scene::Scene& scene : {scene::flat(), scene::furnished_room(), scene::gallery()}) {
+    for (const scene::Scene& scene :
+         {scene::make_flat_mirror_room(), scene::furnished_room(), scene::make_gallery()}) {
         app::Session session(test::engine(), scene);
         for (const scene::Camera& camera : scene.cameras) {
             if (&camera != &scene.cameras.front() && scene.name == "gallery")
                 continue; // skip the other cameras, because the gallery takes long
             const scene::Camera now = scene::camera_at(camera, 0);
-            const scene::Scene at_rest = scene::at(scene, 0);
-            const require::Model model = require::required({at_rest, now, {64, 48}});
+            const scene::Scene at_rest = scene::scene_at_time(scene, 0);
+            const require::Model model = require::make_required_model({at_rest, now, {64, 48}});
             for (const require::MirrorNeeds& needs : model.mirrors)
                 left_out += needs.faces != require::kAllFaces ? 1 : 0;
             for (const char* technique :

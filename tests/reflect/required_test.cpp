@@ -92,7 +92,7 @@ public:
         act(few_);
     }
     const scene::Scene& scene() const { return all_.scene(); }
-    app::Counts counts() const { return app::Access::counts(few_); }
+    app::SessionCounters counts() const { return app::Access::counts(few_); }
     const require::Model& model() const { return model_; } ///< model of the last frame
 
     app::FrameSpec spec;
@@ -101,7 +101,7 @@ private:
     std::pair<app::Frame, app::Frame> next() {
         ++number_;
         app::FrameSpec required = spec;
-        required.model = app::Modelling::required;
+        required.model = app::RenderedWork::required;
         app::Frame wanted = all_.frame(spec); // renders everything, before the other session
         return {std::move(wanted), few_.frame(required)};
     }
@@ -207,7 +207,7 @@ TEST(RequiredFrames, ChangedLightAndMaterialsAreDrawnAgain) {
 }
 
 TEST(RequiredFrames, MovingObjectsAreDrawnUntilTheyStop) {
-    Pair pair(scene::cornell_mirrors(), {"parallax:face=16"});
+    Pair pair(scene::make_cornell_mirrors(), {"parallax:face=16"});
     for (int k = 0; k < 8; ++k) {
         EXPECT_TRUE(draws_captures(pair.frame()));
         pair.spec.time += 1 / 60.0;
@@ -218,7 +218,7 @@ TEST(RequiredFrames, MovingObjectsAreDrawnUntilTheyStop) {
 
 // The pyramid is computed from all six faces of a cube whenever one of them is drawn.
 TEST(RequiredFrames, PyramidIsMadeAgainWheneverACaptureIsDrawn) {
-    Pair pair(scene::cornell_mirrors(), {"pyramid:face=16"});
+    Pair pair(scene::make_cornell_mirrors(), {"pyramid:face=16"});
     for (int k = 0; k < 6; ++k) {
         EXPECT_THAT(pair.frame(), testing::Contains("pyramid"));
         pair.spec.time += 1 / 20.0;
@@ -235,7 +235,7 @@ scene::Scene room_with_block() {
     const std::size_t white = add_material(scene, {.albedo = vec3(.7f)});
     for (int face = 0; face < 6; ++face)
         test::add_mesh(scene, test::wall(face, dvec3(-10), dvec3(10)), white);
-    scene::Punctual bulb{.name = "bulb", .intensity = vec3(100)};
+    scene::PunctualLight bulb{.name = "bulb", .intensity = vec3(100)};
     bulb.world_from_light[3] = {0, 8, 0, 1};
     scene.punctual.push_back(bulb);
     test::add_ball(scene, "ball", add_material(scene, {.mirror = true}), {0, 0, 0}, .5, 2);
@@ -334,7 +334,7 @@ TEST(RequiredFrames, CapturesAreDrawnAgainAtAnotherResolution) {
 TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
     Pair pair(test::room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
-    std::vector<app::Sequence> aside;
+    std::vector<app::FrameSequence> aside;
     pair.both([&](app::Session& session) { aside.push_back(app::Access::suspend(session)); });
     for (int k = 0; k < 2; ++k) pair.frame(); // frames of another sequence with the same technique
     std::size_t i = 0;
@@ -375,7 +375,7 @@ TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
     app::Session all(test::engine(), scene, 3), few(test::engine(), scene, 3);
     app::FrameSpec spec = test::request(scene, {"parallax:face=16"}, kRequiredSize);
     app::FrameSpec required = spec;
-    required.model = app::Modelling::required;
+    required.model = app::RenderedWork::required;
     std::optional<app::Frame> wanted, found;
     for (int k = 0; k < 48; ++k) wanted = all.frame(spec), found = few.frame(required);
     EXPECT_TRUE(test::same_bytes(found->hdr(), wanted->hdr()));
@@ -383,7 +383,7 @@ TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
 }
 
 TEST(RequiredFrames, MemoryStaysConstantOverTime) {
-    Pair pair(scene::cornell_mirrors(), {"parallax:face=16", "reuse:face=16"});
+    Pair pair(scene::make_cornell_mirrors(), {"parallax:face=16", "reuse:face=16"});
     pair.frame(), pair.frame(), pair.frame();
     const std::uint64_t before = pair.counts().memory_bytes;
     for (int k = 0; k < 30; ++k) {
@@ -397,10 +397,10 @@ TEST(RequiredFrames, FramesReportTheirModel) {
     const scene::Scene scene = test::room(1, 1);
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = test::request(scene, {"reuse:face=16"}, kRequiredSize);
-    EXPECT_EQ(session.frame(spec).read().model, app::Modelling::everything);
-    spec.model = app::Modelling::required;
+    EXPECT_EQ(session.frame(spec).read().model, app::RenderedWork::everything);
+    spec.model = app::RenderedWork::required;
     const app::Frame frame = session.frame(spec);
-    EXPECT_EQ(frame.read().model, app::Modelling::required);
+    EXPECT_EQ(frame.read().model, app::RenderedWork::required);
     EXPECT_FALSE(app::Access::model(frame).is_everything);
     EXPECT_EQ(app::Access::model(frame).mirrors.size(), 1u);
     const std::string plan = app::Access::plan(session, spec, app::PlanFormat::text);

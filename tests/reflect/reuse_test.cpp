@@ -14,18 +14,18 @@ using namespace catoptric;
 constexpr uvec2 kReuseSize{512, 512};
 
 TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     app::Request request = test::request(scene, {"reuse:face=128"}, {256, 256});
     request.frames = 8;
-    std::vector<app::Part> reused;
+    std::vector<app::TechniqueResult> reused;
     app::Session session(test::engine(), scene);
     for (app::Frames frames(session, request); frames.next();)
         reused.push_back(frames.frame().read());
     ASSERT_EQ(reused.size(), 8u);
     for (std::size_t k = 1; k <= reused.size(); ++k) {
-        const app::Part& reuse = reused[k - 1];
-        const app::Part naive = test::render(scene, "naive:face=128,bounces=" + std::to_string(k),
-                                             request.size);
+        const app::TechniqueResult& reuse = reused[k - 1];
+        const app::TechniqueResult naive = test::render(
+            scene, "naive:face=128,bounces=" + std::to_string(k), request.size);
         EXPECT_TRUE(test::same_bytes(reuse.hdr, naive.hdr)) << "frame " << k;
         EXPECT_TRUE(test::same_bytes(reuse.display, naive.display)) << "frame " << k;
         EXPECT_EQ(reuse.scene_passes, 6);
@@ -64,8 +64,8 @@ Change change(const measure::Picture& a, const measure::Picture& b, const measur
 /// in ball 4, changes from 0 to 1 and outweighs all others. Single steps are therefore compared
 /// without the pixel that changes most. The total is compared with this pixel.
 TEST(Naive, EachBounceChangesThePictureLess) {
-    const scene::Scene scene = scene::cornell_mirrors();
-    const measure::Mask mirrors = measure::mirrors(
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    const measure::Mask mirrors = measure::mask_mirror_pixels(
         test::render(scene, "raytrace", kReuseSize).hits);
     measure::Picture last = test::render(scene, "naive:bounces=0", kReuseSize).hdr;
     std::vector<Change> steps;
@@ -90,12 +90,12 @@ TEST(Naive, EachBounceChangesThePictureLess) {
 TEST(Naive, ScenePassesEqualThoseOfTheSeedReport) {
     const int expected[] = {2, 6, 10, 14, 18};
     for (int i = 0; i <= 4; ++i)
-        EXPECT_EQ(test::render(scene::cornell_mirrors(),
+        EXPECT_EQ(test::render(scene::make_cornell_mirrors(),
                                "naive:face=16,bounces=" + std::to_string(i), {16, 16})
                       .scene_passes,
                   expected[i]);
     for (const char* technique : {"reuse:face=16", "parallax:face=16"})
-        EXPECT_EQ(test::render(scene::cornell_mirrors(), technique, {16, 16}).scene_passes, 6);
+        EXPECT_EQ(test::render(scene::make_cornell_mirrors(), technique, {16, 16}).scene_passes, 6);
 }
 
 } // namespace

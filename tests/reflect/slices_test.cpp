@@ -39,7 +39,7 @@ scene::Scene coarse_room() { return test::with_coarse_balls(test::room(3, 1)); }
 app::FrameSpec limited(const scene::Scene& scene, std::uint32_t most,
                        const std::string& technique = "parallax:face=32,shadow_map=64") {
     app::FrameSpec spec = test::request(scene, {technique}, kSlicesSize);
-    spec.model = app::Modelling::required;
+    spec.model = app::RenderedWork::required;
     spec.most_captures = most;
     return spec;
 }
@@ -50,7 +50,7 @@ void expect_told(const app::Frame& frame, std::uint32_t most) {
     const app::CaptureBudget& slices = *frame.slices();
     EXPECT_EQ(drawn(frame.times()).size(), slices.drawn);
     EXPECT_EQ(slices.most, std::min(most, slices.mirrors));
-    EXPECT_LT(slices.longest, slices.round());
+    EXPECT_LT(slices.longest, slices.frames_per_update_cycle());
     EXPECT_EQ(frame.waiting(), slices.waiting);
 }
 
@@ -117,7 +117,7 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
         app::Session all(test::engine(), scene), few(test::engine(), scene);
         const app::FrameSpec spec = limited(scene, most);
         app::FrameSpec everything = spec;
-        everything.model = app::Modelling::everything, everything.most_captures = 0;
+        everything.model = app::RenderedWork::everything, everything.most_captures = 0;
         const auto settle = [&] {
             std::vector<std::byte> state, next = app::Access::state(all.frame(everything));
             int bounces = 0;
@@ -173,10 +173,10 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
         }
         constexpr int kRounds = 12;
         for (int k = 0; k < kRounds * 4; ++k) few.frame(spec);
-        spec.model = app::Modelling::everything, spec.most_captures = 0;
+        spec.model = app::RenderedWork::everything, spec.most_captures = 0;
         for (int k = 0; k < kRounds; ++k) all.frame(spec);
         const measure::Picture wanted = all.frame(spec).hdr();
-        spec.model = app::Modelling::required, spec.most_captures = 1;
+        spec.model = app::RenderedWork::required, spec.most_captures = 1;
         const app::Frame last = few.frame(spec);
         EXPECT_TRUE(test::same_bytes(last.hdr(), wanted)) << seed;
         EXPECT_EQ(drawn(last.times()), std::set<int>()) << seed;
@@ -185,7 +185,7 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
 
 // Something moves in every frame, so every capture always waits to be drawn.
 TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
-    const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
+    const scene::Scene scene = test::with_coarse_balls(scene::make_cornell_mirrors());
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = limited(scene, 1);
     std::vector<int> since(4, 0);
@@ -201,7 +201,7 @@ TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
 }
 
 TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
-    const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
+    const scene::Scene scene = test::with_coarse_balls(scene::make_cornell_mirrors());
     app::Session one(test::engine(), scene), other(test::engine(), scene);
     for (int k = 0; k < 6; ++k) {
         app::FrameSpec spec = limited(scene, 4), whole = limited(scene, 0);
@@ -229,7 +229,7 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
         aside.keeps_history = true;
         EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
         if (k == 3) { // the times measured before and after this other sequence still count
-            app::Sequence sequence = app::Access::suspend(little);
+            app::FrameSequence sequence = app::Access::suspend(little);
             EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
             app::Access::resume(little, std::move(sequence));
         }
@@ -264,12 +264,12 @@ TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
     shell.world_from_object = shell.world_from_object * glm::scale(dmat4(1), dvec3(1.05));
     scene.objects.push_back(shell);
     app::Request request = test::request(scene, {"parallax:face=32,shadow_map=64"}, kSlicesSize);
-    request.model = app::Modelling::required;
+    request.model = app::RenderedWork::required;
     request.frames = 28, request.until_settled = true;
     app::Session session(test::engine(), scene);
-    const app::Result whole = app::run(session, request);
+    const app::RunResult whole = app::run(session, request);
     request.most_captures = 1;
-    const app::Result sliced = app::run(session, request);
+    const app::RunResult sliced = app::run(session, request);
     EXPECT_TRUE(whole.settled && sliced.settled);
     EXPECT_GT(sliced.frames.size(), whole.frames.size());
     EXPECT_TRUE(test::same_bytes(sliced.parts.front().hdr, whole.parts.front().hdr));
@@ -285,7 +285,7 @@ TEST(CaptureBudget, InvalidBudgetsAreRefused) {
         test::expect_refused([&] { session.frame(spec); }, Failure::usage, {text});
     };
     app::FrameSpec spec = limited(scene, 2);
-    spec.model = app::Modelling::everything;
+    spec.model = app::RenderedWork::everything;
     refused(spec, "a limit of captures that a frame draws is of the model required, not of "
                   "everything");
     spec = limited(scene, 2);

@@ -204,7 +204,7 @@ TEST(EmissionTexture, EmissionTextureIsVisibleAndLightsNothing) {
     const Texture texture{.image = image({4, 4}, 9)};
     scene::Scene scene = showing(square({0, 0}, {1, 1}),
                                  {.emission = {2, 3, 4}, .emission_texture = texture});
-    EXPECT_TRUE(scene::lights(scene).empty());
+    EXPECT_TRUE(scene::list_lights(scene).empty());
     for (const char* world : kSurfacesWorlds)
         EXPECT_LE(surfaces_farthest(
                       test::render(scene, world, {16, 16}).hdr,
@@ -212,7 +212,7 @@ TEST(EmissionTexture, EmissionTextureIsVisibleAndLightsNothing) {
                   4e-4)
             << world;
     scene.materials[0].light = vec3(1);
-    EXPECT_EQ(scene::lights(scene).size(), 1u);
+    EXPECT_EQ(scene::list_lights(scene).size(), 1u);
 }
 
 /// A smooth floor in a box of constant radiance must reflect the share R of that radiance by
@@ -244,7 +244,7 @@ TEST(SharpSurfaces, ReflectanceFollowsSchlick) {
         const vec3 c = each.colour;
         const vec3 f0 = glm::mix(each.f0, c, each.metallic);
         for (const char* technique : {"raytrace", "reuse:face=64", "hybrid:face=64"}) {
-            const app::Part part = test::render(scene, technique, {32, 32}, 3);
+            const app::TechniqueResult part = test::render(scene, technique, {32, 32}, 3);
             double off = 0;
             int seen = 0;
             for (int y = 0; y < 32; ++y)
@@ -424,8 +424,10 @@ TEST(Worlds, RasterisationEqualsRayTracingOnAllMaterials) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const scene::Scene scene = motley(seed);
         const uvec2 size{96, 96};
-        const app::Part raster = test::render(scene, "hybrid:face=64,shadow_map=1024", size, 3),
-                        rays = test::render(scene, "raytrace:shadow=map,shadow_map=1024", size);
+        const app::TechniqueResult raster = test::render(scene, "hybrid:face=64,shadow_map=1024",
+                                                         size, 3),
+                                   rays = test::render(scene, "raytrace:shadow=map,shadow_map=1024",
+                                                       size);
         int off = 0, judged = 0;
         const auto hit = [&](int x, int y) {
             return rays.hits[std::size_t(y) * size.x + x] & 0xffff;

@@ -14,15 +14,16 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
     for (const app::TechniqueInfo& technique : app::techniques())
         techniques.push_back(test::with(technique, {{"face", "64"}, {"shadow_map", "256"}}));
     techniques.push_back("naive:bounces=1,face=32"); // `naive` a second time, with other settings
-    app::Request request = test::request(scene::cornell_mirrors(), techniques, {96, 80});
+    app::Request request = test::request(scene::make_cornell_mirrors(), techniques, {96, 80});
     request.warmup = 1, request.frames = 2;
     request.animate = true;
-    const app::Result together = app::run(test::engine(), request);
+    const app::RunResult together = app::run(test::engine(), request);
     ASSERT_EQ(together.parts.size(), techniques.size());
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         request.techniques = {techniques[i]};
-        const app::Part alone = std::move(app::run(test::engine(), request).parts.front());
-        const app::Part& part = together.parts[i];
+        const app::TechniqueResult alone = std::move(
+            app::run(test::engine(), request).parts.front());
+        const app::TechniqueResult& part = together.parts[i];
         EXPECT_TRUE(test::same_bytes(part.hdr, alone.hdr)) << techniques[i];
         EXPECT_TRUE(test::same_bytes(part.display, alone.display)) << techniques[i];
         EXPECT_EQ(part.hits, alone.hits) << techniques[i];
@@ -35,9 +36,9 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
 }
 
 TEST(Together, AllPassesLieOnOneTimeline) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"reuse:face=64", "raytrace"},
-                                         {64, 64});
-    const app::Result result = app::run(test::engine(), request);
+    app::Request request = test::request(scene::make_cornell_mirrors(),
+                                         {"reuse:face=64", "raytrace"}, {64, 64});
+    const app::RunResult result = app::run(test::engine(), request);
     ASSERT_EQ(result.frames.size(), 1u);
     std::set<std::string> names;
     double time = 0;

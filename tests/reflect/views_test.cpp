@@ -90,7 +90,7 @@ TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
     for (const report::Row& row : found.rows) {
         EXPECT_EQ(row.light_edges.has_value(), row.lookup.has_value()) << row.label;
         if (!row.light_edges) continue;
-        const measure::LightEdges& edges = *row.light_edges;
+        const measure::LightEdgeErrors& edges = *row.light_edges;
         const double whole = row.error.rmse * row.error.rmse;
         EXPECT_NEAR(edges.rmse * edges.rmse + edges.rest_rmse * edges.rest_rmse, whole,
                     1e-12 * whole)

@@ -30,7 +30,7 @@ TEST(Searches, OrderOfTheSearchesHoldsFromEveryCamera) {
     std::ranges::copy(test::unforeseen_looks(), std::back_inserter(looks));
     for (const test::Look& look : looks) {
         SCOPED_TRACE(look.camera.name);
-        const auto seen = test::seen_in_mirrors(scene::cornell_mirrors(), look,
+        const auto seen = test::seen_in_mirrors(scene::make_cornell_mirrors(), look,
                                                 {"secant", "march", "pyramid", "layered"});
         const measure::Difference &secant = seen[0], &march = seen[1], &pyramid = seen[2],
                                   &layered = seen[3];

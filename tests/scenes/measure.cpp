@@ -34,9 +34,9 @@ app::Request request_of(app::ResolvedScene& wanted, std::size_t camera) {
     app::Request request;
     request.size = kSize;
     request.camera = camera < wanted.scene.cameras.size() ? wanted.scene.cameras[camera]
-                                                          : app::camera_of(wanted, 1);
-    request.ambient = app::ambient_of(wanted);
-    const std::optional<double> exposure = app::exposure_of(wanted);
+                                                          : app::choose_camera(wanted, 1);
+    request.ambient = app::choose_ambient_light(wanted);
+    const std::optional<double> exposure = app::find_exposure(wanted);
     request.exposure = exposure.value_or(0);
     request.auto_exposure = !exposure;
     request.scene = wanted.scene;
@@ -47,7 +47,7 @@ measure::Picture picture(app::Session& session, const app::Request& request,
                          const std::string& technique) {
     app::FrameSpec spec = request;
     spec.techniques = {technique};
-    return measure::exposed(session.frame(spec).hdr(), request.exposure);
+    return measure::apply_exposure(session.frame(spec).hdr(), request.exposure);
 }
 
 float apart(const vec3& a, const vec3& b) {
@@ -220,7 +220,7 @@ json surfaces(const app::Request& request, const Looked& looked, const measure::
                                 {"changed", double(changed) / double(pixels.size())}});
         }
         const auto over_normals = variation(plain_rays, looked, pixels);
-        if (!material.unlit && !scene::glows(material) && over_normals)
+        if (!material.unlit && !scene::is_visibly_emissive(material) && over_normals)
             lit.push_back(
                 {{"object", object.name}, {"pixels", pixels.size()}, {"variation", *over_normals}});
     }
@@ -248,7 +248,7 @@ json measure_camera(app::Engine& engine, const std::string& name, std::size_t ca
     app::ResolvedScene wanted = app::resolve_scene(name, {});
     app::Request request = request_of(wanted, camera);
     app::Session session(engine, request.scene);
-    app::settle_exposure(session, request);
+    app::resolve_auto_exposure(session, request);
     const measure::Picture raster = picture(session, request, kRaster),
                            rays = picture(session, request, kRays);
     const scenes::Sight sight(request);

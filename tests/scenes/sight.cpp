@@ -56,11 +56,12 @@ vec4 sample(const scene::Texture& texture, const vec4& uv) {
 } // namespace
 
 Sight::Sight(const app::Request& request)
-    : now_(scene::at(request.scene, request.time)), space_(render::space_of(request.scene)),
+    : now_(scene::scene_at_time(request.scene, request.time)),
+      space_(render::make_scene_units(request.scene)),
       geometry_(render::make_geometry(now_, space_)),
-      view_(render::camera_view(request.camera, space_, request.size, 0,
-                                render::bounds_of(geometry_))),
-      size_(request.size), lights_(scene::lights(now_)) {
+      view_(render::make_camera_view(request.camera, space_, request.size, 0,
+                                     render::geometry_bounds(geometry_))),
+      size_(request.size), lights_(scene::list_lights(now_)) {
     std::vector<bvh::Triangle> all;
     for (std::size_t object = 0; object < geometry_.ranges.size(); ++object) {
         const render::DrawRange& range = geometry_.ranges[object];
@@ -77,14 +78,14 @@ Sight::Sight(const app::Request& request)
                                (range.one_sided ? bvh::kOneSided : 0)});
         }
     }
-    tree_ = bvh::build(all, geometry_.core);
+    tree_ = bvh::build_bvh(all, geometry_.core);
 }
 
 std::optional<Sight::Met> Sight::meet(f32::Ray ray, float farthest, std::uint32_t skipped,
                                       int& cut) const {
     constexpr int kMost = 64; // most cut-out surfaces along a ray
     for (cut = 0; cut < kMost; ++cut) {
-        const auto hit = bvh::closest_hit<float>(tree_, ray, farthest, skipped);
+        const auto hit = bvh::find_closest_hit<float>(tree_, ray, farthest, skipped);
         if (!hit) return {};
         const render::DrawRange& range = geometry_.ranges[hit->object];
         Met met{*hit};
@@ -92,7 +93,7 @@ std::optional<Sight::Met> Sight::meet(f32::Ray ray, float farthest, std::uint32_
         if (range.first_attribute) {
             met.uv = vec4(0), colour = vec4(0);
             for (int i = 0; i < 3; ++i) {
-                const shared::Attribute& at =
+                const shared::VertexAttribute& at =
                     geometry_.attributes[*range.first_attribute + triangles_[hit->triangle][i] -
                                          range.first_vertex];
                 met.uv += at.uv * hit->barycentric[i], colour += at.colour * hit->barycentric[i];
@@ -164,7 +165,7 @@ std::vector<Seen> Sight::look() const {
     const uvec2 fine = size_ * kFine;
     std::vector<Seen> seen;
     for (std::size_t i = 0; i < std::size_t{fine.x} * fine.y; ++i)
-        seen.push_back(see(app::camera_ray(view_, fine, i)));
+        seen.push_back(see(app::make_camera_ray(view_, fine, i)));
     return seen;
 }
 

@@ -56,7 +56,7 @@ private:
     }
 
     scene::Scene now_;
-    render::Space space_;
+    render::SceneUnits space_;
     render::Geometry geometry_;
     std::vector<uvec3> triangles_; ///< indices of corners, by triangle
     bvh::Bvh tree_;

@@ -20,12 +20,13 @@ inline void PrintTo(Format format, std::ostream* out) { *out << name_of(format);
 /// Functions that render captures and read them back as numbers.
 namespace test {
 
-using render::Captured;
+using render::CapturedCubes;
 
 /// A capture that was read back, with its second depth layer if that was requested.
 struct Layers {
-    Captured first;
-    std::optional<Captured> second; ///< second depth layer; only with CaptureOptions::second_layer
+    CapturedCubes first;
+    std::optional<CapturedCubes>
+        second; ///< second depth layer; only with CaptureOptions::second_layer
 };
 
 /// Captures every mirror once, without shadows and with all other mirrors black. `range_world`: the
@@ -34,38 +35,38 @@ inline Layers captured(const scene::Scene& scene, render::CaptureOptions options
                        double range_world, bool staged = false) {
     auto& [device, pipelines] = bench(staged);
     render::GpuScene gpu_scene(device, scene);
-    gpu_scene.update(scene,
-                     scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
-                     {16, 16}, 0);
-    graph::Runner runner(device, pipelines);
+    gpu_scene.update(
+        scene, scene.cameras.empty() ? scene::make_default_camera(scene) : scene.cameras.front(),
+        {16, 16}, 0);
+    graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     if (options.distance == Format::r8_unorm)
         options.stored_unit = gpu_scene.space().length(range_world);
-    const render::Cubes cubes = add_black_captures(graph, inputs, options);
+    const render::CubeArray cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
         if (image) graph.mark_output(*image);
     run(runner, graph);
     const auto read = [&](graph::ImageHandle colour, graph::ImageHandle distance) {
-        return Captured{options.face, runner.read(colour), runner.read(distance),
-                        gpu_scene.space()};
+        return CapturedCubes{options.face, runner.read(colour), runner.read(distance),
+                             gpu_scene.space()};
     };
     Layers layers{read(cubes.colour, *cubes.distance), {}};
     if (options.second_layer) layers.second = read(*cubes.colour2, *cubes.distance2);
     return layers;
 }
 
-inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance,
-                        double range_world = 1, bool staged = false) {
+inline CapturedCubes capture(const scene::Scene& scene, std::uint32_t face, Format distance,
+                             double range_world = 1, bool staged = false) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance;
     return captured(scene, options, range_world, staged).first;
 }
 
 /// Captures both depth layers. Distances as r8_unorm range over 10 world units.
-inline std::pair<Captured, Captured> capture_layers(const scene::Scene& scene, std::uint32_t face,
-                                                    Format distance) {
+inline std::pair<CapturedCubes, CapturedCubes> capture_layers(const scene::Scene& scene,
+                                                              std::uint32_t face, Format distance) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance, options.second_layer = true;
     Layers layers = captured(scene, options, 10);

@@ -16,10 +16,12 @@ struct CrowdRay {
 };
 
 /// Returns the place and axes that the record of an instance stores (bvh/tlas.hpp).
-inline f32::Place place_of(const bvh::Instance& instance) {
+inline f32::ObjectPlacement place_of(const bvh::BvhInstance& instance) {
     const dmat3 to = instance.scene_from_own, back = glm::transpose(glm::inverse(to));
-    return {vec3(back[0]), vec3(back[1]), vec3(back[2]),         vec3(to[0]),
-            vec3(to[1]),   vec3(to[2]),   vec3(instance.centre), bvh::low_part(instance.centre)};
+    return {vec3(back[0]),         vec3(back[1]),
+            vec3(back[2]),         vec3(to[0]),
+            vec3(to[1]),           vec3(to[2]),
+            vec3(instance.centre), bvh::float_rounding_error(instance.centre)};
 }
 
 /// Returns a random rotation after a scale of each axis. The scale squeezes the second axis and
@@ -50,23 +52,23 @@ public:
         }
     }
 
-    const std::vector<bvh::Instance>& things() const { return things_; }
-    std::vector<bvh::Instance>& things() { return things_; }
+    const std::vector<bvh::BvhInstance>& things() const { return things_; }
+    std::vector<bvh::BvhInstance>& things() { return things_; }
 
     /// Returns the tree of the scene, with scene lengths multiplied by `scene` and lengths in
     /// object space multiplied by `own`. Both factors are powers of two. The objects keep their
     /// places relative to each other.
     bvh::Bvh hierarchy(float scene = 1, float own = 1) const {
-        const bvh::Bvh trees[]{bvh::build(scaled(shapes_[0], own)),
-                               bvh::build(scaled(shapes_[1], own))};
-        std::vector<bvh::Instance> placed = things_;
+        const bvh::Bvh trees[]{bvh::build_bvh(scaled(shapes_[0], own)),
+                               bvh::build_bvh(scaled(shapes_[1], own))};
+        std::vector<bvh::BvhInstance> placed = things_;
         for (std::size_t k = 0; k < placed.size(); ++k) {
             placed[k].tree = &trees[k % 2];
             placed[k].scene_from_own *= double{scene} / double{own};
             placed[k].centre *= double{scene};
             placed[k].radius *= own;
         }
-        return bvh::assemble(bvh::build(scaled(room_, scene)), placed);
+        return bvh::assemble_two_level_bvh(bvh::build_bvh(scaled(room_, scene)), placed);
     }
 
     /// Returns random rays of four kinds in turn: anywhere; from near an instance to a point on it;
@@ -100,21 +102,22 @@ private:
         return {{origin, numbers_.direction(), 0}};
     }
     CrowdRay beside(std::size_t thing) {
-        const f32::Place place = place_of(things_[thing]);
+        const f32::ObjectPlacement place = place_of(things_[thing]);
         const bvh::Triangle& aim = shape_of(thing)[numbers_.below(shape_of(thing).size())];
         const vec3 from = 2.0f * numbers_.in_cube(), at = aim.a + numbers_.unit() * (aim.b - aim.a);
         CrowdRay result;
-        result.ray = {scene_point(place, arm_of(place, from), result.low), arm_of(place, at - from),
-                      0};
+        result.ray = {scene_point(place, offset_from_centre(place, from), result.low),
+                      offset_from_centre(place, at - from), 0};
         return result;
     }
     CrowdRay leaving(std::size_t thing) {
-        const f32::Place place = place_of(things_[thing]);
+        const f32::ObjectPlacement place = place_of(things_[thing]);
         const std::size_t number = numbers_.below(shape_of(thing).size());
         const bvh::Triangle& t = shape_of(thing)[number];
         const vec3 w = numbers_.weights(), own = w.x * t.a + w.y * t.b + w.z * t.c;
         CrowdRay result;
-        result.ray = {scene_point(place, arm_of(place, own), result.low), numbers_.direction(),
+        result.ray = {scene_point(place, offset_from_centre(place, own), result.low),
+                      numbers_.direction(),
                       things_[thing].shift + static_cast<std::uint32_t>(number) + 1};
         return result;
     }
@@ -123,7 +126,7 @@ private:
     Triangles room_;
     Triangles shapes_[2]{*placed(scene::ball("ball", 2), .5, dvec3(0)),
                          *placed(torus().mesh, .3, dvec3(0))};
-    std::vector<bvh::Instance> things_;
+    std::vector<bvh::BvhInstance> things_;
 };
 
 /// Returns the ray with its origin multiplied by `scene`. If `direction` is true, the direction is

@@ -92,14 +92,14 @@ inline app::Engine& engine(bool layered = true) {
 inline bool has_float_colour() { return bench().device.filters_floats(); }
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
-inline graph::GraphFrameTimes run(graph::Runner& runner, const graph::Graph& graph,
+inline graph::GraphFrameTimes run(graph::GraphRunner& runner, const graph::Graph& graph,
                                   graph::PassTiming timing = graph::PassTiming::isolated) {
     return runner.run(graph, timing);
 }
 
 /// Returns the texels of an image, or the contents of a buffer, as numbers of type T.
 template <typename T, typename Resource>
-std::vector<T> read_as(graph::Runner& runner, Resource resource) {
+std::vector<T> read_as(graph::GraphRunner& runner, Resource resource) {
     const std::vector<std::byte> bytes = runner.read(resource);
     std::vector<T> values(bytes.size() / sizeof(T));
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));

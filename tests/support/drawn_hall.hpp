@@ -70,7 +70,7 @@ inline scene::Scene drawn_hall(std::uint64_t seed, int mirrors) {
         scene.objects.back().world_from_object = turned(axis, angle, place());
     }
     add_quad(scene, "lamp", lamp, {-1, 5.9, -1}, {1, 5.9, -1}, {1, 5.9, 1}, {-1, 5.9, 1});
-    scene::Punctual bare{.name = "bare", .intensity = vec3(5)};
+    scene::PunctualLight bare{.name = "bare", .intensity = vec3(5)};
     bare.world_from_light[3] = dvec4(place(), 1);
     scene.punctual.push_back(bare);
     scene.cameras.push_back({.eye = place(),
@@ -85,7 +85,7 @@ class Tree {
 public:
     explicit Tree(const scene::Scene& now) {
         for (std::size_t i = 0; i < now.objects.size(); ++i) add(now, i);
-        tree_ = bvh::build(triangles_);
+        tree_ = bvh::build_bvh(triangles_);
     }
     struct Met {
         std::size_t object = 0;
@@ -98,7 +98,7 @@ public:
                              std::uint32_t skipped) const {
         double passed = 0;
         for (;;) {
-            const auto hit = bvh::closest_hit<double>(
+            const auto hit = bvh::find_closest_hit<double>(
                 tree_, {from, direction, 0}, std::numeric_limits<double>::infinity(), skipped);
             if (!hit) return std::nullopt;
             if (hit->object != but) return Met{hit->object, passed + hit->t};
@@ -109,8 +109,8 @@ public:
     /// Returns whether an object that casts shadows lies between the place and the light.
     bool is_shaded(const dvec3& place, const dvec3& light) const {
         const dvec3 way = light - place;
-        const auto hit = bvh::closest_hit<double>(tree_, {place + 1e-6 * way, way, 0}, 1.,
-                                                  bvh::kShadowless);
+        const auto hit = bvh::find_closest_hit<double>(tree_, {place + 1e-6 * way, way, 0}, 1.,
+                                                       bvh::kShadowless);
         return hit.has_value();
     }
     /// Returns a random place on the object's surface.
@@ -128,7 +128,7 @@ private:
         const scene::Mesh& mesh = now.meshes[object.mesh];
         std::uint32_t flags = 0;
         if (!object.seen_by_camera) flags |= bvh::kHidden;
-        if (scene::light_of(material) != vec3(0)) flags |= bvh::kShadowless;
+        if (scene::emitted_radiance(material) != vec3(0)) flags |= bvh::kShadowless;
         if (!scene::is_mirror(now, object) && scene::is_one_sided(material))
             flags |= bvh::kOneSided;
         ranges_.emplace_back(triangles_.size(), mesh.triangles.size());

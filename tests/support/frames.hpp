@@ -13,9 +13,9 @@ using namespace catoptric;
 /// capture pass per mirror, a view pass and a compose pass. Each capture reads the cubes of the
 /// last frame.
 inline graph::Graph reuse_frame(std::uint32_t mirrors) {
-    using graph::Use;
-    constexpr graph::Clear kBlack{};
-    const auto nothing = [](graph::Commands&) {};
+    using graph::ResourceUse;
+    constexpr graph::ClearValue kBlack{};
+    const auto nothing = [](graph::PassCommands&) {};
     graph::Graph g;
     const auto add = [&](const std::string& name, Format format, std::uint32_t layers, bool cube) {
         return g.image({name, format, 64, 64, layers, cube});
@@ -26,30 +26,33 @@ inline graph::Graph reuse_frame(std::uint32_t mirrors) {
     const graph::ImageHandle hdr = add("hdr", Format::rgba32f, 1, false);
     const graph::ImageHandle view_depth = add("view.depth", Format::d32f, 1, false);
     const graph::ImageHandle display = add("display", Format::rgba8_unorm, 1, false);
-    g.pass("shadow", graph::Tag::scene)
-        .writes(shadow, Use::depth, kBlack)
+    g.pass("shadow", graph::PassTag::scene)
+        .writes(shadow, ResourceUse::depth, kBlack)
         .layers(5)
         .record(nothing);
     for (std::uint32_t n = 0; n < mirrors; ++n) {
         const std::string name = "capture/" + std::to_string(n + 1);
         const graph::ImageHandle depth = add(name + ".depth", Format::d32f, 6, true);
-        g.pass(name, graph::Tag::scene)
-            .reads(shadow, Use::sampled)
-            .reads(g.previous(cubes), Use::sampled)
-            .writes(cubes.layers(6 * n, 6), Use::colour, kBlack)
-            .writes(distance.layers(6 * n, 6), Use::colour, kBlack)
-            .writes(depth, Use::depth, kBlack)
+        g.pass(name, graph::PassTag::scene)
+            .reads(shadow, ResourceUse::sampled)
+            .reads(g.previous(cubes), ResourceUse::sampled)
+            .writes(cubes.layers(6 * n, 6), ResourceUse::colour, kBlack)
+            .writes(distance.layers(6 * n, 6), ResourceUse::colour, kBlack)
+            .writes(depth, ResourceUse::depth, kBlack)
             .layers(6)
             .record(nothing);
     }
-    g.pass("view", graph::Tag::scene)
-        .reads(shadow, Use::sampled)
-        .reads(cubes, Use::sampled)
-        .reads(distance, Use::sampled)
-        .writes(hdr, Use::colour, kBlack)
-        .writes(view_depth, Use::depth, kBlack)
+    g.pass("view", graph::PassTag::scene)
+        .reads(shadow, ResourceUse::sampled)
+        .reads(cubes, ResourceUse::sampled)
+        .reads(distance, ResourceUse::sampled)
+        .writes(hdr, ResourceUse::colour, kBlack)
+        .writes(view_depth, ResourceUse::depth, kBlack)
         .record(nothing);
-    g.pass("compose").reads(hdr, Use::sampled).writes(display, Use::storage_write).record(nothing);
+    g.pass("compose")
+        .reads(hdr, ResourceUse::sampled)
+        .writes(display, ResourceUse::storage_write)
+        .record(nothing);
     g.mark_output(hdr);
     g.mark_output(display);
     return g;

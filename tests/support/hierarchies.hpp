@@ -43,7 +43,8 @@ struct Census {
             const vec4* node = &bvh.nodes[4 * std::size_t{first}];
             for (int i : {0, 1}) {
                 const Bounds<float> stored{vec3(node[2 * i]), vec3(node[2 * i + 1])};
-                const Bounds<float> below = visit(catoptric::bvh::bits(node[i].w), depth + 1);
+                const Bounds<float> below = visit(catoptric::bvh::float_to_bits(node[i].w),
+                                                  depth + 1);
                 EXPECT_EQ(stored.lo, below.lo);
                 EXPECT_EQ(stored.hi, below.hi);
                 box.add(below);
@@ -66,9 +67,10 @@ inline void expect_sound(const catoptric::bvh::Bvh& bvh, std::size_t triangles) 
     EXPECT_EQ(all.lo, vec3(bvh.nodes[0]));
     EXPECT_EQ(all.hi, vec3(bvh.nodes[1]));
     EXPECT_EQ(census.triangles, triangles);
-    EXPECT_EQ(catoptric::bvh::number_of(bvh.nodes[0].w), triangles);
-    EXPECT_EQ(catoptric::bvh::number_of(bvh.nodes[1].w), catoptric::bvh::node_count(bvh));
-    EXPECT_EQ(census.nodes + 1, catoptric::bvh::node_count(bvh));
+    EXPECT_EQ(catoptric::bvh::float_word_to_integer(bvh.nodes[0].w), triangles);
+    EXPECT_EQ(catoptric::bvh::float_word_to_integer(bvh.nodes[1].w),
+              catoptric::bvh::count_nodes(bvh));
+    EXPECT_EQ(census.nodes + 1, catoptric::bvh::count_nodes(bvh));
     EXPECT_LE(census.deepest, catoptric::bvh::kMaxDepth);
     // A word that is stored in `w` must be a normal float, because devices may change other values
     // when they read floats. The second half of a node stores no words.

@@ -63,15 +63,16 @@ class Kernel {
 public:
     explicit Kernel(bvh::Bvh hierarchy)
         : hierarchy_(std::move(hierarchy)), runner_(bench().device, bench().pipelines) {
-        upload(bench().device, nodes_, "nodes", hierarchy_.nodes, gpu::BufferUsage::texels);
-        upload(bench().device, triangles_, "triangles", hierarchy_.triangles,
-               gpu::BufferUsage::texels);
+        upload_to_buffer(bench().device, nodes_, "nodes", hierarchy_.nodes,
+                         gpu::BufferUsage::texels);
+        upload_to_buffer(bench().device, triangles_, "triangles", hierarchy_.triangles,
+                         gpu::BufferUsage::texels);
     }
-    explicit Kernel(std::span<const bvh::Triangle> triangles) : Kernel(bvh::build(triangles)) {}
+    explicit Kernel(std::span<const bvh::Triangle> triangles) : Kernel(bvh::build_bvh(triangles)) {}
 
     /// Robustness rules that the shader leaves out, as constants of shaders/lib/plain.glsl. Without
     /// a rule, a test shows the errors that the rule prevents.
-    gpu::Constants rules{};
+    gpu::ShaderConstants rules{};
 
     const bvh::Bvh& hierarchy() const { return hierarchy_; }
 
@@ -94,20 +95,21 @@ public:
 private:
     std::vector<KernelHit> walk(const std::vector<KernelRay>& rays, std::uint32_t skipped,
                                 const std::vector<vec4>& lows, std::uint32_t occluded) {
-        gpu::Constants constants = rules;
+        gpu::ShaderConstants constants = rules;
         const bool object_spaces = hierarchy_.nodes[2].x > 0; // tree with instances (bvh/tlas.hpp)
         constants.emplace_back("object_spaces", object_spaces ? 1u : 0u);
         constants.emplace_back("exact_spheres", has_balls() ? 1u : 0u);
-        upload(bench().device, lows_, "lows",
-               lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
-               gpu::BufferUsage::plain);
+        upload_to_buffer(bench().device, lows_, "lows",
+                         lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
+                         gpu::BufferUsage::plain);
         return run<KernelHit>("tests/kernel.comp", constants, "Rays", rays, "Hits",
                               std::array{size_of(rays), skipped, occluded});
     }
 
     bool has_balls() const {
         for (std::size_t i = 2; i < hierarchy_.triangles.size(); i += 3)
-            if ((bvh::number_of(hierarchy_.triangles[i].w) & bvh::kBall) != 0) return true;
+            if ((bvh::float_word_to_integer(hierarchy_.triangles[i].w) & bvh::kBall) != 0)
+                return true;
         return false;
     }
 
@@ -117,14 +119,15 @@ private:
     }
 
     template <typename Out, typename In, typename Push>
-    std::vector<Out> run(const char* shader, const gpu::Constants& constants, const char* input,
-                         const std::vector<In>& in, const char* output, const Push& push) {
-        upload(bench().device, input_, "input", in, gpu::BufferUsage::plain);
+    std::vector<Out> run(const char* shader, const gpu::ShaderConstants& constants,
+                         const char* input, const std::vector<In>& in, const char* output,
+                         const Push& push) {
+        upload_to_buffer(bench().device, input_, "input", in, gpu::BufferUsage::plain);
         graph::Graph graph;
         const graph::BufferHandle out = graph.buffer({"output", in.size() * sizeof(Out)});
         graph.pass("kernel")
-            .writes(out, graph::Use::storage_write)
-            .record([&](graph::Commands& commands) {
+            .writes(out, graph::ResourceUse::storage_write)
+            .record([&](graph::PassCommands& commands) {
                 commands.bind("bvh_nodes", nodes_);
                 commands.bind("bvh_triangles", triangles_);
                 commands.bind(input, input_);
@@ -140,7 +143,7 @@ private:
     }
 
     bvh::Bvh hierarchy_;
-    graph::Runner runner_;
+    graph::GraphRunner runner_;
     gpu::Buffer nodes_, triangles_, input_, lows_;
 };
 
@@ -163,9 +166,9 @@ inline bool same(const KernelHit& a, const KernelHit& b) {
 /// Returns the hit that the CPU reference finds (bvh/closest_hit.hpp).
 inline KernelHit mirror_of(const bvh::Bvh& hierarchy, const KernelRay& ray,
                            std::uint32_t skipped = 0, const vec3& low = vec3(0)) {
-    bvh::Steps steps;
-    const auto hit = bvh::closest_hit<float>(hierarchy, {ray.origin, ray.direction, ray.leaves},
-                                             ray.t_max, skipped, &steps, low);
+    bvh::TraversalCounters steps;
+    const auto hit = bvh::find_closest_hit<float>(
+        hierarchy, {ray.origin, ray.direction, ray.leaves}, ray.t_max, skipped, &steps, low);
     KernelHit result;
     if (hit) result = {hit->t, hit->barycentric, hit->triangle, hit->object, 1, 0};
     result.steps = static_cast<std::uint32_t>(steps.total());

@@ -72,8 +72,8 @@ inline double share_off(const measure::Picture& a, const measure::Picture& b,
 }
 
 /// Renders frames from the scene's first camera without ambient light and returns the last.
-inline app::Part render_dark(const scene::Scene& scene, const std::string& technique, uvec2 size,
-                             int frames = 1) {
+inline app::TechniqueResult render_dark(const scene::Scene& scene, const std::string& technique,
+                                        uvec2 size, int frames = 1) {
     app::Request asked = request(scene, {technique}, size);
     asked.ambient = 0;
     asked.warmup = frames - 1;
@@ -83,9 +83,9 @@ inline app::Part render_dark(const scene::Scene& scene, const std::string& techn
 /// Returns the share of pixels off between the rasterised and the ray-traced picture, without
 /// pixels at shadow edges.
 inline double share_off_of_raster(const scene::Scene& scene, uvec2 size) {
-    const app::Part traced = render_dark(scene, "raytrace", size),
-                    lit = render_dark(scene, "raytrace:shadow=none", size),
-                    raster = render_dark(scene, "naive:bounces=0", size);
+    const app::TechniqueResult traced = render_dark(scene, "raytrace", size),
+                               lit = render_dark(scene, "raytrace:shadow=none", size),
+                               raster = render_dark(scene, "naive:bounces=0", size);
     return share_off(raster.hdr, traced.hdr, shadow_edges(lit.hdr, traced.hdr));
 }
 

@@ -10,9 +10,9 @@
 /// light is 0, the size is 512x512, and balls are meshes.
 namespace test {
 
-inline app::Part trace(int depth, int samples) {
+inline app::TechniqueResult trace(int depth, int samples) {
     app::Request asked = request(
-        scene::cornell_mirrors(),
+        scene::make_cornell_mirrors(),
         {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
         {512, 512});
     asked.ambient = 0;

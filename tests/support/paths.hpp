@@ -77,17 +77,18 @@ inline int mirrors_met(const vec3& colour) {
 /// Compares a picture with the ray-traced one over the mirror pixels for which `counts(hit,
 /// colour)` is true. Hit and colour are those of the ray-traced picture.
 template <typename Counts>
-Compared compared(const measure::Picture& picture, const app::Part& truth, Counts&& counts) {
+Compared compared(const measure::Picture& picture, const app::TechniqueResult& truth,
+                  Counts&& counts) {
     Compared result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         if (!counts(truth.hits[i], truth.hdr.pixels[i])) continue;
         ++result.pixels;
         result.off += is_off(picture.pixels[i], truth.hdr.pixels[i]);
     }
     return result;
 }
-inline Compared compared(const measure::Picture& picture, const app::Part& truth) {
+inline Compared compared(const measure::Picture& picture, const app::TechniqueResult& truth) {
     return compared(picture, truth, [](std::uint32_t, const vec3&) { return true; });
 }
 

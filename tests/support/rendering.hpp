@@ -29,14 +29,15 @@ inline app::Request request(const scene::Scene& scene, const std::vector<std::st
     app::Request asked;
     asked.scene = scene;
     asked.techniques = techniques;
-    asked.camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front();
+    asked.camera = scene.cameras.empty() ? scene::make_default_camera(scene)
+                                         : scene.cameras.front();
     asked.size = size;
     asked.frames = 1, asked.warmup = 0;
     return asked;
 }
 
-inline app::Part render(const scene::Scene& scene, const std::string& technique, uvec2 size,
-                        int frames = 1) {
+inline app::TechniqueResult render(const scene::Scene& scene, const std::string& technique,
+                                   uvec2 size, int frames = 1) {
     app::Request asked = request(scene, {technique}, size);
     asked.warmup = frames - 1;
     return std::move(app::run(engine(), asked).parts.front());
@@ -46,10 +47,10 @@ inline app::Part render(const scene::Scene& scene, const std::string& technique,
 /// requested size and lookup directions. The earlier frames are small, which saves time: the last
 /// frame needs only their captures, which do not depend on the picture's size. Not for face=auto,
 /// whose captures do.
-inline std::vector<app::Part> last_of(const app::Request& asked, int frames) {
+inline std::vector<app::TechniqueResult> last_of(const app::Request& asked, int frames) {
     app::Session session(engine(), asked.scene);
     app::FrameSpec early = asked;
-    early.model = app::Modelling::required; // gives the same pictures in less time
+    early.model = app::RenderedWork::required; // gives the same pictures in less time
     app::FrameSpec last = early;
     early.size = {16, 16}, early.with_lookup = false;
     for (int k = 1; k < frames; ++k) session.frame(early);

@@ -25,7 +25,7 @@ struct Look {
 /// Returns three cameras: the scene's own, one at the side and one above. Ball 4 is at another
 /// place at each camera's instant.
 inline std::vector<Look> looks() {
-    return {{scene::cornell_mirrors().cameras.front(), 0},
+    return {{scene::make_cornell_mirrors().cameras.front(), 0},
             {{.name = "side",
               .eye = {400, 330, -760},
               .target = {400, 330, 0},
@@ -62,7 +62,7 @@ inline std::vector<Look> unforeseen_looks() {
 /// and errors of the looked-up directions.
 struct Judged {
     double all = 0, first_order = 0, mirror_in_mirror = 0;
-    measure::LookupError lookup;
+    measure::LookupErrorSummary lookup;
     double traced_fraction = 0; ///< share of mirror pixels that are traced (`hybrid`)
 };
 
@@ -70,8 +70,8 @@ namespace detail {
 
 /// The reference picture from one camera, and an oracle that knows where its reflected rays end.
 struct ReferencePicture {
-    app::Part part;
-    app::Oracle oracle;
+    app::TechniqueResult part;
+    app::LookupOracle oracle;
 };
 
 inline app::Request request_from(const scene::Scene& scene, const Look& look,
@@ -86,12 +86,13 @@ inline Judged judge(const scene::Scene& scene, const Look& look, const std::stri
                     const ReferencePicture& truth) {
     app::Request asked = request_from(scene, look, technique);
     asked.with_lookup = true;
-    const app::Part part = std::move(last_of(asked, kConvergedFrames).front());
-    const Judged error{rmse(part.hdr, truth.part.hdr, measure::mirrors(truth.part.hits)),
-                       rmse(part.hdr, truth.part.hdr, measure::first_order(truth.part.hits)),
-                       rmse(part.hdr, truth.part.hdr, measure::mirror_in_mirror(truth.part.hits)),
-                       measure::lookup_error(truth.oracle.judge(part.lookup)),
-                       part.traced_fraction.value_or(0)};
+    const app::TechniqueResult part = std::move(last_of(asked, kConvergedFrames).front());
+    const Judged error{
+        rmse(part.hdr, truth.part.hdr, measure::mask_mirror_pixels(truth.part.hits)),
+        rmse(part.hdr, truth.part.hdr, measure::mask_first_order_pixels(truth.part.hits)),
+        rmse(part.hdr, truth.part.hdr, measure::mask_mirror_in_mirror(truth.part.hits)),
+        measure::summarise_lookup_errors(truth.oracle.judge_lookups(part.lookup)),
+        part.traced_fraction.value_or(0)};
     std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all
               << ", first order " << error.first_order << ", mirror in mirror "
               << error.mirror_in_mirror << "; mean angle " << error.lookup.mean_degrees
@@ -115,7 +116,7 @@ inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
         const app::Request asked = detail::request_from(scene, look, reference);
         truths.emplace(place,
                        detail::ReferencePicture{std::move(app::run(engine(), asked).parts.front()),
-                                                app::Oracle(asked)});
+                                                app::LookupOracle(asked)});
     }
     std::vector<Judged> judged;
     for (const std::string& technique : techniques) {
@@ -136,12 +137,12 @@ inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scen
     app::Request asked = request(scene, techniques, kContractSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    const std::vector<app::Part> parts = last_of(asked, 2);
-    const app::Part& truth = parts.back();
+    const std::vector<app::TechniqueResult> parts = last_of(asked, 2);
+    const app::TechniqueResult& truth = parts.back();
     std::vector<measure::Difference> seen;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         seen.push_back(
-            measure::difference(parts[i].hdr, truth.hdr, measure::mirrors(truth.hits),
+            measure::difference(parts[i].hdr, truth.hdr, measure::mask_mirror_pixels(truth.hits),
                                 measure::flip(measure::to_unrounded_display(parts[i].hdr),
                                               measure::to_unrounded_display(truth.hdr))));
         std::cout << "[ MEASURED ] " << look.camera.name << ", " << parts[i].label << ": FLIP "
@@ -153,11 +154,11 @@ inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scen
 
 /// Returns the error of the looked-up direction of each first-order pixel, seen by the scene's
 /// first camera.
-inline std::vector<measure::LookedUp> looked_up(const scene::Scene& scene,
-                                                const std::string& technique, uvec2 size) {
+inline std::vector<measure::LookupDirectionError>
+looked_up(const scene::Scene& scene, const std::string& technique, uvec2 size) {
     app::Request asked = request(scene, {technique}, size);
     asked.with_lookup = true;
-    return app::Oracle(asked).judge(app::run(engine(), asked).parts.front().lookup);
+    return app::LookupOracle(asked).judge_lookups(app::run(engine(), asked).parts.front().lookup);
 }
 
 } // namespace test

@@ -10,20 +10,21 @@ namespace test {
 using namespace catoptric;
 
 /// Adds the passes of a frame in which one technique draws all mirrors.
-inline reflect::Outputs add_technique(graph::Graph& graph, const render::FrameInputs& inputs,
-                                      const std::string& technique) {
-    return reflect::add_frame(
+inline reflect::TechniqueOutputs add_technique(graph::Graph& graph,
+                                               const render::FrameInputs& inputs,
+                                               const std::string& technique) {
+    return reflect::add_frame_passes(
         graph, inputs,
-        reflect::assign(reflect::parse_plan(technique),
-                        std::vector<std::string>(inputs.scene.mirror_count(), "mirror")));
+        reflect::assign_mirrors(reflect::parse_plan(technique),
+                                std::vector<std::string>(inputs.scene.mirror_count(), "mirror")));
 }
 
 /// Adds passes that capture all mirrors. Each capture shows the other mirrors black.
-inline render::Cubes add_black_captures(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const render::CaptureOptions& options) {
+inline render::CubeArray add_black_captures(graph::Graph& graph, const render::FrameInputs& inputs,
+                                            const render::CaptureOptions& options) {
     const render::Captures captures = render::declare_captures(
         graph, inputs, "capture", std::vector(inputs.scene.mirror_count(), options));
-    render::add_captures(graph, inputs, captures, render::same_shader(inputs.scene, {}));
+    render::add_capture_passes(graph, inputs, captures, render::use_one_shader(inputs.scene, {}));
     return captures.arrays.front();
 }
 

@@ -26,7 +26,7 @@ inline const std::map<std::string, Worth> kWorths{{"secant", {.53, .38, .45, .24
 
 inline void expect_worth(const std::string& search, const Look& look) {
     const Worth& worth = kWorths.at(search);
-    const std::vector<Judged> judged = judge(scene::cornell_mirrors(), look,
+    const std::vector<Judged> judged = judge(scene::make_cornell_mirrors(), look,
                                              {"parallax:face=512", search + ":face=512,continue=0",
                                               search + ":face=512,continue=4",
                                               search + ":face=256,continue=4"});
@@ -43,7 +43,7 @@ inline void expect_worth(const std::string& search, const Look& look) {
 /// Expects that `secant` with smaller captures has no larger errors than `parallax`.
 inline void expect_small_captures(const Look& look) {
     const auto judged = judge(
-        scene::cornell_mirrors(), look,
+        scene::make_cornell_mirrors(), look,
         {"parallax:face=512", "secant:face=256,continue=0", "secant:face=64,continue=0"});
     EXPECT_LE(judged[1].first_order, judged[0].first_order);
     EXPECT_LE(judged[2].lookup.mean_degrees, .025 * judged[0].lookup.mean_degrees);
@@ -53,7 +53,7 @@ inline void expect_small_captures(const Look& look) {
 /// closed room.
 inline void expect_hybrid(const Look& look) {
     const auto judged = judge(
-        scene::cornell_mirrors(), look,
+        scene::make_cornell_mirrors(), look,
         {"parallax:face=512", "hybrid:face=512", "hybrid:face=512,continue=0", "hybrid:face=256"});
     const Judged &parallax = judged[0], &followed = judged[1], &alone = judged[2],
                  &coarse = judged[3];
@@ -62,7 +62,7 @@ inline void expect_hybrid(const Look& look) {
     EXPECT_LE(followed.mirror_in_mirror, .24 * alone.mirror_in_mirror);
     EXPECT_LE(followed.traced_fraction, .06);
 
-    const auto closed = judge(scene::cornell_mirrors_closed(), look,
+    const auto closed = judge(scene::make_closed_cornell_mirrors(), look,
                               {"parallax:face=512", "hybrid:face=512"});
     EXPECT_LE(closed[1].all, .39 * closed[0].all);
     EXPECT_LE(closed[1].traced_fraction, .02);

@@ -1,5 +1,5 @@
-// Tests of render::find_backdrops, which finds the objects whose shadow falls on nothing for a
-// given light.
+// Tests of render::find_shadowless_backdrops, which finds the objects whose shadow falls on nothing
+// for a given light.
 #include "render/backdrop.hpp"
 #include "render/space.hpp"
 #include "scene/load.hpp"
@@ -14,15 +14,15 @@ namespace {
 using namespace catoptric;
 using Names = std::vector<std::string>;
 
-/// Returns the names of the objects that find_backdrops reports. The light is at `place` in world
-/// units. A directional light instead shines along `place` from infinitely far away.
+/// Returns the names of the objects that find_shadowless_backdrops reports. The light is at `place`
+/// in world units. A directional light instead shines along `place` from infinitely far away.
 Names backdrops(const scene::Scene& scene, const dvec3& place, bool directional = false) {
-    const render::Space space = render::space_of(scene);
+    const render::SceneUnits space = render::make_scene_units(scene);
     shared::Light light{};
     light.kind = directional ? shared::kLightDirectional : shared::kLightAtPoint;
-    light.position = vec3(space.place(place));
+    light.position = vec3(space.to_scene_units(place));
     light.forward = vec3(place);
-    const std::vector<std::uint8_t> found = render::find_backdrops(
+    const std::vector<std::uint8_t> found = render::find_shadowless_backdrops(
         render::make_geometry(scene, space), light);
     Names names;
     for (std::size_t i = 0; i < found.size(); ++i)

@@ -12,16 +12,16 @@
 namespace {
 
 using namespace catoptric;
-using app::Subject;
+using app::BenchmarkSubject;
 using app::UsageMeter;
 
 /// Builds a benchmark that logs `letter` for each iteration and '|' at the end of each turn.
-Subject writer(char letter, std::string& log, int warmup = 1) {
+BenchmarkSubject writer(char letter, std::string& log, int warmup = 1) {
     return {.name = std::string(1, letter),
             .work =
                 [letter, &log] {
                     log += letter;
-                    return app::Iteration{2, {{"length", static_cast<double>(log.size())}}};
+                    return app::IterationFigures{2, {{"length", static_cast<double>(log.size())}}};
                 },
             .warmup = warmup,
             .leave = [&log] { log += '|'; },
@@ -30,9 +30,10 @@ Subject writer(char letter, std::string& log, int warmup = 1) {
 
 TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
     std::string log;
-    const UsageMeter meter(UsageMeter::Of::process);
-    const std::vector<Subject> subjects{writer('a', log, 2), writer('b', log), writer('c', log, 0)};
-    app::measure_rounds(subjects, meter, {.iterations = 5, .rounds = 3, .watcher = {}});
+    const UsageMeter meter(UsageMeter::CountedThreads::process);
+    const std::vector<BenchmarkSubject> subjects{writer('a', log, 2), writer('b', log),
+                                                 writer('c', log, 0)};
+    app::measure_in_rounds(subjects, meter, {.iterations = 5, .rounds = 3, .watcher = {}});
     EXPECT_EQ(log, "aa|b||"
                    "aa|bb|cc|"
                    "cc|bb|aa|"
@@ -41,9 +42,9 @@ TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
 
 TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
     std::string log;
-    const UsageMeter meter(UsageMeter::Of::process);
-    const std::vector<Subject> subjects{writer('a', log, 0), writer('b', log, 0)};
-    const std::vector<measure::Benchmark> found = app::measure_rounds(
+    const UsageMeter meter(UsageMeter::CountedThreads::process);
+    const std::vector<BenchmarkSubject> subjects{writer('a', log, 0), writer('b', log, 0)};
+    const std::vector<measure::Benchmark> found = app::measure_in_rounds(
         subjects, meter, {.iterations = 3, .rounds = 2, .watcher = {}});
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].name, "a");
@@ -60,13 +61,13 @@ TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
 
 TEST(BenchRounds, RoundsAreAtMostIterationsAndRepeatedNamesAreRefused) {
     std::string log;
-    const UsageMeter meter(UsageMeter::Of::process);
-    EXPECT_EQ(app::measure_rounds({writer('b', log)}, meter,
-                                  {.iterations = 2, .rounds = 6, .watcher = {}})[0]
+    const UsageMeter meter(UsageMeter::CountedThreads::process);
+    EXPECT_EQ(app::measure_in_rounds({writer('b', log)}, meter,
+                                     {.iterations = 2, .rounds = 6, .watcher = {}})[0]
                   .rounds.size(),
               2U);
     try {
-        app::measure_rounds({writer('b', log), writer('b', log)}, meter, {});
+        app::measure_in_rounds({writer('b', log), writer('b', log)}, meter, {});
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::usage);
@@ -82,15 +83,16 @@ double thread_ms() {
 
 /// Processor time of another thread counts for the process, but not for the calling thread.
 TEST(UsageMeter, ProcessUsageIncludesOtherThreads) {
-    const UsageMeter process(UsageMeter::Of::process), caller(UsageMeter::Of::caller);
+    const UsageMeter process(UsageMeter::CountedThreads::process),
+        caller(UsageMeter::CountedThreads::caller);
     const double caller_before = thread_ms();
-    const app::Usage all = process.read(), own = caller.read();
+    const app::ProcessorUsage all = process.read(), own = caller.read();
     double worked_ms = 0;
     std::thread([&worked_ms] {
         while ((worked_ms = thread_ms()) < 5) {
         }
     }).join();
-    const app::Usage own_after = caller.read() - own, all_after = process.read() - all;
+    const app::ProcessorUsage own_after = caller.read() - own, all_after = process.read() - all;
     EXPECT_GE(all_after.cpu_ms, worked_ms);
     EXPECT_LE(own_after.cpu_ms, thread_ms() - caller_before + 1e-9) << "but for roundings";
     EXPECT_EQ(all_after.cycles.has_value(), process.uncounted().empty());

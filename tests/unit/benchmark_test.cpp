@@ -13,11 +13,11 @@ namespace {
 
 using namespace catoptric;
 using measure::Benchmark;
+using measure::BenchmarkChange;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
-using measure::Change;
-using measure::Cost;
-using Outcome = Change::Outcome;
+using measure::CostKind;
+using Outcome = BenchmarkChange::ChangeOutcome;
 using nlohmann::json;
 
 /// Builds a benchmark with one round for each value of `ms`. The value is both the wall-clock time
@@ -47,15 +47,16 @@ std::vector<double> times(double factor) {
     return values;
 }
 
-Change change(const BenchmarkRun& before, const BenchmarkRun& after) {
-    return measure::compare(before, after).list.at(0);
+BenchmarkChange change(const BenchmarkRun& before, const BenchmarkRun& after) {
+    return measure::compare_benchmark_runs(before, after).list.at(0);
 }
 
 TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
     // The ratios of the rounds are 1.5, 1, 1, 1, 1 and 3, with median 1. The ratio of the two
     // medians would be 20 / 15.
-    const Change found = change(benchmark_run_of({benchmark("a", {10, 10, 20, 20, 30, 10})}),
-                                benchmark_run_of({benchmark("a", {15, 10, 20, 20, 30, 30})}));
+    const BenchmarkChange found = change(
+        benchmark_run_of({benchmark("a", {10, 10, 20, 20, 30, 10})}),
+        benchmark_run_of({benchmark("a", {15, 10, 20, 20, 30, 30})}));
     EXPECT_EQ(found.ratio.median, 1);
     EXPECT_EQ(found.ratio.ci95.low, 1);
     EXPECT_EQ(found.ratio.ci95.high, 3);
@@ -86,12 +87,13 @@ TEST(BenchmarkCompare, CyclesAreComparedIfBothRunsCountedThem) {
     Benchmark counted = benchmark("a", kSix), more = benchmark("a", times(.5));
     for (BenchmarkRound& round : counted.rounds) round.cycles = 1e6;
     for (BenchmarkRound& round : more.rounds) round.cycles = 2e6;
-    const Change found = change(benchmark_run_of({counted}), benchmark_run_of({more}));
-    EXPECT_EQ(found.cost, Cost::cycles);
+    const BenchmarkChange found = change(benchmark_run_of({counted}), benchmark_run_of({more}));
+    EXPECT_EQ(found.cost, CostKind::cycles);
     EXPECT_EQ(found.ratio.median, 2);
     EXPECT_EQ(found.outcome(), Outcome::mixed) << "twice the cycles in half the time";
     more.rounds[3].cycles.reset();
-    EXPECT_EQ(change(benchmark_run_of({counted}), benchmark_run_of({more})).cost, Cost::cpu_time);
+    EXPECT_EQ(change(benchmark_run_of({counted}), benchmark_run_of({more})).cost,
+              CostKind::cpu_time);
 }
 
 TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
@@ -105,11 +107,11 @@ TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
 TEST(BenchmarkCompare, WallTimeIsComparedIfTheDeviceIsNoProcessor) {
     BenchmarkRun gpu = benchmark_run_of({benchmark("a", kSix)});
     gpu.device.type = "discrete";
-    EXPECT_EQ(change(benchmark_run_of({benchmark("a", kSix)}), gpu).cost, Cost::real_time);
+    EXPECT_EQ(change(benchmark_run_of({benchmark("a", kSix)}), gpu).cost, CostKind::real_time);
 }
 
 TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
-    const measure::Changes found = measure::compare(
+    const measure::BenchmarkChanges found = measure::compare_benchmark_runs(
         benchmark_run_of({benchmark("gone", kSix), benchmark("both", kSix)}),
         benchmark_run_of({benchmark("both", kSix), benchmark("new", kSix)}));
     ASSERT_EQ(found.list.size(), 1U);
@@ -118,11 +120,12 @@ TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
 }
 
 TEST(BenchmarkJoin, JoinedRunsAppendRoundsAndDropUnmatchedBenchmarks) {
-    const BenchmarkRun both = measure::joined(
+    const BenchmarkRun both = measure::join_benchmark_runs(
         benchmark_run_of({benchmark("a", {1, 2}), benchmark("b", {5})}),
         benchmark_run_of({benchmark("a", {3})}));
     ASSERT_EQ(both.benchmarks.size(), 1U);
-    EXPECT_EQ(costs_of(both.benchmarks[0], Cost::real_time), (std::vector{1.0, 2.0, 3.0}));
+    EXPECT_EQ(list_round_costs(both.benchmarks[0], CostKind::real_time),
+              (std::vector{1.0, 2.0, 3.0}));
 }
 
 TEST(BenchmarkFile, FileFollowsTheGoogleBenchmarkFormat) {
@@ -166,7 +169,7 @@ TEST(BenchmarkFile, WrittenRunIsReadBackUnchanged) {
     EXPECT_EQ(read.device.name, "llvmpipe");
     EXPECT_EQ(read.noisy, true);
     ASSERT_EQ(read.benchmarks.size(), 2U);
-    EXPECT_EQ(costs_of(read.benchmarks[0], Cost::cpu_time), kSix);
+    EXPECT_EQ(list_round_costs(read.benchmarks[0], CostKind::cpu_time), kSix);
     const BenchmarkRound& round = read.benchmarks[1].rounds.at(0);
     EXPECT_EQ(round.iterations, 3U);
     EXPECT_EQ(round.cycles, 7);
@@ -230,9 +233,9 @@ TEST(BenchmarkFile, ErrorsNamePlaceExpectedAndFound) {
 }
 
 TEST(BenchmarkChanges, ComparisonIsWrittenAsJson) {
-    const json document = json::parse(report::to_json(
-        measure::compare(benchmark_run_of({benchmark("a", kSix), benchmark("b", {1})}),
-                         benchmark_run_of({benchmark("a", times(2)), benchmark("c", {1})}))));
+    const json document = json::parse(report::to_json(measure::compare_benchmark_runs(
+        benchmark_run_of({benchmark("a", kSix), benchmark("b", {1})}),
+        benchmark_run_of({benchmark("a", times(2)), benchmark("c", {1})}))));
     EXPECT_EQ(document["schema"], "catoptric/bench-compare/1");
     ASSERT_EQ(document["benchmarks"].size(), 1U);
     const json& row = document["benchmarks"][0];

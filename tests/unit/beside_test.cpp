@@ -57,8 +57,8 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     EXPECT_EQ(scene.environment->size, uvec2(4, 2));
     EXPECT_EQ(scene.environment->scale, 2);
     EXPECT_EQ(scene.environment->rotation_degrees, -90);
-    EXPECT_EQ(app::ambient_of(found), .125);
-    EXPECT_EQ(app::exposure_of(found), -1.5);
+    EXPECT_EQ(app::choose_ambient_light(found), .125);
+    EXPECT_EQ(app::find_exposure(found), -1.5);
     EXPECT_EQ(scene.cameras.front().eye, dvec3(1, 2, 3)) << "first, so that it is hashed";
     EXPECT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(found.overrides.animation, "none");
@@ -71,9 +71,9 @@ TEST_F(Beside, OverrideFileChangesTheSceneHashAndCanBeIgnored) {
     const std::string path = (folder / "x.obj").string();
     for (const char* text : {R"({"mirrors": ["thing"]})", R"({"environment": "none"})",
                              R"({"camera": "1,2,3:0,0,0:30"})", R"({"exposure": 1})"}) {
-        EXPECT_NE(hash(load(text).scene), hash(plain.scene)) << text;
-        EXPECT_EQ(hash(app::resolve_scene(path, {.use_scene_file = false}).scene),
-                  hash(plain.scene));
+        EXPECT_NE(hash_scene(load(text).scene), hash_scene(plain.scene)) << text;
+        EXPECT_EQ(hash_scene(app::resolve_scene(path, {.use_scene_file = false}).scene),
+                  hash_scene(plain.scene));
     }
 }
 
@@ -84,12 +84,12 @@ TEST_F(Beside, CameraIndexCountsInTheOrderOfTheScene) {
     for (const auto& [index, name] : {std::pair("0", "c"), {"1", "d"}, {"2", "e"}}) {
         write("x.obj.catoptric.json", std::string("{\"camera\": \"") + index + "\"}");
         app::ResolvedScene found = app::resolve_scene(scene, {});
-        EXPECT_EQ(app::camera_of(found, 1).name, name);
+        EXPECT_EQ(app::choose_camera(found, 1).name, name);
         EXPECT_EQ(found.scene.cameras.front().name, name);
         SceneOverrides overrides;
         overrides.camera = "1";
         app::ResolvedScene other = app::resolve_scene(scene, {.overrides = overrides});
-        EXPECT_EQ(app::camera_of(other, 1).name, "d");
+        EXPECT_EQ(app::choose_camera(other, 1).name, "d");
     }
 }
 
@@ -106,9 +106,9 @@ TEST_F(Beside, CommandLineWinsOverTheOverrideFile) {
         overrides);
     EXPECT_EQ(found.scene.materials[found.scene.objects[0].material].reflectance, vec3(1));
     EXPECT_EQ(found.scene.environment, nullptr);
-    EXPECT_EQ(app::ambient_of(found), .5);
-    EXPECT_EQ(app::exposure_of(found), 2);
-    EXPECT_EQ(app::camera_of(found, 1).name, "c");
+    EXPECT_EQ(app::choose_ambient_light(found), .5);
+    EXPECT_EQ(app::find_exposure(found), 2);
+    EXPECT_EQ(app::choose_camera(found, 1).name, "c");
 }
 
 TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
@@ -175,17 +175,17 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.lights = {"l*"};
     overrides.mirror_max_roughness = .3, overrides.dielectric_mirrors = false;
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
-    overrides.exposure = ExposureOverride{}, overrides.up = Up::z, overrides.camera = "c";
+    overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";
     const std::string scene = write("x.obj", kDark);
-    const std::string text = scene_file_text(overrides, scene);
+    const std::string text = write_scene_file_text(overrides, scene);
     EXPECT_THAT(text, HasSubstr("\"environment\": \"sky.exr\""));
     write("x.obj.catoptric.json", text);
     const std::optional<SceneFile> found = read_scene_file(scene, {});
     ASSERT_TRUE(found);
-    overrides.environment = real_path(folder / "sky.exr").string();
+    overrides.environment = resolve_real_path(folder / "sky.exr").string();
     EXPECT_EQ(found->overrides, overrides);
     overrides.environment = "/dev/null";
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { scene_file_text(overrides, scene); }),
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { write_scene_file_text(overrides, scene); }),
                 HasSubstr("wanted a picture below"));
 }
 
@@ -213,7 +213,7 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
     write("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\n");
     const auto camera_of = [&](const std::string& text) {
         app::ResolvedScene found = app::resolve_scene(write("x.obj", text), {});
-        const Camera camera = app::camera_of(found, 1);
+        const Camera camera = app::choose_camera(found, 1);
         const Bounds<double> box = bounds(found.scene);
         const bool is_inside = box.lo.x < camera.eye.x && camera.eye.x < box.hi.x &&
                                box.lo.y < camera.eye.y && camera.eye.y < box.hi.y &&
@@ -221,7 +221,7 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
         EXPECT_EQ(is_inside, found.said.back().starts_with("no camera, a closed room: using "
                                                            "--camera "))
             << found.said.back();
-        EXPECT_THAT(found.said.back(), HasSubstr(camera_text(camera)));
+        EXPECT_THAT(found.said.back(), HasSubstr(format_camera(camera)));
         EXPECT_EQ(found.scene.unsupported.back().id, "added-camera");
         return is_inside;
     };
@@ -237,20 +237,20 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
 TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
     const std::string path = write("x.obj", kDark);
     app::ResolvedScene found = app::resolve_scene(path, {});
-    const Camera camera = app::camera_of(found, 2);
+    const Camera camera = app::choose_camera(found, 2);
     ASSERT_NE(found.scene.environment, nullptr);
     EXPECT_TRUE(found.scene.environment->studio);
-    EXPECT_EQ(app::ambient_of(found), 0);
-    EXPECT_EQ(app::exposure_of(found), std::nullopt) << "auto";
-    EXPECT_EQ(camera, default_camera(found.scene, 2));
+    EXPECT_EQ(app::choose_ambient_light(found), 0);
+    EXPECT_EQ(app::find_exposure(found), std::nullopt) << "auto";
+    EXPECT_EQ(camera, make_default_camera(found.scene, 2));
     std::vector<std::string> ids;
     for (const UnsupportedFeature& gap : found.scene.unsupported) ids.push_back(gap.id);
     EXPECT_THAT(ids, ElementsAre("indirect-left-out", "environment-unshadowed", "added-studio",
                                  "added-camera"));
     EXPECT_THAT(found.said, ElementsAre(HasSubstr("lit by the environment studio"),
-                                        HasSubstr("using --camera " + camera_text(camera))));
+                                        HasSubstr("using --camera " + format_camera(camera))));
     // The camera numbers in the message, given back as an option, make the same camera.
-    const Camera typed = camera_named(camera_text(camera), found.scene);
+    const Camera typed = find_camera_by_name(format_camera(camera), found.scene);
     EXPECT_EQ(typed.eye, camera.eye);
     EXPECT_EQ(typed.target, camera.target);
 }
@@ -261,7 +261,7 @@ TEST_F(Beside, NoEnvironmentIsAddedToALitSceneOrIfTheUserChoseNone) {
     const std::string dark = write("x.obj", kDark + kCamera);
     const app::ResolvedScene black = app::resolve_scene(dark, {.overrides = none});
     EXPECT_EQ(black.scene.environment, nullptr);
-    EXPECT_EQ(app::ambient_of(black), .05);
+    EXPECT_EQ(app::choose_ambient_light(black), .05);
     EXPECT_THAT(black.scene.unsupported, IsEmpty());
     EXPECT_THAT(black.said, IsEmpty());
     write("l.mtl", "newmtl l\nKe 1 1 1\n");
@@ -312,12 +312,12 @@ TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
 
 TEST_F(Beside, BuiltInScenesGetNoAddedLightOrCamera) {
     app::ResolvedScene found = app::resolve_scene("cornell-mirrors", {});
-    EXPECT_EQ(hash(found.scene), hash(cornell_mirrors()));
-    EXPECT_EQ(app::ambient_of(found), .05);
-    EXPECT_EQ(app::exposure_of(found), 0);
+    EXPECT_EQ(hash_scene(found.scene), hash_scene(make_cornell_mirrors()));
+    EXPECT_EQ(app::choose_ambient_light(found), .05);
+    EXPECT_EQ(app::find_exposure(found), 0);
     ASSERT_EQ(found.scene.unsupported.size(), 1u) << "as in any scene that is lit";
     EXPECT_EQ(found.scene.unsupported[0].id, "indirect-left-out");
-    EXPECT_EQ(app::camera_of(found, 1).name, "contract");
+    EXPECT_EQ(app::choose_camera(found, 1).name, "contract");
     EXPECT_THAT(found.said, IsEmpty());
 }
 

@@ -25,33 +25,35 @@ protected:
 };
 
 TEST_F(BudgetFor, SmallFileKeepsTheDefaultTriangleBudgetOnALargeMachine) {
-    const Budget budget = budget_for(file(1000), {}, 1000 * kGibibyte);
-    EXPECT_EQ(budget.triangles, Budget().triangles);
-    EXPECT_EQ(budget.vertices, Budget().vertices);
-    EXPECT_EQ(budget.shown, Budget().shown);
+    const LoadBudget budget = choose_load_budget(file(1000), {}, 1000 * kGibibyte);
+    EXPECT_EQ(budget.triangles, LoadBudget().triangles);
+    EXPECT_EQ(budget.vertices, LoadBudget().vertices);
+    EXPECT_EQ(budget.shown, LoadBudget().shown);
     EXPECT_EQ(budget.file_bytes, 125 * kGibibyte);
 }
 
 TEST_F(BudgetFor, LargeFileBudgetIsLimitedByFileSizeAndMemory) {
     const std::filesystem::path path = file(kGibibyte);
-    EXPECT_EQ(budget_for(path, {}, 1000 * kGibibyte).triangles, kGibibyte / 6);
-    EXPECT_EQ(budget_for(path, {}, 1000 * kGibibyte).vertices, 3 * (kGibibyte / 6));
-    EXPECT_EQ(budget_for(path, {}, 16 * kGibibyte).triangles, 16 * kGibibyte / kBytesPerTriangle);
-    EXPECT_EQ(budget_for(path, {}, kGibibyte).triangles, Budget().triangles);
-    EXPECT_EQ(budget_for(path, {}, kGibibyte).file_bytes, Budget().file_bytes);
+    EXPECT_EQ(choose_load_budget(path, {}, 1000 * kGibibyte).triangles, kGibibyte / 6);
+    EXPECT_EQ(choose_load_budget(path, {}, 1000 * kGibibyte).vertices, 3 * (kGibibyte / 6));
+    EXPECT_EQ(choose_load_budget(path, {}, 16 * kGibibyte).triangles,
+              16 * kGibibyte / kBytesPerTriangle);
+    EXPECT_EQ(choose_load_budget(path, {}, kGibibyte).triangles, LoadBudget().triangles);
+    EXPECT_EQ(choose_load_budget(path, {}, kGibibyte).file_bytes, LoadBudget().file_bytes);
 }
 
 TEST_F(BudgetFor, UserLimitsReplaceComputedLimits) {
-    const Budget most = budget_for(file(1000), {.bytes = 7, .triangles = 50'000'000}, 0);
+    const LoadBudget most = choose_load_budget(file(1000), {.bytes = 7, .triangles = 50'000'000},
+                                               0);
     EXPECT_EQ(most.file_bytes, 7u);
     EXPECT_EQ(most.triangles, 50'000'000u);
     EXPECT_EQ(most.vertices, 150'000'000u);
-    EXPECT_EQ(budget_for(file(1000), {.triangles = 3}, 0).triangles, 3u);
-    EXPECT_EQ(budget_for(file(1000), {.triangles = 3}, 0).vertices, Budget().vertices);
+    EXPECT_EQ(choose_load_budget(file(1000), {.triangles = 3}, 0).triangles, 3u);
+    EXPECT_EQ(choose_load_budget(file(1000), {.triangles = 3}, 0).vertices, LoadBudget().vertices);
 }
 
 TEST_F(BudgetFor, FreeMemoryOfTheMachineIsKnown) {
-    EXPECT_GT(free_memory(), std::uint64_t{1} << 24);
+    EXPECT_GT(read_free_memory(), std::uint64_t{1} << 24);
 }
 
 } // namespace

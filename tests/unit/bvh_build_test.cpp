@@ -17,8 +17,8 @@ using test::expect_sound, test::same, test::soup;
 std::vector<TriangleReference> references(std::span<const Triangle> triangles) {
     std::vector<TriangleReference> result;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const BoundingBox box = box_of(triangles[i].a, triangles[i].b, triangles[i].c, 0);
-        result.push_back({lanes(box.lo, id_word(i)), lanes(box.hi, 0)});
+        const BoundingBox box = triangle_bounds(triangles[i].a, triangles[i].b, triangles[i].c, 0);
+        result.push_back({load_lanes(box.lo, id_to_float_word(i)), load_lanes(box.hi, 0)});
     }
     return result;
 }
@@ -27,7 +27,7 @@ std::vector<TriangleReference> references(std::span<const Triangle> triangles) {
 double cost_of(std::span<const TriangleReference> references) {
     Bounds<double> box;
     for (const TriangleReference& r : references)
-        box.add(Bounds<double>{dvec3(vector(r.lo)), dvec3(vector(r.hi))});
+        box.add(Bounds<double>{dvec3(lanes_to_vec3(r.lo)), dvec3(lanes_to_vec3(r.hi))});
     return box.area() / 2 * static_cast<double>(references.size());
 }
 
@@ -50,7 +50,7 @@ TEST(BvhDivision, SweepFindsTheCheapestDivision) {
             for (std::size_t middle = 1; middle < count; ++middle)
                 if (std::max(middle, count - middle) <= most)
                     least = std::min(least, cost_of(sorted(few, axis), middle));
-        const std::optional<Division> found = sweep(few, most);
+        const std::optional<SweepDivision> found = find_best_division_by_sweep(few, most);
         ASSERT_EQ(found.has_value(), std::isfinite(least));
         if (!found) continue;
         EXPECT_NEAR(found->cost, least, 1e-6 * least);
@@ -79,14 +79,14 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
                     least = std::min(least, cost_of(along, middle));
             }
         }
-        Bins bins;
-        bins.add(all, Binning(part.centres));
-        const std::optional<Split> split = best_split(bins, most);
+        SplitBins bins;
+        bins.add(all, BinMapping(part.centres));
+        const std::optional<BinSplit> split = find_best_split(bins, most);
         ASSERT_TRUE(split);
         const std::size_t middle = bins.left_count(*split);
         std::vector<TriangleReference> sides(count);
-        std::array<Extent, 2> centres;
-        split->scatter(all, Binning(part.centres), {sides.data(), &sides[middle]}, centres);
+        std::array<BoxExtent, 2> centres;
+        split->scatter(all, BinMapping(part.centres), {sides.data(), &sides[middle]}, centres);
         EXPECT_NEAR(cost_of(sides, middle), least, 1e-6 * least);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
@@ -153,16 +153,16 @@ std::vector<Input> inputs() {
 TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
     for (const Input& input : inputs()) {
         SCOPED_TRACE(input.name);
-        const Bvh one = build(input.triangles, input.core, kMaxLeaf, 1);
+        const Bvh one = build_bvh(input.triangles, input.core, kMaxLeaf, 1);
         const std::size_t kept = input.triangles.size() - one.dropped - one.copies;
-        EXPECT_EQ(triangle_count(one), kept);
+        EXPECT_EQ(count_triangles(one), kept);
         if (input.core.empty()) expect_sound(one, kept);
         if (input.name == std::string("holes"))
             EXPECT_GT(one.dropped * one.copies, 0u);
         else
             EXPECT_EQ(kept, input.kept);
         for (const unsigned threads : {2U, 3U, 8U}) {
-            const Bvh many = build(input.triangles, input.core, kMaxLeaf, threads);
+            const Bvh many = build_bvh(input.triangles, input.core, kMaxLeaf, threads);
             EXPECT_TRUE(same(one.nodes, many.nodes)) << threads;
             EXPECT_TRUE(same(one.triangles, many.triangles)) << threads;
             EXPECT_EQ(one.dropped, many.dropped);
@@ -175,10 +175,10 @@ TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
 TEST(BvhBuild, ThreadedBuildStoresTrianglesOnceAndUnchanged) {
     for (const Input& input : inputs()) {
         SCOPED_TRACE(input.name);
-        const Bvh bvh = build(input.triangles, input.core, kMaxLeaf, 3);
+        const Bvh bvh = build_bvh(input.triangles, input.core, kMaxLeaf, 3);
         std::vector<char> seen(input.triangles.size());
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
-            const std::uint32_t number = number_of(bvh.triangles[i + 1].w);
+            const std::uint32_t number = float_word_to_integer(bvh.triangles[i + 1].w);
             ASSERT_LT(number, seen.size());
             ASSERT_EQ(seen[number]++, 0);
             const Triangle& t = input.triangles[number];

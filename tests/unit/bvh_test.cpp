@@ -43,34 +43,38 @@ std::vector<Triangle> bvh_ball(int levels, float scale = 1, vec3 offset = vec3(0
 TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
     for (std::size_t count : {0, 1, 2, 3, 4, 5, 8, 9, 100, 5000}) {
         SCOPED_TRACE(count);
-        const Bvh bvh = build(soup(count, 1));
+        const Bvh bvh = build_bvh(soup(count, 1));
         expect_sound(bvh, count);
         EXPECT_EQ(bvh.dropped, 0u);
     }
 }
 
 TEST(Bvh, RaysMissAnEmptyTree) {
-    const Bvh bvh = build({});
-    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
-    EXPECT_FALSE(any_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
+    const Bvh bvh = build_bvh({});
+    EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
+    EXPECT_FALSE(has_any_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
 }
 
 TEST(Bvh, EqualInputsGiveEqualBytes) {
-    const Bvh a = build(soup(3000, 2)), b = build(soup(3000, 2));
+    const Bvh a = build_bvh(soup(3000, 2)), b = build_bvh(soup(3000, 2));
     EXPECT_TRUE(same(a.nodes, b.nodes));
     EXPECT_TRUE(same(a.triangles, b.triangles));
 }
 
 TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
     const Triangle lamp{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 0, kOneSided}; // the lamp faces +z
-    const Bvh bvh = build(std::vector{lamp});
+    const Bvh bvh = build_bvh(std::vector{lamp});
     const auto meets = [&](double from, std::uint32_t skipped) {
         const dvec3 origin(0, 0, from), direction(0, 0, 1 - from);
-        const bool in_double =
-            closest_hit<double>(bvh, {origin, direction, 0}, test::kInfinity, skipped).has_value();
+        const bool in_double = find_closest_hit<double>(bvh, {origin, direction, 0},
+                                                        test::kInfinity, skipped)
+                                   .has_value();
         const Ray<float> ray{vec3(origin), vec3(direction), 0};
-        EXPECT_EQ(closest_hit<float>(bvh, ray, test::kInfinity, skipped).has_value(), in_double);
-        EXPECT_EQ(brute_force<float>(bvh, ray, test::kInfinity, skipped).has_value(), in_double);
+        EXPECT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity, skipped).has_value(),
+                  in_double);
+        EXPECT_EQ(
+            find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity, skipped).has_value(),
+            in_double);
         return in_double;
     };
     EXPECT_TRUE(meets(3, kOneSided));
@@ -82,20 +86,20 @@ TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
 TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
     const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHidden};
     const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};
-    const Bvh bvh = build(std::vector{far, near});
+    const Bvh bvh = build_bvh(std::vector{far, near});
     const Ray<float> ray{vec3(0), vec3(0, 0, 1)};
-    const auto first = closest_hit<float>(bvh, ray, test::kInfinity);
+    const auto first = find_closest_hit<float>(bvh, ray, test::kInfinity);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->triangle, 1u);
     EXPECT_EQ(first->object, 7u);
     EXPECT_EQ(first->t, 1);
-    const auto seen = closest_hit<float>(bvh, ray, test::kInfinity, kHidden);
+    const auto seen = find_closest_hit<float>(bvh, ray, test::kInfinity, kHidden);
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->triangle, 0u) << "camera rays pass through";
     EXPECT_EQ(seen->object, 0x1ffffffeu);
     EXPECT_EQ(vec3(bvh.triangles[3 * seen->place]), far.a);
-    EXPECT_TRUE(any_hit<float>(bvh, ray, 1.5f)) << "hidden ones throw shadows";
-    EXPECT_FALSE(any_hit<float>(bvh, ray, 1)) << "t_max is excluded";
+    EXPECT_TRUE(has_any_hit<float>(bvh, ray, 1.5f)) << "hidden ones throw shadows";
+    EXPECT_FALSE(has_any_hit<float>(bvh, ray, 1)) << "t_max is excluded";
 }
 
 TEST(Bvh, NonFiniteTrianglesAreDroppedAndCounted) {
@@ -103,7 +107,7 @@ TEST(Bvh, NonFiniteTrianglesAreDroppedAndCounted) {
     triangles[10].b.y = test::kNan;
     triangles[20].c.x = test::kInfinity;
     triangles[99].a.z = -test::kInfinity;
-    const Bvh bvh = build(triangles);
+    const Bvh bvh = build_bvh(triangles);
     EXPECT_EQ(bvh.dropped, 3u);
     expect_sound(bvh, 97);
 }
@@ -122,10 +126,10 @@ TEST(Bvh, BuildSurvivesCornersOfRandomBits) {
                 }
             finite += good ? 1 : 0;
         }
-        const Bvh bvh = build(triangles);
+        const Bvh bvh = build_bvh(triangles);
         EXPECT_EQ(bvh.dropped, triangles.size() - finite);
         expect_sound(bvh, finite);
-        closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, test::kInfinity);
+        find_closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, test::kInfinity);
     }
 }
 
@@ -135,15 +139,15 @@ TEST(Bvh, LowestNumberWinsAmongCoincidentTriangles) {
         copies[i].object = static_cast<std::uint32_t>(copies.size() -
                                                       i); // distinct objects keep all copies
     const auto start = std::chrono::steady_clock::now();
-    const Bvh bvh = build(copies);
+    const Bvh bvh = build_bvh(copies);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     EXPECT_LT(time.count(), 5);
     expect_sound(bvh, copies.size());
-    const auto hit = closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity);
+    const auto hit = find_closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0u);
-    Steps steps;
-    EXPECT_TRUE(any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity, 0, &steps));
+    TraversalCounters steps;
+    EXPECT_TRUE(has_any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity, 0, &steps));
     EXPECT_LE(steps.total(), kMaxDepth + kMaxLeaf);
 }
 
@@ -157,25 +161,26 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
         if (i / 8 % 2 == 0) t.a.z = t.b.z = t.c.z = 2;
         triangles.push_back(t);
     }
-    const Bvh bvh = build(triangles);
+    const Bvh bvh = build_bvh(triangles);
     expect_sound(bvh, 16);
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_LT(number_of(bvh.triangles[3 * i + 1].w), 16u) << "the lowest number of each stays";
+        EXPECT_LT(float_word_to_integer(bvh.triangles[3 * i + 1].w), 16u)
+            << "the lowest number of each stays";
     const std::vector<Triangle> few(kMaxLeaf, triangles.front());
-    EXPECT_EQ(build(few).copies, 0u) << "a leaf has room for them";
+    EXPECT_EQ(build_bvh(few).copies, 0u) << "a leaf has room for them";
 }
 
 TEST(Bvh, LowestNumberWinsAmongCopiesInDifferentLeaves) {
     std::vector<Triangle> triangles = bvh_ball(4);
     const std::vector<Triangle> original = triangles;
     triangles.insert(triangles.end(), original.begin(), original.end());
-    const Bvh bvh = build(triangles);
+    const Bvh bvh = build_bvh(triangles);
     test::Numbers random(5);
     for (int i = 0; i < 2000; ++i) {
-        const auto hit = closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()},
-                                            test::kInfinity);
+        const auto hit = find_closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()},
+                                                 test::kInfinity);
         ASSERT_TRUE(hit);
         ASSERT_LT(hit->triangle, original.size());
     }
@@ -189,12 +194,12 @@ TEST(Bvh, DepthIsBoundedForGeometricallyShrinkingTriangles) {
         const float x = std::ldexp(1.0f, i / 8 - 125) * (1 + 0.1f * static_cast<float>(i % 8));
         triangles.push_back({{x, 0, 0}, {1.1f * x, 0, 0}, {x, 0.1f * x, 0}});
     }
-    expect_sound(build(triangles), triangles.size());
+    expect_sound(build_bvh(triangles), triangles.size());
 }
 
 template <typename Real>
 void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int rays, unsigned seed) {
-    const Bvh bvh = build(triangles);
+    const Bvh bvh = build_bvh(triangles);
     test::Numbers random(seed);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
@@ -207,10 +212,10 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
         Ray<Real> ray{Vec3<Real>(origin), Vec3<Real>(target - origin)};
         if (i % 8 == 0) ray.direction[i / 8 % 3] = i % 16 == 0 ? Real(0) : Real(-0.0);
         const Real t_max = i % 2 == 0 ? Real(test::kInfinity) : Real(random.between(0, 1.5f));
-        const auto tree = closest_hit<Real>(bvh, ray, t_max);
-        const auto all = brute_force<Real>(bvh, ray, t_max);
+        const auto tree = find_closest_hit<Real>(bvh, ray, t_max);
+        const auto all = find_closest_hit_by_brute_force<Real>(bvh, ray, t_max);
         ASSERT_EQ(tree, all) << "ray " << i;
-        ASSERT_EQ(any_hit<Real>(bvh, ray, t_max), all.has_value()) << "ray " << i;
+        ASSERT_EQ(has_any_hit<Real>(bvh, ray, t_max), all.has_value()) << "ray " << i;
         hits += all ? 1 : 0;
     }
     EXPECT_GT(hits, rays / 10);
@@ -236,23 +241,23 @@ TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
         t.c = vec3(edge, 0) + 0.5f * (random.in_cube() + vec3(1));
         const vec3 origin = vec3(edge, 0) + vec3(random.between(0, 1), -random.between(0, 1), 0);
         const vec3 target(edge.x - length * random.between(0, 1e-7f), edge.y, random.between(1, 3));
-        const Bvh bvh = build(std::span(&t, 1));
+        const Bvh bvh = build_bvh(std::span(&t, 1));
         const Ray<float> ray{origin, target - origin};
-        const auto expected = brute_force<float>(bvh, ray, test::kInfinity);
-        ASSERT_EQ(closest_hit<float>(bvh, ray, test::kInfinity), expected) << i;
+        const auto expected = find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity);
+        ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity), expected) << i;
         hits += expected ? 1 : 0;
     }
     EXPECT_GT(hits, 200);
 }
 
 TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
-    const Bvh bvh = build(bvh_ball(4));
+    const Bvh bvh = build_bvh(bvh_ball(4));
     test::Numbers random(10);
     for (int i = 0; i < 20000; ++i) {
         const vec3 origin = 0.5f * random.in_cube(), direction = random.direction();
-        const auto single = closest_hit<float>(bvh, {origin, direction}, test::kInfinity);
-        const auto precise_hit = closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)},
-                                                     test::kInfinity);
+        const auto single = find_closest_hit<float>(bvh, {origin, direction}, test::kInfinity);
+        const auto precise_hit = find_closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)},
+                                                          test::kInfinity);
         ASSERT_TRUE(single && precise_hit);
         ASSERT_NEAR(single->t, precise_hit->t, 4e-6);
         const vec3& b = single->barycentric;
@@ -265,14 +270,14 @@ TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
 /// at a point of a random edge.
 int leaks(float scale, vec3 offset, int rays, unsigned seed) {
     const std::vector<Triangle> triangles = bvh_ball(4, scale, offset);
-    const Bvh bvh = build(triangles);
+    const Bvh bvh = build_bvh(triangles);
     test::Numbers random(seed);
     int result = 0;
     for (int i = 0; i < rays; ++i) {
         const Triangle& t = triangles[random.below(triangles.size())];
         const vec3 target = i % 4 == 0 ? t.a : t.a + random.between(0, 1) * (t.b - t.a);
         const vec3 origin = offset + 0.4f * scale * random.in_cube();
-        if (!closest_hit<float>(bvh, {origin, target - origin}, test::kInfinity)) ++result;
+        if (!find_closest_hit<float>(bvh, {origin, target - origin}, test::kInfinity)) ++result;
     }
     return result;
 }
@@ -286,7 +291,7 @@ TEST(ClosestHit, RaysFromInsideAClosedMeshAlwaysHit) {
 
 TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
     const std::vector<Triangle> triangles = bvh_ball(3);
-    const Bvh bvh = build(triangles);
+    const Bvh bvh = build_bvh(triangles);
     for (const Triangle& t : triangles)
         for (int axis = 0; axis < 3; ++axis)
             for (float sign : {-1.0f, 1.0f}) {
@@ -295,12 +300,12 @@ TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
                 vec3 origin = t.a;
                 origin[axis] = 0;
                 if (glm::length(origin) > 0.99f) continue;
-                ASSERT_TRUE(closest_hit<float>(bvh, {origin, direction}, test::kInfinity));
+                ASSERT_TRUE(find_closest_hit<float>(bvh, {origin, direction}, test::kInfinity));
             }
 }
 
 TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
-    const Bvh bvh = build(bvh_ball(4));
+    const Bvh bvh = build_bvh(bvh_ball(4));
     test::Numbers random(15);
     for (float bad : {test::kNan, test::kInfinity, -test::kInfinity})
         for (int k = 0; k < 7; ++k) {
@@ -313,29 +318,30 @@ TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
             else
                 t_max = bad;
             if (k == 6 && bad > 0) continue; // t_max = +infinity is valid
-            Steps steps;
-            EXPECT_FALSE(closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
-            EXPECT_FALSE(any_hit<float>(bvh, {origin, direction}, t_max));
-            EXPECT_FALSE(brute_force<float>(bvh, {origin, direction}, t_max));
+            TraversalCounters steps;
+            EXPECT_FALSE(find_closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
+            EXPECT_FALSE(has_any_hit<float>(bvh, {origin, direction}, t_max));
+            EXPECT_FALSE(find_closest_hit_by_brute_force<float>(bvh, {origin, direction}, t_max));
             EXPECT_EQ(steps.total(), 0u);
         }
-    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kInfinity)) << "no direction";
-    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(1)}, -0.0f));
+    EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kInfinity))
+        << "no direction";
+    EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(1)}, -0.0f));
 }
 
 TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
     const std::vector<Triangle> triangles = soup(500, 16);
-    const Bvh one = build(triangles);
+    const Bvh one = build_bvh(triangles);
     for (int k : {-20, -7, 13, 20}) {
         const float s = std::ldexp(1.0f, k);
         std::vector<Triangle> scaled = triangles;
         for (Triangle& t : scaled) t.a *= s, t.b *= s, t.c *= s;
-        const Bvh other = build(scaled);
+        const Bvh other = build_bvh(scaled);
         test::Numbers random(17);
         for (int i = 0; i < 2000; ++i) {
             const vec3 origin = 2.0f * random.in_cube(), direction = random.direction();
-            const auto a = closest_hit<float>(one, {origin, direction}, test::kInfinity);
-            const auto b = closest_hit<float>(other, {s * origin, direction}, test::kInfinity);
+            const auto a = find_closest_hit<float>(one, {origin, direction}, test::kInfinity);
+            const auto b = find_closest_hit<float>(other, {s * origin, direction}, test::kInfinity);
             ASSERT_EQ(a.has_value(), b.has_value());
             if (!a) continue;
             ASSERT_EQ(a->triangle, b->triangle);
@@ -355,7 +361,7 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
         Triangle t;
         for (vec3* corner : {&t.a, &t.b, &t.c})
             for (int k = 0; k < 3; ++k) (*corner)[k] = wide();
-        const Bvh bvh = build(std::span(&t, 1));
+        const Bvh bvh = build_bvh(std::span(&t, 1));
         for (int k = 0; k < 100; ++k) {
             const float s = std::sqrt(random.between(0, 1)), r = random.between(0, 1);
             vec3 error;
@@ -363,7 +369,7 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
             const vec3 direction = random.direction();
             const vec3 n = f32::facet_normal(t.a, t.b, t.c);
             const Ray<float> ray{f32::spawn_origin(p, error, n, direction), direction, 1};
-            ASSERT_FALSE(closest_hit<float>(bvh, ray, test::kInfinity));
+            ASSERT_FALSE(find_closest_hit<float>(bvh, ray, test::kInfinity));
         }
     }
 }
@@ -373,7 +379,7 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
 TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
     for (float scale : {1e-3f, 1.0f, 1e3f}) {
         const std::vector<Triangle> triangles = bvh_ball(3, scale, vec3(2, 3, 5) * scale);
-        const Bvh bvh = build(triangles);
+        const Bvh bvh = build_bvh(triangles);
         test::Numbers random(20);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const auto& [a, b, c, object, flags] = triangles[i];
@@ -382,7 +388,7 @@ TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
             const vec3 inward = vec3(2, 3, 5) * scale - p;
             const vec3 direction = glm::normalize(inward + 0.5f * scale * random.direction());
             const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
-            const auto hit = closest_hit<float>(bvh, {origin, direction, 0}, test::kInfinity);
+            const auto hit = find_closest_hit<float>(bvh, {origin, direction, 0}, test::kInfinity);
             ASSERT_TRUE(hit);
             ASSERT_GT(hit->t, scale);
         }
@@ -393,10 +399,10 @@ TEST(Refit, RefitWithoutMovementChangesNothing) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
         std::vector<Triangle> triangles = soup(500, 3);
         triangles[7].b.y = test::kNan;
-        const Bvh built = build(triangles, core);
+        const Bvh built = build_bvh(triangles, core);
         Bvh refitted = built;
         triangles[7] = triangles[8]; // triangle 7 was dropped at build, so refit ignores it
-        refit(refitted, triangles, core);
+        refit_bvh(refitted, triangles, core);
         EXPECT_TRUE(same(built.nodes, refitted.nodes));
         EXPECT_TRUE(same(built.triangles, refitted.triangles));
     }
@@ -411,21 +417,21 @@ TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
     for (const Triangle& t : soup(400, 4)) triangles.push_back(t);
     for (std::size_t i = 0; i < 50; ++i)
         triangles.push_back(triangles[room + i]); // coincident copies
-    Bvh refitted = build(triangles);
+    Bvh refitted = build_bvh(triangles);
     std::size_t found = 0;
     for (int step = 0; step < 6; ++step) {
         const vec3 move = random.in_cube();
         for (std::size_t i = 0; i < room; ++i)
             for (vec3* corner : {&triangles[i].a, &triangles[i].b, &triangles[i].c})
                 *corner += move;
-        refit(refitted, triangles);
-        const Bvh rebuilt = build(triangles);
+        refit_bvh(refitted, triangles);
+        const Bvh rebuilt = build_bvh(triangles);
         for (int k = 0; k < 3000; ++k) {
             const Triangle& aim = triangles[random.below(triangles.size())];
             const vec3 origin = 2.0f * random.in_cube();
             const Ray<float> ray{origin, (k % 2 ? aim.a : (aim.a + aim.b) * 0.5f) - origin, 0};
-            const auto hit = closest_hit<float>(refitted, ray, test::kInfinity),
-                       wanted = closest_hit<float>(rebuilt, ray, test::kInfinity);
+            const auto hit = find_closest_hit<float>(refitted, ray, test::kInfinity),
+                       wanted = find_closest_hit<float>(rebuilt, ray, test::kInfinity);
             ASSERT_EQ(hit.has_value(), wanted.has_value());
             if (!hit) continue;
             ++found;
@@ -454,50 +460,51 @@ TEST(Refit, PartialRefitEqualsFullRefit) {
         std::vector<Triangle> triangles = soup(500, 6);
         for (std::size_t i = 0; i < triangles.size(); ++i)
             triangles[i].object = i >= 80 && i < 150 ? 1 : 0;
-        Bvh few = build(triangles, core), all = few;
-        const Reach reach = reach_of(few, std::vector<char>{0, 1});
-        EXPECT_LT(reach.boxes.size(), node_count(few)) << "half of them";
+        Bvh few = build_bvh(triangles, core), all = few;
+        const RefitRegion reach = find_refit_region(few, std::vector<char>{0, 1});
+        EXPECT_LT(reach.boxes.size(), count_nodes(few)) << "half of them";
         test::Numbers random(23);
         for (int step = 0; step < 5; ++step) {
             for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.in_cube();
             triangles[90].a =
                 -triangles[90].a; // a zero that changes its sign counts as a move, too
-            const auto run = refit(few, triangles, core, &reach);
+            const auto run = refit_bvh(few, triangles, core, &reach);
             EXPECT_EQ(run, bvh_run_of(all, few));
             std::vector<Triangle> elsewhere = triangles;
             for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
-            refit(all, elsewhere, {vec3(-9), vec3(9)});
-            refit(all, triangles, core);
+            refit_bvh(all, elsewhere, {vec3(-9), vec3(9)});
+            refit_bvh(all, triangles, core);
             ASSERT_TRUE(same(few.nodes, all.nodes)) << step;
             ASSERT_TRUE(same(few.triangles, all.triangles)) << step;
             for (const Bvh* tree : {&few, &all})
-                EXPECT_NEAR(tree->cost, cost(*tree), 1e-12 * cost(*tree)) << step;
+                EXPECT_NEAR(tree->cost, compute_sah_cost(*tree), 1e-12 * compute_sah_cost(*tree))
+                    << step;
         }
     }
 }
 
 TEST(Refit, CostRisesIfNeighbouringTrianglesMoveApart) {
     std::vector<Triangle> triangles = soup(500, 5);
-    Bvh tree = build(triangles);
-    const double before = cost(tree);
+    Bvh tree = build_bvh(triangles);
+    const double before = compute_sah_cost(tree);
     test::Numbers random(22);
     for (Triangle& t : triangles) {
         const vec3 move = 2.0f * random.in_cube();
         t.a += move, t.b += move, t.c += move;
     }
-    refit(tree, triangles);
-    EXPECT_GT(cost(tree), 2 * before);
-    EXPECT_LT(cost(build(triangles)), .5 * cost(tree));
+    refit_bvh(tree, triangles);
+    EXPECT_GT(compute_sah_cost(tree), 2 * before);
+    EXPECT_LT(compute_sah_cost(build_bvh(triangles)), .5 * compute_sah_cost(tree));
 }
 
 TEST(ClosestHit, RaysVisitFewNodes) {
-    const Bvh bvh = build(bvh_ball(5)); // the ball has 8192 triangles
+    const Bvh bvh = build_bvh(bvh_ball(5)); // the ball has 8192 triangles
     test::Numbers random(18);
     std::size_t total = 0;
     for (int i = 0; i < 1000; ++i) {
-        Steps steps;
-        closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, test::kInfinity, 0,
-                           &steps);
+        TraversalCounters steps;
+        find_closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, test::kInfinity,
+                                0, &steps);
         total += steps.total();
     }
     EXPECT_LT(total / 1000, 60u);

@@ -40,7 +40,7 @@ Material metal(float roughness, vec3 colour = vec3(1)) {
 TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
     for (const auto& [roughness, is] : {std::pair(0.f, true), {.1f, true}, {.11f, false}}) {
         Scene scene = panel(metal(roughness));
-        classify(scene);
+        find_mirrors(scene);
         EXPECT_EQ(mirrors(scene).size(), is ? 1u : 0u) << roughness;
         ASSERT_EQ(scene.unsupported.size(), is ? 0u : 1u);
         if (is) continue;
@@ -49,7 +49,7 @@ TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
         EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
         scene.mirror_max_roughness = .2f;
         // Classifies again with a higher roughness limit.
-        classify(scene);
+        find_mirrors(scene);
         EXPECT_EQ(mirrors(scene).size(), 1u);
         EXPECT_TRUE(scene.unsupported.empty());
     }
@@ -58,7 +58,7 @@ TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
 TEST(Classify, LargestF0ChannelDecidesWhetherAMetalIsAMirror) {
     for (const auto& [blue, is] : {std::pair(.19f, false), {.2f, true}}) {
         Scene scene = panel(metal(0, {.05f, .1f, blue}));
-        classify(scene);
+        find_mirrors(scene);
         EXPECT_EQ(scene.objects[0].mirror, is) << blue;
         EXPECT_EQ(scene.unsupported.size(), is ? 0u : 1u);
     }
@@ -66,15 +66,15 @@ TEST(Classify, LargestF0ChannelDecidesWhetherAMetalIsAMirror) {
 
 TEST(Classify, SmoothDielectricsAreMirrorsOnlyOnRequest) {
     Scene scene = panel({.name = "lacquer", .albedo = vec3(.5f), .roughness = .05f});
-    classify(scene);
+    find_mirrors(scene);
     EXPECT_FALSE(scene.objects[0].mirror);
     ASSERT_EQ(scene.unsupported.size(), 1u);
     EXPECT_EQ(scene.unsupported[0].id, "smooth-dielectric");
-    classify(scene, true);
+    find_mirrors(scene, true);
     EXPECT_TRUE(scene.objects[0].mirror);
     EXPECT_TRUE(scene.unsupported.empty());
     scene.materials[0].unlit = true;
-    classify(scene, true);
+    find_mirrors(scene, true);
     EXPECT_FALSE(scene.objects[0].mirror);
 }
 
@@ -86,38 +86,38 @@ std::vector<std::string> ids(const Scene& scene) {
 
 TEST(SettleGaps, IndirectLightOfDiffuseSurfacesIsListedAsUnsupported) {
     Scene scene = panel({.name = "wall", .albedo = vec3(.5f)});
-    settle_unsupported(scene);
+    sort_unsupported_features(scene);
     EXPECT_THAT(ids(scene), testing::IsEmpty()) << "nothing lights it";
     scene.punctual.push_back({.intensity = vec3(1)});
-    settle_unsupported(scene);
+    sort_unsupported_features(scene);
     ASSERT_THAT(ids(scene), ElementsAre("indirect-left-out"));
     EXPECT_EQ(scene.unsupported[0].count, 1u);
     EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'wall'");
     EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
     scene.punctual.clear();
     scene.environment = std::make_shared<Environment>();
-    settle_unsupported(scene);
+    sort_unsupported_features(scene);
     EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
     // A second call must not list anything twice.
-    settle_unsupported(scene);
+    sort_unsupported_features(scene);
     EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
     for (const Material& none :
          {Material{.albedo = vec3(0)}, {.albedo = vec3(1), .unlit = true}, metal(0)}) {
         scene.materials[0] = none;
-        settle_unsupported(scene);
+        sort_unsupported_features(scene);
         EXPECT_THAT(ids(scene), testing::IsEmpty()) << "it has no diffuse part";
     }
 }
 
 TEST(SettleGaps, LeftOutSpecularLobesOfRoughDielectricsAreListed) {
     Scene scene = panel({.name = "paint", .albedo = vec3(.5f), .roughness = .3f});
-    settle_unsupported(scene);
+    sort_unsupported_features(scene);
     EXPECT_TRUE(scene.unsupported.empty()) << "no file asks for a lobe";
     const auto listed = [&](float limit) {
         scene.unsupported.clear();
         add_unsupported_material(scene.unsupported, "specular-left-out", "materials[0] 'paint'", 0);
         scene.mirror_max_roughness = limit;
-        settle_unsupported(scene);
+        sort_unsupported_features(scene);
         return ids(scene);
     };
     EXPECT_THAT(listed(.1f), ElementsAre("specular-left-out"));
@@ -128,7 +128,7 @@ TEST(SettleGaps, LeftOutSpecularLobesOfRoughDielectricsAreListed) {
 
 TEST(Classify, MirrorsOfConstantReflectanceStayMirrors) {
     Scene scene = panel({.name = "m", .mirror = true, .reflectance = vec3(.01f)});
-    classify(scene);
+    find_mirrors(scene);
     EXPECT_FALSE(scene.objects[0].mirror);
     EXPECT_EQ(mirrors(scene).size(), 1u);
     EXPECT_TRUE(scene.unsupported.empty());
@@ -147,8 +147,8 @@ Scene partly_smooth(std::uint32_t columns) {
 TEST(Classify, TexturedMetalIsAMirrorIfATwentiethOfItsAreaIsSmooth) {
     for (const auto& [columns, is] : {std::pair(2u, true), {19u, true}, {21u, false}}) {
         Scene scene = partly_smooth(columns);
-        EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
-        classify(scene);
+        EXPECT_NEAR(measure_surface_kinds(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
+        find_mirrors(scene);
         EXPECT_EQ(scene.objects[0].mirror, is) << columns;
         EXPECT_EQ(scene.unsupported.size(), 1u) << "the rest is rough metal";
     }
@@ -172,9 +172,9 @@ TEST(Classify, MirrorShareIsWeightedByWorldArea) {
     }
     for (const uvec3& t : rough.triangles) mesh.triangles.push_back(t + 4u);
     add_mesh(scene, mesh, index);
-    EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, .25, .001);
+    EXPECT_NEAR(measure_surface_kinds(scene, scene.objects[0]).mirror, .25, .001);
     scene.objects[0].world_from_object[2].z = 1.0 / 3; // now both areas are equal, 1 to 1
-    EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, .5, .001);
+    EXPECT_NEAR(measure_surface_kinds(scene, scene.objects[0]).mirror, .5, .001);
 }
 
 TEST(Classify, F0MultipliesMaterialTextureAndVertexColours) {
@@ -185,13 +185,13 @@ TEST(Classify, F0MultipliesMaterialTextureAndVertexColours) {
     scene.meshes[0].colours.assign(4, vec4(1));
     const float f0 = .5f * linear_from_srgb(0x80);
     EXPECT_NEAR(f0, .1079, 1e-4);
-    EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 0);
+    EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 0);
     scene.materials[0].albedo = vec3(1);
-    const Surface surface = surface_of(scene, scene.objects[0]);
+    const SurfaceShares surface = measure_surface_kinds(scene, scene.objects[0]);
     EXPECT_EQ(surface.mirror, 1);
     EXPECT_NEAR(surface.mirror_f0.x, .2159, 1e-4);
     scene.meshes[0].colours.assign(4, vec4(.5f, .5f, .5f, 1));
-    EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 0);
+    EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 0);
 }
 
 TEST(Classify, CutOutTexelsDoNotCountAsArea) {
@@ -201,13 +201,13 @@ TEST(Classify, CutOutTexelsDoNotCountAsArea) {
                                       {0xffffffffu, 0x00ffffffu}); // the right texel is cut out
     material.roughness_texture = texture({2, 1}, {0xffff0000u, 0xffffff00u});
     const Scene scene = panel(material);
-    EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 1);
+    EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 1);
 }
 
 TEST(Texel, LookupFollowsTheWrapModeOfTheTexture) {
     using enum Texture::Wrap;
     Texture one = texture({3, 1}, {10, 20, 30});
-    const auto red = [&](float u) { return std::lround(255 * texel_at(one, {u, 0}).x); };
+    const auto red = [&](float u) { return std::lround(255 * read_texel(one, {u, 0}).x); };
     one.wrap_u = repeat;
     EXPECT_EQ(red(.1f), 10);
     EXPECT_EQ(red(1.5f), 20);
@@ -225,14 +225,14 @@ TEST(Texel, LookupFollowsTheWrapModeOfTheTexture) {
     EXPECT_NEAR(mean_texel(one).x, 20 / 255.0, 1e-6);
 }
 
-Shape::Kind kind_of(Mesh mesh) {
+MirrorShape::Kind kind_of(Mesh mesh) {
     Scene scene;
     add_mesh(scene, std::move(mesh), add_material(scene, {}));
-    return shape_of(scene, scene.objects[0]).kind;
+    return classify_mirror_shape(scene, scene.objects[0]).kind;
 }
 
 TEST(ShapeOf, MeshesAreClassifiedByShape) {
-    using enum Shape::Kind;
+    using enum MirrorShape::Kind;
     EXPECT_EQ(kind_of(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})), flat);
     EXPECT_EQ(kind_of(ball("b", 4)), sphere);
     EXPECT_EQ(kind_of(ball("b", 1)), convex) << "too few facets for a ball";
@@ -264,7 +264,7 @@ TEST(ShapeOf, SphereIsFittedToPartOfABall) {
     add_mesh(scene, dish, add_material(scene, {}));
     dmat4& world = scene.objects[0].world_from_object;
     world = dmat4(3), world[3] = dvec4(100, 5, -7, 1);
-    const Shape shape = shape_of(scene, scene.objects[0]);
+    const MirrorShape shape = classify_mirror_shape(scene, scene.objects[0]);
     EXPECT_FALSE(shape.is_closed);
     ASSERT_TRUE(shape.fit);
     EXPECT_NEAR(shape.fit->radius, 3, 1e-6);
@@ -283,12 +283,12 @@ TEST(ShapeOf, ClosedBoxIsConvexOrConcaveByFacing) {
         for (const uvec3& t : side.triangles) box.triangles.push_back(t + first);
     }
     add_mesh(scene, box, add_material(scene, {}));
-    Shape shape = shape_of(scene, scene.objects[0]);
-    EXPECT_EQ(shape.kind, Shape::Kind::concave) << "walls face in";
+    MirrorShape shape = classify_mirror_shape(scene, scene.objects[0]);
+    EXPECT_EQ(shape.kind, MirrorShape::Kind::concave) << "walls face in";
     EXPECT_TRUE(shape.is_closed);
     for (uvec3& t : scene.meshes[0].triangles) std::swap(t.y, t.z);
-    shape = shape_of(scene, scene.objects[0]);
-    EXPECT_EQ(shape.kind, Shape::Kind::convex);
+    shape = classify_mirror_shape(scene, scene.objects[0]);
+    EXPECT_EQ(shape.kind, MirrorShape::Kind::convex);
 }
 
 /// Scene files do not mark balls. One function recognises a ball by its triangles, for `info`,
@@ -313,13 +313,13 @@ TEST(Classify, SmoothMirrorBallsGetAnExactSphere) {
     }
     add_mesh(scene, facets, mirror);
     add_mesh(scene, ball("grey", 4), add_material(scene, {.name = "grey"}));
-    classify(scene);
+    find_mirrors(scene);
     ASSERT_TRUE(scene.objects[0].sphere);
     EXPECT_NEAR(distance(scene.objects[0].sphere->centre, dvec3(3, -2, 1)), 0, 1e-6);
     EXPECT_NEAR(scene.objects[0].sphere->radius, .5, 1e-6);
-    EXPECT_EQ(shape_of(scene, scene.objects[0]).kind, Shape::Kind::sphere);
+    EXPECT_EQ(classify_mirror_shape(scene, scene.objects[0]).kind, MirrorShape::Kind::sphere);
     EXPECT_FALSE(scene.objects[1].sphere);
-    EXPECT_NE(shape_of(scene, scene.objects[1]).kind, Shape::Kind::sphere);
+    EXPECT_NE(classify_mirror_shape(scene, scene.objects[1]).kind, MirrorShape::Kind::sphere);
     EXPECT_FALSE(scene.objects[2].sphere) << "no mirror";
 }
 
@@ -329,26 +329,26 @@ Scene ball_on_a_rig(const dvec3& first, const dvec3& last, const dvec3& of_paren
     Scene scene{.name = "ball"};
     add_mesh(scene, ball("ball", 5), add_material(scene, {.name = "m", .mirror = true}));
     const double half = std::sqrt(.5);
-    Rig rig;
+    NodeRig rig;
     rig.nodes.push_back({.translation = {1, 0, 0},
                          .scale = of_parent,
-                         .rotations = std::make_shared<const Turns>(Turns{
+                         .rotations = std::make_shared<const RotationTrack>(RotationTrack{
                              .times = {0, 2}, .values = {{0, 0, 0, 1}, {0, half, 0, half}}})});
-    rig.nodes.push_back(
-        {.parent = 0,
-         .translation = {5, 2, 0},
-         .scales = std::make_shared<const Keys>(Keys{.times = {0, 2}, .values = {first, last}})});
-    Follows follows{.rig = std::make_shared<const Rig>(std::move(rig)), .node = 1};
-    scene.objects[0].world_from_object = world_from_nodes(*follows.rig, 0)[1];
+    rig.nodes.push_back({.parent = 0,
+                         .translation = {5, 2, 0},
+                         .scales = std::make_shared<const TranslationTrack>(
+                             TranslationTrack{.times = {0, 2}, .values = {first, last}})});
+    RigAttachment follows{.rig = std::make_shared<const NodeRig>(std::move(rig)), .node = 1};
+    scene.objects[0].world_from_object = compute_node_transforms(*follows.rig, 0)[1];
     scene.objects[0].motion = std::move(follows);
     return scene;
 }
 
 TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
     Scene scene = ball_on_a_rig(dvec3(1), dvec3(3), dvec3(.5));
-    classify(scene);
+    find_mirrors(scene);
     for (const double seconds : {0., .5, 1.25, 2., 7.}) {
-        const Scene still = at(scene, seconds);
+        const Scene still = scene_at_time(scene, seconds);
         const Object& object = still.objects[0];
         ASSERT_TRUE(object.sphere) << seconds;
         EXPECT_NEAR(object.sphere->radius, .5 * (1 + std::min(seconds, 2.)), 1e-6);
@@ -361,14 +361,14 @@ TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
     for (Scene stretched :
          {ball_on_a_rig(dvec3(1), dvec3(1, 2, 1)), ball_on_a_rig(dvec3(0), dvec3(1)),
           ball_on_a_rig(dvec3(1), dvec3(2), dvec3(1, 1, 2))}) {
-        classify(stretched);
+        find_mirrors(stretched);
         EXPECT_FALSE(stretched.objects[0].sphere);
     }
     // A program may set a sphere itself. The sphere is lost as soon as the rig stretches it.
     Scene marked = ball_on_a_rig(dvec3(1), dvec3(1, 2, 1));
     marked.objects[0].sphere = Sphere{dvec3(marked.objects[0].world_from_object[3]), 1};
-    EXPECT_TRUE(at(marked, 0).objects[0].sphere);
-    EXPECT_FALSE(at(marked, 1).objects[0].sphere);
+    EXPECT_TRUE(scene_at_time(marked, 0).objects[0].sphere);
+    EXPECT_FALSE(scene_at_time(marked, 1).objects[0].sphere);
 }
 
 } // namespace

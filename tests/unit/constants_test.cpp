@@ -18,7 +18,8 @@ TEST(Constants, SpecialisationConstantsHaveOneNumberInAllShaders) {
     std::map<std::uint32_t, std::set<std::string>> names;
     for (const EmbeddedShader& shader : embedded_shaders()) {
         std::set<std::uint32_t> here;
-        for (const Constant& constant : reflect(shader.name, shader.words).constants) {
+        for (const SpecialisationConstant& constant :
+             reflect_spirv(shader.name, shader.words).constants) {
             EXPECT_TRUE(here.insert(constant.id).second)
                 << shader.name << ": " << constant.name << " has another's number";
             if (constant.id >= kOwn) continue;

@@ -26,13 +26,13 @@ class Instants {
 public:
     explicit Instants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
     Model at(double seconds) {
-        const scene::Scene now = scene::at(rest_, seconds);
-        return requirements_.of({now, rest_.cameras[0], {64, 64}, kEdge});
+        const scene::Scene now = scene::scene_at_time(rest_, seconds);
+        return requirements_.model_for({now, rest_.cameras[0], {64, 64}, kEdge});
     }
 
 private:
     const scene::Scene& rest_;
-    Requirements requirements_;
+    ModelBuilder requirements_;
 };
 
 int kept(const Model& before, const Model& after) {
@@ -46,7 +46,7 @@ int kept(const Model& before, const Model& after) {
 }
 
 TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     Instants instants(scene);
     const Model first = instants.at(0), second = instants.at(0), elsewhere = instants.at(1),
                 again = instants.at(1);
@@ -61,7 +61,7 @@ TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
 }
 
 TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
-    const scene::Scene scene = scene::cornell_mirrors();
+    const scene::Scene scene = scene::make_cornell_mirrors();
     Instants instants(scene);
     Model before = instants.at(0);
     int stays = 0;
@@ -78,10 +78,12 @@ TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
 }
 
 TEST(RequireStamps, EditsOfLampsMaterialsAndObjectsChangeContentHashes) {
-    const scene::Scene rest = scene::cornell_mirrors();
+    const scene::Scene rest = scene::make_cornell_mirrors();
     scene::Scene scene = rest;
-    Requirements requirements(scene);
-    const auto model = [&] { return Model(requirements.of({scene, scene.cameras[0], {64, 64}})); };
+    ModelBuilder requirements(scene);
+    const auto model = [&] {
+        return Model(requirements.model_for({scene, scene.cameras[0], {64, 64}}));
+    };
     const Model first = model();
     scene.materials[3].emission = {1, 1, 1};
     const Model dimmed = model();
@@ -114,7 +116,7 @@ TEST(RequireStamps, ApproachingBlockChangesOnlyTheFaceThatShowsTheBlock) {
     test::add_ball(scene, "ball", add_material(scene, {.mirror = true}), {0, 0, 0}, .5, 2);
     test::add_mesh(scene, scene::box("block", dvec3(-.2), dvec3(.2)), white);
     scene.objects.back().world_from_object[3] = {3, 0, 0, 1};
-    scene.objects.back().motion = scene::Harmonic{.amplitude = {.5, 0, 0}, .period = 1};
+    scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.5, 0, 0}, .period = 1};
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
     Instants instants(scene);
     const Model before = instants.at(.1), after = instants.at(.2);
@@ -128,14 +130,14 @@ TEST(RequireShadows, ShadowBoundsFollowTheLight) {
     scene::PointLight light{.position = {0, 10, 0}};
     // The shadow of the object's top reaches the floor at 2.5 times the top's distance from the
     // lamp.
-    const Shade below = shade_of(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    const ShadeVolume below = compute_shade_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
     EXPECT_EQ(below.from.hi, dvec3(1, 6, 1));
     EXPECT_EQ(below.to.hi, dvec3(2.5, 0, 2.5));
     EXPECT_EQ(below.to.lo, dvec3(-2.5, -2.5, -2.5));
     // An object around the lamp may shade any place of the room.
-    EXPECT_EQ(shade_of(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
+    EXPECT_EQ(compute_shade_volume(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
     light = {.axis = {0, -1, 0}, .directional = true};
-    const Shade along = shade_of(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    const ShadeVolume along = compute_shade_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
     EXPECT_EQ(along.to.lo, dvec3(-1, -1, -1));
     EXPECT_EQ(along.to.hi, dvec3(1, 0, 1));
 }
@@ -153,7 +155,7 @@ dvec3 ray_of(int face, int k) {
 std::vector<std::vector<double>> seen_in_face(const test::Tree& tree, const scene::Scene& now,
                                               std::size_t mirror, int face) {
     const dvec3 centre = scene::bounds(now, now.objects[mirror]).centre();
-    const std::vector<scene::PointLight> lights = scene::lights(now);
+    const std::vector<scene::PointLight> lights = scene::list_lights(now);
     std::vector<std::vector<double>> seen;
     for (int k = 0; k < kRays * kRays; ++k) {
         const dvec3 direction = ray_of(face, k);
@@ -170,12 +172,12 @@ std::vector<std::vector<double>> seen_in_face(const test::Tree& tree, const scen
 }
 
 /// Counts rays whose results differ between two times, but that lie outside the part of the face
-/// that `differing` reports.
+/// that `find_differing_part` reports.
 int outside(const MirrorNeeds& before, const MirrorNeeds& after, int face,
             const std::vector<std::vector<double>>& then,
             const std::vector<std::vector<double>>& now) {
     const auto f = static_cast<std::size_t>(face);
-    const FacePart part = differing(before.pieces->faces[f], after.pieces->faces[f]);
+    const FacePart part = find_differing_part(before.pieces->faces[f], after.pieces->faces[f]);
     int count = 0;
     for (int k = 0; k < kRays * kRays; ++k) {
         const dvec2 at(f64::cube_coordinates(face, ray_of(face, k)));
@@ -192,11 +194,12 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
         test::Numbers numbers(seed + 1000);
         // Chooses one of the six objects before the lamp.
         const std::size_t mover = scene.objects.size() - 2 - numbers.below(6);
-        scene.objects[mover].motion = scene::Harmonic{.amplitude = dvec3(numbers.direction()),
-                                                      .period = 2};
+        scene.objects[mover].motion = scene::HarmonicMotion{.amplitude = dvec3(numbers.direction()),
+                                                            .period = 2};
         Instants instants(scene);
         const Model before = instants.at(.2), after = instants.at(.5);
-        const scene::Scene then = scene::at(scene, .2), now = scene::at(scene, .5);
+        const scene::Scene then = scene::scene_at_time(scene, .2),
+                           now = scene::scene_at_time(scene, .5);
         const test::Tree old_tree(then), new_tree(now);
         const std::vector<std::size_t> mirrors = scene::mirrors(scene);
         for (std::size_t i = 0; i < mirrors.size(); ++i) {

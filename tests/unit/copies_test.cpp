@@ -29,17 +29,18 @@ scene::Scene with_copies(std::size_t count) {
 /// Counts the traversal steps of a grid of rays through the bounds of `count` coincident triangles.
 std::size_t steps_past(std::size_t count) {
     const scene::Scene scene = with_copies(count);
-    const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene));
-    const bvh::Bvh tree = app::hierarchy_without(geometry, geometry.ranges.size());
-    bvh::Steps steps;
+    const render::Geometry geometry = render::make_geometry(scene, render::make_scene_units(scene));
+    const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
+    bvh::TraversalCounters steps;
     int hits = 0;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
             const vec3 low(tree.nodes[0]), high(tree.nodes[1]);
             const vec3 at = low +
                             (high - low) * vec3((float(x) + .5f) / 16, (float(y) + .5f) / 16, 0);
-            const auto hit = bvh::closest_hit<float>(tree, {at + vec3(0, 0, 3), vec3(0, 0, -1), 0},
-                                                     std::numeric_limits<float>::max(), 0, &steps);
+            const auto hit = bvh::find_closest_hit<float>(
+                tree, {at + vec3(0, 0, 3), vec3(0, 0, -1), 0}, std::numeric_limits<float>::max(), 0,
+                &steps);
             if (!hit) continue;
             ++hits;
             EXPECT_EQ(hit->object, 0u) << "the first of them is seen";
@@ -61,10 +62,10 @@ TEST(CopiesInOnePlace, CopiesOfMaskedSurfacesAreKept) {
     for (std::uint32_t i = 0; i < 40; ++i)
         triangles.push_back(
             {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kMasked : 0});
-    const bvh::Bvh tree = bvh::build(triangles, {}, bvh::Copies::of_all);
+    const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::CopyHandling::of_all);
     // Ten masked objects keep one copy each, and the other ten objects keep one copy together.
-    EXPECT_EQ(bvh::triangle_count(tree), 11u);
-    EXPECT_EQ(bvh::triangle_count(bvh::build(triangles)), 20u);
+    EXPECT_EQ(bvh::count_triangles(tree), 11u);
+    EXPECT_EQ(bvh::count_triangles(bvh::build_bvh(triangles)), 20u);
 }
 
 } // namespace

@@ -15,7 +15,7 @@
 namespace {
 
 using namespace catoptric;
-using scene::core_bounds;
+using scene::compute_core_bounds;
 
 scene::Mesh triangle(const std::string& name, const dvec3& at, double size = 1) {
     return {.name = name,
@@ -25,7 +25,7 @@ scene::Mesh triangle(const std::string& name, const dvec3& at, double size = 1) 
 }
 
 scene::Scene with_stray(double distance) {
-    scene::Scene scene = scene::cornell_mirrors();
+    scene::Scene scene = scene::make_cornell_mirrors();
     test::add_mesh(scene, triangle("stray", {distance, 0, distance}), 0);
     return scene;
 }
@@ -37,19 +37,19 @@ void core_expect_same(const Bounds<double>& found, const Bounds<double>& wanted)
 
 TEST(Core, CoreIsTheWholeSceneIfNothingIsFarOutside) {
     for (const scene::Scene& scene :
-         {scene::cornell_mirrors(), test::room(3, 2), test::furnace(1), with_stray(1500)})
-        core_expect_same(core_bounds(scene), scene::bounds(scene));
-    EXPECT_TRUE(core_bounds({}).empty());
+         {scene::make_cornell_mirrors(), test::room(3, 2), test::furnace(1), with_stray(1500)})
+        core_expect_same(compute_core_bounds(scene), scene::bounds(scene));
+    EXPECT_TRUE(compute_core_bounds({}).empty());
 }
 
 TEST(Core, CoreLeavesOutObjectsFarOutside) {
-    const Bounds<double> room = scene::bounds(scene::cornell_mirrors());
+    const Bounds<double> room = scene::bounds(scene::make_cornell_mirrors());
     for (const double distance : {1e4, 1e6, 1e9, 1e30})
-        core_expect_same(core_bounds(with_stray(distance)), room);
+        core_expect_same(compute_core_bounds(with_stray(distance)), room);
     scene::Scene many = with_stray(1e5);
     for (int i = 0; i < 3; ++i)
         test::add_mesh(many, triangle("more", dvec3(0, 1e7 * (i + 1), 0), 1e5), 0);
-    core_expect_same(core_bounds(many), room);
+    core_expect_same(compute_core_bounds(many), room);
 }
 
 TEST(Core, CoreLeavesOutAFarTriangleOfTheOnlyMesh) {
@@ -66,7 +66,7 @@ TEST(Core, CoreLeavesOutAFarTriangleOfTheOnlyMesh) {
     const auto last = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.triangles.push_back({last - 3, last - 2, last - 1});
     test::add_mesh(one, mesh, 0);
-    const Bounds<double> found = core_bounds(one);
+    const Bounds<double> found = compute_core_bounds(one);
     // The core is found from a sample of corners, so the test allows a tolerance.
     for (int axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(found.lo[axis], core.lo[axis], .1);
@@ -80,13 +80,13 @@ TEST(Core, CoreLeavesOutADistantSkyOfManyTriangles) {
     scene::Mesh sky = scene::ball("sky", 6);
     for (dvec3& position : sky.positions) position = 1e6 * position + dvec3(3e5, 0, 0);
     test::add_mesh(scene, sky, 0);
-    core_expect_same(core_bounds(scene), room);
+    core_expect_same(compute_core_bounds(scene), room);
 }
 
 TEST(Core, ObjectsFarOutsideDoNotChangeSceneUnits) {
-    const render::Space plain = render::space_of(scene::cornell_mirrors());
+    const render::SceneUnits plain = render::make_scene_units(scene::make_cornell_mirrors());
     for (const double distance : {1e4, 1e9}) {
-        const render::Space with = render::space_of(with_stray(distance));
+        const render::SceneUnits with = render::make_scene_units(with_stray(distance));
         EXPECT_EQ(with.origin_world, plain.origin_world);
         EXPECT_EQ(with.scale, plain.scale);
         EXPECT_EQ(with.core.lo, plain.core.lo);
@@ -104,7 +104,7 @@ scene::Scene room_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
 }
 
 dvec3 origin_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
-    return render::space_of(room_with(mirrors)).origin_world;
+    return render::make_scene_units(room_with(mirrors)).origin_world;
 }
 
 /// Floats keep 24 bits, so a mirror that is small compared with its distance from the origin loses
@@ -128,8 +128,8 @@ TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
     const std::vector<std::pair<double, dvec3>> apart{{1e-4, place}, {1e-4, -place}};
     EXPECT_EQ(origin_with(apart), middle);
     const scene::Scene scene = room_with(apart);
-    const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene),
-                                                            render::Spaces::own);
+    const render::Geometry geometry = render::make_geometry(scene, render::make_scene_units(scene),
+                                                            render::ObjectSpaceChoice::own);
     for (const std::size_t mirror : scene::mirrors(scene))
         EXPECT_TRUE(geometry.ranges[mirror].own) << mirror;
 }
@@ -138,35 +138,36 @@ TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
 /// the vertices of the room would lose precision.
 TEST(Core, MirrorFarOutsideDoesNotMoveTheOrigin) {
     const scene::Scene scene = room_with({{.5, {1e6, 2e5, 0}}});
-    const render::Space space = render::space_of(scene);
+    const render::SceneUnits space = render::make_scene_units(scene);
     EXPECT_EQ(space.origin_world, scene::bounds(test::room(0, 1)).centre());
-    const render::Geometry geometry = render::make_geometry(scene, space, render::Spaces::own);
+    const render::Geometry geometry = render::make_geometry(scene, space,
+                                                            render::ObjectSpaceChoice::own);
     EXPECT_TRUE(geometry.ranges.back().own);
     for (std::size_t i = 0; i + 1 < geometry.ranges.size(); ++i)
         EXPECT_FALSE(geometry.ranges[i].own) << scene.objects[i].name;
 }
 
 TEST(Core, ObjectsBeyondTheReachOfFloatsAreNamed) {
-    scene::Scene scene = scene::cornell_mirrors();
+    scene::Scene scene = scene::make_cornell_mirrors();
     const std::size_t objects = scene.objects.size();
     test::add_mesh(scene, triangle("reachable", dvec3(1e20, 0, 0), 1e19), 0);
     test::add_mesh(scene, triangle("beyond", dvec3(1e22, 0, 0), 1e21), 0);
     try {
-        render::make_geometry(scene, render::space_of(scene));
+        render::make_geometry(scene, render::make_scene_units(scene));
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::exhausted);
         EXPECT_THAT(error.what(), testing::HasSubstr("object 'beyond': wanted every corner within "
                                                      "1e+18 sizes of the scene's core"));
     }
-    scene::Notes notes;
-    // finish(), which every loader calls, drops the object that floats cannot reach.
-    scene::finish(scene, "file.obj", notes);
+    scene::LoaderNotes notes;
+    // finish_loading(), which every loader calls, drops the object that floats cannot reach.
+    scene::finish_loading(scene, "file.obj", notes);
     EXPECT_EQ(scene.objects.size(), objects + 1);
     EXPECT_THAT(scene.warnings,
                 testing::ElementsAre("file.obj: objects farther away than floats reach, left out: "
                                      "1 (first: 'beyond')"));
-    render::make_geometry(scene, render::space_of(scene));
+    render::make_geometry(scene, render::make_scene_units(scene));
 }
 
 std::vector<bvh::Triangle> triangles_of(const render::Geometry& geometry) {
@@ -207,17 +208,17 @@ TEST(Geometry, LampCornersRunCounterClockwiseAroundTheirNormals) {
 /// The boxes of a BVH are widened by a rounding error that grows with distance. One stray triangle
 /// must not widen all boxes, and rays must still find the stray triangle.
 TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
-    const scene::Scene room = scene::cornell_mirrors(), scene = with_stray(1e9);
-    const render::Geometry plain = render::make_geometry(room, render::space_of(room)),
-                           geometry = render::make_geometry(scene, render::space_of(scene));
-    const bvh::Bvh alone = bvh::build(triangles_of(plain), plain.core),
-                   with = bvh::build(triangles_of(geometry), geometry.core);
+    const scene::Scene room = scene::make_cornell_mirrors(), scene = with_stray(1e9);
+    const render::Geometry plain = render::make_geometry(room, render::make_scene_units(room)),
+                           geometry = render::make_geometry(scene, render::make_scene_units(scene));
+    const bvh::Bvh alone = bvh::build_bvh(triangles_of(plain), plain.core),
+                   with = bvh::build_bvh(triangles_of(geometry), geometry.core);
     test::Numbers random(3);
-    bvh::Steps steps_alone, steps_with;
+    bvh::TraversalCounters steps_alone, steps_with;
     for (int i = 0; i < 2000; ++i) {
         const f32::Ray ray{.4f * random.in_cube(), random.direction(), 0};
-        const auto wanted = bvh::closest_hit<float>(alone, ray, 1e30f, 0, &steps_alone),
-                   found = bvh::closest_hit<float>(with, ray, 1e30f, 0, &steps_with);
+        const auto wanted = bvh::find_closest_hit<float>(alone, ray, 1e30f, 0, &steps_alone),
+                   found = bvh::find_closest_hit<float>(with, ray, 1e30f, 0, &steps_with);
         ASSERT_EQ(found.has_value(), wanted.has_value());
         ASSERT_EQ(found ? found->triangle : 0, wanted ? wanted->triangle : 0);
     }
@@ -233,8 +234,8 @@ TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
         float t;
         vec3 weights;
         const bool meets = f32::triangle_test(stray.a, stray.b, stray.c, ray.origin,
-                                              f32::ray_shear(ray.direction), t, weights);
-        const auto hit = bvh::closest_hit<float>(with, ray, 1e30f);
+                                              f32::make_ray_shear(ray.direction), t, weights);
+        const auto hit = bvh::find_closest_hit<float>(with, ray, 1e30f);
         missed += meets && !(hit && (hit->triangle + 1 == all.size() || hit->t <= t));
     }
     EXPECT_EQ(missed, 0u);

@@ -1,5 +1,5 @@
-// Tests of objects_covering, which finds the object that each pixel shows without a BVH. Rays
-// through a BVH give the expected objects.
+// Tests of find_first_object_per_pixel, which finds the object that each pixel shows without a BVH.
+// Rays through a BVH give the expected objects.
 #include "bvh/closest_hit.hpp"
 #include "render/space.hpp"
 #include "scene/load.hpp"
@@ -15,12 +15,12 @@ namespace catoptric {
 namespace {
 
 std::vector<int> by_tree(const render::Geometry& geometry, const shared::View& view, uvec2 size) {
-    const bvh::Bvh tree = app::hierarchy_without(geometry, geometry.ranges.size());
+    const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
-        const auto hit = bvh::closest_hit<float>(tree, app::camera_ray(view, size, pixel),
-                                                 std::numeric_limits<float>::max(),
-                                                 bvh::kHidden | bvh::kOneSided);
+        const auto hit = bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, size, pixel),
+                                                      std::numeric_limits<float>::max(),
+                                                      bvh::kHidden | bvh::kOneSided);
         seen.push_back(hit ? static_cast<int>(hit->object) : -1);
     }
     return seen;
@@ -40,12 +40,12 @@ TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
     std::mt19937 random(5);
     for (const char* name : {"cornell-mirrors", "room", "courtyard", "gallery"}) {
         const scene::Scene scene = scene::load(name);
-        const render::Space space = render::space_of(scene);
+        const render::SceneUnits space = render::make_scene_units(scene);
         const render::Geometry geometry = render::make_geometry(scene, space);
         for (int k = 0; k < 8; ++k) {
             const scene::Camera camera = drawn_camera(scene.cameras.front(), random);
-            const shared::View view = render::camera_view(camera, space, kSize, 0);
-            const auto seen = app::objects_covering(geometry, view, kSize, 1U << 30);
+            const shared::View view = render::make_camera_view(camera, space, kSize, 0);
+            const auto seen = app::find_first_object_per_pixel(geometry, view, kSize, 1U << 30);
             ASSERT_TRUE(seen.has_value());
             EXPECT_EQ(*seen, by_tree(geometry, view, kSize)) << name << ", camera " << k;
         }
@@ -54,10 +54,10 @@ TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
 
 TEST(Coverage, SearchStopsAtTheLimitOfTests) {
     const scene::Scene scene = scene::load("cornell-mirrors");
-    const render::Space space = render::space_of(scene);
+    const render::SceneUnits space = render::make_scene_units(scene);
     const render::Geometry geometry = render::make_geometry(scene, space);
-    const shared::View view = render::camera_view(scene.cameras.front(), space, {64, 64}, 0);
-    EXPECT_FALSE(app::objects_covering(geometry, view, {64, 64}, 100));
+    const shared::View view = render::make_camera_view(scene.cameras.front(), space, {64, 64}, 0);
+    EXPECT_FALSE(app::find_first_object_per_pixel(geometry, view, {64, 64}, 100));
 }
 
 } // namespace

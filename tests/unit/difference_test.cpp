@@ -178,29 +178,29 @@ TEST(Difference, PicturesMasksAndMapsOfDifferentSizesAreRefused) {
         test::refusal(Failure::bad_data,
                       [&] { difference(Picture(3, 2), Picture(3, 2), {}, std::vector<float>(7)); }),
         "a difference of 6 pixels wants a FLIP map of as many, found 7");
-    EXPECT_THAT(
-        test::refusal(Failure::bad_data, [&] { mean_of(Picture(3, 2), Range::clamped, Mask(5)); }),
-        HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
+    EXPECT_THAT(test::refusal(Failure::bad_data,
+                              [&] { mean_of(Picture(3, 2), ValueRange::clamped, Mask(5)); }),
+                HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
 }
 
 TEST(Mean, MeanUsesUnclampedOrClampedValues) {
     const Picture picture = difference_row_of({vec3(0, 3, -1), vec3(1, 0.5F, 0.5F)});
-    const Mean plain = mean_of(picture, Range::unclamped);
+    const Mean plain = mean_of(picture, ValueRange::unclamped);
     EXPECT_EQ(plain.rgb, dvec3(0.5, 1.75, -0.25));
     EXPECT_DOUBLE_EQ(plain.all, 2.0 / 3);
-    const Mean clamped = mean_of(picture, Range::clamped);
+    const Mean clamped = mean_of(picture, ValueRange::clamped);
     EXPECT_EQ(clamped.rgb, dvec3(0.5, 0.75, 0.25));
     EXPECT_DOUBLE_EQ(clamped.all, 0.5);
-    EXPECT_EQ(mean_of(picture, Range::unclamped, {0, 1}).rgb, dvec3(1, 0.5, 0.5));
-    EXPECT_TRUE(std::isnan(mean_of(picture, Range::clamped, {0, 0}).all));
+    EXPECT_EQ(mean_of(picture, ValueRange::unclamped, {0, 1}).rgb, dvec3(1, 0.5, 0.5));
+    EXPECT_TRUE(std::isnan(mean_of(picture, ValueRange::clamped, {0, 0}).all));
 }
 
 TEST(Mean, MeanOfNanIsNan) {
     const Picture picture = difference_row_of({vec3(test::kNan, test::kInfinity, 0.5F)});
-    for (const Range range : {Range::unclamped, Range::clamped})
+    for (const ValueRange range : {ValueRange::unclamped, ValueRange::clamped})
         EXPECT_TRUE(std::isnan(mean_of(picture, range).rgb.x));
-    EXPECT_EQ(mean_of(picture, Range::clamped).rgb.y, 1);
-    EXPECT_TRUE(std::isinf(mean_of(picture, Range::unclamped).rgb.y));
+    EXPECT_EQ(mean_of(picture, ValueRange::clamped).rgb.y, 1);
+    EXPECT_TRUE(std::isinf(mean_of(picture, ValueRange::unclamped).rgb.y));
 }
 
 } // namespace

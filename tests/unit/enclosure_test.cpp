@@ -1,5 +1,5 @@
-// Tests of render::encloses, which tells whether a mirror's triangles enclose a point, and of
-// render::is_shell.
+// Tests of render::encloses_point, which tells whether a mirror's triangles enclose a point, and of
+// render::is_closed_shell.
 #include "render/enclosure.hpp"
 #include "scene/build.hpp"
 #include "support/scenes.hpp"
@@ -19,7 +19,7 @@ struct EnclosureAlone {
         geometry = render::make_geometry(scene, {});
     }
     bool encloses(vec3 point) const {
-        return render::encloses(geometry, geometry.ranges.front(), dvec3(point));
+        return render::encloses_point(geometry, geometry.ranges.front(), dvec3(point));
     }
     render::Geometry geometry;
 };
@@ -41,14 +41,15 @@ scene::Mesh enclosure_box(std::initializer_list<int> walls, bool outwards) {
 
 TEST(Shell, ShellIsAClosedMeshThatFacesOutwards) {
     const auto all = {0, 1, 2, 3, 4, 5};
-    EXPECT_TRUE(render::is_shell(scene::ball("ball", 3)));
-    EXPECT_TRUE(render::is_shell(enclosure_box(all, true)));
-    EXPECT_FALSE(render::is_shell(enclosure_box(all, false))) << "faces in";
-    EXPECT_FALSE(render::is_shell(enclosure_box({0, 1, 2, 3, 4}, true))) << "open";
-    EXPECT_FALSE(render::is_shell(scene::torus("torus", 1, .3, 24))) << "not seen from its middle";
+    EXPECT_TRUE(render::is_closed_shell(scene::ball("ball", 3)));
+    EXPECT_TRUE(render::is_closed_shell(enclosure_box(all, true)));
+    EXPECT_FALSE(render::is_closed_shell(enclosure_box(all, false))) << "faces in";
+    EXPECT_FALSE(render::is_closed_shell(enclosure_box({0, 1, 2, 3, 4}, true))) << "open";
+    EXPECT_FALSE(render::is_closed_shell(scene::torus("torus", 1, .3, 24)))
+        << "not seen from its middle";
     scene::Mesh turned = scene::ball("ball", 2);
     std::swap(turned.triangles[5].x, turned.triangles[5].y);
-    EXPECT_FALSE(render::is_shell(turned)) << "one triangle faces in";
+    EXPECT_FALSE(render::is_closed_shell(turned)) << "one triangle faces in";
 }
 
 TEST(Enclosure, BallEnclosesThePointsInside) {

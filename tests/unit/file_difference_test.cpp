@@ -38,7 +38,7 @@ TEST_F(FileDifferences, FiguresFromBandsEqualThoseOfWholePictures) {
     const Picture a = read_picture(folder / "a.exr"), b = read_picture(folder / "b.exr");
     const Difference whole = difference(a, b, {},
                                         flip(to_unrounded_display(a), to_unrounded_display(b)));
-    const FileDifference found = difference_of_files(folder / "a.exr", folder / "b.exr", {}, 0);
+    const FileDifference found = compare_picture_files(folder / "a.exr", folder / "b.exr", {}, 0);
     EXPECT_EQ(found.width, width);
     EXPECT_EQ(found.height, height);
     EXPECT_GT(whole.flip, .01);
@@ -50,8 +50,8 @@ TEST_F(FileDifferences, FiguresFromBandsEqualThoseOfWholePictures) {
     EXPECT_EQ(found.difference.max_x, whole.max_x);
     EXPECT_EQ(found.difference.max_y, whole.max_y);
     EXPECT_EQ(found.difference.longest_line, whole.longest_line);
-    EXPECT_EQ(found.a_mean.all, mean_of(a, Range::unclamped).all);
-    EXPECT_EQ(found.b_clamped.all, mean_of(b, Range::clamped).all);
+    EXPECT_EQ(found.a_mean.all, mean_of(a, ValueRange::unclamped).all);
+    EXPECT_EQ(found.b_clamped.all, mean_of(b, ValueRange::clamped).all);
 }
 
 TEST_F(FileDifferences, PictureFilesOfDifferentSizesAreRefused) {
@@ -59,7 +59,7 @@ TEST_F(FileDifferences, PictureFilesOfDifferentSizesAreRefused) {
     write_png(Picture(2, 3), folder / "b.png");
     EXPECT_THAT(
         test::refusal(Failure::bad_data,
-                      [&] { difference_of_files(folder / "a.png", folder / "b.png", {}, 0); }),
+                      [&] { compare_picture_files(folder / "a.png", folder / "b.png", {}, 0); }),
         testing::HasSubstr("b.png is 2x3: wanted two pictures of one size"));
 }
 

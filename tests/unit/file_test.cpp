@@ -75,20 +75,20 @@ TEST_F(File, ReplacedFileKeepsItsPermissions) {
 }
 
 TEST_F(File, RealPathResolvesAllLinks) {
-    using catoptric::real_path;
+    using catoptric::resolve_real_path;
     const fs::path real = fs::canonical(folder);
     fs::create_directories(folder / "a/b");
     fs::create_directory_symlink("a/b", folder / "short");
     fs::create_symlink("a/missing.txt", folder / "dangling");
     fs::create_symlink("../dangling", folder / "a/twice");
-    EXPECT_EQ(real_path(folder / "short/../b/./x"), real / "a/b/x");
-    EXPECT_EQ(real_path(folder / "dangling"), real / "a/missing.txt");
-    EXPECT_EQ(real_path(folder / "a/twice"), real / "a/missing.txt");
-    EXPECT_EQ(real_path(folder / "no/../such/folder/x"), real / "such/folder/x");
-    EXPECT_EQ(real_path("x"), fs::canonical(".") / "x");
-    // On a loop of links, real_path must end nevertheless.
+    EXPECT_EQ(resolve_real_path(folder / "short/../b/./x"), real / "a/b/x");
+    EXPECT_EQ(resolve_real_path(folder / "dangling"), real / "a/missing.txt");
+    EXPECT_EQ(resolve_real_path(folder / "a/twice"), real / "a/missing.txt");
+    EXPECT_EQ(resolve_real_path(folder / "no/../such/folder/x"), real / "such/folder/x");
+    EXPECT_EQ(resolve_real_path("x"), fs::canonical(".") / "x");
+    // On a loop of links, resolve_real_path must end nevertheless.
     fs::create_symlink("loop", folder / "loop");
-    EXPECT_EQ(real_path(folder / "loop"), folder / "loop");
+    EXPECT_EQ(resolve_real_path(folder / "loop"), folder / "loop");
 }
 
 TEST_F(File, WritingToALinkWritesTheTarget) {

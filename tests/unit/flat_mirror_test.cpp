@@ -24,7 +24,7 @@ const dmat4 kTurned = glm::rotate(glm::translate(dmat4(1), dvec3(30, -7, 2)), .7
                       glm::scale(dmat4(1), dvec3(3, .5, 2));
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
-    const auto flat = scene::flat(board(), kTurned);
+    const auto flat = scene::make_flat_mirror_room(board(), kTurned);
     ASSERT_TRUE(flat);
     EXPECT_LE(flat->off, 1e-12);
     const dvec3 normal = glm::normalize(glm::dmat3(kTurned)[2]);
@@ -38,38 +38,38 @@ TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
                   1e-12);
         EXPECT_NEAR(dot(at - flat->point, flat->normal), 0, 1e-12);
     }
-    EXPECT_FALSE(scene::flat(scene::ball("ball", 2), dmat4(1)));
-    EXPECT_FALSE(scene::flat({}, dmat4(1)));
-    EXPECT_FALSE(scene::flat(board(), dmat4(0))) << "without an area";
+    EXPECT_FALSE(scene::make_flat_mirror_room(scene::ball("ball", 2), dmat4(1)));
+    EXPECT_FALSE(scene::make_flat_mirror_room({}, dmat4(1)));
+    EXPECT_FALSE(scene::make_flat_mirror_room(board(), dmat4(0))) << "without an area";
 }
 
 TEST(FlatMirror, DeviationFromFlatCoversNormalsAndVertices) {
     scene::Mesh turned = board();
     turned.normals[2] = glm::normalize(vec3(.003f, 0, 1));
-    EXPECT_NEAR(scene::flat(turned, dmat4(1))->off, .003, 1e-6);
+    EXPECT_NEAR(scene::make_flat_mirror_room(turned, dmat4(1))->off, .003, 1e-6);
     turned.normals[2] = glm::normalize(vec3(.03f, 0, 1));
-    EXPECT_FALSE(scene::flat(turned, dmat4(1)));
+    EXPECT_FALSE(scene::make_flat_mirror_room(turned, dmat4(1)));
     scene::Mesh bent = board();
     // The vertex is sqrt(2) from the diagonal, so its triangle tilts by .004 / sqrt(2) against the
     // other triangle.
     bent.positions[3].z = .004;
-    EXPECT_NEAR(scene::flat(bent, dmat4(1))->off, .004 / std::sqrt(2.0), 1e-7);
+    EXPECT_NEAR(scene::make_flat_mirror_room(bent, dmat4(1))->off, .004 / std::sqrt(2.0), 1e-7);
     scene::Mesh back = board();
     for (vec3& normal : back.normals) normal = -normal;
-    EXPECT_EQ(scene::flat(back, dmat4(1))->off, 0) << "a mirror has two sides";
+    EXPECT_EQ(scene::make_flat_mirror_room(back, dmat4(1))->off, 0) << "a mirror has two sides";
 }
 
 /// A rotated board, modelled as a thin closed box, has two large faces and four narrow faces at the
 /// rim.
 TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     const scene::Mesh box = scene::box("board", {-1, -1, -.02}, {1, 1, .02});
-    ASSERT_FALSE(scene::flat(box, kTurned));
-    const scene::FlatFaces flats = scene::flat_faces(box, kTurned);
+    ASSERT_FALSE(scene::make_flat_mirror_room(box, kTurned));
+    const scene::FlatFaces flats = scene::find_flat_faces(box, kTurned);
     ASSERT_EQ(flats.faces.size(), 6u);
     EXPECT_TRUE(flats.bent.empty());
     EXPECT_NEAR(flats.share(1e-9), 1, 1e-9);
     std::uint32_t triangles = 0;
-    for (const scene::Flat& face : flats.faces) {
+    for (const scene::FlatFace& face : flats.faces) {
         EXPECT_TRUE(face.is_one_sided);
         EXPECT_EQ(face.corners.size(), 4u);
         EXPECT_LT(dot(dvec3(kTurned[3]) - face.point, face.normal), 0) << "it looks outwards";
@@ -79,11 +79,11 @@ TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     EXPECT_GT(flats.faces[0].share + flats.faces[1].share, .9) << "the largest first";
     scene::Mesh open = box;
     open.triangles.pop_back();
-    EXPECT_FALSE(scene::flat_faces(open, kTurned).faces.front().is_one_sided)
+    EXPECT_FALSE(scene::find_flat_faces(open, kTurned).faces.front().is_one_sided)
         << "somebody may look in";
     scene::Mesh inside_out = box;
     for (uvec3& t : inside_out.triangles) std::swap(t.y, t.z);
-    for (const scene::Flat& face : scene::flat_faces(inside_out, kTurned).faces)
+    for (const scene::FlatFace& face : scene::find_flat_faces(inside_out, kTurned).faces)
         EXPECT_LT(dot(dvec3(kTurned[3]) - face.point, face.normal), 0);
 }
 
@@ -94,14 +94,14 @@ TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
         for (int k = 0; k < 3; ++k)
             if (std::abs(rounded.normals[t[k]].z) < .5f)
                 rounded.normals[t[k]] = glm::normalize(rounded.normals[t[k]] + vec3(0, 0, .2f));
-    const scene::FlatFaces flats = scene::flat_faces(rounded, dmat4(1));
+    const scene::FlatFaces flats = scene::find_flat_faces(rounded, dmat4(1));
     EXPECT_EQ(flats.faces.size(), 2u);
     EXPECT_NEAR(flats.share(1e-6), 8 / 9.6, 1e-6);
     ASSERT_FALSE(flats.bent.empty());
-    const scene::FlatFaces ball = scene::flat_faces(scene::ball("ball", 3), dmat4(1));
+    const scene::FlatFaces ball = scene::find_flat_faces(scene::ball("ball", 3), dmat4(1));
     EXPECT_TRUE(ball.faces.empty());
     EXPECT_EQ(ball.bent.size(), 1u);
-    const scene::FlatFaces quad = scene::flat_faces(board(), kTurned);
+    const scene::FlatFaces quad = scene::find_flat_faces(board(), kTurned);
     EXPECT_TRUE(quad.is_one());
     EXPECT_FALSE(quad.faces.front().is_one_sided) << "a mirror has two sides";
 }
@@ -109,36 +109,38 @@ TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
 // The expected tolerance is a sixteenth of a pixel's angle, atan(2 tan(30 deg) / 600).
 TEST(FlatMirror, FlatToleranceIsASixteenthOfAPixel) {
     const scene::Camera camera{.vertical_fov_degrees = 60};
-    EXPECT_NEAR(scene::flat_tolerance(camera, {10, 600}), 2 * std::tan(M_PI / 6) / 600 / 16, 1e-9);
-    EXPECT_NEAR(scene::flat_tolerance({.orthographic_height = 3}, {10, 600}), 2.0 / 600 / 16, 1e-9);
+    EXPECT_NEAR(scene::compute_flat_tolerance(camera, {10, 600}), 2 * std::tan(M_PI / 6) / 600 / 16,
+                1e-9);
+    EXPECT_NEAR(scene::compute_flat_tolerance({.orthographic_height = 3}, {10, 600}),
+                2.0 / 600 / 16, 1e-9);
 }
 
 render::MirroredEye eye_at(const dvec3& place, const dvec3& target) {
     render::MirroredEye eye;
-    eye.view = render::camera_view({.eye = place, .target = target, .vertical_fov_degrees = 90}, {},
-                                   {64, 64}, .1f);
+    eye.view = render::make_camera_view(
+        {.eye = place, .target = target, .vertical_fov_degrees = 90}, {}, {64, 64}, .1f);
     eye.place = place;
     return eye;
 }
 
 std::optional<render::MirrorPlane> plane(const scene::Mesh& mesh, int bounces = 2) {
-    return render::MirrorPlane{*scene::flat(mesh, dmat4(1)), bounces};
+    return render::MirrorPlane{*scene::make_flat_mirror_room(mesh, dmat4(1)), bounces};
 }
 
 TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
     int most = 2;
-    const auto views = render::mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}), {plane(board())},
-                                              {64, 64}, most);
+    const auto views = render::find_mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}),
+                                                   {plane(board())}, {64, 64}, most);
     ASSERT_EQ(views.size(), 1u);
     EXPECT_NEAR(distance(views[0].eye, dvec3(.5, .25, -3)), 0, 1e-12);
     EXPECT_EQ(views[0].view.forward, vec3(0, 0, 1));
     EXPECT_EQ(views[0].view.clip, vec4(0, 0, 1, -3)) << "kept: what is in front of the mirror";
-    const auto behind = render::mirrored_views(eye_at({.5, .25, -3}, {.5, .25, 0}),
-                                               {plane(board())}, {64, 64}, most);
+    const auto behind = render::find_mirrored_views(eye_at({.5, .25, -3}, {.5, .25, 0}),
+                                                    {plane(board())}, {64, 64}, most);
     EXPECT_EQ(behind.at(0).view.clip, vec4(0, 0, -1, -3)) << "on whichever side the eye is";
     // The mirror covers x from -1.5 / 3 to .5 / 3 of half the picture, and y from -1.25 / 3 to .75
     // / 3, upside down. The area has a margin of one pixel.
-    EXPECT_EQ(views[0].area, (graph::Area{15, 23, 24, 24}));
+    EXPECT_EQ(views[0].area, (graph::PixelArea{15, 23, 24, 24}));
     // A point p lies in the mirrored view where the mirror image of p lies in the camera's view.
     const vec3 p(.3f, -.6f, 2), image(.3f, -.6f, -2);
     const render::MirroredEye eye = eye_at({.5, .25, 3}, {.5, .25, 0});
@@ -152,7 +154,7 @@ TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
 TEST(MirroredViews, OnlyMirrorsInThePictureGetMirroredViews) {
     const auto count = [](const dvec3& place, const dvec3& target) {
         int most = 2;
-        return render::mirrored_views(eye_at(place, target), {plane(board())}, {64, 64}, most)
+        return render::find_mirrored_views(eye_at(place, target), {plane(board())}, {64, 64}, most)
             .size();
     };
     EXPECT_EQ(count({0, 0, 3}, {0, 0, 0}), 1u);
@@ -164,13 +166,13 @@ TEST(MirroredViews, OnlyMirrorsInThePictureGetMirroredViews) {
 
 TEST(MirroredViews, OnlyFacesTowardsTheEyeGetMirroredViews) {
     std::vector<std::optional<render::MirrorPlane>> faces;
-    for (scene::Flat& face :
-         scene::flat_faces(scene::box("b", {-1, -1, -.1}, {1, 1, .1}), dmat4(1)).faces)
+    for (scene::FlatFace& face :
+         scene::find_flat_faces(scene::box("b", {-1, -1, -.1}, {1, 1, .1}), dmat4(1)).faces)
         faces.emplace_back(render::MirrorPlane{std::move(face), 2});
     ASSERT_EQ(faces.size(), 6u);
     const auto count = [&](const dvec3& place) {
         int most = 2;
-        return render::mirrored_views(eye_at(place, {0, 0, 0}), faces, {64, 64}, most).size();
+        return render::find_mirrored_views(eye_at(place, {0, 0, 0}), faces, {64, 64}, most).size();
     };
     EXPECT_EQ(count({.2, .3, 3}), 1u) << "its front";
     EXPECT_EQ(count({2, .3, 3}), 2u) << "and one side of the rim";
@@ -184,14 +186,14 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
     const render::MirroredEye eye = eye_at({.1, .2, -.3}, {1, 1, 1});
     for (int asked = 1; asked <= 3; ++asked) {
         int most = asked;
-        const auto views = render::mirrored_views(eye, corner, {64, 64}, most);
+        const auto views = render::find_mirrored_views(eye, corner, {64, 64}, most);
         std::vector<int> depth(views.size(), 1);
         for (std::size_t i = 0; i < views.size(); ++i) {
             if (!views[i].within) continue;
             ASSERT_LT(*views[i].within, i) << "after the view that shows it";
             EXPECT_NE(views[*views[i].within].mirror, views[i].mirror);
             depth[i] = depth[*views[i].within] + 1;
-            const graph::Area &inner = views[i].area, &outer = views[*views[i].within].area;
+            const graph::PixelArea &inner = views[i].area, &outer = views[*views[i].within].area;
             EXPECT_TRUE(inner.x >= outer.x && inner.y >= outer.y &&
                         inner.x + inner.width <= outer.x + outer.width &&
                         inner.y + inner.height <= outer.y + outer.height);
@@ -200,14 +202,14 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
         EXPECT_EQ(most, asked);
     }
     int most = 16;
-    const auto views = render::mirrored_views(eye, corner, {64, 64}, most);
+    const auto views = render::find_mirrored_views(eye, corner, {64, 64}, most);
     EXPECT_LE(views.size(), render::kMostMirroredViews);
     EXPECT_LT(most, 16);
     EXPECT_GT(most, 2);
     corner[0]->bounces = 0;
     for (std::size_t i = 1; i < 6; ++i) corner[i]->bounces = 1;
     most = 16;
-    for (const auto& view : render::mirrored_views(eye, corner, {64, 64}, most)) {
+    for (const auto& view : render::find_mirrored_views(eye, corner, {64, 64}, most)) {
         EXPECT_FALSE(view.within);
         EXPECT_NE(view.mirror, 0u) << "black";
     }
@@ -215,11 +217,12 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
 
 TEST(MirroredViews, MirroredViewCullsBoxesBehindOrBesideTheMirror) {
     int most = 1;
-    const render::MirroredView view = render::mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}),
-                                                             {plane(board())}, {64, 64}, most)
+    const render::MirroredView view = render::find_mirrored_views(
+                                          eye_at({.5, .25, 3}, {.5, .25, 0}), {plane(board())},
+                                          {64, 64}, most)
                                           .front();
     const auto meets = [&](const vec3& low, const vec3& high) {
-        return may_meet(view, {64, 64}, {low, high});
+        return may_view_show_box(view, {64, 64}, {low, high});
     };
     EXPECT_TRUE(meets({0, 0, 1}, {.1f, .1f, 1.1f}));
     EXPECT_FALSE(meets({0, 0, -1}, {.1f, .1f, -.1f})) << "behind it";

@@ -83,7 +83,7 @@ TEST(Flip, PixelErrorDependsOnlyOnPixelsWithinReach) {
     constexpr int kWidth = 620, kHeight = 310, kLeft = 117, kTop = 23;
     const Picture a = picture_of(flip_noise, kWidth, kHeight, false),
                   b = picture_of(flip_noise, kWidth, kHeight, true);
-    const int width = kWidth - 2 * kLeft, height = kHeight - 2 * kTop, reach = flip_reach();
+    const int width = kWidth - 2 * kLeft, height = kHeight - 2 * kTop, reach = flip_filter_radius();
     const std::vector<float> whole = flip(a, b),
                              part = flip(cut_out(a, kLeft, kTop, width, height),
                                          cut_out(b, kLeft, kTop, width, height));

@@ -22,7 +22,7 @@ const double kPixel = 2 * std::tan(glm::radians(37.5) / 2) /
 /// the built-in scene's camera.
 PixelGrid pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height = 512) {
     const scene::Camera camera{.eye = eye, .target = target, .vertical_fov_degrees = 37.5};
-    return {camera_view(camera, Space{}, uvec2(height), 1), height};
+    return {make_camera_view(camera, SceneUnits{}, uvec2(height), 1), height};
 }
 
 /// Returns the direction of a ray, as an angle, after reflection at a circle of radius |r| around
@@ -45,27 +45,29 @@ TEST(Footprint, FootprintEqualsTheAngleBetweenTwoTracedRays) {
             const double distance = kCentre * std::cos(angle) - r * cosine;
             double spread = std::abs(onward(kCentre, r, angle + kTiny) - onward(kCentre, r, angle));
             spread = std::min(spread, 2 * std::numbers::pi - spread);
-            EXPECT_NEAR(reflected_footprint(kTiny, distance, 1 / r, cosine) / spread, 1, 1e-5)
+            EXPECT_NEAR(reflected_pixel_footprint(kTiny, distance, 1 / r, cosine) / spread, 1, 1e-5)
                 << "r " << r << ", share " << share;
         }
 }
 
 TEST(Footprint, FootprintOfAFlatOrFocusingMirrorIsThePixelAngle) {
-    EXPECT_EQ(reflected_footprint(kPixel, 1e9, 0, 1e-9), kPixel);
-    EXPECT_EQ(reflected_footprint(kPixel, 1, -.5, 1),
+    EXPECT_EQ(reflected_pixel_footprint(kPixel, 1e9, 0, 1e-9), kPixel);
+    EXPECT_EQ(reflected_pixel_footprint(kPixel, 1, -.5, 1),
               kPixel); // the eye is in the focus of a hollow mirror
-    EXPECT_EQ(reflected_footprint(kPixel, 0, 5, 1), kPixel); // the eye is on the mirror
+    EXPECT_EQ(reflected_pixel_footprint(kPixel, 0, 5, 1), kPixel); // the eye is on the mirror
 }
 
 TEST(Footprint, FaceEdgesEqualHandComputedValues) {
     const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
     EXPECT_NEAR(pixels.angle(1), kPixel, 1e-7 * kPixel);
-    EXPECT_NEAR(face_need(kPixel), 1184.62, .01); // the face edge that a flat mirror needs
+    EXPECT_NEAR(texels_for_footprint(kPixel), 1184.62,
+                .01); // the face edge that a flat mirror needs
     // At the nearest point of a ball straight ahead, a reflected pixel covers 1 + 2 distance /
     // radius times its angle.
-    EXPECT_NEAR(sphere_need(pixels, {0, 0, 12}, 2), face_need(kPixel * (1 + 2 * 10 / 2.)), .01);
-    EXPECT_EQ(sphere_need(pixels, {0, 0, 1}, 2),
-              face_need(pixels.angle(0))); // the eye is inside the ball
+    EXPECT_NEAR(texels_needed_by_sphere(pixels, {0, 0, 12}, 2),
+                texels_for_footprint(kPixel * (1 + 2 * 10 / 2.)), .01);
+    EXPECT_EQ(texels_needed_by_sphere(pixels, {0, 0, 1}, 2),
+              texels_for_footprint(pixels.angle(0))); // the eye is inside the ball
 }
 
 TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
@@ -79,30 +81,31 @@ TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
     const double corner = std::sqrt(2.) * std::tan(glm::radians(37.5) / 2);
     EXPECT_NEAR(pixels.corner(), std::cos(std::atan(corner)), 1e-7);
     EXPECT_EQ(pixels.angle(0), pixels.angle(pixels.corner()));
-    const double ahead = sphere_need(pixels, {0, 0, 12}, .1);
-    const double aside = sphere_need(pixels, vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);
+    const double ahead = texels_needed_by_sphere(pixels, {0, 0, 12}, .1);
+    const double aside = texels_needed_by_sphere(pixels,
+                                                 vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);
     EXPECT_NEAR(aside / ahead, 1 + .3 * .3, .01);
 }
 
 TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
     const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
-    EXPECT_EQ(sphere_need(pixels, {0, 0, -12}, 2), 0);
-    EXPECT_EQ(sphere_need(pixels, {12, 0, 12}, 2), 0);
-    EXPECT_GT(sphere_need(pixels, {5, 0, 12}, 2), 0) << "its rim is";
+    EXPECT_EQ(texels_needed_by_sphere(pixels, {0, 0, -12}, 2), 0);
+    EXPECT_EQ(texels_needed_by_sphere(pixels, {12, 0, 12}, 2), 0);
+    EXPECT_GT(texels_needed_by_sphere(pixels, {5, 0, 12}, 2), 0) << "its rim is";
     // The triangle lies wholly behind the eye, but is so wide that its bounds reach around the
     // sides of the picture.
     const std::vector<shared::Vertex> corners{
         {{-50, -50, -9}, {0, 0, 1}}, {{50, -50, -.5f}, {0, 0, 1}}, {{0, 50, -.5f}, {0, 0, 1}}};
     const std::vector<std::uint32_t> triangle{0, 1, 2};
-    EXPECT_EQ(mesh_need(pixels, corners, triangle), 0);
-    EXPECT_GT(mesh_need(pixels_at(dvec3(0), {0, 0, -1}), corners, triangle), 0);
+    EXPECT_EQ(texels_needed_by_mesh(pixels, corners, triangle), 0);
+    EXPECT_GT(texels_needed_by_mesh(pixels_at(dvec3(0), {0, 0, -1}), corners, triangle), 0);
 }
 
 struct Mirror {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     double need(const dvec3& eye, const dvec3& target) const {
-        return mesh_need(pixels_at(eye, target), vertices, indices);
+        return texels_needed_by_mesh(pixels_at(eye, target), vertices, indices);
     }
 };
 
@@ -126,7 +129,8 @@ TEST(Footprint, BallMeshNeedsTheSameEdgeAsItsSphere) {
     // The tolerance allows for the width of a facet, about a twentieth of the radius. The point
     // nearest to the eye is up to half a facet away from a vertex.
     for (const dvec3& target : {centre, centre + dvec3(.3, .1, 0)}) {
-        const double wanted = sphere_need(pixels_at(eye, target), vec3(centre), kRadius);
+        const double wanted = texels_needed_by_sphere(pixels_at(eye, target), vec3(centre),
+                                                      kRadius);
         EXPECT_NEAR(ball.need(eye, target), wanted, .01 * wanted);
     }
 }
@@ -146,8 +150,8 @@ TEST(Footprint, HollowMirrorNeedsALargerEdgeThanABulgingMirror) {
             return shared::Vertex{vec3(kRadius * p), vec3(side * p)};
         });
         const dvec3 top(0, 0, -kRadius), away(0, 0, -kDistance);
-        const double bulge = face_need(kPixel * (1 + 2 * kDistance / kRadius)),
-                     hollow = face_need(kPixel * (2 * kDistance / kRadius - 1));
+        const double bulge = texels_for_footprint(kPixel * (1 + 2 * kDistance / kRadius)),
+                     hollow = texels_for_footprint(kPixel * (2 * kDistance / kRadius - 1));
         EXPECT_NEAR(mirror.need(top + away, top), bulge, .01 * bulge);
         EXPECT_NEAR(mirror.need(top - away, top), hollow, .01 * hollow);
     }
@@ -171,7 +175,7 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
     const dvec3 eye(0, 0, 5), middle(0);
     // Squared tangent of the angle between the camera's axis and a corner of the plane.
     const double corner = 2 * .4 * .4 / (5 * 5);
-    const double wanted = face_need(kPixel) * (1 + corner);
+    const double wanted = texels_for_footprint(kPixel) * (1 + corner);
     EXPECT_NEAR(mirror_of(plane, bent).need(eye, middle), wanted, .01 * wanted);
     const auto flat = [](const dvec3& p) { return shared::Vertex{vec3(p), vec3(0, 0, 1)}; };
     EXPECT_NEAR(mirror_of(plane, flat).need(eye, middle), wanted, 1e-6 * wanted);
@@ -181,7 +185,9 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
 }
 
 TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
-    const auto edge = [](const std::vector<double>& needs) { return common_edge(needs, 16384); };
+    const auto edge = [](const std::vector<double>& needs) {
+        return common_capture_edge(needs, 16384);
+    };
     EXPECT_EQ(edge({}), 16u);
     EXPECT_EQ(edge({0}), 16u);
     EXPECT_EQ(edge({16}), 16u);
@@ -190,8 +196,8 @@ TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     EXPECT_EQ(edge({16370}), 16384u);
     EXPECT_EQ(edge({1e30}), 16384u);
     EXPECT_EQ(edge({std::numeric_limits<double>::infinity()}), 16384u);
-    EXPECT_EQ(common_edge(std::vector<double>{90}, 100), 96u);
-    EXPECT_EQ(common_edge(std::vector<double>{97}, 100), 100u);
+    EXPECT_EQ(common_capture_edge(std::vector<double>{90}, 100), 96u);
+    EXPECT_EQ(common_capture_edge(std::vector<double>{97}, 100), 100u);
 }
 
 } // namespace

@@ -25,28 +25,34 @@ struct Dump : ::testing::Test {
     GraphPlan plan;
 
     Dump() {
-        const auto body = [](Commands&) {};
-        g.pass("one", Tag::scene)
-            .writes(first, Use::colour, kBlack)
-            .writes(args, Use::storage_write)
+        const auto body = [](PassCommands&) {};
+        g.pass("one", PassTag::scene)
+            .writes(first, ResourceUse::colour, kBlack)
+            .writes(args, ResourceUse::storage_write)
             .layers(2)
             .record(body);
         g.pass("two")
-            .reads(first, Use::sampled)
-            .reads(args, Use::indirect)
-            .writes(second, Use::storage_write)
+            .reads(first, ResourceUse::sampled)
+            .reads(args, ResourceUse::indirect)
+            .writes(second, ResourceUse::storage_write)
             .record(body);
-        g.pass("three").reads(second, Use::sampled).writes(third, Use::storage_write).record(body);
-        g.pass("vain").reads(third, Use::sampled).writes(unused, Use::storage_write).record(body);
+        g.pass("three")
+            .reads(second, ResourceUse::sampled)
+            .writes(third, ResourceUse::storage_write)
+            .record(body);
+        g.pass("vain")
+            .reads(third, ResourceUse::sampled)
+            .writes(unused, ResourceUse::storage_write)
+            .record(body);
         g.pass("four")
-            .reads(third, Use::sampled)
-            .reads(g.previous(kept), Use::sampled)
-            .writes(out, Use::storage_write)
+            .reads(third, ResourceUse::sampled)
+            .reads(g.previous(kept), ResourceUse::sampled)
+            .writes(out, ResourceUse::storage_write)
             .record(body);
-        g.pass("five").writes(kept, Use::colour, kBlack).layers(2).record(body);
-        g.pass("six").writes(kept.layers(0, 1), Use::colour).record(body);
+        g.pass("five").writes(kept, ResourceUse::colour, kBlack).layers(2).record(body);
+        g.pass("six").writes(kept.layers(0, 1), ResourceUse::colour).record(body);
         g.mark_output(out);
-        plan = graph::plan(g, {}, plain_sizer());
+        plan = graph::plan_graph(g, {}, make_default_sizer());
     }
 
     ImageHandle add(const std::string& name) {
@@ -137,7 +143,7 @@ TEST_F(Dump, JsonListsPassesImagesAndBuffers) {
 
 TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
     const Graph g;
-    const GraphPlan plan = graph::plan(g, {}, plain_sizer());
+    const GraphPlan plan = graph::plan_graph(g, {}, make_default_sizer());
     EXPECT_EQ(to_text(g, plan),
               "0 passes, scene_passes 0, 0 bytes (0 without sharing)\n\npasses\n");
     EXPECT_THAT(to_dot(g, plan), Not(HasSubstr("->")));
@@ -147,7 +153,7 @@ TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
 // In a frame of 100 mirrors, the depth images of all captures share the same memory.
 TEST(LargeDump, DumpNamesTheFirstSharingImagesAndCountsTheOthers) {
     const Graph g = test::reuse_frame(100);
-    const std::string text = to_text(g, graph::plan(g, {}, plain_sizer()));
+    const std::string text = to_text(g, graph::plan_graph(g, {}, make_default_sizer()));
     EXPECT_THAT(text, HasSubstr("shares with 'view.depth', 'capture/1.depth', 'capture/2.depth'"));
     EXPECT_THAT(text, HasSubstr(", 'capture/31.depth' and 68 more\n"));
     EXPECT_THAT(text, HasSubstr(", 'capture/32.depth' and 68 more\n"));

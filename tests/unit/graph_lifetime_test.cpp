@@ -22,8 +22,8 @@ std::string graph_lifetime_refusal(const Graph& graph) {
 
 /// Returns a barrier as text, "image 0 mips [0,1) layers [0,2) before > after", and the number of
 /// other uses that the barrier waits for.
-std::string graph_lifetime_text(const Barrier& b) {
-    const auto word = [](const Touch& t) {
+std::string graph_lifetime_text(const PlannedBarrier& b) {
+    const auto word = [](const ResourceTouch& t) {
         return t.nothing ? "nothing" : std::string(name_of(t.use)) + (t.write ? "!" : "");
     };
     const std::string more = b.shared.empty() ? "" : " +" + std::to_string(b.shared.size());
@@ -36,33 +36,39 @@ std::string graph_lifetime_text(const Barrier& b) {
            word(b.after) + more;
 }
 
-std::vector<std::string> texts(const std::vector<Barrier>& barriers) {
+std::vector<std::string> texts(const std::vector<PlannedBarrier>& barriers) {
     std::vector<std::string> all;
-    for (const Barrier& barrier : barriers) all.push_back(graph_lifetime_text(barrier));
+    for (const PlannedBarrier& barrier : barriers) all.push_back(graph_lifetime_text(barrier));
     return all;
 }
 
 const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
 
 /// Returns a history in which layers [first, end) of image "cubes" have the content hash `stamp`.
-History held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
+GraphHistory held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
     LayerHashes stamps(12);
     stamps.set(first, end, stamp);
     return {.previous = {}, .persistent = {{"cubes", {kDesc, stamps}}}};
 }
 
 struct View {
-    explicit View(History history = {}) : g(std::move(history)) {}
+    explicit View(GraphHistory history = {}) : g(std::move(history)) {}
     Graph g;
     ImageHandle cubes = g.persistent(kDesc);
     ImageHandle out = g.image({.name = "out", .width = 8, .height = 8});
 
     void make(ImageHandle part, std::uint64_t stamp) {
-        g.pass("make").writes(part, Use::colour, kBlack).layers(part.layer_count).record(nothing);
+        g.pass("make")
+            .writes(part, ResourceUse::colour, kBlack)
+            .layers(part.layer_count)
+            .record(nothing);
         g.set_content_hash(part, stamp);
     }
     void view(ImageHandle part) {
-        g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+        g.pass("view")
+            .reads(part, ResourceUse::sampled)
+            .writes(out, ResourceUse::colour, kBlack)
+            .record(nothing);
         g.mark_output(out);
     }
 };
@@ -129,7 +135,7 @@ TEST(PersistentImages, ReadingUnwrittenLayersIsRefused) {
 
 TEST(PersistentImages, WritingWithoutAContentHashIsRefused) {
     View v;
-    v.g.pass("make").writes(v.cubes, Use::colour, kBlack).layers(12).record(nothing);
+    v.g.pass("make").writes(v.cubes, ResourceUse::colour, kBlack).layers(12).record(nothing);
     v.g.set_content_hash(v.cubes.layers(0, 6), 7);
     EXPECT_EQ(graph_lifetime_refusal(v.g),
               "pass 'make' writes 'cubes' [0,12), which is kept, but nobody says what "
@@ -169,31 +175,37 @@ TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
 
 TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
     Graph g;
-    const ImageHandle texture = g.import(kDesc, nullptr, Use::sampled, Use::sampled);
+    const ImageHandle texture = g.import(kDesc, nullptr, ResourceUse::sampled,
+                                         ResourceUse::sampled);
     const ImageHandle out = g.image({.name = "out"});
-    g.pass("view").reads(texture, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    g.pass("view")
+        .reads(texture, ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
+        .record(nothing);
     g.mark_output(out);
     const GraphPlan plan = planned(g);
     EXPECT_THAT(texts(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
     EXPECT_EQ(plan.last.size(), 1u);
     EXPECT_EQ(plan.images[0].bytes, 0u);
-    EXPECT_EQ(plan.bytes, planned([] {
-                              Graph alone;
-                              const ImageHandle image = alone.image({.name = "out"});
-                              alone.pass("view").writes(image, Use::colour, kBlack).record(nothing);
-                              alone.mark_output(image);
-                              return alone;
-                          }())
-                              .bytes);
+    EXPECT_EQ(plan.bytes,
+              planned([] {
+                  Graph alone;
+                  const ImageHandle image = alone.image({.name = "out"});
+                  alone.pass("view").writes(image, ResourceUse::colour, kBlack).record(nothing);
+                  alone.mark_output(image);
+                  return alone;
+              }())
+                  .bytes);
     EXPECT_THAT(to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
 }
 
 TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
     Graph g;
-    const ImageHandle window = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
+    const ImageHandle window = g.import({.name = "window"}, nullptr, std::nullopt,
+                                        ResourceUse::present);
     // No output depends on the window.
-    g.pass("show").writes(window, Use::colour, kBlack).record(nothing);
+    g.pass("show").writes(window, ResourceUse::colour, kBlack).record(nothing);
     const GraphPlan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
@@ -204,8 +216,12 @@ TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
 
 TEST(Imported, AllLayersEndInTheDeclaredUse) {
     Graph g;
-    const ImageHandle image = g.import(kDesc, nullptr, Use::copy_from, Use::sampled);
-    g.pass("some").writes(image.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
+    const ImageHandle image = g.import(kDesc, nullptr, ResourceUse::copy_from,
+                                       ResourceUse::sampled);
+    g.pass("some")
+        .writes(image.layers(0, 6), ResourceUse::colour, kBlack)
+        .layers(6)
+        .record(nothing);
     EXPECT_THAT(texts(planned(g).last),
                 ElementsAre("image 0 mips [0,1) layers [0,6) colour! > sampled",
                             "image 0 mips [0,1) layers [6,12) copy_from > sampled +1"));
@@ -213,16 +229,21 @@ TEST(Imported, AllLayersEndInTheDeclaredUse) {
 
 TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
     Graph g;
-    const ImageHandle image = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
+    const ImageHandle image = g.import({.name = "window"}, nullptr, std::nullopt,
+                                       ResourceUse::present);
     const ImageHandle out = g.image({.name = "out"});
-    g.pass("view").reads(image, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    g.pass("view")
+        .reads(image, ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
+        .record(nothing);
     EXPECT_THAT(graph_lifetime_refusal(g),
                 HasSubstr("pass 'view' reads 'window' [0,1) as sampled before any"));
 }
 
 TEST(Imported, ImportedResourceAsOutputIsRefused) {
     Graph g;
-    const ImageHandle image = g.import({.name = "window"}, nullptr, Use::sampled, Use::sampled);
+    const ImageHandle image = g.import({.name = "window"}, nullptr, ResourceUse::sampled,
+                                       ResourceUse::sampled);
     g.mark_output(image);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "'window' [0,1) is wanted, but imported: read it where it comes from");
@@ -238,8 +259,8 @@ TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
     const BufferHandle list = g.import(BufferDesc{.name = "list", .bytes = 64}, nullptr);
     const BufferHandle back = g.import(BufferDesc{.name = "back", .bytes = 64}, nullptr);
     g.pass("fill")
-        .reads(list, Use::storage_read) // no pass of this frame writes the list
-        .writes(back, Use::storage_write)
+        .reads(list, ResourceUse::storage_read) // no pass of this frame writes the list
+        .writes(back, ResourceUse::storage_write)
         .record(nothing);
     const GraphPlan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 1u);
@@ -256,11 +277,14 @@ struct Mips : ::testing::Test {
 
     void write(std::uint32_t mip) {
         PassBuilder pass = g.pass("mip" + std::to_string(mip));
-        if (mip > 0) pass.reads(image.mip(mip - 1), Use::sampled);
-        pass.writes(image.mip(mip), Use::storage_write).record(nothing);
+        if (mip > 0) pass.reads(image.mip(mip - 1), ResourceUse::sampled);
+        pass.writes(image.mip(mip), ResourceUse::storage_write).record(nothing);
     }
     void view(ImageHandle part) {
-        g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+        g.pass("view")
+            .reads(part, ResourceUse::sampled)
+            .writes(out, ResourceUse::colour, kBlack)
+            .record(nothing);
         g.mark_output(out);
     }
 };
@@ -298,14 +322,14 @@ TEST_F(Mips, ReadingUnwrittenMipsIsRefused) {
 }
 
 TEST_F(Mips, WritingSeveralMipsAtOnceIsRefused) {
-    g.pass("all").writes(image, Use::storage_write).record(nothing);
+    g.pass("all").writes(image, ResourceUse::storage_write).record(nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'all' uses 'pyramid' [0,2) mips [0,4) as storage_write: one mip at "
               "a time");
 }
 
 TEST_F(Mips, MipOutOfRangeIsRefused) {
-    g.pass("all").writes(image.mip(4), Use::storage_write).record(nothing);
+    g.pass("all").writes(image.mip(4), ResourceUse::storage_write).record(nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'all' uses 'pyramid' [0,2) mip 4 as storage_write, but the image has "
               "mips [0,4)");
@@ -327,8 +351,8 @@ TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
     const ImageHandle depth = g.image(
         {.name = "depth", .format = Format::d32f, .width = 8, .height = 4});
     g.pass("draw")
-        .writes(image.mip(1).layers(0, 1), Use::colour, kBlack)
-        .writes(depth, Use::depth, kBlack)
+        .writes(image.mip(1).layers(0, 1), ResourceUse::colour, kBlack)
+        .writes(depth, ResourceUse::depth, kBlack)
         .record(nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'draw' attaches 'pyramid' [0,1) mip 1 as colour (4x2) and 'depth' "
@@ -338,8 +362,8 @@ TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
 TEST_F(Mips, ReadingAndWritingOneMipInTheSamePassIsRefused) {
     write(0);
     g.pass("twice")
-        .reads(image.mip(0), Use::sampled)
-        .writes(image.mip(0), Use::storage_write)
+        .reads(image.mip(0), ResourceUse::sampled)
+        .writes(image.mip(0), ResourceUse::storage_write)
         .record(nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'twice' reads 'pyramid' [0,2) mip 0 as sampled while it writes "
@@ -351,10 +375,11 @@ TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
     const ImageHandle depth = g.image({.name = "depth", .format = Format::d32f, .layers = 2});
     const ImageHandle a = g.image({.name = "a", .layers = 2}),
                       b = g.image({.name = "b", .layers = 2});
-    const auto draw = [&](const std::string& name, ImageHandle colour, std::optional<Clear> clear) {
+    const auto draw = [&](const std::string& name, ImageHandle colour,
+                          std::optional<ClearValue> clear) {
         g.pass(name)
-            .writes(colour, Use::colour, kBlack)
-            .writes(depth, Use::depth, clear)
+            .writes(colour, ResourceUse::colour, kBlack)
+            .writes(depth, ResourceUse::depth, clear)
             .layers(2)
             .record(nothing);
     };
@@ -376,15 +401,16 @@ TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
 
 TEST(Shape, GraphShapeIgnoresClearValuesAndContentHashes) {
     const auto graph = [](const std::string& name, float red, std::uint64_t stamp, bool there) {
-        View v(there ? held(0, 12, stamp) : History{});
-        v.g.pass(name).writes(v.out, Use::colour, Clear{red}).record(nothing);
+        View v(there ? held(0, 12, stamp) : GraphHistory{});
+        v.g.pass(name).writes(v.out, ResourceUse::colour, ClearValue{red}).record(nothing);
         if (!there) v.make(v.cubes, stamp);
         return std::move(v.g);
     };
     const Graph known = graph("p", 0, 1, false);
     const auto same = [&](const Graph& other) {
-        EXPECT_EQ(has_shape(other, known.without_bodies()), shape_hash(other) == shape_hash(known));
-        return has_shape(other, known.without_bodies());
+        EXPECT_EQ(have_equal_shapes(other, known.without_bodies()),
+                  hash_graph_shape(other) == hash_graph_shape(known));
+        return have_equal_shapes(other, known.without_bodies());
     };
     EXPECT_TRUE(same(graph("p", 0, 1, false)));
     EXPECT_TRUE(same(graph("p", 1, 1, false)));

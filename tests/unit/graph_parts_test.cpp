@@ -22,7 +22,7 @@ private:
     std::mt19937 random_;
 };
 
-std::vector<int> graph_parts_cells_of(const Runs<int>& runs) {
+std::vector<int> graph_parts_cells_of(const ValueRuns<int>& runs) {
     std::vector<int> cells;
     runs.each([&](std::uint32_t begin, std::uint32_t end, int value) {
         cells.resize(cells.size() + (end - begin), value);
@@ -34,7 +34,7 @@ TEST(Runs, RunsEqualOneValuePerCell) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         Draw draw(seed);
         const std::uint32_t size = draw.below(40) + 1;
-        Runs<int> runs(size, 7);
+        ValueRuns<int> runs(size, 7);
         std::vector<int> cells(size, 7);
         for (int step = 0; step < 60; ++step) {
             const std::uint32_t first = draw.below(size),
@@ -53,7 +53,7 @@ TEST(Runs, RunsEqualOneValuePerCell) {
 }
 
 TEST(Runs, NeighbouringRunsOfEqualValueAreJoined) {
-    Runs<int> runs(100, 0);
+    ValueRuns<int> runs(100, 0);
     for (std::uint32_t i = 0; i < 100; i += 2) runs.set(i, i + 1, 1);
     for (std::uint32_t i = 1; i < 100; i += 2) runs.set(i, i + 1, 1);
     int count = 0;
@@ -61,7 +61,7 @@ TEST(Runs, NeighbouringRunsOfEqualValueAreJoined) {
     EXPECT_EQ(count, 1);
 }
 
-Placement at(std::uint64_t offset, std::uint64_t bytes, std::uint32_t heap) {
+MemoryPlacement at(std::uint64_t offset, std::uint64_t bytes, std::uint32_t heap) {
     return {.used = true, .heap = heap, .offset = offset, .bytes = bytes};
 }
 
@@ -74,47 +74,48 @@ TEST(MemoryUsers, MemoryUsersAreThoseOfAllOverlappingPlacements) {
         for (std::uint32_t i = 0; i < count; ++i)
             (i % 3 ? plan.images : plan.buffers)
                 .push_back(at(draw.below(60), draw.below(40) + 1, draw.below(2)));
-        std::vector<Placement> all = plan.images;
+        std::vector<MemoryPlacement> all = plan.images;
         all.insert(all.end(), plan.buffers.begin(), plan.buffers.end());
-        MemoryUsers users(plan);
-        std::vector<std::pair<Placement, TouchSet>> left;
+        SharedMemoryUsers users(plan);
+        std::vector<std::pair<MemoryPlacement, TouchSet>> left;
         for (int step = 0; step < 40; ++step) {
-            const Placement& mine = all[draw.below(count)];
+            const MemoryPlacement& mine = all[draw.below(count)];
             TouchSet expected = 0;
             for (const auto& [other, touches] : left)
                 if (other.heap == mine.heap && other.offset < mine.offset + mine.bytes &&
                     mine.offset < other.offset + other.bytes)
                     expected |= touches;
-            ASSERT_EQ(users.left_in(mine), expected) << "seed " << seed << ", step " << step;
+            ASSERT_EQ(users.touches_left_in(mine), expected)
+                << "seed " << seed << ", step " << step;
             const TouchSet touches = TouchSet{1} << draw.below(kTouchCodes);
-            users.leave(mine, touches);
+            users.record_last_touches(mine, touches);
             left.emplace_back(mine, touches);
         }
     }
 }
 
 TEST(Touches, TouchCodesAreOneToOne) {
-    for (int use = 0; use <= static_cast<int>(Use::indirect); ++use)
+    for (int use = 0; use <= static_cast<int>(ResourceUse::indirect); ++use)
         for (const bool write : {false, true})
             for (const bool raster : {false, true}) {
-                const Touch touch{.nothing = false,
-                                  .use = static_cast<Use>(use),
-                                  .write = write,
-                                  .raster = raster};
-                EXPECT_EQ(touch_of(code_of(touch)), touch);
-                EXPECT_EQ(use_of(code_of(touch)), touch.use);
-                EXPECT_LT(code_of(touch), kTouchCodes);
+                const ResourceTouch touch{.nothing = false,
+                                          .use = static_cast<ResourceUse>(use),
+                                          .write = write,
+                                          .raster = raster};
+                EXPECT_EQ(make_touch(encode_touch(touch)), touch);
+                EXPECT_EQ(decode_touch_use(encode_touch(touch)), touch.use);
+                EXPECT_LT(encode_touch(touch), kTouchCodes);
             }
-    EXPECT_EQ(touch_of(code_of({})), Touch{});
+    EXPECT_EQ(make_touch(encode_touch({})), ResourceTouch{});
 }
 
 /// Returns the lowest free offset for `mine`. Tries every offset against every image that lives at
 /// the same time.
-std::uint64_t lowest_place(const std::vector<Placement>& placed, const Placement& mine,
+std::uint64_t lowest_place(const std::vector<MemoryPlacement>& placed, const MemoryPlacement& mine,
                            std::uint64_t alignment) {
     for (std::uint64_t offset = 0;; offset += alignment) {
         bool free = true;
-        for (const Placement& other : placed)
+        for (const MemoryPlacement& other : placed)
             free = free &&
                    (other.last < mine.first || mine.last < other.first ||
                     other.offset + other.bytes <= offset || offset + mine.bytes <= other.offset);
@@ -139,26 +140,27 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
         const BufferHandle out = g.buffer({.name = "out", .bytes = 4});
         for (std::uint32_t p = 0; p < kPasses; ++p) {
             PassBuilder pass = g.pass("p" + std::to_string(p));
-            pass.writes(out, p == 0 ? Use::storage_write : Use::storage);
+            pass.writes(out, p == 0 ? ResourceUse::storage_write : ResourceUse::storage);
             for (std::uint32_t i = 0; i < kImages; ++i) {
-                if (lives[i].first == p) pass.writes(images[i], Use::storage_write);
-                if (lives[i].second == p && lives[i].first < p) pass.reads(images[i], Use::sampled);
+                if (lives[i].first == p) pass.writes(images[i], ResourceUse::storage_write);
+                if (lives[i].second == p && lives[i].first < p)
+                    pass.reads(images[i], ResourceUse::sampled);
             }
-            pass.record([](Commands&) {});
+            pass.record([](PassCommands&) {});
         }
         g.mark_output(out);
-        const Sizer sizer{.image =
-                              [](const ImageDesc& desc) {
-                                  return MemoryRequirements{
-                                      .bytes = desc.width, .alignment = 2, .heap = 0};
-                              },
-                          .buffer = plain_sizer().buffer};
-        const GraphPlan found = plan(g, {}, sizer);
+        const MemorySizer sizer{.image =
+                                    [](const ImageDesc& desc) {
+                                        return MemoryRequirements{
+                                            .bytes = desc.width, .alignment = 2, .heap = 0};
+                                    },
+                                .buffer = make_default_sizer().buffer};
+        const GraphPlan found = plan_graph(g, {}, sizer);
         std::vector<std::uint32_t> order(kImages);
         for (std::uint32_t i = 0; i < kImages; ++i) order[i] = i;
         std::ranges::stable_sort(order, std::greater<>(),
                                  [&](std::uint32_t i) { return found.images[i].bytes; });
-        std::vector<Placement> placed;
+        std::vector<MemoryPlacement> placed;
         for (const std::uint32_t i : order) {
             EXPECT_EQ(found.images[i].offset, lowest_place(placed, found.images[i], 2))
                 << "seed " << seed << ", image " << i;
@@ -170,7 +172,7 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
 TEST(LargeFrames, CapturesShareTheMemoryOfOneDepthImage) {
     constexpr std::uint32_t kMirrors = 200;
     const Graph g = test::reuse_frame(kMirrors);
-    const GraphPlan found = plan(g, {}, plain_sizer());
+    const GraphPlan found = plan_graph(g, {}, make_default_sizer());
     ASSERT_EQ(found.passes.size(), kMirrors + 3);
     for (std::uint32_t n = 0; n < kMirrors; ++n)
         EXPECT_EQ(found.images[6 + n].offset, found.images[6].offset);

@@ -25,19 +25,19 @@ std::vector<std::string> names_of(const Graph& graph, const GraphPlan& plan) {
     return names;
 }
 
-Touch touch(Use use, bool write, bool raster) {
+ResourceTouch touch(ResourceUse use, bool write, bool raster) {
     return {.nothing = false, .use = use, .write = write, .raster = raster};
 }
-const Touch kFresh{};
-const Touch kColour = touch(Use::colour, true, true);
-const Touch kSampledInRaster = touch(Use::sampled, false, true);
-const Touch kSampledInCompute = touch(Use::sampled, false, false);
-const Touch kCopied = touch(Use::copy_from, false, false);
+const ResourceTouch kFresh{};
+const ResourceTouch kColour = touch(ResourceUse::colour, true, true);
+const ResourceTouch kSampledInRaster = touch(ResourceUse::sampled, false, true);
+const ResourceTouch kSampledInCompute = touch(ResourceUse::sampled, false, false);
+const ResourceTouch kCopied = touch(ResourceUse::copy_from, false, false);
 
 /// Returns a barrier as text: the resource, [first layer,layer count], the use before and after,
 /// and other uses that the barrier waits for.
-std::string graph_plan_text(const Barrier& b) {
-    const auto word = [](const Touch& t) {
+std::string graph_plan_text(const PlannedBarrier& b) {
+    const auto word = [](const ResourceTouch& t) {
         return t.nothing ? std::string("nothing")
                          : std::string(name_of(t.use)) + (t.write ? "!" : "") +
                                (t.raster ? "/raster" : "");
@@ -47,19 +47,19 @@ std::string graph_plan_text(const Barrier& b) {
                                     : "image ") +
                       std::to_string(b.id) + " [" + std::to_string(b.first_layer) + "," +
                       std::to_string(b.layer_count) + "] " + word(b.before) + " > " + word(b.after);
-    for (const Touch& t : b.shared) out += " +" + word(t);
+    for (const ResourceTouch& t : b.shared) out += " +" + word(t);
     return out;
 }
 
 std::vector<std::string> barriers_of(const GraphPlan& plan, std::size_t pass) {
     std::vector<std::string> all;
-    for (const Barrier& b : plan.passes.at(pass).barriers) all.push_back(graph_plan_text(b));
+    for (const PlannedBarrier& b : plan.passes.at(pass).barriers) all.push_back(graph_plan_text(b));
     return all;
 }
 
 std::vector<std::string> last_barriers(const GraphPlan& plan) {
     std::vector<std::string> all;
-    for (const Barrier& b : plan.last) all.push_back(graph_plan_text(b));
+    for (const PlannedBarrier& b : plan.last) all.push_back(graph_plan_text(b));
     return all;
 }
 
@@ -67,7 +67,7 @@ std::vector<std::string> last_barriers(const GraphPlan& plan) {
 /// view pass after the captures.
 struct Frame {
     explicit Frame(int mirror_count) : mirrors(static_cast<std::uint32_t>(mirror_count)) {
-        g.pass("shadow", Tag::scene).writes(shadow, Use::depth, kBlack).record(nothing);
+        g.pass("shadow", PassTag::scene).writes(shadow, ResourceUse::depth, kBlack).record(nothing);
     }
 
     ImageHandle cubes(const std::string& name) {
@@ -79,23 +79,26 @@ struct Frame {
     /// read `source`.
     void capture(const std::string& name, ImageHandle target, std::optional<ImageHandle> source) {
         for (std::uint32_t n = 0; n < mirrors; ++n) {
-            PassBuilder pass = g.pass(name + "/" + std::to_string(n), Tag::scene);
-            pass.reads(shadow, Use::sampled);
-            if (source) pass.reads(*source, Use::sampled);
-            pass.writes(target.layers(6 * n, 6), Use::colour, kBlack)
-                .writes(depth, Use::depth, kBlack)
+            PassBuilder pass = g.pass(name + "/" + std::to_string(n), PassTag::scene);
+            pass.reads(shadow, ResourceUse::sampled);
+            if (source) pass.reads(*source, ResourceUse::sampled);
+            pass.writes(target.layers(6 * n, 6), ResourceUse::colour, kBlack)
+                .writes(depth, ResourceUse::depth, kBlack)
                 .layers(6)
                 .record(nothing);
         }
     }
 
     void view(ImageHandle source) {
-        g.pass("view", Tag::scene)
-            .reads(shadow, Use::sampled)
-            .reads(source, Use::sampled)
-            .writes(hdr, Use::colour, kBlack)
+        g.pass("view", PassTag::scene)
+            .reads(shadow, ResourceUse::sampled)
+            .reads(source, ResourceUse::sampled)
+            .writes(hdr, ResourceUse::colour, kBlack)
             .record(nothing);
-        g.pass("compose").reads(hdr, Use::sampled).writes(ldr, Use::colour, kBlack).record(nothing);
+        g.pass("compose")
+            .reads(hdr, ResourceUse::sampled)
+            .writes(ldr, ResourceUse::colour, kBlack)
+            .record(nothing);
         g.mark_output(ldr);
     }
 
@@ -142,7 +145,7 @@ TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
             const GraphPlan plan = planned(frame.g);
             EXPECT_EQ(plan.scene_passes, mirrors * bounces + 2);
             EXPECT_THAT(plan.culled, IsEmpty());
-            EXPECT_THAT(replay(frame.g, plan, plain_sizer()), IsEmpty());
+            EXPECT_THAT(replay(frame.g, plan, make_default_sizer()), IsEmpty());
         }
 }
 
@@ -174,13 +177,13 @@ TEST(GraphPlan, ReuseFrameRendersTheSceneOncePerMirror) {
     const ReuseFrame frame(4);
     const GraphPlan plan = planned(frame.g);
     EXPECT_EQ(plan.scene_passes, 6);
-    EXPECT_THAT(replay(frame.g, plan, plain_sizer()), IsEmpty());
+    EXPECT_THAT(replay(frame.g, plan, make_default_sizer()), IsEmpty());
 }
 
 TEST(GraphPlan, HistoryImageHasTwoCopiesAndSharesNoMemory) {
     const ReuseFrame frame(4);
     const GraphPlan plan = planned(frame.g);
-    const Placement& cubes = plan.images[frame.captured.id];
+    const MemoryPlacement& cubes = plan.images[frame.captured.id];
     EXPECT_TRUE(cubes.alone);
     EXPECT_EQ(cubes.bytes, 2u * 24 * kFace * kFace * 8);
     for (std::size_t i = 0; i < plan.images.size(); ++i)
@@ -192,13 +195,14 @@ TEST(GraphPlan, HistoryImageIsReadWithoutABarrierAndLeftReadable) {
     const ReuseFrame frame(2);
     const GraphPlan plan = planned(frame.g);
     for (const PlannedPass& pass : plan.passes)
-        for (const Barrier& b : pass.barriers) EXPECT_FALSE(b.previous) << graph_plan_text(b);
+        for (const PlannedBarrier& b : pass.barriers)
+            EXPECT_FALSE(b.previous) << graph_plan_text(b);
     EXPECT_THAT(last_barriers(plan), ElementsAre("image 3 [0,1] colour!/raster > copy_from",
                                                  "image 4 [0,12] sampled/raster > sampled"));
 }
 
 TEST(GraphPlan, HistoryContainsOnlyImagesOfThePreviousFrame) {
-    Graph g(History{.previous = {"cubes"}, .persistent = {}});
+    Graph g(GraphHistory{.previous = {"cubes"}, .persistent = {}});
     const ImageHandle cubes = g.image({.name = "cubes"});
     const ImageHandle other = g.image({.name = "other"});
     EXPECT_TRUE(g.has_history(cubes));
@@ -215,7 +219,7 @@ struct SmallGraph : ::testing::Test {
         return g.image({.name = name, .width = 8, .height = 8, .layers = 4});
     }
     PassBuilder fill(const std::string& name, ImageHandle image) {
-        return g.pass(name).writes(image, Use::colour, kBlack).layers(image.layer_count);
+        return g.pass(name).writes(image, ResourceUse::colour, kBlack).layers(image.layer_count);
     }
 };
 
@@ -229,8 +233,11 @@ TEST_F(SmallGraph, GraphWithoutOutputsHasNoPasses) {
 
 TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
     fill("a", a).record(nothing);
-    fill("b", b).reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
-    fill("c", c).reads(a, Use::sampled).record(nothing);
+    fill("b", b)
+        .reads(a, ResourceUse::sampled)
+        .writes(args, ResourceUse::storage_write)
+        .record(nothing);
+    fill("c", c).reads(a, ResourceUse::sampled).record(nothing);
     g.mark_output(c);
     const GraphPlan plan = planned(g);
     EXPECT_THAT(names_of(g, plan), ElementsAre("a", "c"));
@@ -244,7 +251,7 @@ TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
 TEST_F(SmallGraph, PassWhoseImageIsOverwrittenUnreadIsCulled) {
     fill("lost", a).record(nothing);
     fill("seen", a).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
     fill("wanted", a).record(nothing);
     g.mark_output(a);
     g.mark_output(b);
@@ -254,7 +261,7 @@ TEST_F(SmallGraph, PassWhoseImageIsOverwrittenUnreadIsCulled) {
 TEST_F(SmallGraph, PassWhoseImageIsLoadedOrPartlyOverwrittenIsKept) {
     fill("base", a).record(nothing);
     fill("part", a.layers(1, 2)).record(nothing);
-    g.pass("load").writes(a.layers(0, 1), Use::colour).record(nothing);
+    g.pass("load").writes(a.layers(0, 1), ResourceUse::colour).record(nothing);
     g.mark_output(a);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "part", "load"));
 }
@@ -262,7 +269,7 @@ TEST_F(SmallGraph, PassWhoseImageIsLoadedOrPartlyOverwrittenIsKept) {
 TEST_F(SmallGraph, PassWhoseLayersAreNotReadIsCulled) {
     fill("low", a.layers(0, 2)).record(nothing);
     fill("high", a.layers(2, 2)).record(nothing);
-    fill("b", b).reads(a.layers(0, 2), Use::sampled).record(nothing);
+    fill("b", b).reads(a.layers(0, 2), ResourceUse::sampled).record(nothing);
     g.mark_output(b);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("low", "b"));
 }
@@ -270,16 +277,16 @@ TEST_F(SmallGraph, PassWhoseLayersAreNotReadIsCulled) {
 TEST_F(SmallGraph, PassWhoseImageTheNextFrameReadsIsKept) {
     fill("base", b).record(nothing);
     // The next frame reads image `a`, so passes `history` and `base` are kept.
-    fill("history", a).reads(b, Use::sampled).record(nothing);
-    fill("view", c).reads(g.previous(a), Use::sampled).record(nothing);
+    fill("history", a).reads(b, ResourceUse::sampled).record(nothing);
+    fill("view", c).reads(g.previous(a), ResourceUse::sampled).record(nothing);
     g.mark_output(c);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "history", "view"));
 }
 
 TEST_F(SmallGraph, OnlyTheLastWriterIsKeptForTheNextFrame) {
-    fill("view", c).reads(g.previous(a), Use::sampled).record(nothing);
+    fill("view", c).reads(g.previous(a), ResourceUse::sampled).record(nothing);
     fill("lost", a).record(nothing);
-    fill("history", a).reads(g.previous(b), Use::sampled).record(nothing);
+    fill("history", a).reads(g.previous(b), ResourceUse::sampled).record(nothing);
     // Only pass `history`, which the next frame needs, reads image `b`.
     fill("deeper", b).record(nothing);
     g.mark_output(c);
@@ -287,7 +294,7 @@ TEST_F(SmallGraph, OnlyTheLastWriterIsKeptForTheNextFrame) {
 }
 
 TEST_F(SmallGraph, HistoryThatFeedsOnlyItselfIsCulled) {
-    fill("loop", a).reads(g.previous(a), Use::sampled).record(nothing);
+    fill("loop", a).reads(g.previous(a), ResourceUse::sampled).record(nothing);
     fill("view", c).record(nothing);
     g.mark_output(c);
     const GraphPlan plan = planned(g);
@@ -299,8 +306,8 @@ TEST_F(SmallGraph, HistoryThatFeedsOnlyItselfIsCulled) {
 TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
     fill("a", a).record(nothing);
     fill("culled", d).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
-    fill("c", c).reads(b, Use::sampled).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
+    fill("c", c).reads(b, ResourceUse::sampled).record(nothing);
     g.mark_output(c);
     const GraphPlan plan = planned(g);
     EXPECT_EQ(plan.images[a.id].first, 0u);
@@ -313,16 +320,16 @@ TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
 
 TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
     fill("a", a).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
-    fill("c", c).reads(b, Use::sampled).record(nothing);
-    fill("d", d).reads(c, Use::sampled).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
+    fill("c", c).reads(b, ResourceUse::sampled).record(nothing);
+    fill("d", d).reads(c, ResourceUse::sampled).record(nothing);
     g.mark_output(d);
-    Sizer sizer = plain_sizer();
+    MemorySizer sizer = make_default_sizer();
     sizer.image = [](const ImageDesc& desc) {
         return MemoryRequirements{
             .bytes = 100, .alignment = 64, .heap = desc.name == "c" ? 3u : 1u};
     };
-    const GraphPlan plan = graph::plan(g, {}, sizer);
+    const GraphPlan plan = graph::plan_graph(g, {}, sizer);
     EXPECT_THAT(plan.heap_bytes,
                 ElementsAre(0u, 356u, 0u, 100u)); // image a at 0, b at 128, d at 256
     EXPECT_EQ(plan.images[c.id].heap, 3u);
@@ -333,7 +340,7 @@ TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
 
 TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
     fill("a", a).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
     g.mark_output(b);
     const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 0), ElementsAre("image 0 [0,4] nothing > colour!/raster"));
@@ -344,8 +351,8 @@ TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
 
 TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNoBarrier) {
     fill("a", a).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
-    fill("c", c).reads(a, Use::sampled).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
+    fill("c", c).reads(a, ResourceUse::sampled).record(nothing);
     g.mark_output(b);
     g.mark_output(c);
     EXPECT_THAT(barriers_of(planned(g), 2), ElementsAre("image 2 [0,4] nothing > colour!/raster"));
@@ -353,8 +360,11 @@ TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNoBarrier) {
 
 TEST_F(SmallGraph, ReadInAnotherStageWaitsForTheFirstReader) {
     fill("a", a).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
-    g.pass("sum").reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
+    g.pass("sum")
+        .reads(a, ResourceUse::sampled)
+        .writes(args, ResourceUse::storage_write)
+        .record(nothing);
     fill("rewrite", a).record(nothing);
     g.mark_output(a);
     g.mark_output(b);
@@ -367,9 +377,9 @@ TEST_F(SmallGraph, ReadInAnotherStageWaitsForTheFirstReader) {
 
 TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
     fill("a", a).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
-    g.pass("copy").reads(a, Use::copy_from).writes(c, Use::copy_to).record(nothing);
-    fill("d", d).reads(a, Use::sampled).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
+    g.pass("copy").reads(a, ResourceUse::copy_from).writes(c, ResourceUse::copy_to).record(nothing);
+    fill("d", d).reads(a, ResourceUse::sampled).record(nothing);
     g.mark_output(b);
     g.mark_output(c);
     g.mark_output(d);
@@ -382,8 +392,8 @@ TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
 
 TEST_F(SmallGraph, WriteAfterWriteNeedsABarrier) {
     fill("a", a).record(nothing);
-    g.pass("blur").writes(a, Use::storage).record(nothing);
-    g.pass("again").writes(a, Use::storage).record(nothing);
+    g.pass("blur").writes(a, ResourceUse::storage).record(nothing);
+    g.pass("again").writes(a, ResourceUse::storage).record(nothing);
     g.mark_output(a);
     const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] colour!/raster > storage!"));
@@ -392,8 +402,8 @@ TEST_F(SmallGraph, WriteAfterWriteNeedsABarrier) {
 
 TEST_F(SmallGraph, BarriersMergeLayersOfEqualUse) {
     fill("low", a.layers(0, 2)).record(nothing);
-    g.pass("high").writes(a.layers(2, 2), Use::storage_write).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
+    g.pass("high").writes(a.layers(2, 2), ResourceUse::storage_write).record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
     g.mark_output(b);
     const GraphPlan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 1 [0,4] nothing > colour!/raster",
@@ -404,8 +414,8 @@ TEST_F(SmallGraph, BarriersMergeLayersOfEqualUse) {
 TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentUses) {
     fill("a", a).record(nothing);
     g.pass("blur")
-        .reads(a.layers(0, 2), Use::sampled)
-        .writes(a.layers(2, 2), Use::storage_write)
+        .reads(a.layers(0, 2), ResourceUse::sampled)
+        .writes(a.layers(2, 2), ResourceUse::storage_write)
         .record(nothing);
     g.mark_output(a);
     EXPECT_THAT(barriers_of(planned(g), 1),
@@ -415,12 +425,15 @@ TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentUses) {
 
 TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentFrames) {
     fill("a", a).record(nothing);
-    g.pass("sum").reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
-    fill("b", b).reads(a, Use::sampled).record(nothing);
+    g.pass("sum")
+        .reads(a, ResourceUse::sampled)
+        .writes(args, ResourceUse::storage_write)
+        .record(nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
     g.pass("copy")
-        .reads(g.previous(a.layers(0, 2)), Use::copy_from)
-        .reads(a.layers(2, 2), Use::copy_from)
-        .writes(c, Use::copy_to)
+        .reads(g.previous(a.layers(0, 2)), ResourceUse::copy_from)
+        .reads(a.layers(2, 2), ResourceUse::copy_from)
+        .writes(c, ResourceUse::copy_to)
         .record(nothing);
     g.mark_output(args);
     g.mark_output(b);
@@ -432,10 +445,13 @@ TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentFrames) {
 }
 
 TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
-    g.pass("fill").writes(args, Use::storage_write).record(nothing);
-    fill("a", a).reads(args, Use::indirect).record(nothing);
-    g.pass("b").reads(args, Use::storage_read).writes(b, Use::storage_write).record(nothing);
-    g.pass("refill").writes(args, Use::copy_to).record(nothing);
+    g.pass("fill").writes(args, ResourceUse::storage_write).record(nothing);
+    fill("a", a).reads(args, ResourceUse::indirect).record(nothing);
+    g.pass("b")
+        .reads(args, ResourceUse::storage_read)
+        .writes(b, ResourceUse::storage_write)
+        .record(nothing);
+    g.pass("refill").writes(args, ResourceUse::copy_to).record(nothing);
     g.mark_output(a);
     g.mark_output(b);
     g.mark_output(args);
@@ -452,7 +468,9 @@ TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
 }
 
 TEST_F(SmallGraph, HistoryImageAsOutputIsLeftSampledInAllLayers) {
-    fill("a", a.layers(0, 2)).reads(g.previous(a.layers(0, 2)), Use::sampled).record(nothing);
+    fill("a", a.layers(0, 2))
+        .reads(g.previous(a.layers(0, 2)), ResourceUse::sampled)
+        .record(nothing);
     g.mark_output(a.layers(0, 1));
     EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,2] colour!/raster > sampled",
                                                        "image 0 [2,2] nothing > sampled"));
@@ -466,7 +484,10 @@ TEST_F(SmallGraph, OverlappingOutputsGetOneFinalBarrier) {
 }
 
 TEST_F(SmallGraph, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
-    g.pass("copy").reads(g.previous(a), Use::copy_from).writes(b, Use::copy_to).record(nothing);
+    g.pass("copy")
+        .reads(g.previous(a), ResourceUse::copy_from)
+        .writes(b, ResourceUse::copy_to)
+        .record(nothing);
     fill("a", a).record(nothing);
     g.mark_output(b);
     EXPECT_THAT(barriers_of(planned(g), 0),
@@ -475,11 +496,11 @@ TEST_F(SmallGraph, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
 }
 
 TEST(PlainSizer, SizerCountsTexelsAndPadsTo256Bytes) {
-    const MemoryRequirements image = plain_sizer().image(
+    const MemoryRequirements image = make_default_sizer().image(
         {.name = "x", .format = Format::rgba16f, .width = 5, .height = 3, .layers = 6});
     EXPECT_EQ(image.bytes, 768u); // 720 bytes, padded to a multiple of 256
     EXPECT_EQ(image.alignment, 256u);
-    EXPECT_EQ(plain_sizer().buffer({.name = "y", .bytes = 256}).bytes, 256u);
+    EXPECT_EQ(make_default_sizer().buffer({.name = "y", .bytes = 256}).bytes, 256u);
 }
 
 } // namespace

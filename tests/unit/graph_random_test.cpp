@@ -14,7 +14,7 @@ using ::testing::Not;
 constexpr unsigned kGraphs = 500;
 
 /// Returns a sizer with two heaps, and with alignments that do not divide the sizes.
-Sizer awkward_sizer() {
+MemorySizer awkward_sizer() {
     return {.image =
                 [](const ImageDesc& desc) {
                     return MemoryRequirements{.bytes = std::uint64_t{desc.layers} * 1000 *
@@ -29,17 +29,17 @@ Sizer awkward_sizer() {
 }
 
 struct Sample {
-    explicit Sample(unsigned seed) : sizer(seed % 2 ? awkward_sizer() : plain_sizer()) {
+    explicit Sample(unsigned seed) : sizer(seed % 2 ? awkward_sizer() : make_default_sizer()) {
         std::mt19937 random(seed);
         graph = random_graph(random);
-        right = plan(graph, {}, sizer);
+        right = plan_graph(graph, {}, sizer);
     }
     /// Expects that the replay reports an error in the broken plan `wrong`.
     void expect_refused(const GraphPlan& wrong, const std::string& mistake) const {
         EXPECT_THAT(replay(graph, wrong, sizer), Not(IsEmpty())) << mistake << "\n"
                                                                  << to_text(graph, right);
     }
-    Sizer sizer;
+    MemorySizer sizer;
     Graph graph;
     GraphPlan right;
 };
@@ -71,17 +71,17 @@ TEST(RandomGraphs, PlansOfRandomGraphsReplayWithoutErrors) {
 
 TEST(RandomGraphs, ReplayDetectsAMissingBarrier) {
     for_each_sample([](const Sample& sample) {
-        for_each_barrier(sample.right,
-                         [&](GraphPlan& wrong, std::vector<Barrier>& barriers, std::size_t b) {
-                             barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(b));
-                             sample.expect_refused(wrong, "without barrier " + std::to_string(b));
-                         });
+        for_each_barrier(sample.right, [&](GraphPlan& wrong, std::vector<PlannedBarrier>& barriers,
+                                           std::size_t b) {
+            barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(b));
+            sample.expect_refused(wrong, "without barrier " + std::to_string(b));
+        });
     });
 }
 
 TEST(RandomGraphs, ReplayDetectsAMissingReaderOfABarrier) {
     for_each_sample([](const Sample& sample) {
-        for_each_barrier(sample.right, [&](GraphPlan& wrong, std::vector<Barrier>& barriers,
+        for_each_barrier(sample.right, [&](GraphPlan& wrong, std::vector<PlannedBarrier>& barriers,
                                            std::size_t b) {
             // Skips barriers with redundant readers. A wait for the last user of memory includes
             // earlier users, and no pass writes to images of the previous frame.
@@ -126,7 +126,8 @@ TEST(RandomGraphs, ReplayDetectsAnAttachmentThatIsNotStored) {
             const Pass& pass = sample.graph.passes()[planned.pass];
             for (std::size_t i = 0; i < pass.images.size(); ++i) {
                 const ImageUse& use = pass.images[i];
-                if (!use.write || (use.use != Use::colour && use.use != Use::depth)) continue;
+                if (!use.write || (use.use != ResourceUse::colour && use.use != ResourceUse::depth))
+                    continue;
                 if (planned.unread >> i & 1) {
                     ++unread;
                     continue;
@@ -147,13 +148,13 @@ TEST(RandomGraphs, RandomGraphsUseEveryFeatureOfPlans) {
     for (unsigned seed = 0; seed < kGraphs; ++seed) {
         std::mt19937 random(seed);
         const Graph graph = random_graph(random);
-        const GraphPlan plan = graph::plan(graph, {}, plain_sizer());
+        const GraphPlan plan = graph::plan_graph(graph, {}, make_default_sizer());
         culled += plan.culled.empty() ? 0 : 1;
         empty += plan.passes.empty() ? 1 : 0;
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-            kept += plan.images[i].used && (graph.lifetime(i) == Lifetime::previous) ? 1 : 0;
+            kept += plan.images[i].used && (graph.lifetime(i) == ImageLifetime::previous) ? 1 : 0;
         for (const PlannedPass& pass : plan.passes)
-            for (const Barrier& b : pass.barriers) {
+            for (const PlannedBarrier& b : pass.barriers) {
                 const bool read_after_read = !b.before.nothing && !b.before.write && !b.after.write;
                 aliased += b.before.nothing && !b.shared.empty() ? 1 : 0;
                 chained += read_after_read && b.before.use == b.after.use ? 1 : 0;

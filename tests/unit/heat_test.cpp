@@ -44,7 +44,7 @@ TEST(Heat, NanHasAColourOutsideTheScale) {
 }
 
 TEST(Heat, HeatPictureKeepsPixelOrderAndScalesValues) {
-    const Picture picture = heat(std::vector<float>{0, 0.5F, 1, 2}, 2, 2, 2);
+    const Picture picture = make_heat_map(std::vector<float>{0, 0.5F, 1, 2}, 2, 2, 2);
     EXPECT_EQ(picture.at(0, 0), heat_colour(0));
     EXPECT_EQ(picture.at(1, 0), heat_colour(0.25F));
     EXPECT_EQ(picture.at(0, 1), heat_colour(0.5F));
@@ -53,7 +53,7 @@ TEST(Heat, HeatPictureKeepsPixelOrderAndScalesValues) {
 
 std::string heat_refusal(std::size_t size, float high) {
     return test::refusal(catoptric::Failure::internal,
-                         [&] { heat(std::vector<float>(size), 2, 2, high); });
+                         [&] { make_heat_map(std::vector<float>(size), 2, 2, high); });
 }
 
 TEST(Heat, WrongMapSizeOrScaleIsRefused) {

@@ -40,7 +40,7 @@ std::string tiff(std::uint32_t width, std::uint32_t height, std::uint32_t compre
 }
 
 ImageShape shape_of(const std::string& file) {
-    return header_of(MemoryBytes(file), "tiff", "a.tif").value();
+    return read_image_header(MemoryByteSource(file), "tiff", "a.tif").value();
 }
 
 TEST(TiffHeader, HeaderGivesSizeAndChannelsInEitherByteOrder) {

@@ -51,7 +51,7 @@ TEST(IncompleteReport, ReportOfARunningRunSaysThatTheRunHasNotEnded) {
     made.stopped.reset();
     const std::string why = "4 of 8 rows: the run had not ended when this was written";
     EXPECT_EQ(json::parse(catoptric::report::to_json(made))["incomplete"], why);
-    made.lag = std::make_shared<catoptric::measure::Lag>();
+    made.lag = std::make_shared<catoptric::measure::LagResults>();
     made.lag->complete = false;
     EXPECT_EQ(json::parse(catoptric::report::to_json(made))["incomplete"],
               why + "; their lag was not measured to its end");
@@ -100,11 +100,11 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     made.rows[0].causes = std::make_shared<catoptric::measure::Causes>();
     made.rows[0].causes->largest.resize(made.rows[0].display.pixels.size());
     whole.rows[0].causes = made.rows[0].causes;
-    catoptric::report::Writer writer(folder / "out");
+    catoptric::report::ReportWriter writer(folder / "out");
     writer.write(made);
     EXPECT_EQ(images(), (std::vector<std::string>{"causes-naive0.png", "naive0-error.png",
                                                   "naive0.exr", "naive0.png", "reference.png"}));
-    std::vector<fs::path> missing = catoptric::report::files_of({"naive0"});
+    std::vector<fs::path> missing = catoptric::report::list_report_files({"naive0"});
     EXPECT_EQ(missing.size(), 4 + images().size() + 1);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
     EXPECT_EQ(missing, (std::vector<fs::path>{"images/worst-naive0.png"})); // the run drew no views
@@ -136,7 +136,7 @@ TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
     made.rows.resize(2);
     made.views.resize(6);
     for (auto& row : made.rows) row.views.resize(3);
-    catoptric::report::Writer writer(folder / "out");
+    catoptric::report::ReportWriter writer(folder / "out");
     writer.write(made);
     made.rows[0].worst = {0, catoptric::measure::Picture(9, 3)};
     made.rows[1].worst = {0, catoptric::measure::Picture(9, 3)};
@@ -153,7 +153,7 @@ TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
 
 /// A file that could not be written is written again with the next row.
 TEST_F(GrowingReport, FailedWriteIsRepeatedWithTheNextRow) {
-    catoptric::report::Writer writer(folder / "out");
+    catoptric::report::ReportWriter writer(folder / "out");
     // A folder takes the name of a file that the writer will write.
     fs::create_directories(folder / "out/images/naive0.exr");
     Comparison made = usual();
@@ -168,7 +168,7 @@ TEST_F(GrowingReport, FailedWriteIsRepeatedWithTheNextRow) {
 
 TEST_F(GrowingReport, IncompleteStressReportSaysSoInEveryFile) {
     using namespace catoptric::report;
-    Stress stress;
+    StressResults stress;
     stress.complete = false;
     stress.asked = 27;
     stress.stopped = kLost;

@@ -74,14 +74,14 @@ TEST(MedianInterval, PairedIntervalUsesTheRatioOrDifferenceOfEachPair) {
 
 TEST(Summary, SummaryOfRoundsUsesTheMedianOfEachRound) {
     const std::vector<std::vector<double>> rounds{{1, 2, 90}, {3}, {5, 4}, {7, 6, 8}, {9}, {10}};
-    const Summary summary = summarise(rounds);
+    const SampleSummary summary = summarise_samples(rounds);
     EXPECT_EQ(summary.rounds, (std::vector<double>{2, 3, 4.5, 7, 9, 10}));
     EXPECT_EQ(summary.median, 5.75) << "not that of the eleven samples, 6";
     EXPECT_EQ(summary.ci95.low, 2);
     EXPECT_EQ(summary.ci95.high, 10);
     EXPECT_EQ(summary.n, 11U);
     EXPECT_EQ(summary.samples, (std::vector<double>{1, 2, 90, 3, 5, 4, 7, 6, 8, 9, 10}));
-    EXPECT_FALSE(summarise(std::vector<double>{1, 2, 3, 4, 5, 6}).ci95.is_known())
+    EXPECT_FALSE(summarise_samples(std::vector<double>{1, 2, 3, 4, 5, 6}).ci95.is_known())
         << "in one go: what disturbed one disturbed its neighbours";
 }
 

@@ -14,11 +14,11 @@ TEST(Judge, RowsOfAMovingSceneAreRankedByWholeFrameTime) {
     measure::Row a = row("a", 1, .1, .1), b = row("b", 2, .1, .2);
     a.frame_ms = times(9), b.frame_ms = times(3);
     EXPECT_TRUE(measure::is_faster(a, b));
-    EXPECT_TRUE(measure::beats(a, b));
+    EXPECT_TRUE(measure::is_better_choice(a, b));
     a.moves = b.moves = true;
     EXPECT_TRUE(measure::is_faster(b, a)) << "the host's work counts";
-    EXPECT_FALSE(measure::beats(a, b)) << "it is closer, and slower";
-    EXPECT_EQ(measure::front_of({a, b}), (std::vector<std::size_t>{1, 0}));
+    EXPECT_FALSE(measure::is_better_choice(a, b)) << "it is closer, and slower";
+    EXPECT_EQ(measure::find_front({a, b}), (std::vector<std::size_t>{1, 0}));
 }
 
 using Front = std::vector<std::size_t>;
@@ -34,32 +34,32 @@ measure::Row about(double ms, double flip) {
 
 TEST(Judge, FrontEqualsHandComputedFronts) {
     EXPECT_EQ(
-        measure::front_of({exact(3, 1), exact(1, 3), exact(2, 2), exact(3, 3), exact(2, 2.5)}),
+        measure::find_front({exact(3, 1), exact(1, 3), exact(2, 2), exact(3, 3), exact(2, 2.5)}),
         (Front{1, 2, 0}));
-    EXPECT_EQ(measure::front_of({exact(5, 5)}), Front{0});
-    EXPECT_EQ(measure::front_of({}), Front{});
+    EXPECT_EQ(measure::find_front({exact(5, 5)}), Front{0});
+    EXPECT_EQ(measure::find_front({}), Front{});
     // Of rows with equal times, the row with less error is on the front.
-    EXPECT_EQ(measure::front_of({exact(1, 2), exact(1, 1)}), Front{1});
-    EXPECT_EQ(measure::front_of({exact(2, 1), exact(1, 1)}),
+    EXPECT_EQ(measure::find_front({exact(1, 2), exact(1, 1)}), Front{1});
+    EXPECT_EQ(measure::find_front({exact(2, 1), exact(1, 1)}),
               Front{1}); // of equal errors, the faster row is on the front
-    EXPECT_EQ(measure::front_of({exact(1, 1), exact(2, 2), exact(1, 1)}), (Front{0, 2}));
+    EXPECT_EQ(measure::find_front({exact(1, 1), exact(2, 2), exact(1, 1)}), (Front{0, 2}));
 }
 
 /// A row with black mirrors cannot be the fastest row, and cannot be on the front either.
 TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     measure::Row black = exact(1, .5);
-    EXPECT_EQ(measure::front_of({black, exact(2, .1), exact(3, .6)}), (Front{0, 1}));
+    EXPECT_EQ(measure::find_front({black, exact(2, .1), exact(3, .6)}), (Front{0, 1}));
     black.mirrors_black = true;
-    EXPECT_EQ(measure::front_of({black, exact(2, .1), exact(3, .6)}), Front{1});
-    EXPECT_FALSE(measure::beats(black, exact(3, .6)));
-    EXPECT_FALSE(measure::beats(exact(1, .1), black));
+    EXPECT_EQ(measure::find_front({black, exact(2, .1), exact(3, .6)}), Front{1});
+    EXPECT_FALSE(measure::is_better_choice(black, exact(3, .6)));
+    EXPECT_FALSE(measure::is_better_choice(exact(1, .1), black));
     measure::Comparison made;
     made.rows = {black, exact(2, .1)};
-    made.pareto = measure::front_of(made.rows);
-    EXPECT_EQ(measure::closest_row(made), &made.rows[1]);
-    EXPECT_EQ(measure::fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
-    ASSERT_EQ(measure::ranking_of(made).black.size(), 1U);
-    EXPECT_TRUE(measure::ranking_of(made).beaten_by_beaten.empty());
+    made.pareto = measure::find_front(made.rows);
+    EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
+    EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
+    ASSERT_EQ(measure::rank_rows(made).black.size(), 1U);
+    EXPECT_TRUE(measure::rank_rows(made).beaten_by_beaten.empty());
 }
 
 TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
@@ -73,34 +73,34 @@ TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
     EXPECT_TRUE(measure::is_faster(about(10, 1), about(10.5, 1)));
     EXPECT_NEAR(measure::time_ratio(about(10.5, 1), about(10, 1)).low, 1.05, 1e-12);
 
-    EXPECT_TRUE(measure::beats(exact(10, 1), about(12, 1)));
-    EXPECT_FALSE(measure::beats(exact(10, 1), about(11, 1)));
-    EXPECT_TRUE(measure::beats(about(11, .9), exact(10, 1)))
+    EXPECT_TRUE(measure::is_better_choice(exact(10, 1), about(12, 1)));
+    EXPECT_FALSE(measure::is_better_choice(exact(10, 1), about(11, 1)));
+    EXPECT_TRUE(measure::is_better_choice(about(11, .9), exact(10, 1)))
         << "closer, and not told apart in time";
-    EXPECT_FALSE(measure::beats(about(12, .9), exact(10, 1))) << "closer, but slower";
-    EXPECT_FALSE(measure::beats(exact(10, 1.1), about(12, 1)));
-    EXPECT_EQ(measure::front_of({about(11, 1), exact(10, 1)}), (Front{1, 0}));
-    EXPECT_EQ(measure::front_of({exact(10, 1), about(11, .9), exact(12, .9)}), (Front{1, 2}));
+    EXPECT_FALSE(measure::is_better_choice(about(12, .9), exact(10, 1))) << "closer, but slower";
+    EXPECT_FALSE(measure::is_better_choice(exact(10, 1.1), about(12, 1)));
+    EXPECT_EQ(measure::find_front({about(11, 1), exact(10, 1)}), (Front{1, 0}));
+    EXPECT_EQ(measure::find_front({exact(10, 1), about(11, .9), exact(12, .9)}), (Front{1, 2}));
 }
 
 TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     measure::Row a = exact(1, .1), b = exact(1, .2);
     // Other metrics do not decide which row is closer.
     a.error.rmse = a.error_all.flip = .5;
-    EXPECT_TRUE(measure::is_closer(a, b));
-    EXPECT_FALSE(measure::is_closer(b, a));
-    EXPECT_TRUE(measure::beats(a, b));
+    EXPECT_TRUE(measure::has_less_flip(a, b));
+    EXPECT_FALSE(measure::has_less_flip(b, a));
+    EXPECT_TRUE(measure::is_better_choice(a, b));
     // With six drawn views, b is closer in only four, so neither row counts as closer.
     for (int view = 0; view < 6; ++view) {
         a.views.push_back(a), b.views.push_back(b);
         if (view < 4) std::swap(a.views.back().error.flip, b.views.back().error.flip);
     }
-    EXPECT_FALSE(measure::is_closer(a, b));
-    EXPECT_FALSE(measure::is_closer(b, a));
-    EXPECT_EQ(measure::front_of({a, b}), (Front{0, 1}));
+    EXPECT_FALSE(measure::has_less_flip(a, b));
+    EXPECT_FALSE(measure::has_less_flip(b, a));
+    EXPECT_EQ(measure::find_front({a, b}), (Front{0, 1}));
     for (measure::Errors& view : a.views) view.error.flip = .3;
-    EXPECT_TRUE(measure::is_closer(b, a)) << "in every view";
-    EXPECT_EQ(measure::front_of({a, b}), (Front{1}));
+    EXPECT_TRUE(measure::has_less_flip(b, a)) << "in every view";
+    EXPECT_EQ(measure::find_front({a, b}), (Front{1}));
 }
 
 TEST(Judge, RowsWithFewerThanSixRoundsTie) {
@@ -109,22 +109,22 @@ TEST(Judge, RowsWithFewerThanSixRoundsTie) {
     b.gpu_ms.rounds.pop_back();
     EXPECT_FALSE(measure::time_ratio(a, b).is_known());
     EXPECT_TRUE(measure::is_tie(a, b));
-    EXPECT_EQ(measure::front_of({a, b}), (Front{0, 1}));
+    EXPECT_EQ(measure::find_front({a, b}), (Front{0, 1}));
 }
 
 TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
     measure::Row failed = exact(1, 0), no_time = exact(0, 0), no_error = exact(1, 0);
     failed.error.nonfinite = 1;
     no_error.error.rmse = no_error.error.flip = measure::Difference::kNone;
-    EXPECT_EQ(measure::front_of({failed, no_time, no_error, exact(5, 5)}), Front{3});
-    EXPECT_FALSE(measure::beats(exact(1, 1), no_error));
+    EXPECT_EQ(measure::find_front({failed, no_time, no_error, exact(5, 5)}), Front{3});
+    EXPECT_FALSE(measure::is_better_choice(exact(1, 1), no_error));
 }
 
 TEST(Judge, TiedRowsShareTheirPlaces) {
     const measure::Comparison made = report::sample::comparison(
         {exact(10, 1), about(11, 1), exact(5, 1), exact(30, 1)});
     const auto places = [&](std::size_t i) {
-        const measure::PlaceRange found = measure::places_in_time(made, made.rows[i]);
+        const measure::RankRange found = measure::find_time_places(made, made.rows[i]);
         return std::pair(found.first, found.last);
     };
     EXPECT_EQ(places(0), (std::pair<std::size_t, std::size_t>(2, 3)));

@@ -13,24 +13,24 @@ constexpr Knob kKnobKnobs[] = {
     {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
 
 std::string knob_refusal(std::string_view knob, std::string_view text) {
-    Settings settings(kKnobKnobs);
+    KnobSettings settings(kKnobKnobs);
     return test::refusal(Failure::usage, [&] { settings.set("row", knob, text); });
 }
 
 TEST(Knob, SpecialWordReplacesANumber) {
-    Settings settings(kKnobKnobs);
+    KnobSettings settings(kKnobKnobs);
     EXPECT_FALSE(settings.is_special(kKnobKnobs[1]));
     settings.set("row", "face", "auto");
     EXPECT_TRUE(settings.is_special(kKnobKnobs[1]));
     EXPECT_EQ(settings.text(kKnobKnobs[1]), "auto");
-    EXPECT_FALSE(settings == Settings(kKnobKnobs));
+    EXPECT_FALSE(settings == KnobSettings(kKnobKnobs));
     settings.set("row", "face", "16");
     EXPECT_EQ(settings.number(kKnobKnobs[1]), 16);
-    EXPECT_TRUE(settings == Settings(kKnobKnobs));
+    EXPECT_TRUE(settings == KnobSettings(kKnobKnobs));
 }
 
 TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
-    Settings settings(kKnobKnobs);
+    KnobSettings settings(kKnobKnobs);
     settings.set("row", "face", "auto");
     try {
         settings.number(kKnobKnobs[1]);
@@ -44,7 +44,7 @@ TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
 
 TEST(Knob, LargeNumbersAreWrittenWithoutAnExponent) {
     const Knob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
-    Settings settings(std::span(&range, 1));
+    KnobSettings settings(std::span(&range, 1));
     settings.set("row", "range", "100000");
     EXPECT_EQ(settings.text(range), "100000");
     try {

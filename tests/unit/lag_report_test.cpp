@@ -15,10 +15,10 @@
 namespace {
 
 using catoptric::report::Comparison;
-using catoptric::report::Lag;
 using catoptric::report::LagAtSpeed;
+using catoptric::report::LagResults;
 using catoptric::report::LagRow;
-using catoptric::report::Settling;
+using catoptric::report::SettlingAfterCut;
 using namespace catoptric::report::sample;
 using nlohmann::json;
 using testing::HasSubstr;
@@ -44,12 +44,13 @@ LagRow lag_row(const std::string& label) {
 
 Comparison with_lag() {
     Comparison made = usual();
-    made.lag = std::make_shared<Lag>(Lag{.seconds = {0, 2},
-                                         .path = 4,
-                                         .jump_from = 2,
-                                         .frame_cap = 3,
-                                         .rows = {lag_row("reuse"), lag_row("parallax")},
-                                         .without_history = {"naive", "raytrace:depth=16"}});
+    made.lag = std::make_shared<LagResults>(
+        LagResults{.seconds = {0, 2},
+                   .path = 4,
+                   .jump_from = 2,
+                   .frame_cap = 3,
+                   .rows = {lag_row("reuse"), lag_row("parallax")},
+                   .without_history = {"naive", "raytrace:depth=16"}});
     return made;
 }
 
@@ -154,16 +155,17 @@ TEST(LagReport, LagPlotsHaveALineForEachSpeedAndEachRow) {
 TEST(LinePlot, ZerosAreDrawnInTheirOwnLaneAndNanIsAGap) {
     catoptric::report::LinePlot plot{.x_name = "x", .y_name = "y", .says = "both", .x = {0, 1, 2}};
     plot.lines = {{"a", {0, 0.1, 0}}, {"b", {test::kDoubleNan, 0.01, 0.1}}};
-    const std::string drawn = line_plot(plot);
+    const std::string drawn = make_line_plot(plot);
     EXPECT_TRUE(
         std::regex_search(drawn, std::regex(R"(d="M66\.0 238\.0L203\.0 [0-9.]+L340\.0 238\.0")")))
         << drawn;
     EXPECT_TRUE(std::regex_search(drawn, std::regex(R"(d="M203\.0 [0-9.]+L340\.0 [0-9.]+")")));
     plot.lines = {{"a", {test::kDoubleNan}}};
-    EXPECT_EQ(line_plot(plot), "");
+    EXPECT_EQ(make_line_plot(plot), "");
     plot.x = {1, 10, 100}, plot.log_x = true;
     plot.lines = {{"a", {0.1, 0.1, 0.1}}};
-    EXPECT_TRUE(std::regex_search(line_plot(plot), std::regex(R"(d="M66\.0 .*L203\.0 .*L340\.0)")));
+    EXPECT_TRUE(
+        std::regex_search(make_line_plot(plot), std::regex(R"(d="M66\.0 .*L203\.0 .*L340\.0)")));
 }
 
 } // namespace

@@ -128,9 +128,9 @@ std::string glb_of(const Mesh& mesh, bool double_sided) {
 /// Returns the irradiance from all lights on a surface at `place` that faces the origin.
 double irradiance(const Scene& scene, const dvec3& place) {
     double sum = 0;
-    for (const PointLight& light : lights(scene)) {
+    for (const PointLight& light : list_lights(scene)) {
         const dvec3 way = place - light.position, along = glm::normalize(way);
-        sum += light.emission.x * light.area * share_towards(light, along) *
+        sum += light.emission.x * light.area * light_share_towards(light, along) *
                glm::dot(along, glm::normalize(place)) / glm::dot(way, way);
     }
     return sum;
@@ -168,8 +168,8 @@ TEST_F(Lamps, ClosedLampsShineLikeAQuarterOfTheirSurface) {
                  {"cylinder", uneven_cylinder(.06, .2), 2 * test::kPi * .06 * (.06 + .2)}};
     for (const auto& [name, mesh, area] : lamps)
         for (const auto& [how, scene] : scenes(mesh)) {
-            ASSERT_EQ(lights(scene).size(), 1u) << name << ", " << how;
-            EXPECT_TRUE(lights(scene)[0].closed) << name << ", " << how;
+            ASSERT_EQ(list_lights(scene).size(), 1u) << name << ", " << how;
+            EXPECT_TRUE(list_lights(scene)[0].closed) << name << ", " << how;
             const dvec3 centre = bounds(scene).centre();
             const double found = mean_of_six(
                 [&](const dvec3& direction) { return irradiance(scene, kAway * direction); });
@@ -182,54 +182,56 @@ TEST_F(Lamps, OpenTwoSidedBoardShinesByItsVisibleArea) {
     const Mesh board = scene::quad("lamp", {-.1, .02, -.1}, {-.1, .02, .1}, {.1, .02, .1},
                                    {.1, .02, -.1});
     const Scene scene = load(write("two.glb", glb_of(board, true)));
-    ASSERT_EQ(lights(scene).size(), 1u);
-    const PointLight light = lights(scene)[0];
+    ASSERT_EQ(list_lights(scene).size(), 1u);
+    const PointLight light = list_lights(scene)[0];
     EXPECT_FALSE(light.closed);
     for (const dvec3& along :
          {dvec3(0, 1, 0), dvec3(0, -1, 0), dvec3(.6, .8, 0), dvec3(0, -.6, .8), dvec3(1, 0, 0)})
-        EXPECT_NEAR(share_towards(light, along), std::abs(along.y), 1e-7);
+        EXPECT_NEAR(light_share_towards(light, along), std::abs(along.y), 1e-7);
     const Scene one = load(write("one.glb", glb_of(board, false)));
-    EXPECT_NEAR(share_towards(lights(one)[0], {.6, .8, 0}), .8, 1e-7);
-    EXPECT_EQ(share_towards(lights(one)[0], {.6, -.8, 0}), 0);
+    EXPECT_NEAR(light_share_towards(list_lights(one)[0], {.6, .8, 0}), .8, 1e-7);
+    EXPECT_EQ(light_share_towards(list_lights(one)[0], {.6, -.8, 0}), 0);
 }
 
 TEST_F(Lamps, OpenTwoSidedTubeShinesByTheMeanCosineOfItsFacets) {
     const Scene scene = load(write("two.glb", glb_of(turned({{.05, -.1}, {.05, .1}}, 64), true)));
-    ASSERT_EQ(lights(scene).size(), 1u);
+    ASSERT_EQ(list_lights(scene).size(), 1u);
     // A facet at angle a around the tube appears |cos a| times the sine of the angle between view
     // and axis. The mean of |cos a| over a turn is 2 / pi.
     for (const double angle : {0.0, .4, .9, test::kPi / 2})
-        EXPECT_NEAR(share_towards(lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
-                    2 / test::kPi * std::sin(angle), 1e-3);
+        EXPECT_NEAR(
+            light_share_towards(list_lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
+            2 / test::kPi * std::sin(angle), 1e-3);
 }
 
 TEST_F(Lamps, SphereWithAHoleIsAnOpenLamp) {
     Mesh mesh = uneven_sphere(.1);
     mesh.triangles.pop_back();
     for (const auto& [how, scene] : scenes(mesh)) {
-        ASSERT_EQ(lights(scene).size(), 1u) << how;
-        EXPECT_FALSE(lights(scene)[0].closed) << how;
+        ASSERT_EQ(list_lights(scene).size(), 1u) << how;
+        EXPECT_FALSE(list_lights(scene)[0].closed) << how;
     }
     // The sphere with a hole shines almost equally in all directions. Its inside shines too, so
     // half of its surface counts.
     const Scene two = load(write("two.glb", glb_of(mesh, true)));
-    EXPECT_NEAR(
-        mean_of_six([&](const dvec3& along) { return share_towards(lights(two)[0], along); }), .5,
-        .01);
+    EXPECT_NEAR(mean_of_six([&](const dvec3& along) {
+                    return light_share_towards(list_lights(two)[0], along);
+                }),
+                .5, .01);
 }
 
 TEST(Topology, PositionsWithinRoundingErrorsAreMerged) {
     const std::vector<dvec3> places{{1, 0, 0},     {1, 1e-17, -1e-17}, {1 + 2e-7, 0, 0},
                                     {1.01, 0, 0},  {1, 2e-6, 0},       {0, 0, 0},
                                     {0, -1e-9, 0}, {1, 0, 0}};
-    EXPECT_THAT(first_at_place(places), testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
-    EXPECT_TRUE(first_at_place({}).empty());
-    EXPECT_THAT(first_at_place(std::vector(3, dvec3(0))), testing::ElementsAre(0, 0, 0));
+    EXPECT_THAT(first_vertex_at_place(places), testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
+    EXPECT_TRUE(first_vertex_at_place({}).empty());
+    EXPECT_THAT(first_vertex_at_place(std::vector(3, dvec3(0))), testing::ElementsAre(0, 0, 0));
 }
 
 TEST(Topology, TriangleWithARepeatedCornerHasNoSides) {
-    const std::vector<Corners> triangles{{0, 1, 2}, {2, 1, 1}, {3, 1, 2}};
-    const std::vector<TriangleEdge> sides = sides_of(triangles);
+    const std::vector<TriangleCorners> triangles{{0, 1, 2}, {2, 1, 1}, {3, 1, 2}};
+    const std::vector<TriangleEdge> sides = list_triangle_edges(triangles);
     EXPECT_EQ(sides.size(), 6u);
     std::size_t shared = 0;
     for_each_edge(sides, [&](std::span<const TriangleEdge> edge) { shared += edge.size() == 2; });

@@ -31,7 +31,7 @@ Picture light_edges_noise(std::uint32_t seed) {
 /// The rmse of mirror pixels split by a mask of light outlines, and the difference over all mirror
 /// pixels.
 struct Split {
-    LightEdges edges;
+    LightEdgeErrors edges;
     Difference all;
 };
 
@@ -41,7 +41,8 @@ Split light_edges_split(const Picture& a, const Picture& b, const Mask& mirrors,
         if (mirrors[i] == 0) there[i] = 0;
         if (there[i] != 0) elsewhere[i] = 0;
     }
-    return {light_edges(difference(a, b, there, kNoFlip), difference(a, b, elsewhere, kNoFlip)),
+    return {split_error_by_light_edges(difference(a, b, there, kNoFlip),
+                                       difference(a, b, elsewhere, kNoFlip)),
             difference(a, b, mirrors, kNoFlip)};
 }
 
@@ -75,7 +76,7 @@ TEST(LightEdges, ErrorsAreAssignedToLightOutlinesOrToTheRest) {
     a.pixels[10] = vec3(.3F), a.pixels[30] = vec3(.1F);
     a.pixels[20] = vec3(1); // this pixel shows no mirror
     there[10] = there[20] = 255;
-    const LightEdges found = light_edges_split(a, black, mirrors, there).edges;
+    const LightEdgeErrors found = light_edges_split(a, black, mirrors, there).edges;
     EXPECT_NEAR(found.rmse, .3 / 2, 1e-7);
     EXPECT_NEAR(found.rest_rmse, .1 / 2, 1e-7);
     EXPECT_NEAR(found.share, .9, 1e-6);
@@ -88,7 +89,7 @@ TEST(LightEdges, FiguresAreZeroWithoutErrorAndNanWithoutPixels) {
     EXPECT_EQ(light_edges_split(black, black, some, some).edges.share, 0);
     EXPECT_EQ(light_edges_split(black, black, some, some).edges.rest_rmse, 0);
     EXPECT_EQ(light_edges_split(black, black, some, none).edges.pixels, 0);
-    const LightEdges nothing = light_edges_split(black, black, none, some).edges;
+    const LightEdgeErrors nothing = light_edges_split(black, black, none, some).edges;
     for (const double figure : {nothing.rmse, nothing.rest_rmse, nothing.share, nothing.pixels})
         EXPECT_TRUE(std::isnan(figure));
 }

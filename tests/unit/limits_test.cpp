@@ -14,17 +14,19 @@ using namespace catoptric;
 
 constexpr render::GeometryLimits kRoomy{1u << 27, 1u << 27, 1u << 30, 1ull << 31};
 
-std::string limits_refusal(const render::Amounts& amounts, const render::GeometryLimits& limits) {
-    return test::refusal(Failure::exhausted, [&] { render::check_limits("s", amounts, limits); });
+std::string limits_refusal(const render::SceneAmounts& amounts,
+                           const render::GeometryLimits& limits) {
+    return test::refusal(Failure::exhausted,
+                         [&] { render::check_geometry_limits("s", amounts, limits); });
 }
 
 TEST(Limits, AmountsCountTrianglesObjectsAndMirrors) {
     const scene::Scene room = test::room(2, 1);
-    const render::Amounts amounts = render::amounts_of(room);
+    const render::SceneAmounts amounts = render::count_scene_amounts(room);
     EXPECT_EQ(amounts.triangles, scene::triangle_count(room));
     EXPECT_EQ(amounts.objects, 9u);
     EXPECT_EQ(amounts.mirrors, 2u);
-    EXPECT_NO_THROW(render::check_limits("s", amounts, kRoomy));
+    EXPECT_NO_THROW(render::check_geometry_limits("s", amounts, kRoomy));
 }
 
 TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
@@ -34,12 +36,12 @@ TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
     map.texels.resize(32);
     room.environment = std::make_shared<const scene::Environment>(map);
     render::GeometryLimits limits = kRoomy;
-    const render::Amounts amounts = render::amounts_of(room);
+    const render::SceneAmounts amounts = render::count_scene_amounts(room);
     EXPECT_EQ(amounts.environment_texels, 32u);
     limits.texels = 63;
-    EXPECT_NO_THROW(render::check_limits("s", amounts, limits));
+    EXPECT_NO_THROW(render::check_geometry_limits("s", amounts, limits));
     limits.texels = 31;
-    render::Amounts few = amounts;
+    render::SceneAmounts few = amounts;
     few.triangles = 2;
     EXPECT_EQ(limits_refusal(few, limits),
               "scene 's' wants 32 texels of the environment, the device allows 31");
@@ -50,9 +52,9 @@ TEST(Limits, MoreImageTexelsThanTheLimitAreRefused) {
     const auto image = std::make_shared<const scene::Image>(
         scene::Image{"wood.png", {8, 4}, std::vector<std::uint32_t>(32)});
     room.materials[room.objects.front().material].albedo_texture = scene::Texture{.image = image};
-    const render::Geometry geometry = render::make_geometry(room, render::space_of(room),
-                                                            render::Spaces::own);
-    render::Vertices vertices(std::vector<bool>(room.objects.size()), 1);
+    const render::Geometry geometry = render::make_geometry(room, render::make_scene_units(room),
+                                                            render::ObjectSpaceChoice::own);
+    render::DeviceVertices vertices(std::vector<bool>(room.objects.size()), 1);
     vertices.lay_out(geometry);
     const auto fill = [&](std::uint64_t most) {
         render::MaterialParameterLists(1).fill(room, geometry, vertices, most);
@@ -73,9 +75,9 @@ scene::Scene copies(int count) {
 }
 
 TEST(Limits, CopiesThatShareAMeshCountOnce) {
-    const render::Amounts room = render::amounts_of(copies(0)),
-                          few = render::amounts_of(copies(65)),
-                          many = render::amounts_of(copies(66));
+    const render::SceneAmounts room = render::count_scene_amounts(copies(0)),
+                               few = render::count_scene_amounts(copies(65)),
+                               many = render::count_scene_amounts(copies(66));
     EXPECT_EQ(few.triangles, room.triangles + 65 * 4096) << "2^18 and one are put where they are";
     EXPECT_EQ(many.triangles, room.triangles + 4096);
     EXPECT_EQ(many.vertices, room.vertices + 2050);
@@ -84,27 +86,28 @@ TEST(Limits, CopiesThatShareAMeshCountOnce) {
     scene::Scene flattened = copies(66);
     flattened.objects.back().world_from_object = dmat4(1, 0, 0, 0, 1, 1e-3, 0, 0, 0, 0, 1, 0, 0, 0,
                                                        0, 1);
-    EXPECT_EQ(render::amounts_of(flattened).triangles, room.triangles + 2 * 4096);
+    EXPECT_EQ(render::count_scene_amounts(flattened).triangles, room.triangles + 2 * 4096);
     render::GeometryLimits tight = kRoomy;
     tight.memory_bytes = 1 << 20;
-    EXPECT_NO_THROW(render::check_limits("s", many, tight));
-    EXPECT_THROW(render::check_limits("s", few, tight), Error);
+    EXPECT_NO_THROW(render::check_geometry_limits("s", many, tight));
+    EXPECT_THROW(render::check_geometry_limits("s", few, tight), Error);
 }
 
 /// The counts that are checked against limits equal the counts of the stored geometry.
 TEST(Limits, AmountsEqualTheStoredGeometry) {
     for (const int count : {0, 3, 65, 66, 80}) {
         const scene::Scene scene = copies(count);
-        const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene),
-                                                                render::Spaces::own);
-        const render::Amounts amounts = render::amounts_of(scene);
+        const render::Geometry geometry = render::make_geometry(
+            scene, render::make_scene_units(scene), render::ObjectSpaceChoice::own);
+        const render::SceneAmounts amounts = render::count_scene_amounts(scene);
         EXPECT_EQ(geometry.vertices.size(), amounts.vertices) << count;
         EXPECT_EQ(geometry.indices.size(), 3 * amounts.triangles) << count;
     }
 }
 
 TEST(Limits, ErrorsNameWantedAndAllowedAmounts) {
-    const render::Amounts one{.vertices = 100, .triangles = 100, .objects = 100, .mirrors = 100};
+    const render::SceneAmounts one{
+        .vertices = 100, .triangles = 100, .objects = 100, .mirrors = 100};
     render::GeometryLimits limits = kRoomy;
     limits.texels = 299;
     EXPECT_EQ(limits_refusal(one, limits),

@@ -23,7 +23,7 @@ Mask mask_of(const Drawing& rows) {
 }
 
 int line_in(const Drawing& rows) {
-    return longest_line(mask_of(rows), static_cast<int>(rows.front().size()));
+    return longest_line_length(mask_of(rows), static_cast<int>(rows.front().size()));
 }
 
 TEST(LongestLine, LineLengthIsTheLongestSideOfItsBounds) {
@@ -33,7 +33,7 @@ TEST(LongestLine, LineLengthIsTheLongestSideOfItsBounds) {
     EXPECT_EQ(line_in({"#", "#", "#"}), 3);
     EXPECT_EQ(line_in({"#....", ".#...", "..#..", "...#.", "....#"}), 5);
     EXPECT_EQ(line_in({"####", "#...", "#...", "#...", "#..."}), 5) << "round a corner";
-    EXPECT_EQ(longest_line({}, 0), 0);
+    EXPECT_EQ(longest_line_length({}, 0), 0);
 }
 
 TEST(LongestLine, LineBridgesGapsOfAtMostTwoPixels) {
@@ -93,7 +93,7 @@ TEST(LongestLine, LongestLineAgreesWithABruteForceSearch) {
             }
             if (!patch) wanted = std::max(wanted, std::max(high_x - low_x, high_y - low_y) + 1);
         }
-        EXPECT_EQ(longest_line(mask, kWidth), wanted) << "run " << run;
+        EXPECT_EQ(longest_line_length(mask, kWidth), wanted) << "run " << run;
         longest = std::max(longest, wanted);
     }
     EXPECT_EQ(longest, kWidth);

@@ -36,7 +36,7 @@ protected:
         return load_file(write("x.glb", gltf.glb()), options);
     }
     static dvec3 carried(const Scene& scene, double seconds, const dvec3& point = dvec3(0)) {
-        const Scene now = at(scene, seconds);
+        const Scene now = scene_at_time(scene, seconds);
         return transform_point(now.objects.at(0).world_from_object, point);
     }
     static void expect_near(const dvec3& found, const dvec3& wanted) {
@@ -124,12 +124,12 @@ TEST_F(LoadAnimation, MovingParentsCarryTheirChildren) {
     expect_near(carried(scene, 1, {1, 0, 0}), {-3, 3, 5});
     EXPECT_TRUE(is_animated(scene));
     EXPECT_EQ(scene.meshes.size(), 1u);
-    EXPECT_FALSE(is_animated(at(scene, .5)));
+    EXPECT_FALSE(is_animated(scene_at_time(scene, .5)));
     // Two objects with the same moving parent share one rig.
     gltf.root["nodes"][1]["mesh"] = 0;
     const Scene two = scene_of(gltf);
-    EXPECT_EQ(std::get<Follows>(two.objects[0].motion).rig,
-              std::get<Follows>(two.objects[1].motion).rig);
+    EXPECT_EQ(std::get<RigAttachment>(two.objects[0].motion).rig,
+              std::get<RigAttachment>(two.objects[1].motion).rig);
 }
 
 TEST_F(LoadAnimation, CamerasAndLightsMoveWithTheirNodes) {
@@ -143,12 +143,13 @@ TEST_F(LoadAnimation, CamerasAndLightsMoveWithTheirNodes) {
     gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     const Scene scene = scene_of(gltf);
     expect_near(scene.cameras.at(0).eye, {0, 0, 2});
-    for (const Camera& camera : {camera_at(scene.cameras[0], 1), at(scene, 1).cameras.at(0)}) {
+    for (const Camera& camera :
+         {camera_at(scene.cameras[0], 1), scene_at_time(scene, 1).cameras.at(0)}) {
         expect_near(camera.eye, {2, 0, 0}); // after a quarter turn about y
         expect_near(camera.target, {1, 0, 0});
         expect_near(camera.up, {0, 1, 0});
     }
-    expect_near(dvec3(at(scene, 1).punctual.at(0).world_from_light[3]), {1, 1, 0});
+    expect_near(dvec3(scene_at_time(scene, 1).punctual.at(0).world_from_light[3]), {1, 1, 0});
     EXPECT_EQ(camera_at(Camera(), 3), Camera());
     // A camera that moves along a single translation track.
     Gltf sliding = moving("translation", {1, 0, 0, 5, 0, 0}, "LINEAR", {0, 1});

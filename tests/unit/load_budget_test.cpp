@@ -9,9 +9,10 @@ namespace {
 
 using namespace test::loading;
 
-class LoadBudget : public Load {
+class BudgetOfLoading : public Load {
 protected:
-    std::string over(const std::string& name, const std::string& text, Budget budget = {}) const {
+    std::string over(const std::string& name, const std::string& text,
+                     LoadBudget budget = {}) const {
         const std::string message = refused(name, text, Failure::bad_data, {.budget = budget});
         EXPECT_THAT(message, HasSubstr(", the budget of a scene, found "));
         return message;
@@ -27,7 +28,7 @@ protected:
 
 // ---- small files that expand to large scenes
 
-TEST_F(LoadBudget, TooManyNodesThatShareAMeshAreRefused) {
+TEST_F(BudgetOfLoading, TooManyNodesThatShareAMeshAreRefused) {
     Gltf gltf = small(20'000);
     gltf.root["nodes"] = Json::array(), gltf.root["scenes"][0]["nodes"] = Json::array();
     for (int i = 0; i < 105; ++i) {
@@ -35,7 +36,7 @@ TEST_F(LoadBudget, TooManyNodesThatShareAMeshAreRefused) {
         gltf.root["scenes"][0]["nodes"].push_back(i);
     }
     // Each object has 60,000 vertices: without normals in the file, triangles share no vertices.
-    const Budget shown{.shown = 2'000'000};
+    const LoadBudget shown{.shown = 2'000'000};
     EXPECT_THAT(over("x.glb", gltf.glb(), shown),
                 AllOf(HasSubstr("nodes[33]: wanted at most 2000000 vertices shown by objects"),
                       HasSubstr("found 2040000")));
@@ -46,7 +47,7 @@ TEST_F(LoadBudget, TooManyNodesThatShareAMeshAreRefused) {
                       HasSubstr("found 2020000")));
 }
 
-TEST_F(LoadBudget, TooManyPrimitivesThatShareAccessorsAreRefused) {
+TEST_F(BudgetOfLoading, TooManyPrimitivesThatShareAccessorsAreRefused) {
     Gltf gltf = small(20'000);
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     const Json one = primitives[0];
@@ -65,7 +66,7 @@ TEST_F(LoadBudget, TooManyPrimitivesThatShareAccessorsAreRefused) {
     EXPECT_THAT(over("x.glb", views.glb()), HasSubstr("wanted at most 4000000 positions"));
 }
 
-TEST_F(LoadBudget, PrimitivesMayShareALongListOfPositions) {
+TEST_F(BudgetOfLoading, PrimitivesMayShareALongListOfPositions) {
     Gltf gltf = small();
     const std::size_t positions = gltf.add(std::vector<float>(3 * 100'000, 1.0f), "VEC3", 5126);
     Json& primitives = gltf.root["meshes"][0]["primitives"];
@@ -75,7 +76,7 @@ TEST_F(LoadBudget, PrimitivesMayShareALongListOfPositions) {
     EXPECT_EQ(triangle_count(load(write("x.glb", gltf.glb()))), 1u);
 }
 
-TEST_F(LoadBudget, SharedAnimationKeysAreStoredAndCountedOnce) {
+TEST_F(BudgetOfLoading, SharedAnimationKeysAreStoredAndCountedOnce) {
     constexpr std::size_t kKeys = 40'000, kNodes = 500;
     Gltf gltf = small();
     std::vector<float> times(kKeys);
@@ -98,7 +99,7 @@ TEST_F(LoadBudget, SharedAnimationKeysAreStoredAndCountedOnce) {
     };
     EXPECT_EQ(keys_of(0), keys_of(kNodes - 1)) << "one copy";
     EXPECT_EQ(keys_of(0)->times.size(), kKeys);
-    EXPECT_NE(hash(scene), hash(at(scene, 0)));
+    EXPECT_NE(hash_scene(scene), hash_scene(scene_at_time(scene, 0)));
 
     for (std::size_t i = 1; i < kNodes; ++i) {
         gltf.root["animations"][0]["samplers"].push_back(sampler);
@@ -109,7 +110,7 @@ TEST_F(LoadBudget, SharedAnimationKeysAreStoredAndCountedOnce) {
                       HasSubstr("found 1040000")));
 }
 
-TEST_F(LoadBudget, KeysOfAMovingParentAreSharedByItsChildren) {
+TEST_F(BudgetOfLoading, KeysOfAMovingParentAreSharedByItsChildren) {
     Gltf gltf = small();
     const Json sampler = {{"input", gltf.add<float>({0, 1}, "SCALAR", 5126)},
                           {"output", gltf.add<float>({0, 0, 0, 0, 0, 8}, "VEC3", 5126)}};
@@ -121,10 +122,10 @@ TEST_F(LoadBudget, KeysOfAMovingParentAreSharedByItsChildren) {
     const Scene scene = load(write("x.glb", gltf.glb()));
     EXPECT_EQ(std::get<Keyframes>(scene.objects[0].motion).keys,
               std::get<Keyframes>(scene.objects[1].motion).keys);
-    EXPECT_EQ(at(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
+    EXPECT_EQ(scene_at_time(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
 }
 
-TEST_F(LoadBudget, TooManyBytesOfNamesAreRefused) {
+TEST_F(BudgetOfLoading, TooManyBytesOfNamesAreRefused) {
     Gltf gltf = many("nodes", 1000, {{"mesh", 0}});
     gltf.root["meshes"][0]["name"] = std::string(100'000, 'n');
     gltf.root.erase("scenes"), gltf.root.erase("scene");
@@ -142,7 +143,7 @@ TEST_F(LoadBudget, TooManyBytesOfNamesAreRefused) {
     EXPECT_THAT(over("x.obj", text), HasSubstr("bytes of names"));
 }
 
-TEST_F(LoadBudget, MaterialLibraryNamedManyTimesIsReadOnce) {
+TEST_F(BudgetOfLoading, MaterialLibraryNamedManyTimesIsReadOnce) {
     std::string materials;
     for (int i = 0; i < 1000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
     write("m.mtl", materials);
@@ -160,7 +161,7 @@ TEST_F(LoadBudget, MaterialLibraryNamedManyTimesIsReadOnce) {
                 HasSubstr("wanted at most 4000 names of files"));
 }
 
-TEST_F(LoadBudget, PolygonsThatNeedTooManyComparisonsAreRefused) {
+TEST_F(BudgetOfLoading, PolygonsThatNeedTooManyComparisonsAreRefused) {
     std::string text, face = "f";
     for (int i = 0; i < 20'000; ++i) {
         const double angle = i * 2 * M_PI / 20'000, radius = 1 + i % 2;
@@ -173,7 +174,7 @@ TEST_F(LoadBudget, PolygonsThatNeedTooManyComparisonsAreRefused) {
                           "polygons"));
 }
 
-TEST_F(LoadBudget, FilesLongerThanTheBudgetAreRefused) {
+TEST_F(BudgetOfLoading, FilesLongerThanTheBudgetAreRefused) {
     write("x.bin", "");
     fs::resize_file(folder / "x.bin", 200ull << 30); // a sparse file without disk blocks
     Gltf gltf = small();
@@ -191,7 +192,7 @@ TEST_F(LoadBudget, FilesLongerThanTheBudgetAreRefused) {
 
 // ---- the limit of each budget
 
-TEST_F(LoadBudget, TooLongGltfListsAreRefused) {
+TEST_F(BudgetOfLoading, TooLongGltfListsAreRefused) {
     EXPECT_THAT(
         over("x.glb", many("nodes", 125'001, Json::object()).glb()),
         AllOf(HasSubstr("nodes[125000]: wanted at most 125000 nodes"), HasSubstr("found 125001")));
@@ -211,38 +212,39 @@ TEST_F(LoadBudget, TooLongGltfListsAreRefused) {
                 HasSubstr("wanted at most 100 primitives"));
 }
 
-TEST_F(LoadBudget, EachBudgetCanBeLowered) {
+TEST_F(BudgetOfLoading, EachBudgetCanBeLowered) {
     const auto with = [](auto member, std::uint64_t value) {
-        Budget budget;
+        LoadBudget budget;
         budget.*member = value;
         return budget;
     };
     const std::string glb = small(3).glb(),
                       obj = kTriangle + "vn 0 0 1\nf 1 2 3\nf 1 3 2\no b\nf 1 2 3\n";
-    EXPECT_THAT(over("x.glb", glb, with(&Budget::triangles, 2)),
+    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::triangles, 2)),
                 HasSubstr("2 triangles in meshes"));
-    EXPECT_THAT(over("x.glb", glb, with(&Budget::vertices, 3)), HasSubstr("3 positions"));
-    EXPECT_THAT(over("x.glb", glb, with(&Budget::vertices, 12)),
+    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::vertices, 3)), HasSubstr("3 positions"));
+    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::vertices, 12)),
                 HasSubstr("12 vertices in meshes"));
-    EXPECT_THAT(over("x.glb", glb, with(&Budget::json_bytes, 99)), HasSubstr("99 bytes of JSON"));
-    EXPECT_THAT(over("x.glb", glb, with(&Budget::json_memory, 99)),
+    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::json_bytes, 99)),
+                HasSubstr("99 bytes of JSON"));
+    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::json_memory, 99)),
                 HasSubstr("99 bytes of memory for its JSON"));
-    EXPECT_THAT(over("x.glb", glb, with(&Budget::file_bytes, 99)),
+    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::file_bytes, 99)),
                 HasSubstr("99 bytes in its files"));
-    EXPECT_THAT(over("x.glb", glb, with(&Budget::objects, 0)), HasSubstr("0 meshes"));
-    EXPECT_THAT(over("x.obj", obj, with(&Budget::triangles, 2)),
+    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::objects, 0)), HasSubstr("0 meshes"));
+    EXPECT_THAT(over("x.obj", obj, with(&LoadBudget::triangles, 2)),
                 HasSubstr("x.obj:8: wanted at most 2 triangles"));
-    EXPECT_THAT(over("x.obj", obj, with(&Budget::vertices, 2)),
+    EXPECT_THAT(over("x.obj", obj, with(&LoadBudget::vertices, 2)),
                 HasSubstr("x.obj:3: wanted at most 2 positions"));
-    EXPECT_THAT(over("x.obj", obj, with(&Budget::objects, 1)), HasSubstr("1 objects"));
+    EXPECT_THAT(over("x.obj", obj, with(&LoadBudget::objects, 1)), HasSubstr("1 objects"));
     EXPECT_THAT(over("x.obj", kTriangle + "# catoptric motion a step 2 0 0 0 0 1 0 0 0\n",
-                     with(&Budget::keys, 1)),
+                     with(&LoadBudget::keys, 1)),
                 HasSubstr("x.obj:4: wanted at most 1 keys"));
 }
 
 // ---- large, valid files
 
-TEST_F(LoadBudget, MillionTrianglesFitTheBudget) {
+TEST_F(BudgetOfLoading, MillionTrianglesFitTheBudget) {
     constexpr std::uint32_t kSide = 708;
     Gltf gltf = small();
     std::vector<float> positions;
@@ -263,7 +265,7 @@ TEST_F(LoadBudget, MillionTrianglesFitTheBudget) {
         << "each triangle has its normal";
 }
 
-TEST_F(LoadBudget, HundredThousandNamesFitTheBudget) {
+TEST_F(BudgetOfLoading, HundredThousandNamesFitTheBudget) {
     constexpr std::size_t kCount = 100'000;
     std::string text = "mtllib m.mtl\n" + kTriangle, materials;
     for (std::size_t i = 0; i < kCount; ++i) {

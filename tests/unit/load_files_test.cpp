@@ -159,7 +159,7 @@ TEST_F(LoadFiles, FileOfManyBuffersCountsOnce) {
     std::string more;
     for (int i = 0; i < 100; ++i) more += ",{\"byteLength\":36,\"uri\":\"./a.bin\"}";
     text.insert(text.rfind(']'), more);
-    Budget budget;
+    LoadBudget budget;
     budget.file_bytes = text.size() + 36;
     EXPECT_EQ(load_file(write("in/x.gltf", text), {.budget = budget}).files.size(), 2u);
 }

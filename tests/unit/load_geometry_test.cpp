@@ -265,17 +265,18 @@ TEST_F(LoadGeometry, PunctualLightsAreRead) {
     }
     const Scene scene = scene_of(gltf);
     ASSERT_EQ(scene.punctual.size(), 3u);
-    const Punctual &point = scene.punctual[0], &spot = scene.punctual[1], &sun = scene.punctual[2];
-    EXPECT_EQ(point.kind, Punctual::Kind::point);
+    const PunctualLight &point = scene.punctual[0], &spot = scene.punctual[1],
+                        &sun = scene.punctual[2];
+    EXPECT_EQ(point.kind, PunctualLight::Kind::point);
     EXPECT_EQ(point.intensity, vec3(8, 4, 2));
     EXPECT_EQ(point.range, 7);
-    EXPECT_EQ(spot.kind, Punctual::Kind::spot);
+    EXPECT_EQ(spot.kind, PunctualLight::Kind::spot);
     EXPECT_EQ(spot.name, "cone");
     EXPECT_EQ(spot.intensity, vec3(1));
     EXPECT_NEAR(spot.cos_inner, std::cos(.25), 1e-12);
     EXPECT_NEAR(spot.cos_outer, std::cos(.5), 1e-12);
     EXPECT_TRUE(std::isinf(spot.range));
-    EXPECT_EQ(sun.kind, Punctual::Kind::directional);
+    EXPECT_EQ(sun.kind, PunctualLight::Kind::directional);
     EXPECT_EQ(dvec3(sun.world_from_light[3]), dvec3(0, 2, 0));
     const dvec3 along = -dvec3(
         sun.world_from_light[2]); // the light's -z axis, turned by 90 degrees about y

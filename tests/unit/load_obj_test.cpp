@@ -60,7 +60,7 @@ TEST_F(LoadObj, ColoursAfterPositionsBecomeVertexColours) {
 }
 
 TEST_F(LoadObj, TextureMapsAndTheirOptionsAreRead) {
-    write("wood and stone.png", png_of(kLoadObjPicture));
+    write("wood and stone.png", encode_image_png(kLoadObjPicture));
     const Scene plain = scene_of("map_Kd wood and stone.png\n");
     const Material& material = plain.materials[0];
     ASSERT_TRUE(material.albedo_texture);
@@ -143,7 +143,7 @@ TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
     for (const char* glass : {"illum 4\n", "illum 6\n", "illum 7\n", "illum 9\n", "d .25\nNi 1.5\n",
                               "Tr .75\nNi 1.5\n"}) {
         const Scene scene = scene_of(glass);
-        EXPECT_FALSE(is_masked(scene.materials[0])) << glass;
+        EXPECT_FALSE(has_alpha_mask(scene.materials[0])) << glass;
         EXPECT_THAT(ids(scene), ElementsAre("glass-as-diffuse", "glass-shadow")) << glass;
     }
     const Scene thin = scene_of("d .25\n");
@@ -151,11 +151,12 @@ TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
     EXPECT_EQ(thin.materials[0].alpha_cutoff, .5f);
     EXPECT_THAT(ids(thin), ElementsAre("blend-as-mask"));
     EXPECT_EQ(material_of("Tr .25\nNi 1\n").alpha, .75f);
-    EXPECT_FALSE(is_masked(material_of("d 1\nNi 1.5\n")));
+    EXPECT_FALSE(has_alpha_mask(material_of("d 1\nNi 1.5\n")));
     // The loader does not read a separate mask (map_d), so nothing is cut out.
-    write("p.png", png_of(kLoadObjPicture)), write("q.png", png_of(kLoadObjPicture));
+    write("p.png", encode_image_png(kLoadObjPicture)),
+        write("q.png", encode_image_png(kLoadObjPicture));
     const Scene other = scene_of("map_Kd p.png\nmap_d q.png\n");
-    EXPECT_FALSE(is_masked(other.materials[0]));
+    EXPECT_FALSE(has_alpha_mask(other.materials[0]));
     EXPECT_THAT(ids(other), testing::Contains("material-extension"));
     EXPECT_THAT(ids(other), testing::Not(testing::Contains("blend-as-mask")));
 }

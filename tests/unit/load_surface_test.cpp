@@ -41,7 +41,7 @@ protected:
         gltf.root["materials"] = {material};
         gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
         gltf.root["images"] = {
-            {{"uri", "data:image/png;base64," + base64(png_of(kLoadSurfacePicture))}}};
+            {{"uri", "data:image/png;base64," + base64(encode_image_png(kLoadSurfacePicture))}}};
         gltf.root["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
         gltf.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
         return gltf;
@@ -63,7 +63,7 @@ TEST_F(LoadSurface, MaterialFactorsAndSidesAreRead) {
     EXPECT_EQ(plain.metallic, 1);
     EXPECT_EQ(plain.roughness, 1);
     EXPECT_TRUE(plain.front_only);
-    EXPECT_FALSE(plain.two_sided || plain.mirror || is_masked(plain));
+    EXPECT_FALSE(plain.two_sided || plain.mirror || has_alpha_mask(plain));
     const Material gold = material_of({{"doubleSided", true},
                                        {"pbrMetallicRoughness",
                                         {{"baseColorFactor", {1, .5, .25, .75}},
@@ -122,19 +122,19 @@ TEST_F(LoadSurface, DielectricReflectanceFollowsExtensions) {
     ASSERT_TRUE(glossy.albedo_texture);
     const Material flat = with_extension("KHR_materials_unlit", Json::object());
     EXPECT_TRUE(flat.unlit);
-    EXPECT_EQ(light_of(flat), vec3(0));
+    EXPECT_EQ(emitted_radiance(flat), vec3(0));
 }
 
 TEST_F(LoadSurface, OnlyEmissionWithoutATextureLightsTheScene) {
     const Json strong = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}};
     const Material lamp = material_of({{"emissiveFactor", {1, .5, 0}}, {"extensions", strong}});
     EXPECT_EQ(lamp.emission, vec3(4, 2, 0));
-    EXPECT_EQ(light_of(lamp), vec3(4, 2, 0));
+    EXPECT_EQ(emitted_radiance(lamp), vec3(4, 2, 0));
     const Material screen = material_of(
         {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 1}}}});
     ASSERT_TRUE(screen.emission_texture);
     EXPECT_TRUE(screen.emission_texture->srgb);
-    EXPECT_EQ(light_of(screen), vec3(0)) << "what a texture varies lights nothing";
+    EXPECT_EQ(emitted_radiance(screen), vec3(0)) << "what a texture varies lights nothing";
 }
 
 TEST_F(LoadSurface, AlphaModeDecidesTheCutoff) {
@@ -195,7 +195,7 @@ TEST_F(LoadSurface, TextureTransformsAreRead) {
 }
 
 TEST_F(LoadSurface, ImagesAreReadFromDataUrisFilesAndBufferViews) {
-    const std::string png = png_of(kLoadSurfacePicture);
+    const std::string png = encode_image_png(kLoadSurfacePicture);
     Gltf gltf = with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
     const auto texels = [&] { return scene_of(gltf).materials[0].albedo_texture->image->texels; };
     EXPECT_EQ(texels(), kLoadSurfacePicture.texels) << "a data URI";
@@ -213,9 +213,9 @@ TEST_F(LoadSurface, ImagesAreReadFromDataUrisFilesAndBufferViews) {
 
 TEST_F(LoadSurface, GreyImagesWithAndWithoutAlphaAreDecoded) {
     const std::vector<std::uint8_t> grey = {0, 100, 255}, two = {10, 20, 30, 40};
-    Account account({});
+    BudgetAccount account({});
     const auto texels = [&](const ImageShape& shape, const std::vector<std::uint8_t>& values) {
-        return decode_image(png_bytes(shape, values), "", "x", account)->texels;
+        return decode_image(encode_png(shape, values), "", "x", account)->texels;
     };
     EXPECT_THAT(texels({{3, 1}, 1, {}}, grey), ElementsAre(0xff000000, 0xff646464, 0xffffffff));
     EXPECT_THAT(texels({{2, 1}, 2, {}}, two), ElementsAre(0x140a0a0a, 0x281e1e1e));
@@ -223,10 +223,10 @@ TEST_F(LoadSurface, GreyImagesWithAndWithoutAlphaAreDecoded) {
 }
 
 TEST_F(LoadSurface, ImagesWithSidesOver65535TexelsAreRefused) {
-    Account account({});
+    BudgetAccount account({});
     const auto decode = [&](uvec2 size) {
         const Image image{.size = size, .texels = std::vector<std::uint32_t>(size.x * size.y)};
-        return decode_image(png_of(image), "", "x", account)->size;
+        return decode_image(encode_image_png(image), "", "x", account)->size;
     };
     EXPECT_EQ(decode({65535, 1}), uvec2(65535, 1));
     EXPECT_THAT(test::refusal(Failure::bad_data,
@@ -252,7 +252,7 @@ TEST_F(LoadSurface, MissingImageIsListedAndTheColourFactorStays) {
 
 TEST_F(LoadSurface, TexelBudgetIsCheckedBeforeDecoding) {
     // The PNG header claims 60000 x 60000 texels, for which the file has no data.
-    const std::string png = png_of(kLoadSurfacePicture);
+    const std::string png = encode_image_png(kLoadSurfacePicture);
     std::string huge = png;
     for (const std::size_t at : {16u, 20u}) huge.replace(at, 4, std::string("\0\0\xea\x60", 4));
     const auto crc = [](std::string_view bytes) {

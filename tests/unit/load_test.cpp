@@ -81,7 +81,8 @@ void expect_same_cameras(const Scene& found, const Scene& wanted) {
 // ---- built-in scenes and missing files
 
 TEST_F(Load, BuiltInScenesLoadAndUnknownNamesAreRefused) {
-    for (const BuiltIn& scene : built_in_scenes()) EXPECT_EQ(load(scene.name).name, scene.name);
+    for (const BuiltInScene& scene : built_in_scenes())
+        EXPECT_EQ(load(scene.name).name, scene.name);
     try {
         load("cornel-mirors");
         FAIL();
@@ -107,15 +108,15 @@ TEST_F(Load, LoadingAMissingFileIsAMissingInputError) {
 // ---- the scene files in samples/scenes
 
 TEST_F(Load, ShippedFilesEqualTheOutputOfTheWriters) {
-    save_glb(cornell_mirrors(), folder / "cornell-mirrors.glb");
-    save_obj(cornell_mirrors(), folder / "cornell-mirrors.obj");
+    save_glb(make_cornell_mirrors(), folder / "cornell-mirrors.glb");
+    save_obj(make_cornell_mirrors(), folder / "cornell-mirrors.obj");
     for (const char* name : {"cornell-mirrors.glb", "cornell-mirrors.obj", "cornell-mirrors.mtl"})
         EXPECT_TRUE(read_file(folder / name) == read_file(kSamples / name)) << name;
 }
 
 TEST_F(Load, ShippedObjEqualsTheBuiltInScene) {
     const Scene scene = load((kSamples / "cornell-mirrors.obj").string());
-    const Scene wanted = cornell_mirrors();
+    const Scene wanted = make_cornell_mirrors();
     EXPECT_EQ(compare_objects(scene, wanted),
               0); // doubles written in shortest form read back exactly
     expect_same_materials(scene, wanted);
@@ -123,7 +124,7 @@ TEST_F(Load, ShippedObjEqualsTheBuiltInScene) {
     EXPECT_EQ(scene.name, "cornell-mirrors");
     EXPECT_THAT(scene.warnings, testing::IsEmpty());
     EXPECT_EQ(mirrors(scene), mirrors(wanted));
-    const auto* motion = std::get_if<Harmonic>(&scene.objects.back().motion);
+    const auto* motion = std::get_if<HarmonicMotion>(&scene.objects.back().motion);
     ASSERT_NE(motion, nullptr);
     EXPECT_EQ(motion->amplitude, dvec3(0, 50, 0));
     EXPECT_EQ(motion->period, 4);
@@ -131,7 +132,7 @@ TEST_F(Load, ShippedObjEqualsTheBuiltInScene) {
 
 TEST_F(Load, ShippedGlbEqualsTheBuiltInSceneWithinFloatRounding) {
     const Scene scene = load((kSamples / "cornell-mirrors.glb").string());
-    const Scene wanted = cornell_mirrors();
+    const Scene wanted = make_cornell_mirrors();
     // Half an ulp of a float below 1024 is 2^-15 for each component. Coordinates of the Cornell box
     // reach 559.2.
     EXPECT_LT(compare_objects(scene, wanted), std::sqrt(3.0) * std::ldexp(1.0, -15));
@@ -141,15 +142,15 @@ TEST_F(Load, ShippedGlbEqualsTheBuiltInSceneWithinFloatRounding) {
     EXPECT_EQ(scene.objects[6].mesh, scene.objects[9].mesh);
     EXPECT_THAT(scene.warnings, testing::IsEmpty());
     for (const double t : {0.0, 0.03125, 1.0, 1.7, 2.0, 3.99, 4.0, 9.3}) {
-        const dvec3 found = at(scene, t).objects.back().sphere->centre;
+        const dvec3 found = scene_at_time(scene, t).objects.back().sphere->centre;
         // The tolerance covers the Hermite error of 2.5e-7 times 50, and the rounding of floats
         // below 256.
-        load_expect_near(found, at(wanted, t).objects.back().sphere->centre, 4e-5);
+        load_expect_near(found, scene_at_time(wanted, t).objects.back().sphere->centre, 4e-5);
     }
 }
 
 TEST_F(Load, TwoSidedLampsSurviveBothFormats) {
-    Scene scene = cornell_mirrors();
+    Scene scene = make_cornell_mirrors();
     for (const bool two_sided : {false, true}) {
         scene.materials[3].two_sided = two_sided;
         save_glb(scene, folder / "x.glb");
@@ -167,7 +168,7 @@ TEST_F(Load, TwoSidedLampsSurviveBothFormats) {
 }
 
 TEST_F(Load, HiddenFrontWallSurvivesBothFormats) {
-    const Scene wanted = cornell_mirrors_closed();
+    const Scene wanted = make_closed_cornell_mirrors();
     save_glb(wanted, folder / "x.glb");
     save_obj(wanted, folder / "x.obj");
     EXPECT_LT(compare_objects(load((folder / "x.glb").string()), wanted), 1e-4);
@@ -193,8 +194,8 @@ Scene load_awkward() {
     // Reverses the triangles, because the object that uses the mesh is mirrored.
     for (uvec3& t : scene.meshes[1].triangles) std::swap(t.y, t.z);
     scene.objects[0].sphere = Sphere{{3, 0, 0}, 1};
-    scene.objects[0].motion = Keyframes{std::make_shared<const Keys>(
-        Keys{.times = {0, 1, 2}, .values = {{0, 0, 0}, {1, 2, 4}, {0, 0, 1}}})};
+    scene.objects[0].motion = Keyframes{std::make_shared<const TranslationTrack>(
+        TranslationTrack{.times = {0, 1, 2}, .values = {{0, 0, 0}, {1, 2, 4}, {0, 0, 1}}})};
     scene.cameras.push_back(
         {.name = "from above", .eye = {0, 9, 0}, .target = {0, 1, 0}, .up = {1, 0, 0}});
     return scene;
@@ -213,7 +214,7 @@ TEST_F(Load, TransformsKeyframesAndClashingNamesSurviveBothFormats) {
         EXPECT_EQ(scene.materials[scene.objects[1].material].albedo, vec3(0.1f, 0.2f, 0.3f));
         EXPECT_EQ(scene.materials[scene.objects[2].material].emission, vec3(0.5f, 0, 0.125f));
         for (const double t : {0.0, 0.5, 1.75}) {
-            const Scene found = at(scene, t), still = at(wanted, t);
+            const Scene found = scene_at_time(scene, t), still = scene_at_time(wanted, t);
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto a = bounds(found, found.objects[i]), b = bounds(still, still.objects[i]);
                 load_expect_near(a.lo, b.lo, 1e-6);
@@ -224,7 +225,7 @@ TEST_F(Load, TransformsKeyframesAndClashingNamesSurviveBothFormats) {
         }
         load_expect_near(scene.cameras.at(0).up, {1, 0, 0}, 1e-12);
         load_expect_near(scene.cameras.at(0).target, {0, 1, 0}, 1e-12);
-        const auto found = lights(scene), still = lights(wanted);
+        const auto found = list_lights(scene), still = list_lights(wanted);
         ASSERT_EQ(found.size(), 1u);
         load_expect_near(found[0].normal, still[0].normal, 1e-6);
         const Mesh& flipped = scene.meshes[scene.objects[1].mesh];
@@ -386,7 +387,7 @@ TEST_F(Load, GltfParentTransformsApplyToTheMotionOfChildren) {
     Scene inner{.name = "inner"};
     inner.materials.push_back({.name = "m"});
     inner.meshes.push_back(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
-    inner.objects.push_back({.name = "o", .motion = Harmonic{{1, 0, 0}, 2}});
+    inner.objects.push_back({.name = "o", .motion = HarmonicMotion{{1, 0, 0}, 2}});
     save_glb(inner, folder / "inner.glb");
     const std::string bytes = read_file(folder / "inner.glb");
     std::uint32_t length = 0;
@@ -397,7 +398,7 @@ TEST_F(Load, GltfParentTransformsApplyToTheMotionOfChildren) {
                                    {"scale", {2, 2, 2}},
                                    {"rotation", {0, 0, std::sqrt(.5), std::sqrt(.5)}}});
     const Scene scene = load(write("outer.glb", outer.glb()));
-    const Scene moved = at(scene, 1);
+    const Scene moved = scene_at_time(scene, 1);
     load_expect_near(dvec3(moved.objects[0].world_from_object[3]), {0, 4, 0}, 1e-6);
     load_expect_near(bounds(moved).lo, {-2, 4, 0}, 1e-6);
 }
@@ -454,10 +455,10 @@ TEST_F(Load, LoadingDamagedFilesNeverCrashes) {
 
 TEST(Number, NumbersWrittenAsTextReadBackExactly) {
     for (const double x : {0.1, 1e-300, 548.8, -1.0 / 3, 1e22, 5e-324})
-        EXPECT_EQ(parse_number(number_text(x)), x);
-    EXPECT_EQ(number_text(-0.0), "0");
-    EXPECT_EQ(number_text(0.1f), "0.1");
-    EXPECT_EQ(as_typed(0.725f), 0.725);
+        EXPECT_EQ(parse_number(format_shortest_number(x)), x);
+    EXPECT_EQ(format_shortest_number(-0.0), "0");
+    EXPECT_EQ(format_shortest_number(0.1f), "0.1");
+    EXPECT_EQ(float_to_typed_double(0.725f), 0.725);
     EXPECT_EQ(parse_number("+2.5"), 2.5);
     EXPECT_EQ(parse_number("1e-999"), 0);
     for (const char* text : {"", "+", "-", "x", "1x", "nan", "inf", "1e999", "+-1", "0x10", "1,5"})

@@ -127,7 +127,7 @@ TEST_F(LoadUnread, NodesOutsideTheShownSceneGiveAWarning) {
         warnings("x.glb", gltf.glb()),
         testing::UnorderedElementsAre(
             "nodes outside the scene that is shown, left out: 1 (first: nodes[2] 'elsewhere')"));
-    const Scene moved = at(load((folder / "x.glb").string()), 1);
+    const Scene moved = scene_at_time(load((folder / "x.glb").string()), 1);
     EXPECT_EQ(dvec3(moved.objects[0].world_from_object[3]), dvec3(1, 0, 0)) << "the first counts";
 }
 

@@ -20,32 +20,34 @@ constexpr std::array<std::uint32_t, 6> kMasksHits = {masks_hit(0, 0),     masks_
                                                      masks_hit(65535, 0), masks_hit(0, 7)};
 
 TEST(Masks, MasksSelectPixelsByTheirFirstTwoHits) {
-    EXPECT_EQ(all_pixels(kMasksHits), (Mask{255, 255, 255, 255, 255, 255}));
-    EXPECT_EQ(mirrors(kMasksHits), (Mask{0, 255, 255, 255, 255, 0}));
-    EXPECT_EQ(first_order(kMasksHits), (Mask{0, 255, 0, 0, 255, 0}));
-    EXPECT_EQ(mirror_in_mirror(kMasksHits), (Mask{0, 0, 255, 255, 0, 0}));
-    EXPECT_EQ(of_mirror(kMasksHits, catoptric::MirrorId(1)), (Mask{0, 255, 0, 255, 0, 0}));
-    EXPECT_EQ(of_mirror(kMasksHits, catoptric::MirrorId(65535)), (Mask{0, 0, 0, 0, 255, 0}));
-    EXPECT_EQ(non_mirror(kMasksHits), (Mask{255, 0, 0, 0, 0, 255}));
-    EXPECT_EQ(dielectrics(kMasksHits), (Mask{0, 0, 0, 0, 0, 255}));
+    EXPECT_EQ(mask_all_pixels(kMasksHits), (Mask{255, 255, 255, 255, 255, 255}));
+    EXPECT_EQ(mask_mirror_pixels(kMasksHits), (Mask{0, 255, 255, 255, 255, 0}));
+    EXPECT_EQ(mask_first_order_pixels(kMasksHits), (Mask{0, 255, 0, 0, 255, 0}));
+    EXPECT_EQ(mask_mirror_in_mirror(kMasksHits), (Mask{0, 0, 255, 255, 0, 0}));
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(1)), (Mask{0, 255, 0, 255, 0, 0}));
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(65535)), (Mask{0, 0, 0, 0, 255, 0}));
+    EXPECT_EQ(mask_non_mirror_pixels(kMasksHits), (Mask{255, 0, 0, 0, 0, 255}));
+    EXPECT_EQ(mask_smooth_dielectrics(kMasksHits), (Mask{0, 0, 0, 0, 0, 255}));
 }
 
 TEST(Masks, MasksPartitionThePicture) {
-    EXPECT_EQ(pixel_count(mirrors(kMasksHits)) + pixel_count(non_mirror(kMasksHits)),
+    EXPECT_EQ(count_mask_pixels(mask_mirror_pixels(kMasksHits)) +
+                  count_mask_pixels(mask_non_mirror_pixels(kMasksHits)),
               kMasksHits.size());
-    EXPECT_EQ(pixel_count(first_order(kMasksHits)) + pixel_count(mirror_in_mirror(kMasksHits)),
-              pixel_count(mirrors(kMasksHits)));
-    EXPECT_EQ(pixel_count(of_mirror(kMasksHits, catoptric::MirrorId(1))) +
-                  pixel_count(of_mirror(kMasksHits, catoptric::MirrorId(2))) +
-                  pixel_count(of_mirror(kMasksHits, catoptric::MirrorId(65535))),
-              pixel_count(mirrors(kMasksHits)));
+    EXPECT_EQ(count_mask_pixels(mask_first_order_pixels(kMasksHits)) +
+                  count_mask_pixels(mask_mirror_in_mirror(kMasksHits)),
+              count_mask_pixels(mask_mirror_pixels(kMasksHits)));
+    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(1))) +
+                  count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(2))) +
+                  count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(65535))),
+              count_mask_pixels(mask_mirror_pixels(kMasksHits)));
 }
 
 TEST(Masks, MaskOfAnAbsentMirrorIsAllZero) {
-    EXPECT_EQ(of_mirror(kMasksHits, catoptric::MirrorId(9)), Mask(6, 0));
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(9)), Mask(6, 0));
     // Mirror numbers start at 1, so 0 is no mirror.
-    EXPECT_EQ(of_mirror(kMasksHits, catoptric::MirrorId(0)), Mask(6, 0));
-    EXPECT_EQ(pixel_count(of_mirror(kMasksHits, catoptric::MirrorId(9))), 0U);
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(0)), Mask(6, 0));
+    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(9))), 0U);
 }
 
 } // namespace

@@ -14,8 +14,9 @@ using namespace catoptric;
 
 struct Node {
     explicit Node(const std::vector<vec4>& tree, std::size_t i)
-        : lowest(tree[2 * i]), highest(tree[2 * i + 1]), mirror(bvh::number_of(tree[2 * i].w)),
-          past(bvh::number_of(tree[2 * i + 1].w)) {}
+        : lowest(tree[2 * i]), highest(tree[2 * i + 1]),
+          mirror(bvh::float_word_to_integer(tree[2 * i].w)),
+          past(bvh::float_word_to_integer(tree[2 * i + 1].w)) {}
     bool holds(const vec3& lo, const vec3& hi) const {
         return all(lessThanEqual(lowest, lo)) && all(lessThanEqual(hi, highest));
     }
@@ -40,7 +41,7 @@ std::vector<shared::Probe> probes(std::size_t count) {
 TEST(MirrorTree, TreeHoldsEachMirrorOnceWithinTheBoxesOfItsNodes) {
     for (const std::size_t count : {1, 2, 3, 9, 64, 500}) {
         const std::vector<shared::Probe> mirrors = probes(count);
-        const std::vector<vec4> tree = render::mirror_tree(mirrors);
+        const std::vector<vec4> tree = render::build_mirror_tree(mirrors);
         ASSERT_EQ(tree.size(), 2 * (2 * count - 1));
         std::vector<int> met(count);
         for (std::size_t i = 0; i < tree.size() / 2; ++i) {
@@ -63,7 +64,7 @@ TEST(MirrorTree, TreeHoldsEachMirrorOnceWithinTheBoxesOfItsNodes) {
         }
         EXPECT_THAT(met, testing::Each(1)) << count;
     }
-    EXPECT_TRUE(render::mirror_tree({}).empty());
+    EXPECT_TRUE(render::build_mirror_tree({}).empty());
 }
 
 } // namespace

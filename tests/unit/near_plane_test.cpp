@@ -26,7 +26,7 @@ TEST(NearPlane, NearPlaneOfCubeFacesClipsNothingInTheCorners) {
         for (int k = 0; k < 20; ++k) {
             // The axes of the first cube are the world axes. The other cubes are turned at random.
             const vec3 forward = k == 0 ? vec3(0) : numbers.direction();
-            const auto views = render::turned_cube_views(kEye, forward, gap);
+            const auto views = render::make_turned_cube_views(kEye, forward, gap);
             ASSERT_EQ(views.size(), 6u);
             const vec3 x = views[0].forward, y = views[2].forward, z = views[4].forward;
             std::vector<vec3> directions{x, -x, y, -y, z, -z};
@@ -49,7 +49,7 @@ TEST(NearPlane, NearPlaneOfTheCameraClipsNothingInTheCorners) {
                 const scene::Camera camera{.eye = dvec3(kEye),
                                            .target = dvec3(kEye) + dvec3(.3, -.4, .8),
                                            .vertical_fov_degrees = fov};
-                const shared::View view = render::camera_view(camera, {}, size, gap);
+                const shared::View view = render::make_camera_view(camera, {}, size, gap);
                 EXPECT_GT(view.near, 0.f);
                 for (const float x : {-1.f, 0.f, 1.f})
                     for (const float y : {-1.f, 0.f, 1.f}) {

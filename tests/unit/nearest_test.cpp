@@ -1,5 +1,5 @@
-// Compares render::Nearest, which searches trees for the nearest triangle, with a search of all
-// triangles.
+// Compares render::NearestTriangleQuery, which searches trees for the nearest triangle, with a
+// search of all triangles.
 #include "render/nearest.hpp"
 #include "scene/built_in.hpp"
 #include "support/numbers.hpp"
@@ -22,8 +22,8 @@ float by_looking_at_all(const render::Geometry& geometry, const vec3& point, con
             const auto corner = [&](std::uint32_t j) {
                 return geometry.vertices[geometry.indices[range.first_index + k + j]].position;
             };
-            squared = std::min(squared,
-                               render::squared_distance(point, corner(0), corner(1), corner(2)));
+            squared = std::min(squared, render::squared_distance_to_triangle(point, corner(0),
+                                                                             corner(1), corner(2)));
         }
     }
     return std::sqrt(squared);
@@ -31,7 +31,7 @@ float by_looking_at_all(const render::Geometry& geometry, const vec3& point, con
 
 /// Expects the same distance from `nearest` and from a search of all triangles. Asks for random
 /// points, and for the centre of each object without the triangles of that object.
-void nearest_expect_same(render::Nearest& nearest, const render::Geometry& geometry,
+void nearest_expect_same(render::NearestTriangleQuery& nearest, const render::Geometry& geometry,
                          test::Numbers& numbers) {
     for (int k = 0; k < 100; ++k) {
         const vec3 point = numbers.in_cube();
@@ -48,11 +48,11 @@ void nearest_expect_same(render::Nearest& nearest, const render::Geometry& geome
 }
 
 TEST(Nearest, NearestDistanceEqualsThatOfAFullSearchAlsoAfterMoves) {
-    for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(3, 2)}) {
-        const render::Space space = render::space_of(scene);
-        scene::Scene now = scene::at(scene, 0);
+    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::room(3, 2)}) {
+        const render::SceneUnits space = render::make_scene_units(scene);
+        scene::Scene now = scene::scene_at_time(scene, 0);
         render::Geometry geometry = render::make_geometry(now, space);
-        render::Nearest nearest;
+        render::NearestTriangleQuery nearest;
         nearest.lay_out(geometry);
         test::Numbers numbers(1);
         nearest_expect_same(nearest, geometry, numbers);
@@ -75,9 +75,9 @@ TEST(Nearest, DistanceInObjectSpacesIsThatOfTheNearestObject) {
     scene::Scene scene = test::room(0, 1);
     for (int i = 0; i < 40; ++i)
         test::add_ball(scene, "ball", 0, 2.0 * dvec3(numbers.in_cube()), 1e-4, 2);
-    const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene),
-                                                            render::Spaces::own);
-    render::Nearest nearest;
+    const render::Geometry geometry = render::make_geometry(scene, render::make_scene_units(scene),
+                                                            render::ObjectSpaceChoice::own);
+    render::NearestTriangleQuery nearest;
     nearest.lay_out(geometry);
     std::size_t in_object_spaces = 0;
     for (int k = 0; k < 200; ++k) {
@@ -101,7 +101,7 @@ TEST(Nearest, DistanceInObjectSpacesIsThatOfTheNearestObject) {
 
 TEST(Nearest, DistanceToAnEmptyGeometryIsInfinity) {
     const render::Geometry geometry;
-    render::Nearest nearest;
+    render::NearestTriangleQuery nearest;
     nearest.lay_out(geometry);
     EXPECT_EQ(nearest.distance(geometry, dvec3(0),
                                [](std::size_t, const render::DrawRange&) { return false; }),

@@ -13,15 +13,15 @@ TEST(Parallel, InParallelCallsEachNumberOnceOnAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 3U, 8U})
         for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
             std::vector<std::atomic<int>> calls(count);
-            in_parallel(count, threads, [&](std::size_t i) { ++calls[i]; });
+            run_in_parallel(count, threads, [&](std::size_t i) { ++calls[i]; });
             for (const std::atomic<int>& call : calls) EXPECT_EQ(call, 1);
         }
 }
 
 TEST(Parallel, SingleCallOrThreadRunsOnTheCallingThread) {
     const std::thread::id here = std::this_thread::get_id();
-    in_parallel(1, 8, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
-    in_parallel(100, 1, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
+    run_in_parallel(1, 8, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
+    run_in_parallel(100, 1, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
 }
 
 TEST(Parallel, CallerReceivesTheExceptionOfAnotherThread) {
@@ -33,7 +33,7 @@ TEST(Parallel, CallerReceivesTheExceptionOfAnotherThread) {
         thrown = true;
         throw std::runtime_error("there");
     };
-    EXPECT_THROW(in_parallel(1000, 2, work), std::runtime_error);
+    EXPECT_THROW(run_in_parallel(1000, 2, work), std::runtime_error);
 }
 
 /// Call 0 waits until another call has thrown. The caller must still receive the exception of call
@@ -42,7 +42,7 @@ TEST(Parallel, CallerReceivesTheExceptionOfTheLowestNumber) {
     for (int round = 0; round < 20; ++round) {
         std::atomic<int> thrown{0}, begun{0};
         try {
-            in_parallel(10000, 3, [&](std::size_t i) {
+            run_in_parallel(10000, 3, [&](std::size_t i) {
                 ++begun;
                 while (i == 0 && thrown == 0) std::this_thread::yield();
                 if (i > 2) return;

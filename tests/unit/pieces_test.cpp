@@ -1,5 +1,5 @@
-// Tests of require::part_with, which returns a rectangle of a capture's face that holds a moving
-// object.
+// Tests of require::face_part_containing, which returns a rectangle of a capture's face that holds
+// a moving object.
 #include "core/shader_math.hpp"
 #include "require/pieces.hpp"
 #include "support/numbers.hpp"
@@ -25,25 +25,27 @@ bool pieces_holds(const FacePart& part, const dvec2& at) {
 TEST(Pieces, FacePartOfABoxInFrontSpansItsCorners) {
     // Face +X has -Z on its right and -Y below. The box lies 2 to 4 in front of the centre, and its
     // near side looks larger than its far side.
-    const FacePart part = part_with(0, {{2, -.5, .2}, {4, .5, 1}});
+    const FacePart part = face_part_containing(0, {{2, -.5, .2}, {4, .5, 1}});
     EXPECT_EQ(part.low, dvec2(-.5, -.25));
     EXPECT_EQ(part.high, dvec2(-.05, .25));
     // A box that reaches beyond the edge of the face gives a rectangle that ends at the edge.
-    EXPECT_EQ(part_with(0, {{2, -.5, .2}, {4, .5, 3}}).low, dvec2(-1, -.25));
+    EXPECT_EQ(face_part_containing(0, {{2, -.5, .2}, {4, .5, 3}}).low, dvec2(-1, -.25));
     // The rectangle of two boxes holds their hull, so also the space between the boxes.
-    const FacePart both = part_with(0, {{2, -.5, .2}, {4, .5, 1}}, {{2, 1, -1}, {2, 1, -1}});
+    const FacePart both = face_part_containing(0, {{2, -.5, .2}, {4, .5, 1}},
+                                               {{2, 1, -1}, {2, 1, -1}});
     EXPECT_EQ(both.low, dvec2(-.5, -.5));
     EXPECT_EQ(both.high, dvec2(.5, .25));
 }
 
 TEST(Pieces, FacePartIsEmptyForABoxElsewhereAndWholeForABoxAround) {
     const Bounds<double> right{{2, -.5, -.5}, {4, .5, .5}};
-    for (int face = 1; face < 6; ++face) EXPECT_TRUE(part_with(face, right).empty()) << face;
+    for (int face = 1; face < 6; ++face)
+        EXPECT_TRUE(face_part_containing(face, right).empty()) << face;
     for (int face = 0; face < 6; ++face)
-        EXPECT_TRUE(part_with(face, {dvec3(-1), dvec3(2)}).is_whole()) << face;
+        EXPECT_TRUE(face_part_containing(face, {dvec3(-1), dvec3(2)}).is_whole()) << face;
     // A floor that passes below the centre covers the whole width of the face, from below the
     // horizon to the lower edge.
-    const FacePart floor = part_with(0, {{-3, -1.5, -9}, {6, -1, 9}});
+    const FacePart floor = face_part_containing(0, {{-3, -1.5, -9}, {6, -1, 9}});
     EXPECT_EQ(floor.low, dvec2(-1, 1 / 6.));
     EXPECT_EQ(floor.high, dvec2(1));
 }
@@ -61,8 +63,8 @@ TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
             box = {middle - half, middle + half};
         }
         for (int face = 0; face < 6; ++face) {
-            const FacePart one = part_with(face, boxes[0]),
-                           both = part_with(face, boxes[0], boxes[1]);
+            const FacePart one = face_part_containing(face, boxes[0]),
+                           both = face_part_containing(face, boxes[0], boxes[1]);
             partly += !one.empty() && !one.is_whole() ? 1 : 0;
             for (int i = 0; i < 40; ++i) {
                 std::array<dvec3, 2> at;
@@ -84,18 +86,20 @@ TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
 
 TEST(Pieces, DifferingPartHoldsPiecesOfOnlyOneState) {
     const FacePart a{dvec2(-1), dvec2(-.5)}, b{dvec2(0), dvec2(.25)}, c{dvec2(.5), dvec2(.75)};
-    const auto states = [](std::vector<Piece> before, std::vector<Piece> after) {
-        Pieces old, now;
+    const auto states = [](std::vector<FacePiece> before, std::vector<FacePiece> after) {
+        FacePieces old, now;
         old.faces[2] = std::move(before), now.faces[2] = std::move(after);
         old.sort(), now.sort();
-        return differing(old.faces[2], now.faces[2]);
+        return find_differing_part(old.faces[2], now.faces[2]);
     };
     EXPECT_TRUE(states({}, {}).empty());
     EXPECT_TRUE(states({{9, a}, {4, b}}, {{4, b}, {9, a}}).empty());
     EXPECT_EQ(states({{9, a}, {4, b}}, {{4, b}}), a) << "it has gone";
     EXPECT_EQ(states({{4, b}}, {{4, b}, {9, c}}), c) << "it has come";
-    EXPECT_EQ(states({{4, b}}, {{5, c}}), united(b, c)) << "both, where it was and where it is";
-    EXPECT_EQ(states({{4, b}}, {{4, c}}), united(b, c)) << "the shadow of what stays, elsewhere";
+    EXPECT_EQ(states({{4, b}}, {{5, c}}), unite_face_parts(b, c))
+        << "both, where it was and where it is";
+    EXPECT_EQ(states({{4, b}}, {{4, c}}), unite_face_parts(b, c))
+        << "the shadow of what stays, elsewhere";
     EXPECT_EQ(states({{4, b}, {4, b}, {4, c}}, {{4, b}, {4, c}}), b) << "one of two alike";
 }
 

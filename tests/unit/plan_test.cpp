@@ -20,7 +20,8 @@ const std::vector<std::string> kMirrors{"left ball", "front", "back", "far ball"
 /// Returns the technique that a plan assigns to each mirror, as written in the plan.
 std::vector<std::string> labels(const std::string& text,
                                 const std::vector<std::string>& names = kMirrors) {
-    const reflect::Assignment assignment = reflect::assign(reflect::parse_plan(text), names);
+    const reflect::MirrorAssignment assignment = reflect::assign_mirrors(reflect::parse_plan(text),
+                                                                         names);
     std::vector<std::string> result;
     for (const std::uint32_t choice : assignment.of_mirror)
         result.push_back(assignment.choices[choice].label);
@@ -30,7 +31,7 @@ std::vector<std::string> labels(const std::string& text,
 TEST(PlanText, SingleTechniqueAppliesToAnyNumberOfMirrors) {
     EXPECT_THAT(labels("secant:face=64"), ElementsAre("secant:face=64", "secant:face=64",
                                                       "secant:face=64", "secant:face=64"));
-    EXPECT_EQ(reflect::assign(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
+    EXPECT_EQ(reflect::assign_mirrors(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
 }
 
 TEST(PlanText, NumberWinsOverNameAndNameOverStar) {
@@ -64,7 +65,7 @@ TEST(PlanText, NumberSelectsAMirrorByPositionNotByName) {
 }
 
 TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
-    const reflect::Assignment assignment = reflect::assign(
+    const reflect::MirrorAssignment assignment = reflect::assign_mirrors(
         reflect::parse_plan("1=reuse:face=256 2=march *=reuse"), kMirrors);
     EXPECT_EQ(assignment.choices.size(), 2u);
     EXPECT_THAT(assignment.of_mirror, ElementsAre(0, 1, 0, 0));
@@ -73,7 +74,8 @@ TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
 
 void expect_refused(const std::string& text, const std::vector<std::string>& words,
                     Failure failure = Failure::usage) {
-    test::expect_refused([&] { reflect::assign(app::read_plan(text), kMirrors); }, failure, words);
+    test::expect_refused([&] { reflect::assign_mirrors(app::read_plan(text), kMirrors); }, failure,
+                         words);
 }
 
 TEST(PlanText, InvalidPlansAreRefusedWithTheReason) {
@@ -112,13 +114,14 @@ protected:
 };
 
 TEST_F(PlanFile, PlanFileMeansTheSameAsThePlanText) {
-    const reflect::Plan text = reflect::parse_plan("1=reuse:face=64 2,back=hybrid *=march");
+    const reflect::TechniquePlan text = reflect::parse_plan(
+        "1=reuse:face=64 2,back=hybrid *=march");
     EXPECT_TRUE(app::read_plan(file(R"([{"mirror": 1, "technique": "reuse:face=64"},
                                         {"mirror": "2,back", "technique": "hybrid"},
                                         {"mirror": "*", "technique": "march"}])"))
                     .same_as(text));
     // A row of a report stores the same plan as an object with more fields.
-    const reflect::Plan row = app::read_plan(
+    const reflect::TechniquePlan row = app::read_plan(
         file(R"({"plan": [{"mirror": 1, "name": "left ball", "technique": "reuse",
                            "settings": {"face": 64, "colour": "half"}, "why": "rule '1'"},
                           {"mirror": "2,back", "technique": "hybrid", "settings": {}},

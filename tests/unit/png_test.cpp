@@ -1,5 +1,5 @@
-// Compares PNG files that png_bytes writes (with libpng) with those that OpenImageIO writes for the
-// same values.
+// Compares PNG files that encode_png writes (with libpng) with those that OpenImageIO writes for
+// the same values.
 #include "core/error.hpp"
 #include "core/image_codec.hpp"
 #include "core/image_module.hpp"
@@ -26,10 +26,10 @@ TEST(Png, PngBytesEqualThoseOfOpenImageIO) {
             const std::vector<std::uint8_t> values = values_of(size, channel_count);
             const CodecValue type = CodecValue::uint8;
             std::string wanted;
-            const CodecResult made = image_codecs().encode(
+            const CodecResult made = get_image_codecs().encode(
                 "png", {size, channel_count, type, values.data()}, wanted);
-            ASSERT_EQ(made.answer, CodecAnswer::done) << made.why;
-            EXPECT_TRUE(png_bytes({size, channel_count, {}}, values) == wanted)
+            ASSERT_EQ(made.answer, CodecStatus::done) << made.why;
+            EXPECT_TRUE(encode_png({size, channel_count, {}}, values) == wanted)
                 << size.x << "x" << size.y << " with " << channel_count << " channels";
         }
 }
@@ -38,20 +38,20 @@ TEST(Png, UnwritablePicturesAreRefusedWithTheReason) {
     const std::vector<std::uint8_t> values(10);
     EXPECT_THAT(test::refusal(Failure::internal,
                               [&] {
-                                  png_bytes({{2, 1}, 5, {}}, values);
+                                  encode_png({{2, 1}, 5, {}}, values);
                               }),
                 testing::HasSubstr("a picture of 2x1 cannot be written as PNG: wanted 1 to 4 "
                                    "channels, found 5 and 10 values"));
     EXPECT_THAT(
         test::refusal(Failure::internal,
                       [&] {
-                          png_bytes({{2, 2}, 3, {}}, values);
+                          encode_png({{2, 2}, 3, {}}, values);
                       }),
         testing::HasSubstr("2x2 cannot be written as PNG: wanted 1 to 4 channels, found 3 and 10"));
     const std::vector<std::uint8_t> row(2'000'000);
     EXPECT_THAT(test::refusal(Failure::internal,
                               [&] {
-                                  png_bytes({{2'000'000, 1}, 1, {}}, row);
+                                  encode_png({{2'000'000, 1}, 1, {}}, row);
                               }),
                 testing::HasSubstr("libpng cannot encode a picture of 2000000x1: "));
 }

@@ -33,8 +33,9 @@ constexpr std::uint32_t kNoContraction = 42, kFma = 50; // kFma: number in GLSL.
 constexpr std::array kFusible{kFNegate, kFAdd, kFSub, kFMul, kVectorTimesScalar, kDot};
 
 /// Functions whose results are compared bit for bit between devices.
-constexpr std::array<std::string_view, 6> kExact{"ray_shear(",   "product_error(", "edge_function(",
-                                                 "short_edges(", "triangle_test(", "barycentric("};
+constexpr std::array<std::string_view, 6> kExact{"make_ray_shear(", "product_error(",
+                                                 "edge_function(",  "short_edges(",
+                                                 "triangle_test(",  "barycentric("};
 
 struct Count {
     int fixed = 0;   ///< number of instructions that must not be fused

@@ -20,24 +20,24 @@ using namespace catoptric::app;
 
 void work_for(double seconds) {
     std::atomic<int> sink{0};
-    for (const double end = process_seconds() + seconds; process_seconds() < end;) ++sink;
+    for (const double end = read_process_seconds() + seconds; read_process_seconds() < end;) ++sink;
 }
 
 TEST(Processor, ProcessSecondsCountAllThreads) {
-    const double before = process_seconds();
+    const double before = read_process_seconds();
     std::jthread beside([] { work_for(.05); });
     beside.join();
-    EXPECT_GE(process_seconds() - before, .05);
+    EXPECT_GE(read_process_seconds() - before, .05);
 }
 
 TEST(Processor, ProcessorUseReportsHowLongThreadsRan) {
-    const auto before = processor_use();
+    const auto before = read_processor_use();
     ASSERT_TRUE(before) << "Linux tells";
     work_for(.05);
-    const auto after = processor_use();
+    const auto after = read_processor_use();
     ASSERT_TRUE(after);
-    EXPECT_NEAR(waiting_between(*before, *after).ran, .05, .02);
-    EXPECT_EQ(waiting_between(*after, *after).ran, 0);
+    EXPECT_NEAR(compute_waiting_times(*before, *after).ran, .05, .02);
+    EXPECT_EQ(compute_waiting_times(*after, *after).ran, 0);
     EXPECT_GE(after->busy, before->busy);
 }
 
@@ -51,19 +51,19 @@ TEST(Processor, OverloadedProcessorsShowAsWaiting) {
             while (!stop) {
             }
         });
-    const auto before = processor_use();
+    const auto before = read_processor_use();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const auto after = processor_use();
+    const auto after = read_processor_use();
     stop = true;
     ASSERT_TRUE(before && after);
-    const Waiting waiting = waiting_between(*before, *after);
+    const WaitingTimes waiting = compute_waiting_times(*before, *after);
     EXPECT_GT(waiting.waited, waiting.ran);
 }
 
 TEST(Processor, WaitingCountsNewThreadsButNotEndedOnes) {
     const ProcessorUse before{{{1, {10, 1}}, {2, {20, 2}}}, 100},
         after{{{1, {11, 1.25}}, {3, {.5, .125}}}, 104};
-    Waiting waiting = waiting_between(before, after);
+    WaitingTimes waiting = compute_waiting_times(before, after);
     EXPECT_EQ(waiting.ran, 1.5) << "2 has ended: nobody knows what it did; 3 is new";
     EXPECT_EQ(waiting.waited, .375);
     EXPECT_EQ(waiting.others, 2.5);
@@ -74,30 +74,34 @@ TEST(Processor, WaitingCountsNewThreadsButNotEndedOnes) {
 }
 
 TEST(Processor, WaitingForOwnThreadsIsNoNoise) {
-    EXPECT_EQ(waited_share({0, 0, 0}), 0);
-    EXPECT_EQ(waited_share({6, 2, 0}), 0) << "nobody else was there";
-    EXPECT_EQ(waited_share({6, 2, -.01}), 0) << "the system counts in hundredths";
-    EXPECT_EQ(waited_share({6, 2, 2}), .25 * .25) << "in a quarter of the time others had them";
-    EXPECT_EQ(waited_share({6, 2, std::nan("")}), .25) << "nobody tells, so all of it counts";
-    EXPECT_EQ(waited_share({0, 2, 1}), 1);
+    EXPECT_EQ(compute_waited_share({0, 0, 0}), 0);
+    EXPECT_EQ(compute_waited_share({6, 2, 0}), 0) << "nobody else was there";
+    EXPECT_EQ(compute_waited_share({6, 2, -.01}), 0) << "the system counts in hundredths";
+    EXPECT_EQ(compute_waited_share({6, 2, 2}), .25 * .25)
+        << "in a quarter of the time others had them";
+    EXPECT_EQ(compute_waited_share({6, 2, std::nan("")}), .25)
+        << "nobody tells, so all of it counts";
+    EXPECT_EQ(compute_waited_share({0, 2, 1}), 1);
 }
 
 TEST(Processor, NoisyMeansWaitingForMoreThanFivePercent) {
-    EXPECT_FALSE(is_noisy(.05));
-    EXPECT_TRUE(is_noisy(.0501));
-    EXPECT_FALSE(is_noisy(std::nan("")));
+    EXPECT_FALSE(is_timing_noisy(.05));
+    EXPECT_TRUE(is_timing_noisy(.0501));
+    EXPECT_FALSE(is_timing_noisy(std::nan("")));
 }
 
 TEST(Processor, LoadOfOtherProcessesDecidesIfWaitingIsUnknown) {
-    EXPECT_FALSE(is_noisy(.25, 0, 600));
-    EXPECT_TRUE(is_noisy(.26, 0, 600));
-    EXPECT_FALSE(is_noisy(2.25, 2 * 6000, 6000)) << "two processors of its own, for a long time";
-    EXPECT_TRUE(is_noisy(2.3, 2 * 6000, 6000));
+    EXPECT_FALSE(is_timing_noisy(.25, 0, 600));
+    EXPECT_TRUE(is_timing_noisy(.26, 0, 600));
+    EXPECT_FALSE(is_timing_noisy(2.25, 2 * 6000, 6000))
+        << "two processors of its own, for a long time";
+    EXPECT_TRUE(is_timing_noisy(2.3, 2 * 6000, 6000));
     // The load is a mean over about a minute, so after ten seconds it contains only 15 % of this
     // process's time.
-    EXPECT_FALSE(is_noisy(.54, 20, 10));
-    EXPECT_TRUE(is_noisy(.57, 20, 10));
-    EXPECT_FALSE(is_noisy(std::numeric_limits<double>::quiet_NaN(), 0, 600)) << "nobody tells";
+    EXPECT_FALSE(is_timing_noisy(.54, 20, 10));
+    EXPECT_TRUE(is_timing_noisy(.57, 20, 10));
+    EXPECT_FALSE(is_timing_noisy(std::numeric_limits<double>::quiet_NaN(), 0, 600))
+        << "nobody tells";
 }
 
 /// Returns the number of processors on which a thread of this process may run.
@@ -108,7 +112,7 @@ int processors_of(int thread) {
     return CPU_COUNT(&allowed);
 }
 
-/// HeldThreads finds a driver's drawing threads by their names. Threads with such names must be
+/// PinnedThreads finds a driver's drawing threads by their names. Threads with such names must be
 /// bound to one processor each while the object exists, and to none afterwards.
 TEST(Processor, HeldThreadsBindsDrawingThreadsToOneProcessorEach) {
     const int all = processors_of(0);
@@ -124,7 +128,7 @@ TEST(Processor, HeldThreadsBindsDrawingThreadsToOneProcessorEach) {
         });
     while (numbers[0] == 0 || numbers[1] == 0) std::this_thread::yield();
     {
-        const HeldThreads held;
+        const PinnedThreads held;
         EXPECT_EQ(held.count(), 2u);
         cpu_set_t first, second, both;
         ::sched_getaffinity(numbers[0], sizeof first, &first);

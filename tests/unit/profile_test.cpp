@@ -27,12 +27,12 @@ app::DeviceInfo device_of(const std::string& driver = "driver 1.2 (build 3)") {
 
 /// Returns a measurement of a variant's second choice. In round i this choice takes `ratios[i]`
 /// times as long as the default.
-measure::Tried tried(std::size_t variant, const std::vector<double>& ratios) {
-    const gpu::Variant& row = gpu::variants()[variant];
-    measure::Tried one{.variant = std::string(row.name),
-                       .choice = std::string(row.choices[1]),
-                       .standard = std::string(row.choices[0]),
-                       .benchmark = "frame/x"};
+measure::TriedVariant tried(std::size_t variant, const std::vector<double>& ratios) {
+    const gpu::ShaderVariant& row = gpu::list_shader_variants()[variant];
+    measure::TriedVariant one{.variant = std::string(row.name),
+                              .choice = std::string(row.choices[1]),
+                              .standard = std::string(row.choices[0]),
+                              .benchmark = "frame/x"};
     for (const double ratio : ratios) one.ms.push_back(10 * ratio), one.standard_ms.push_back(10);
     return one;
 }
@@ -41,9 +41,9 @@ const std::vector<double> kFaster{.9, .91, .92, .93, .94, .95},
     kSlower{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kBoth{.5, .6, .7, .8, .9, 1.01};
 
 TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
-    const std::string text = app::profile_text(
+    const std::string text = app::make_profile_text(
         device_of(), {tried(0, kFaster), tried(1, kSlower), tried(2, kBoth)});
-    EXPECT_EQ(app::read_profile(text, "p.json", device_of()), (gpu::Choices{1, 0, 0}));
+    EXPECT_EQ(app::read_profile(text, "p.json", device_of()), (gpu::VariantChoices{1, 0, 0}));
     const json document = json::parse(text);
     EXPECT_EQ(document["variants"],
               (json{{"groups", "in order"}, {"hierarchy", "texel"}, {"pixels", "blocks"}}));
@@ -56,7 +56,7 @@ TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
 }
 
 TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
-    const std::string text = app::profile_text(device_of(), {tried(0, kFaster)});
+    const std::string text = app::make_profile_text(device_of(), {tried(0, kFaster)});
     const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
         test::expect_refused([&] { app::read_profile(text, "p.json", device); }, Failure::bad_data,
@@ -72,7 +72,7 @@ TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
 }
 
 TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
-    json good = json::parse(app::profile_text(device_of(), {tried(0, kFaster)}));
+    json good = json::parse(app::make_profile_text(device_of(), {tried(0, kFaster)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
         test::expect_refused([&] { app::read_profile(text, "p.json", device_of()); },
                              Failure::bad_data, {"p.json: ", part});
@@ -89,11 +89,12 @@ TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     bad = good, bad["variants"]["pixels"] = "storage";
     refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
     good["variants"] = json::object(); // variants that are left out have their defaults
-    EXPECT_EQ(app::read_profile(good.dump(), "p.json", device_of()), gpu::Choices{});
+    EXPECT_EQ(app::read_profile(good.dump(), "p.json", device_of()), gpu::VariantChoices{});
 }
 
 TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
-    EXPECT_EQ(app::profile_name(device_of("../a b:c\\d\n")), "10de-2330-.._a_b_c_d_.json");
+    EXPECT_EQ(app::make_profile_file_name(device_of("../a b:c\\d\n")),
+              "10de-2330-.._a_b_c_d_.json");
 }
 
 class ProfilePlace : public test::InFolder {
@@ -101,28 +102,29 @@ protected:
     void put(const std::string& name, const std::string& text) const {
         std::ofstream(folder / name) << text;
     }
-    std::string good() const { return app::profile_text(device_of(), {tried(0, kFaster)}); }
+    std::string good() const { return app::make_profile_text(device_of(), {tried(0, kFaster)}); }
 };
 
 TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
     app::EngineOptions options;
     options.profiles = folder;
     app::DeviceInfo device = device_of();
-    EXPECT_EQ(app::choose(options, device), gpu::Choices{}) << "there is none";
+    EXPECT_EQ(app::choose_shader_variants(options, device), gpu::VariantChoices{})
+        << "there is none";
     EXPECT_EQ(device.profile + device.warning, "");
     EXPECT_THAT(device.variants,
                 testing::ElementsAre(Pair("groups", "scattered"), Pair("hierarchy", "texel"),
                                      Pair("pixels", "blocks")));
-    const std::string name = app::profile_name(device);
+    const std::string name = app::make_profile_file_name(device);
     put(name, good());
-    EXPECT_EQ(app::choose(options, device), (gpu::Choices{1, 0, 0}));
+    EXPECT_EQ(app::choose_shader_variants(options, device), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, name);
     EXPECT_EQ(device.variants[0].second, "in order");
     for (const std::string& text :
-         {std::string("{"), app::profile_text(device_of("another"), {tried(0, kFaster)})}) {
+         {std::string("{"), app::make_profile_text(device_of("another"), {tried(0, kFaster)})}) {
         put(name, text);
         device = device_of();
-        EXPECT_EQ(app::choose(options, device), gpu::Choices{});
+        EXPECT_EQ(app::choose_shader_variants(options, device), gpu::VariantChoices{});
         EXPECT_EQ(device.profile, "");
         EXPECT_THAT(device.warning, testing::StartsWith((folder / name).string() + ": "));
         EXPECT_THAT(device.warning, testing::HasSubstr("; shaders are as by default"));
@@ -132,11 +134,11 @@ TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
 TEST_F(ProfilePlace, ProfileNamedByAnOptionMustBeUsable) {
     app::DeviceInfo device = device_of();
     const auto choose = [&](const std::string& name) {
-        return app::choose({.profile = folder / name, .profiles = folder}, device);
+        return app::choose_shader_variants({.profile = folder / name, .profiles = folder}, device);
     };
     put("good.json", good()), put("bad.json", "3");
-    put("other.json", app::profile_text(device_of("another"), {tried(0, kFaster)}));
-    EXPECT_EQ(choose("good.json"), (gpu::Choices{1, 0, 0}));
+    put("other.json", app::make_profile_text(device_of("another"), {tried(0, kFaster)}));
+    EXPECT_EQ(choose("good.json"), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
     test::expect_refused([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
     test::expect_refused([&] { choose("other.json"); }, Failure::bad_data, {"device.driver: "});
@@ -145,7 +147,7 @@ TEST_F(ProfilePlace, ProfileNamedByAnOptionMustBeUsable) {
                          {": wanted a file with a device"});
     test::expect_refused(
         [&] {
-            app::choose({.variants = {{"pixels", "round"}}}, device);
+            app::choose_shader_variants({.variants = {{"pixels", "round"}}}, device);
         },
         Failure::usage, {"variants.pixels: wanted 'blocks' or 'rows'"});
 }
@@ -158,23 +160,23 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
           std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
         app::DeviceInfo device = device_of();
         device.type = type;
-        const gpu::Choices choices = app::choose({}, device);
+        const gpu::VariantChoices choices = app::choose_shader_variants({}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
         EXPECT_THAT(device.variants, testing::Contains(Pair("hierarchy", "texel"))) << type;
-        EXPECT_EQ(choices, app::default_choices(device));
-        app::choose({.variants = {{"pixels", "rows"}}}, device);
+        EXPECT_EQ(choices, app::choose_default_variants(device));
+        app::choose_shader_variants({.variants = {{"pixels", "rows"}}}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
     }
 }
 
 TEST(Variants, ChoicesOtherThanDefaultsBecomeShaderConstants) {
-    EXPECT_TRUE(render::constants_of({}, 16, 128).empty());
-    const gpu::Constants all = render::constants_of({1, 1, 1}, 128, 128);
+    EXPECT_TRUE(render::make_tracer_constants({}, 16, 128).empty());
+    const gpu::ShaderConstants all = render::make_tracer_constants({1, 1, 1}, 128, 128);
     EXPECT_THAT(
         all, testing::ElementsAre(Pair("groups_in_order", testing::VariantWith<std::uint32_t>(1U)),
                                   Pair("bvh_in_storage", testing::VariantWith<std::uint32_t>(1U)),
                                   Pair("pixels_in_rows", testing::VariantWith<std::uint32_t>(1U))));
-    const gpu::Constants large = render::constants_of({0, 1, 0}, 129, 128);
+    const gpu::ShaderConstants large = render::make_tracer_constants({0, 1, 0}, 129, 128);
     EXPECT_TRUE(large.empty()) << "more bytes than a storage buffer may have";
 }
 

@@ -17,7 +17,7 @@ public:
         const std::uint32_t passes = below(14) + 2;
         for (std::uint32_t p = 0; p < passes; ++p) add_pass(p);
         for (std::uint32_t i = 0; i < images_.size(); ++i)
-            if ((graph_.lifetime(i) == Lifetime::previous)) write_all(i);
+            if ((graph_.lifetime(i) == ImageLifetime::previous)) write_all(i);
         mark_output();
         return std::move(graph_);
     }
@@ -63,7 +63,7 @@ private:
 
     void add_pass(std::uint32_t number) {
         PassBuilder pass = graph_.pass("p" + std::to_string(number),
-                                       chance(40) ? Tag::scene : Tag::none);
+                                       chance(40) ? PassTag::scene : PassTag::none);
         touched_.assign(images_.size(), false);
         const ImageHandle target = part_of(
             images_[below(static_cast<std::uint32_t>(images_.size()))]);
@@ -73,37 +73,37 @@ private:
         if (raster)
             add_attachments(pass, target);
         else if (copy)
-            pass.writes(target, Use::copy_to);
+            pass.writes(target, ResourceUse::copy_to);
         else if (is_written(target) && chance(40))
-            pass.writes(target, Use::storage);
+            pass.writes(target, ResourceUse::storage);
         else
-            pass.writes(target, Use::storage_write);
+            pass.writes(target, ResourceUse::storage_write);
         add_reads(pass, copy);
         add_disjoint_read(pass, target, copy);
         add_buffers(pass, copy);
-        pass.record([](Commands&) {});
+        pass.record([](PassCommands&) {});
         std::fill_n(written_[target.id].begin() + target.first_layer, target.layer_count, true);
     }
 
     void add_attachments(PassBuilder& pass, const ImageHandle& target) {
-        const Use use = is_depth(target) ? Use::depth : Use::colour;
-        std::optional<Clear> clear;
-        if (!is_written(target) || chance(60)) clear = Clear{};
+        const ResourceUse use = is_depth(target) ? ResourceUse::depth : ResourceUse::colour;
+        std::optional<ClearValue> clear;
+        if (!is_written(target) || chance(60)) clear = ClearValue{};
         pass.writes(target, use, clear).layers(target.layer_count);
-        if (use == Use::depth || chance(50)) return;
+        if (use == ResourceUse::depth || chance(50)) return;
         for (const ImageHandle& image : images_) { // attaches a depth image for the depth test
             if (!is_depth(image) || image.layer_count < target.layer_count) continue;
             const ImageHandle depth = image.layers(0, target.layer_count);
             if (!is_written(depth)) continue;
             touched_[image.id] = true;
-            pass.reads(depth, Use::depth);
+            pass.reads(depth, ResourceUse::depth);
             return;
         }
     }
 
-    Use read_use(const ImageHandle& image, bool copy) {
-        if (copy) return Use::copy_from;
-        return !is_depth(image) && chance(30) ? Use::storage_read : Use::sampled;
+    ResourceUse read_use(const ImageHandle& image, bool copy) {
+        if (copy) return ResourceUse::copy_from;
+        return !is_depth(image) && chance(30) ? ResourceUse::storage_read : ResourceUse::sampled;
     }
 
     void add_reads(PassBuilder& pass, bool copy) {
@@ -129,20 +129,21 @@ private:
         if (is_written(rest) && chance(50))
             pass.reads(rest, read_use(rest, copy));
         else if (chance(10))
-            pass.reads(graph_.previous(target), Use::sampled);
+            pass.reads(graph_.previous(target), ResourceUse::sampled);
     }
 
     void add_buffers(PassBuilder& pass, bool copy) {
         for (std::uint32_t b = 0; b < buffers_.size(); ++b) {
             if (chance(50)) continue;
             if (buffer_written_[b] && chance(60)) {
-                pass.reads(buffers_[b], copy ? Use::copy_from : Use::storage_read);
-                if (!copy && chance(50)) pass.reads(buffers_[b], Use::indirect);
+                pass.reads(buffers_[b], copy ? ResourceUse::copy_from : ResourceUse::storage_read);
+                if (!copy && chance(50)) pass.reads(buffers_[b], ResourceUse::indirect);
                 continue;
             }
             const bool modifies = buffer_written_[b] && chance(50);
-            const Use compute = modifies ? Use::storage : Use::storage_write;
-            pass.writes(buffers_[b], copy ? Use::copy_to : compute);
+            const ResourceUse compute = modifies ? ResourceUse::storage
+                                                 : ResourceUse::storage_write;
+            pass.writes(buffers_[b], copy ? ResourceUse::copy_to : compute);
             buffer_written_[b] = true;
         }
     }
@@ -152,9 +153,10 @@ private:
     void write_all(std::uint32_t id) {
         if (is_written(images_[id])) return;
         graph_.pass("all" + std::to_string(id))
-            .writes(images_[id], is_depth(images_[id]) ? Use::depth : Use::colour, Clear{})
+            .writes(images_[id], is_depth(images_[id]) ? ResourceUse::depth : ResourceUse::colour,
+                    ClearValue{})
             .layers(images_[id].layer_count)
-            .record([](Commands&) {});
+            .record([](PassCommands&) {});
         written_[id].assign(images_[id].layer_count, true);
     }
 

@@ -13,34 +13,35 @@ namespace {
 /// ordered after it.
 struct Event {
     Cell cell;
-    Touch touch;
+    ResourceTouch touch;
     bool is_write = false; // true for a write or a layout change
     bool is_layout = false;
-    std::vector<std::pair<Cell, Touch>> ordered; // later accesses, by the barrier's cell
+    std::vector<std::pair<Cell, ResourceTouch>> ordered; // later accesses, by the barrier's cell
 
     /// Returns whether a barrier orders the access `t` to cell `by` after this access. A barrier on
     /// this access's own cell counts for every cell.
-    bool is_before(const Cell& by, const Touch& t) const {
+    bool is_before(const Cell& by, const ResourceTouch& t) const {
         return std::ranges::count(ordered, std::pair(by, t)) > 0 ||
                std::ranges::count(ordered, std::pair(cell, t)) > 0;
     }
-    bool is_in(const Cell& by, const std::vector<Touch>& scope) const {
+    bool is_in(const Cell& by, const std::vector<ResourceTouch>& scope) const {
         return (!is_layout && std::ranges::count(scope, touch) > 0) ||
-               std::ranges::any_of(scope, [&](const Touch& t) { return is_before(by, t); });
+               std::ranges::any_of(scope, [&](const ResourceTouch& t) { return is_before(by, t); });
     }
 };
 
 class Replay {
 public:
-    Replay(const Graph& graph, const GraphPlan& plan, const Sizer& sizer)
+    Replay(const Graph& graph, const GraphPlan& plan, const MemorySizer& sizer)
         : graph_(graph), plan_(plan), sizer_(sizer) {
-        const Touch raster{.nothing = false, .use = Use::sampled, .write = false, .raster = true};
-        Touch compute = raster;
+        const ResourceTouch raster{
+            .nothing = false, .use = ResourceUse::sampled, .write = false, .raster = true};
+        ResourceTouch compute = raster;
         compute.raster = false;
         for (std::uint32_t i = 0; i < graph.images().size(); ++i)
             for (std::uint32_t l = 0; l < graph.images()[i].layers; ++l) {
                 const Cell cell{Kind::previous, i, l};
-                layouts_[cell] = Use::sampled;
+                layouts_[cell] = ResourceUse::sampled;
                 events_[cell] = {{cell, {}, true, true, {{cell, raster}, {cell, compute}}}};
             }
     }
@@ -70,15 +71,15 @@ private:
                           (std::string(parts) + ...));
     }
 
-    const Placement& placement(const Cell& cell) const {
+    const MemoryPlacement& placement(const Cell& cell) const {
         return cell.kind == Kind::buffer ? plan_.buffers[cell.id] : plan_.images[cell.id];
     }
 
     bool share_memory(const Cell& a, const Cell& b) const {
         if (a.kind == Kind::previous || b.kind == Kind::previous) return false;
         if (a.kind == b.kind && a.id == b.id) return false;
-        const Placement& x = placement(a);
-        const Placement& y = placement(b);
+        const MemoryPlacement& x = placement(a);
+        const MemoryPlacement& y = placement(b);
         return x.used && y.used && x.heap == y.heap && x.offset < y.offset + y.bytes &&
                y.offset < x.offset + x.bytes;
     }
@@ -88,12 +89,12 @@ private:
         int scene = 0;
         for (const PlannedPass& planned : plan_.passes) {
             kept.push_back(planned.pass);
-            scene += graph_.passes()[planned.pass].tag == Tag::scene ? 1 : 0;
+            scene += graph_.passes()[planned.pass].tag == PassTag::scene ? 1 : 0;
         }
         if (!std::ranges::is_sorted(kept)) faults_.push_back("passes are reordered");
         if (scene != plan_.scene_passes) faults_.push_back("scene passes are miscounted");
         all = kept;
-        for (const Culled& culled : plan_.culled) all.push_back(culled.pass);
+        for (const CulledPass& culled : plan_.culled) all.push_back(culled.pass);
         std::ranges::sort(all);
         for (std::uint32_t p = 0; p < graph_.passes().size(); ++p)
             if (p >= all.size() || all[p] != p) faults_.push_back("a pass is lost or doubled");
@@ -117,7 +118,7 @@ private:
             }
         std::vector<std::uint64_t> ends(plan_.heap_bytes.size(), 0);
         for (const auto& [cell, life] : lives) {
-            const Placement& p = placement(cell);
+            const MemoryPlacement& p = placement(cell);
             expect(p.used && std::pair(p.first, p.last) == life, cell, "wrong lifetime");
             check_size(cell);
             expect(p.heap < ends.size(), cell, "no such heap");
@@ -138,17 +139,17 @@ private:
     bool must_be_alone(const Cell& cell) const {
         if (cell.kind == Kind::buffer)
             return std::ranges::count(graph_.output_buffers(), cell.id, &BufferHandle::id) > 0;
-        return (graph_.lifetime(cell.id) == Lifetime::previous) ||
+        return (graph_.lifetime(cell.id) == ImageLifetime::previous) ||
                std::ranges::count(graph_.output_images(), cell.id, &ImageHandle::id) > 0;
     }
 
     void check_size(const Cell& cell) {
-        const Placement& p = placement(cell);
+        const MemoryPlacement& p = placement(cell);
         const bool is_buffer = cell.kind == Kind::buffer;
         const MemoryRequirements wanted = is_buffer ? sizer_.buffer(graph_.buffers()[cell.id])
                                                     : sizer_.image(graph_.images()[cell.id]);
         std::uint64_t bytes = wanted.bytes;
-        if (!is_buffer && (graph_.lifetime(cell.id) == Lifetime::previous)) {
+        if (!is_buffer && (graph_.lifetime(cell.id) == ImageLifetime::previous)) {
             const std::uint64_t padding = wanted.alignment - 1;
             bytes = 2 * ((bytes + padding) / wanted.alignment * wanted.alignment);
         }
@@ -159,11 +160,11 @@ private:
 
     /// Applies all barriers of one pass at once, because barriers of the same command do not order
     /// each other.
-    void pass_barriers(const std::vector<Barrier>& barriers) {
-        std::vector<std::tuple<Event*, Cell, Touch>> ordered;
-        std::map<Cell, Touch> transitions;
-        for (const Barrier& b : barriers) {
-            std::vector<Touch> scope = b.shared;
+    void pass_barriers(const std::vector<PlannedBarrier>& barriers) {
+        std::vector<std::tuple<Event*, Cell, ResourceTouch>> ordered;
+        std::map<Cell, ResourceTouch> transitions;
+        for (const PlannedBarrier& b : barriers) {
+            std::vector<ResourceTouch> scope = b.shared;
             if (!b.before.nothing) scope.push_back(b.before);
             const Kind kind = b.is_buffer  ? Kind::buffer
                               : b.previous ? Kind::previous
@@ -217,17 +218,17 @@ private:
     void lose(const ImageUse& use) {
         for (std::uint32_t l = 0; l < use.image.layer_count; ++l) {
             const Cell cell{Kind::image, use.image.id, use.image.first_layer + l};
-            expect(use.write && (use.use == Use::colour || use.use == Use::depth), cell,
-                   "not stored, but no attachment");
+            expect(use.write && (use.use == ResourceUse::colour || use.use == ResourceUse::depth),
+                   cell, "not stored, but no attachment");
             contents_.set(cell, kGarbage);
         }
     }
 
-    static Touch touch(const Pass& pass, const CellUse& u) {
+    static ResourceTouch touch(const Pass& pass, const CellUse& u) {
         return {.nothing = false, .use = u.use, .write = u.write, .raster = pass.is_raster()};
     }
 
-    void check_touch(const CellUse& u, const Touch& t) {
+    void check_touch(const CellUse& u, const ResourceTouch& t) {
         if (u.cell.kind != Kind::buffer)
             expect(layouts_.contains(u.cell) && layouts_[u.cell] == u.use, u.cell,
                    "wrong layout for ", std::string(name_of(u.use)));
@@ -252,22 +253,23 @@ private:
             if (cell.kind == Kind::image)
                 check_left(cell);
             else
-                expect_ordered(cell, Use::copy_from);
+                expect_ordered(cell, ResourceUse::copy_from);
         }
         for (std::uint32_t i = 0; i < plan_.images.size(); ++i)
             for (std::uint32_t l = 0; l < graph_.images()[i].layers; ++l)
-                if (plan_.images[i].used && (graph_.lifetime(i) == Lifetime::previous))
+                if (plan_.images[i].used && (graph_.lifetime(i) == ImageLifetime::previous))
                     check_left({Kind::image, i, l});
     }
 
     void check_left(const Cell& cell) {
-        const Use use = (graph_.lifetime(cell.id) == Lifetime::previous) ? Use::sampled
-                                                                         : Use::copy_from;
+        const ResourceUse use = (graph_.lifetime(cell.id) == ImageLifetime::previous)
+                                    ? ResourceUse::sampled
+                                    : ResourceUse::copy_from;
         expect(layouts_.contains(cell) && layouts_[cell] == use, cell, "left in a wrong layout");
         expect_ordered(cell, use);
     }
 
-    void expect_ordered(const Cell& cell, Use use) {
+    void expect_ordered(const Cell& cell, ResourceUse use) {
         for (const Event& e : events_[cell])
             expect(e.is_before(cell, {.nothing = false, .use = use}), cell,
                    "races with its reader");
@@ -275,17 +277,18 @@ private:
 
     const Graph& graph_;
     const GraphPlan& plan_;
-    const Sizer& sizer_;
+    const MemorySizer& sizer_;
     std::string where_ = "memory";
     std::vector<std::string> faults_;
     Contents contents_;
-    std::map<Cell, Use> layouts_;
+    std::map<Cell, ResourceUse> layouts_;
     std::map<Cell, std::vector<Event>> events_;
 };
 
 } // namespace
 
-std::vector<std::string> replay(const Graph& graph, const GraphPlan& plan, const Sizer& sizer) {
+std::vector<std::string> replay(const Graph& graph, const GraphPlan& plan,
+                                const MemorySizer& sizer) {
     return Replay(graph, plan, sizer).run();
 }
 

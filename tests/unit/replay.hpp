@@ -12,7 +12,8 @@ namespace catoptric::graph {
 /// Memory that another resource overwrites loses its contents. A touch that no barrier orders is a
 /// race. A read in another layout is an error. In the end, all outputs must hold the same contents
 /// as if each resource had its own memory and all passes had run.
-std::vector<std::string> replay(const Graph& graph, const GraphPlan& plan, const Sizer& sizer);
+std::vector<std::string> replay(const Graph& graph, const GraphPlan& plan,
+                                const MemorySizer& sizer);
 
 /// Returns a random valid graph. Over many graphs, passes use resources in every way that a graph
 /// allows.

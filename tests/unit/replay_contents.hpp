@@ -22,7 +22,7 @@ struct Cell {
 
 struct CellUse {
     Cell cell;
-    Use use = Use::sampled;
+    ResourceUse use = ResourceUse::sampled;
     bool write = false;
     bool needs = false;
 };
@@ -37,8 +37,8 @@ inline Value mix(Value a, Value b) {
 inline std::vector<CellUse> uses_of(const Pass& pass) {
     std::vector<CellUse> uses;
     for (const ImageUse& u : pass.images) {
-        const bool attached = u.use == Use::colour || u.use == Use::depth;
-        const bool needs = !u.write || u.use == Use::storage || (attached && !u.clear);
+        const bool attached = u.use == ResourceUse::colour || u.use == ResourceUse::depth;
+        const bool needs = !u.write || u.use == ResourceUse::storage || (attached && !u.clear);
         for (std::uint32_t l = 0; l < u.image.layer_count; ++l)
             uses.push_back({{u.image.previous ? Kind::previous : Kind::image, u.image.id,
                              u.image.first_layer + l},
@@ -47,8 +47,10 @@ inline std::vector<CellUse> uses_of(const Pass& pass) {
                             needs});
     }
     for (const BufferUse& u : pass.buffers)
-        uses.push_back(
-            {{Kind::buffer, u.buffer.id, 0}, u.use, u.write, !u.write || u.use == Use::storage});
+        uses.push_back({{Kind::buffer, u.buffer.id, 0},
+                        u.use,
+                        u.write,
+                        !u.write || u.use == ResourceUse::storage});
     return uses;
 }
 

@@ -18,10 +18,10 @@ namespace {
 
 using namespace catoptric::report;
 using catoptric::measure::Difference;
-using catoptric::measure::LightEdges;
-using catoptric::measure::LookupError;
+using catoptric::measure::LightEdgeErrors;
+using catoptric::measure::LookupErrorSummary;
 using catoptric::measure::Mean;
-using catoptric::measure::Summary;
+using catoptric::measure::SampleSummary;
 using nlohmann::json;
 
 /// A figure of the test row, with its JSON pointer and its CSV column. The column "name#2" means
@@ -104,7 +104,7 @@ private:
     static std::string part(const std::string& column, const char* name) {
         return column + "_" + name;
     }
-    void set(Summary& times, const std::string& pointer, const std::string& column) {
+    void set(SampleSummary& times, const std::string& pointer, const std::string& column) {
         set(times.median, pointer + "/median", part(column, "median"));
         set(times.p05, pointer + "/p05", part(column, "p05"));
         set(times.p95, pointer + "/p95", part(column, "p95"));
@@ -138,7 +138,7 @@ private:
         set(mean.rgb.y, pointer + "/1", part(column, "g"));
         set(mean.rgb.z, pointer + "/2", part(column, "b"));
     }
-    void fill_lookup(LookupError& lookup) {
+    void fill_lookup(LookupErrorSummary& lookup) {
         set(lookup.pixels, "/lookup/pixels", "lookup_pixels");
         set(lookup.mean_degrees, "/lookup/mean_degrees", "lookup_mean_degrees");
         set(lookup.p95_degrees, "/lookup/p95_degrees", "lookup_p95_degrees");
@@ -148,7 +148,7 @@ private:
         set(lookup.miss, "/lookup/miss", "lookup_miss");
         set(lookup.p95_residual, "/lookup/p95_residual", "lookup_p95_residual");
     }
-    void fill_light_edges(LightEdges& edges) {
+    void fill_light_edges(LightEdgeErrors& edges) {
         set(edges.rmse, "/light_edges/rmse", "light_edges_rmse");
         set(edges.rest_rmse, "/light_edges/rest_rmse", "light_edges_rest_rmse");
         set(edges.share, "/light_edges/share", "light_edges_share");
@@ -247,7 +247,7 @@ TEST(ReportFields, JsonReportHoldsRoundsAndLoad) {
     EXPECT_EQ(document["rows"][0]["noisy"], false);
     Comparison made = sample::usual();
     made.load_start = std::nan("");
-    made.rows[0].gpu_ms = catoptric::measure::summarise(std::vector<double>{1, 2});
+    made.rows[0].gpu_ms = catoptric::measure::summarise_samples(std::vector<double>{1, 2});
     const json without = json::parse(to_json(made));
     EXPECT_TRUE(without["load"][0].is_null());
     EXPECT_TRUE(without["rows"][0]["gpu_ms"]["ci95"].is_null());
@@ -269,10 +269,11 @@ TEST(ReportFields, SetupTimesAreInJsonAndAboveTheRows) {
     }
     made.setup = {{}, 2.25, 0, 444.5, 6, "made"};
     EXPECT_TRUE(json::parse(to_json(made))["setup"]["load_ms"].is_null());
-    EXPECT_EQ(setup_text(made.setup), "upload 2.25 ms; no hierarchy; 6 pipelines 444 ms, the "
-                                      "cache on disk was empty");
+    EXPECT_EQ(describe_setup_times(made.setup),
+              "upload 2.25 ms; no hierarchy; 6 pipelines 444 ms, the "
+              "cache on disk was empty");
     made.setup.pipeline_cache = "none";
-    EXPECT_THAT(setup_text(made.setup), testing::EndsWith("444 ms, no cache on disk"));
+    EXPECT_THAT(describe_setup_times(made.setup), testing::EndsWith("444 ms, no cache on disk"));
 }
 
 /// Collects the JSON pointers of all numbers in a document.
@@ -362,7 +363,8 @@ TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
 }
 
 /// Returns the cells of a table's row, by column name.
-std::map<std::string, std::string> report_fields_cells_of(const Table& table, std::size_t row) {
+std::map<std::string, std::string> report_fields_cells_of(const ReportTable& table,
+                                                          std::size_t row) {
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
         cells[table.columns[i].name] = table.rows.at(row).at(i);
@@ -384,8 +386,8 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
     const auto degrees = [](double value) { return with_decimals(value, 2); };
     const auto percent = [](double share) { return with_decimals(100 * share, 2); };
 
-    std::map<std::string, std::string> cells = report_fields_cells_of(rows_table(distinct(filler)),
-                                                                      0);
+    std::map<std::string, std::string> cells = report_fields_cells_of(
+        make_rows_table(distinct(filler)), 0);
     const std::map<std::string, std::string> wanted{
         {"Row", row.label},
         {"R", std::to_string(row.scene_passes)},
@@ -427,13 +429,13 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
     EXPECT_EQ(cells, wanted);
 
     EXPECT_EQ(
-        report_fields_cells_of(mirror_table(distinct(filler)), 0),
+        report_fields_cells_of(make_mirror_table(distinct(filler)), 0),
         (std::map<std::string, std::string>{{"Row", row.label},
                                             {"Mirror 1", error(row.error_per_mirror[0].flip)},
                                             {"Mirror 2", error(row.error_per_mirror[1].flip)}}));
 
-    const LookupError& lookup = *row.lookup;
-    EXPECT_EQ(report_fields_cells_of(lookup_table(distinct(filler)), 0),
+    const LookupErrorSummary& lookup = *row.lookup;
+    EXPECT_EQ(report_fields_cells_of(make_lookup_table(distinct(filler)), 0),
               (std::map<std::string, std::string>{
                   {"Row", row.label},
                   {"Pixels", std::to_string(lookup.pixels)},
@@ -450,7 +452,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
 TEST(ReportFields, ErrorsThatRankRowsComeFirst) {
     const Comparison made = distinct(Filler());
     std::vector<std::string> titles;
-    for (const Column& column : rows_table(made).columns) titles.push_back(column.name);
+    for (const TableColumn& column : make_rows_table(made).columns) titles.push_back(column.name);
     const auto first = std::ranges::find(titles, "FLIP");
     ASSERT_GE(titles.end() - first, 7);
     EXPECT_THAT(std::vector(first, first + 7),
@@ -476,11 +478,11 @@ TEST(ReportFields, ReportNamesTheTechniqueOfEachMirrorOfAPlan) {
         {1, "left", "reuse", {number("face", 256)}, "rule '1'"},
         {2, "right", "secant", {number("face", 64, true), choice("colour", "half")}, "rule '2'"}};
     const Comparison both = comparison({one, plan});
-    const Table table = plan_table(both);
+    const ReportTable table = make_plan_table(both);
     ASSERT_EQ(table.rows.size(), 2u);
     EXPECT_EQ(table.rows[1],
               (std::vector<std::string>{plan.label, "2", "right", "secant:face=64", "rule '2'"}));
-    EXPECT_TRUE(plan_table(comparison({one})).rows.empty());
+    EXPECT_TRUE(make_plan_table(comparison({one})).rows.empty());
     const auto rows = json::parse(to_json(both))["rows"];
     EXPECT_EQ(rows[0]["plan"][0]["why"], "one technique was asked for");
     EXPECT_EQ(rows[1]["plan"][1],

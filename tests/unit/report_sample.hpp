@@ -10,13 +10,13 @@ namespace catoptric::report::sample {
 
 using measure::Difference;
 using measure::Picture;
-using measure::Summary;
+using measure::SampleSummary;
 
 /// Returns the times of six rounds: half are `ms` times 1 + jitter, half are `ms` times 1 - jitter.
 /// Without jitter, two summaries tie only if they are equal.
-inline Summary times(double ms, double jitter = 0) {
+inline SampleSummary times(double ms, double jitter = 0) {
     const double more = ms * (1 + jitter), less = ms * (1 - jitter);
-    Summary made{ms, ms * 0.9, ms * 1.1, ms * 0.05, 3, {ms * 0.9, ms, ms * 1.1}};
+    SampleSummary made{ms, ms * 0.9, ms * 1.1, ms * 0.05, 3, {ms * 0.9, ms, ms * 1.1}};
     made.rounds = {less, more, less, more, less, more};
     made.ci95 = {less, more};
     return made;
@@ -103,7 +103,7 @@ inline Comparison usual() {
     Row exact = row("raytrace:depth=16", 12, 0, 0,
                     {number("depth", 16, true), choice("sphere", "mesh")});
     exact.is_reference = true;
-    exact.rays = Rays{12, 6, 18};
+    exact.rays = RayCounters{12, 6, 18};
     Comparison made = comparison(
         {naive(0, 2, 0.3, 0.5), row("reuse", 7, 0.09, 0.2, {number("face", 256)}),
          row("parallax", 6, 0.03, 0.1, {choice("distance", "r32f")}), exact});

@@ -20,8 +20,8 @@ using testing::IsEmpty;
 using testing::Not;
 
 TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
-    scene::Scene scene = scene::flat();
-    const Model model = required({scene, scene.cameras[0]});
+    scene::Scene scene = scene::make_flat_mirror_room();
+    const Model model = make_required_model({scene, scene.cameras[0]});
     EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4)); // the mirror faces -z
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "face +Z of the capture of mirror 1 'mirror'");
@@ -29,20 +29,20 @@ TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
 }
 
 TEST(RequireFaces, FlatMirrorSeenFromBothSidesNeedsAllFaces) {
-    scene::Scene scene = scene::flat();
+    scene::Scene scene = scene::make_flat_mirror_room();
     // A ball behind the mirror's plane sees the mirror's back. The wall between them is moved away.
     const std::size_t mirror = scene.objects[6].material;
     scene.objects[4].world_from_object[3].z = 5;
     test::add_ball(scene, "ball", mirror, {1.7, 1, 4}, .2, 2);
-    EXPECT_EQ(required({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
+    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
 }
 
 TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
-    scene::Scene scene = scene::flat();
+    scene::Scene scene = scene::make_flat_mirror_room();
     const std::size_t mirror = scene.objects[6].material;
     test::add_quad(scene, "beside", mirror, {1.9, .5, 2.98}, {1.5, .5, 2.98}, {1.5, 2.1, 2.98},
                    {1.9, 2.1, 2.98});
-    const Model model = required({scene, scene.cameras[0]});
+    const Model model = make_required_model({scene, scene.cameras[0]});
     EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4));
     EXPECT_EQ(model.mirrors[1].faces, kAllFaces & ~(1 << 4));
     ASSERT_EQ(model.left_out.size(), 1u);
@@ -50,12 +50,12 @@ TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
 }
 
 TEST(RequireFaces, CurvedMirrorsAndOrthographicCamerasNeedAllFaces) {
-    scene::Scene scene = scene::flat();
+    scene::Scene scene = scene::make_flat_mirror_room();
     scene.cameras[0].orthographic_height = 3;
-    EXPECT_EQ(required({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
-    EXPECT_EQ(flat_normal(scene::ball("", 2)), dvec3(0));
-    EXPECT_EQ(flat_normal(scene::box("", dvec3(0), dvec3(1))), dvec3(0));
-    EXPECT_EQ(flat_normal(scene.meshes[scene.objects[6].mesh]), dvec3(0, 0, -1));
+    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
+    EXPECT_EQ(normal_of_flat_mesh(scene::ball("", 2)), dvec3(0));
+    EXPECT_EQ(normal_of_flat_mesh(scene::box("", dvec3(0), dvec3(1))), dvec3(0));
+    EXPECT_EQ(normal_of_flat_mesh(scene.meshes[scene.objects[6].mesh]), dvec3(0, 0, -1));
 }
 
 TEST(RequireLights, LightThatReachesNothingVisibleNeedsNoShadowMap) {
@@ -65,7 +65,7 @@ TEST(RequireLights, LightThatReachesNothingVisibleNeedsNoShadowMap) {
         scene.punctual.back().world_from_light[3] = dvec4(at, 1);
     };
     bare("near", {0, 5, 0}, 2.9), bare("far", {0, 5, 0}, 3.1);
-    const Model model = required({scene, scene.cameras[0]});
+    const Model model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.lights.size(), 3u);
     EXPECT_TRUE(model.lights[0].has_map);
     EXPECT_FALSE(model.lights[1].has_map); // the ceiling is 3 away, the range is 2.9
@@ -83,47 +83,48 @@ TEST(RequireLights, LightShiningAwayFromVisibleSurfacesNeedsNoShadowMap) {
     // back.
     test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {0, 3, 1}, {1, 3, 1}, {1, 3, 0});
     test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {1, 3, 0}, {1, 3, 1}, {0, 3, 1});
-    const Model model = required({scene, scene.cameras[0]});
+    const Model model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.lights.size(), 2u);
-    EXPECT_GT(scene::lights(scene)[0].normal.y, .9);
+    EXPECT_GT(scene::list_lights(scene)[0].normal.y, .9);
     EXPECT_FALSE(model.lights[0].has_map);
     EXPECT_TRUE(model.lights[1].has_map);
 }
 
 TEST(RequireLeftOut, CulledWorkOfManyMirrorsIsListedOnce) {
-    EXPECT_EQ(ranges({1}), "1");
-    EXPECT_EQ(ranges({1, 2, 3, 7, 9, 10}), "1-3, 7, 9-10");
-    EXPECT_EQ(names_of(1 | 8 | 32), "+X -Y -Z");
+    EXPECT_EQ(format_number_ranges({1}), "1");
+    EXPECT_EQ(format_number_ranges({1, 2, 3, 7, 9, 10}), "1-3, 7, 9-10");
+    EXPECT_EQ(list_face_names(1 | 8 | 32), "+X -Y -Z");
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = add_material(scene, {.mirror = true});
     for (int i = 0; i < 50; ++i)
         test::add_ball(scene, "ball" + std::to_string(i), mirror, {.03 * i, 0, -5}, .2, 1);
-    const Model model = required({scene, scene.cameras[0]});
+    const Model model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "the captures of mirrors 1-50");
     EXPECT_THAT(to_text(model, scene), HasSubstr("  mirrors 1-50: not seen\n"));
     EXPECT_THAT(to_text(model, scene), HasSubstr("    changes: no pixel\n"));
-    const Model all = everything({scene, scene.cameras[0]});
+    const Model all = make_everything_model({scene, scene.cameras[0]});
     EXPECT_THAT(to_text(all, scene), HasSubstr("everything is required\n"));
     EXPECT_THAT(to_text(all, scene), HasSubstr("nothing is left out\n"));
     EXPECT_THAT(to_text(all, scene), Not(HasSubstr("kept")));
     EXPECT_THAT(to_text(model, scene), HasSubstr("kept: 0 faces of captures, 1 shadow map\n"));
-    const scene::Scene balls = scene::cornell_mirrors();
-    EXPECT_THAT(to_text(required({balls, balls.cameras[0]}), balls),
+    const scene::Scene balls = scene::make_cornell_mirrors();
+    EXPECT_THAT(to_text(make_required_model({balls, balls.cameras[0]}), balls),
                 HasSubstr("kept: 24 faces of captures, 1 shadow map\n    why: "));
 }
 
 TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
     const auto plan = [](const scene::Scene& rest) {
-        const scene::Scene now = scene::at(rest, 0);
-        return suggest({now, now.cameras[0], {96, 96}}).plan;
+        const scene::Scene now = scene::scene_at_time(rest, 0);
+        return suggest_plan({now, now.cameras[0], {96, 96}}).plan;
     };
-    EXPECT_EQ(plan(scene::cornell_mirrors()), "hybrid");
-    EXPECT_EQ(plan(scene::cornell_mirrors_closed()), "4=march *=hybrid");
-    EXPECT_EQ(plan(scene::flat()), "planar");
+    EXPECT_EQ(plan(scene::make_cornell_mirrors()), "hybrid");
+    EXPECT_EQ(plan(scene::make_closed_cornell_mirrors()), "4=march *=hybrid");
+    EXPECT_EQ(plan(scene::make_flat_mirror_room()), "planar");
     EXPECT_EQ(plan(scene::furnished_room()), "planar");
-    EXPECT_EQ(plan(scene::gallery()), "1,4=march 3,12,13,14,15=planar 10=reuse:face=64 *=hybrid");
-    EXPECT_EQ(plan(scene::courtyard()), "hybrid");
+    EXPECT_EQ(plan(scene::make_gallery()),
+              "1,4=march 3,12,13,14,15=planar 10=reuse:face=64 *=hybrid");
+    EXPECT_EQ(plan(scene::make_courtyard()), "hybrid");
 }
 
 /// One mirror is behind a screen. Its bounds are in the camera's picture, but no pixel shows it.
@@ -136,16 +137,16 @@ TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
     test::add_quad(scene, "hidden", mirror, {-1.6, .5, -.5}, {-1.4, .5, -.5}, {-1.4, .7, -.5},
                    {-1.6, .7, -.5});
     scene.cameras[0].eye = {-1.5, .6, -2.9}, scene.cameras[0].target = {-.5, -.2, 0};
-    const Question question{scene, scene.cameras[0], {64, 64}};
-    const Paths paths = paths_of(question);
+    const ModelInput question{scene, scene.cameras[0], {64, 64}};
+    const MirrorPathCounts paths = trace_mirror_paths(question);
     EXPECT_EQ(paths.count, 64u * 64);
     EXPECT_GT(paths.first[2], 100u);
     EXPECT_EQ(paths.first[3], 0u);
     std::size_t on_mirrors = 0;
     for (const auto& [path, count] : paths.through)
         if (path.size() == 1) on_mirrors += count;
-    EXPECT_EQ(on_mirrors, paths.on_mirrors());
-    const Paths open = paths_of({scene, test::hall().cameras[0], {64, 64}});
+    EXPECT_EQ(on_mirrors, paths.count_paths_on_mirrors());
+    const MirrorPathCounts open = trace_mirror_paths({scene, test::hall().cameras[0], {64, 64}});
     EXPECT_GT(open.reached[0], open.first[0]) << "the ball is also seen in the others";
     EXPECT_GT(open.hidden[0], 0u) << "of what it shows its centre does not see all";
     EXPECT_LT(open.hidden[0], open.first[0] / 4);
@@ -156,20 +157,20 @@ TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
 /// would draw the ball wrongly.
 TEST(RequireSuggest, PlanarIsNotSuggestedIfMirroredViewsShowWrongCaptures) {
     for (const bool is_walled_in : {false, true}) {
-        scene::Scene scene = scene::flat();
+        scene::Scene scene = scene::make_flat_mirror_room();
         const std::size_t mirror = scene.objects[6].material;
         test::add_ball(scene, "ball", mirror, {.9, 1.1, -2}, .85, 3);
         if (is_walled_in)
             add_mesh(scene, scene::box("core", {.8, 1, -2.1}, {1, 1.2, -1.9}),
                      test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}));
-        const Question question{scene, scene.cameras[0], {64, 64}};
-        Paths paths = paths_of(question);
+        const ModelInput question{scene, scene.cameras[0], {64, 64}};
+        MirrorPathCounts paths = trace_mirror_paths(question);
         const std::size_t through = paths.through[{0, 1}], hidden = paths.hidden_after[{0, 1}];
         EXPECT_EQ(paths.first[1], 0u) << "the ball is seen in the flat mirror alone";
         EXPECT_GT(through, 60u);
         EXPECT_LE(hidden, is_walled_in ? through : through / 4);
         EXPECT_GE(hidden, is_walled_in ? through : 0);
-        const Suggestion suggestion = suggest(question);
+        const PlanSuggestion suggestion = suggest_plan(question);
         EXPECT_EQ(suggestion.candidates.front().techniques.front(),
                   is_walled_in ? "hybrid" : "planar");
     }
@@ -183,7 +184,7 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     test::add_mesh(scene, bent, mirror);
     for (vec3& normal : scene.meshes.back().normals) normal = normalize(vec3(.005f, 0, -1));
     test::add_ball(scene, "outside", mirror, {0, 0, 9}, .5, 2);
-    const Suggestion suggestion = suggest({scene, scene.cameras[0], {96, 96}});
+    const PlanSuggestion suggestion = suggest_plan({scene, scene.cameras[0], {96, 96}});
     EXPECT_THAT(suggestion.reasons,
                 ElementsAre(HasSubstr(": a sphere, "), HasSubstr("planar: flat faces, "),
                             HasSubstr("planar: flat, "), HasSubstr("march: curved, "),
@@ -192,21 +193,21 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     ASSERT_EQ(suggestion.candidates.size(), 2u);
     EXPECT_THAT(suggestion.candidates[0].name, HasSubstr("planar, "));
     EXPECT_LT(suggestion.candidates[0].error, suggestion.candidates[1].error);
-    EXPECT_EQ(suggest({test::room(0, 1), scene.cameras[0]}).plan, "hybrid");
+    EXPECT_EQ(suggest_plan({test::room(0, 1), scene.cameras[0]}).plan, "hybrid");
 }
 
 /// Tests drawn views of the four balls of the built-in scene. In some views, the capture of a ball
 /// shows all that the ball reflects, in others nearly all or less.
 TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
-    const ErrorTable errors;
+    const TechniqueErrorTable errors;
     const double most = .1 * errors.search / (errors.unknown - errors.search);
     bool is_traced = false, is_searched = false;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        const scene::Scene scene = scene::at(scene::cornell_mirrors(), 0);
-        const scene::Camera camera = app::seeded_camera(scene, 0, seed);
-        const Question question{scene, camera, {96, 96}};
-        const Paths paths = paths_of(question);
-        const Suggestion suggestion = suggest(question);
+        const scene::Scene scene = scene::scene_at_time(scene::make_cornell_mirrors(), 0);
+        const scene::Camera camera = app::make_seeded_camera(scene, 0, seed);
+        const ModelInput question{scene, camera, {96, 96}};
+        const MirrorPathCounts paths = trace_mirror_paths(question);
+        const PlanSuggestion suggestion = suggest_plan(question);
         for (std::size_t i = 0; i < 4; ++i) {
             const std::string& technique = suggestion.candidates.front().techniques[i];
             if (technique.starts_with("reuse")) continue;
@@ -224,12 +225,12 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
 /// If all visible mirrors are flat, `planar` draws them, and small captures suffice.
 TEST(RequireSuggest, PlanarPlansUseSmallCaptures) {
     scene::Scene scene = test::hall();
-    EXPECT_EQ(suggest({scene, scene.cameras[0], {96, 96}}).plan, "1=march 2,3=planar");
+    EXPECT_EQ(suggest_plan({scene, scene.cameras[0], {96, 96}}).plan, "1=march 2,3=planar");
     scene.objects.erase(scene.objects.begin() +
                         static_cast<std::ptrdiff_t>(scene::mirrors(scene).front()));
-    EXPECT_EQ(suggest({scene, scene.cameras[0], {96, 96}}).plan, "planar");
+    EXPECT_EQ(suggest_plan({scene, scene.cameras[0], {96, 96}}).plan, "planar");
     test::add_ball(scene, "outside", scene.objects.back().material, {0, 0, 9}, .5, 2);
-    EXPECT_EQ(suggest({scene, scene.cameras[0], {96, 96}}).plan,
+    EXPECT_EQ(suggest_plan({scene, scene.cameras[0], {96, 96}}).plan,
               "1,2=planar:capture=64 3=reuse:face=64");
 }
 

@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Wall square() { return wall_of({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0); }
+Wall square() { return make_wall({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0); }
 
 Bounds<double> around(dvec3 middle, double half) { return {middle - half, middle + half}; }
 
@@ -27,68 +27,75 @@ TEST(RequireWall, WallHidesBoxesThatItCoversFromTheEye) {
     const Bounds<double> eye = around({0, 0, 2}, 0);
     // The wall is 2 in front of the eye. At 3.9 in front of the eye, it hides everything from -1.95
     // to 1.95.
-    EXPECT_TRUE(hides(square(), eye, around({0, 0, -2}, 1.3), 0));
-    EXPECT_TRUE(hides(square(), eye, around({1.84, 0, -2}, .1), 0));
-    EXPECT_FALSE(hides(square(), eye, around({1.86, 0, -2}, .1), 0));
+    EXPECT_TRUE(wall_hides_box(square(), eye, around({0, 0, -2}, 1.3), 0));
+    EXPECT_TRUE(wall_hides_box(square(), eye, around({1.84, 0, -2}, .1), 0));
+    EXPECT_FALSE(wall_hides_box(square(), eye, around({1.86, 0, -2}, .1), 0));
     // The line of sight passes .005 from the wall's edge.
-    EXPECT_FALSE(hides(square(), eye, around({1.84, 0, -2}, .1), .01));
+    EXPECT_FALSE(wall_hides_box(square(), eye, around({1.84, 0, -2}, .1), .01));
     // The box reaches through the wall.
-    EXPECT_FALSE(hides(square(), eye, around({0, 0, -2}, 2.1), 0));
+    EXPECT_FALSE(wall_hides_box(square(), eye, around({0, 0, -2}, 2.1), 0));
     // The box is in front of the wall.
-    EXPECT_FALSE(hides(square(), eye, around({0, 0, 1}, .1), 0));
+    EXPECT_FALSE(wall_hides_box(square(), eye, around({0, 0, 1}, .1), 0));
 }
 
 TEST(RequireWall, WallHidesABoxFromARegionIfHiddenFromEveryPoint) {
     const Bounds<double> target = around({0, 0, -2}, .5);
     // Lines of sight cross the wall up to .8 from its middle.
-    EXPECT_TRUE(hides(square(), around({0, 0, 2}, 1), target, 0));
-    EXPECT_FALSE(hides(square(), around({2.2, 0, 2}, .1), target, 0));
+    EXPECT_TRUE(wall_hides_box(square(), around({0, 0, 2}, 1), target, 0));
+    EXPECT_FALSE(wall_hides_box(square(), around({2.2, 0, 2}, .1), target, 0));
     // The region's far corner sees past the wall.
-    EXPECT_FALSE(hides(square(), around({1, 0, 2}, 1), target, 0));
+    EXPECT_FALSE(wall_hides_box(square(), around({1, 0, 2}, 1), target, 0));
     // The region reaches through the wall.
-    EXPECT_FALSE(hides(square(), around({0, 0, .5}, 1), target, 0));
+    EXPECT_FALSE(wall_hides_box(square(), around({0, 0, .5}, 1), target, 0));
 }
 
 TEST(RequireWall, OneSidedWallHidesOnlyFromTheFront) {
     Wall wall = square();
     wall.front_only = true;
     const Bounds<double> front = around({0, 0, 2}, 0), behind = around({0, 0, -2}, 0);
-    EXPECT_TRUE(hides(wall, front, around({0, 0, -1}, .2), 0));
-    EXPECT_FALSE(hides(wall, behind, around({0, 0, 1}, .2), 0));
-    EXPECT_TRUE(hides_along(wall, {0, 0, 2}, {0, 0, -1}, around({0, 0, -1}, .9), 0));
-    EXPECT_FALSE(hides_along(wall, {0, 0, -2}, {0, 0, 1}, around({0, 0, 1}, .9), 0));
+    EXPECT_TRUE(wall_hides_box(wall, front, around({0, 0, -1}, .2), 0));
+    EXPECT_FALSE(wall_hides_box(wall, behind, around({0, 0, 1}, .2), 0));
+    EXPECT_TRUE(
+        wall_hides_from_orthographic(wall, {0, 0, 2}, {0, 0, -1}, around({0, 0, -1}, .9), 0));
+    EXPECT_FALSE(
+        wall_hides_from_orthographic(wall, {0, 0, -2}, {0, 0, 1}, around({0, 0, 1}, .9), 0));
 }
 
 TEST(RequireWall, WallHidesBoxesAlongParallelLinesOfSight) {
     const dvec3 eye(0, 0, 5), down(0, 0, -1);
-    EXPECT_TRUE(hides_along(square(), eye, down, around({0, 0, -3}, .99), 0));
-    EXPECT_FALSE(hides_along(square(), eye, down, around({0, 0, -3}, 1.01), 0));
+    EXPECT_TRUE(wall_hides_from_orthographic(square(), eye, down, around({0, 0, -3}, .99), 0));
+    EXPECT_FALSE(wall_hides_from_orthographic(square(), eye, down, around({0, 0, -3}, 1.01), 0));
     // The eye is behind the wall.
-    EXPECT_FALSE(hides_along(square(), {0, 0, -.5}, down, around({0, 0, -3}, .5), 0));
+    EXPECT_FALSE(
+        wall_hides_from_orthographic(square(), {0, 0, -.5}, down, around({0, 0, -3}, .5), 0));
     // At 45 degrees, the wall hides a box that is as far to the side as it is behind the wall.
     const dvec3 slanting = glm::normalize(dvec3(1, 0, -1));
-    EXPECT_TRUE(hides_along(square(), eye, slanting, around({3, 0, -3}, .4), 0));
-    EXPECT_FALSE(hides_along(square(), eye, slanting, around({0, 0, -3}, .4), 0));
+    EXPECT_TRUE(wall_hides_from_orthographic(square(), eye, slanting, around({3, 0, -3}, .4), 0));
+    EXPECT_FALSE(wall_hides_from_orthographic(square(), eye, slanting, around({0, 0, -3}, .4), 0));
 }
 
 TEST(RequireWall, WallsAreMadeOfFlatConvexQuadrilaterals) {
-    EXPECT_EQ(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})).size(), 1u);
-    EXPECT_EQ(quads_of(scene::box("", dvec3(0), dvec3(1))).size(), 6u);
-    EXPECT_THAT(quads_of(scene::ball("", 2)), IsEmpty());
+    EXPECT_EQ(find_convex_quads(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})).size(),
+              1u);
+    EXPECT_EQ(find_convex_quads(scene::box("", dvec3(0), dvec3(1))).size(), 6u);
+    EXPECT_THAT(find_convex_quads(scene::ball("", 2)), IsEmpty());
     // The first quadrilateral is bent along its diagonal, the second is not convex.
-    EXPECT_THAT(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, .001}, {0, 1, 0})),
+    EXPECT_THAT(find_convex_quads(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, .001}, {0, 1, 0})),
                 IsEmpty());
-    EXPECT_THAT(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {.2, .2, 0}, {0, 1, 0})), IsEmpty());
+    EXPECT_THAT(find_convex_quads(scene::quad("", {0, 0, 0}, {1, 0, 0}, {.2, .2, 0}, {0, 1, 0})),
+                IsEmpty());
 }
 
 TEST(RequireFrustum, CaptureFacesThatMayShowABoxAreFound) {
-    EXPECT_EQ(faces_with(around({3, 0, 0}, 1)), 1);             // only face +X shows the box
-    EXPECT_EQ(faces_with(around({0, -3, 0}, 1)), 1 << 3);       // only face -Y shows the box
-    EXPECT_EQ(faces_with(around({3, 3, 0}, .5)), 1 | 1 << 2);   // faces +X and +Y show the box
-    EXPECT_EQ(faces_with(around({-2, 2, -2}, .1)), 2 | 4 | 32); // faces -X, +Y and -Z show the box
-    EXPECT_EQ(faces_with(around({0, 0, 0}, .1)), kAllFaces);
-    EXPECT_EQ(faces_before({0, 0, 1}, .1), kAllFaces & ~(1 << 5)); // all faces except -Z
-    EXPECT_EQ(faces_before(glm::normalize(dvec3(1, 0, 1)), .1), kAllFaces);
+    EXPECT_EQ(faces_that_may_show_box(around({3, 0, 0}, 1)), 1);       // only face +X shows the box
+    EXPECT_EQ(faces_that_may_show_box(around({0, -3, 0}, 1)), 1 << 3); // only face -Y shows the box
+    EXPECT_EQ(faces_that_may_show_box(around({3, 3, 0}, .5)),
+              1 | 1 << 2); // faces +X and +Y show the box
+    EXPECT_EQ(faces_that_may_show_box(around({-2, 2, -2}, .1)),
+              2 | 4 | 32); // faces -X, +Y and -Z show the box
+    EXPECT_EQ(faces_that_may_show_box(around({0, 0, 0}, .1)), kAllFaces);
+    EXPECT_EQ(faces_in_front_of_plane({0, 0, 1}, .1), kAllFaces & ~(1 << 5)); // all faces except -Z
+    EXPECT_EQ(faces_in_front_of_plane(glm::normalize(dvec3(1, 0, 1)), .1), kAllFaces);
 }
 
 TEST(RequireFrustum, FrustumHoldsBoxesInThePicture) {
@@ -123,7 +130,7 @@ scene::Scene parted() {
 
 TEST(RequireSight, MirrorThatIsNotSeenIsNotCaptured) {
     const scene::Scene scene = parted();
-    const Model model = required({scene, scene.cameras[0]});
+    const Model model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.mirrors.size(), 4u);
     for (const std::size_t seen : {0, 1, 2}) EXPECT_TRUE(model.mirrors[seen].is_captured) << seen;
     EXPECT_FALSE(model.mirrors[3].is_seen);
@@ -141,10 +148,10 @@ TEST(RequireSight, MirrorThatIsNotSeenIsNotCaptured) {
 
 TEST(RequireSight, SightFollowsAMovingWall) {
     scene::Scene scene = parted();
-    Requirements requirements(scene);
-    EXPECT_FALSE(requirements.of({scene, scene.cameras[0]}).mirrors[3].is_captured);
+    ModelBuilder requirements(scene);
+    EXPECT_FALSE(requirements.model_for({scene, scene.cameras[0]}).mirrors[3].is_captured);
     scene.objects[6].world_from_object[3] = {0, 6, 0, 1};
-    const Model& model = requirements.of({scene, scene.cameras[0]});
+    const Model& model = requirements.model_for({scene, scene.cameras[0]});
     EXPECT_TRUE(model.mirrors[3].is_captured);
     EXPECT_THAT(model.mirrors[0].sees, ElementsAre(1, 2, 3));
     EXPECT_THAT(model.left_out, IsEmpty());
@@ -158,7 +165,7 @@ TEST(RequireSight, MaskedAndCameraHiddenWallsHideNoMirror) {
         } else {
             scene.objects[6].seen_by_camera = false;
         }
-        const Model model = required({scene, scene.cameras[0]});
+        const Model model = make_required_model({scene, scene.cameras[0]});
         EXPECT_TRUE(model.mirrors[3].is_captured);
         // An object that is hidden from cameras still shows in captures, so it blocks their view.
         EXPECT_EQ(model.mirrors[0].sees.size(), is_masked ? 3u : 2u);
@@ -169,7 +176,7 @@ TEST(RequireSight, NoMirrorIsCapturedIfNoneIsSeen) {
     scene::Scene scene = parted();
     scene.cameras[0].target = {0, -1, -2.01}; // the camera looks at the floor
     scene.cameras[0].vertical_fov_degrees = 10;
-    const Model model = required({scene, scene.cameras[0]});
+    const Model model = make_required_model({scene, scene.cameras[0]});
     for (const MirrorNeeds& needs : model.mirrors) EXPECT_FALSE(needs.is_captured);
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "the captures of mirrors 1-4");
@@ -199,8 +206,8 @@ TEST(RequireFrustum, FrustumTestsATriangleAndNotItsBounds) {
 /// surface does not.
 TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
     const scene::Scene gallery = scene::load("gallery", {});
-    const scene::Scene now = scene::at(gallery, 0);
-    const Model model = required({now, scene::camera_at(gallery.cameras[0], 0)});
+    const scene::Scene now = scene::scene_at_time(gallery, 0);
+    const Model model = make_required_model({now, scene::camera_at(gallery.cameras[0], 0)});
     const std::string text = to_text(model, now);
     EXPECT_THAT(text, testing::Not(HasSubstr("mirror 1 'large ball': in the camera's view")));
     const PictureFrustum picture(gallery.cameras[0], {512, 512});
@@ -267,7 +274,7 @@ TEST(RequireSight, RandomRaysMeetNoMirrorThatIsCalledUnseen) {
     Found found;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
         const scene::Scene scene = test::drawn_hall(seed, 6);
-        const Model model = required({scene, scene.cameras[0], {64, 64}});
+        const Model model = make_required_model({scene, scene.cameras[0], {64, 64}});
         const test::Tree tree(scene);
         test::Numbers numbers(seed);
         SCOPED_TRACE(seed);

@@ -90,7 +90,7 @@ TEST_F(Save, SavedTextureCoordinatesAndColoursLoadUnchanged) {
 }
 
 TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
-    using enum Punctual::Kind;
+    using enum PunctualLight::Kind;
     Scene scene = square();
     dmat4 turned(1);
     turned[0] = dvec4(0, 1, 0, 0), turned[1] = dvec4(-1, 0, 0, 0), turned[3] = dvec4(1, 2, 3, 1);
@@ -102,7 +102,7 @@ TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
                        .cos_outer = std::cos(.5),
                        .world_from_light = turned},
                       {.name = "d", .kind = directional, .intensity = vec3(2)}};
-    scene.punctual[2].motion = Harmonic{{0, 1, 0}, 4};
+    scene.punctual[2].motion = HarmonicMotion{{0, 1, 0}, 4};
     scene.cameras = {{.name = "plan",
                       .eye = {0, 5, 0},
                       .target = {0, 0, 0},
@@ -112,7 +112,7 @@ TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
     const Scene found = again(scene);
     ASSERT_EQ(found.punctual.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
-        const Punctual &a = found.punctual[i], &b = scene.punctual[i];
+        const PunctualLight &a = found.punctual[i], &b = scene.punctual[i];
         EXPECT_EQ(a.name, b.name);
         EXPECT_EQ(a.kind, b.kind);
         EXPECT_EQ(a.intensity, b.intensity);
@@ -121,7 +121,8 @@ TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
     }
     EXPECT_NEAR(found.punctual[1].cos_inner, std::cos(.25), 1e-12);
     EXPECT_NEAR(found.punctual[1].cos_outer, std::cos(.5), 1e-12);
-    EXPECT_NEAR(at(found, 6).punctual[2].world_from_light[3].y, 2, 1e-5) << "goes on and on";
+    EXPECT_NEAR(scene_at_time(found, 6).punctual[2].world_from_light[3].y, 2, 1e-5)
+        << "goes on and on";
     EXPECT_EQ(found.cameras.at(0).orthographic_height, 3);
     EXPECT_EQ(found.exposure, -.5);
     EXPECT_FALSE(again(square()).exposure);
@@ -129,19 +130,19 @@ TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
 
 TEST_F(Save, SavedRigsLoadUnchanged) {
     Scene scene = square();
-    const auto turns = std::make_shared<const Turns>(
-        Turns{.times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}});
-    Rig rig;
+    const auto turns = std::make_shared<const RotationTrack>(
+        RotationTrack{.times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}});
+    NodeRig rig;
     rig.nodes.push_back({.translation = {1, 0, 0}, .rotations = turns});
     rig.nodes.push_back({.parent = 0, .translation = {0, 2, 0}, .rotations = turns});
     rig.nodes[1].parent_from_space[3] = dvec4(0, 0, 3, 1);
-    Follows follows{.rig = std::make_shared<const Rig>(rig), .node = 1};
+    RigAttachment follows{.rig = std::make_shared<const NodeRig>(rig), .node = 1};
     follows.node_from_object[3] = dvec4(0, 0, 1, 1);
     scene.objects[0].motion = follows;
     scene.cameras = {{.name = "c", .eye = {0, 0, 5}, .target = {0, 0, 4}, .follows = follows}};
     const Scene found = again(scene);
     for (const double t : {0., .25, .75, 1., 2.}) {
-        const Scene now = at(found, t), wanted = at(scene, t);
+        const Scene now = scene_at_time(found, t), wanted = scene_at_time(scene, t);
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
                 EXPECT_NEAR(now.objects[0].world_from_object[column][row],

@@ -94,7 +94,7 @@ TEST(Ball, BallStartsFromTheDocumentedTetrahedron) {
 // ---- the built-in scene
 
 TEST(CornellMirrors, SceneHasTheDocumentedObjectsAndMaterials) {
-    const Scene scene = cornell_mirrors();
+    const Scene scene = make_cornell_mirrors();
     std::vector<std::string> objects, materials;
     for (const Object& object : scene.objects) objects.push_back(object.name);
     for (const Material& material : scene.materials) materials.push_back(material.name);
@@ -112,7 +112,7 @@ TEST(CornellMirrors, SceneHasTheDocumentedObjectsAndMaterials) {
 }
 
 TEST(CornellMirrors, EveryWallFacesIntoTheBox) {
-    const Scene scene = cornell_mirrors_closed();
+    const Scene scene = make_closed_cornell_mirrors();
     const dvec3 middle(278, 274, 280);
     for (const char* name : {"floor", "ceiling", "back", "right", "left", "light", "front"}) {
         const Mesh& mesh = mesh_named(scene, name);
@@ -124,7 +124,7 @@ TEST(CornellMirrors, EveryWallFacesIntoTheBox) {
 }
 
 TEST(CornellMirrors, LampShinesDown) {
-    const std::vector<PointLight> found = lights(cornell_mirrors());
+    const std::vector<PointLight> found = list_lights(make_cornell_mirrors());
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].normal, dvec3(0, -1, 0));
     scene_expect_near(found[0].position, {278, 548.7, 279.5}, 1e-12);
@@ -133,7 +133,7 @@ TEST(CornellMirrors, LampShinesDown) {
 }
 
 TEST(CornellMirrors, BallsHaveThePlacesOfTheSeedReport) {
-    const Scene scene = cornell_mirrors();
+    const Scene scene = make_cornell_mirrors();
     const std::map<std::string, Sphere> wanted = {{"ball1", {{445, 73, 320}, 72}},
                                                   {"ball2", {{90, 100, 110}, 72}},
                                                   {"ball3", {{190, 113, 410}, 110}},
@@ -147,22 +147,22 @@ TEST(CornellMirrors, BallsHaveThePlacesOfTheSeedReport) {
 }
 
 TEST(CornellMirrors, ClosedSceneHasAFrontWallThatOnlyTheCameraIgnores) {
-    const Scene scene = cornell_mirrors_closed();
+    const Scene scene = make_closed_cornell_mirrors();
     const Object& front = object_named(scene, "front");
     EXPECT_FALSE(front.seen_by_camera);
     EXPECT_EQ(mesh_named(scene, "front").normals[0], vec3(0, 0, 1));
     for (const dvec3& p : mesh_named(scene, "front").positions) EXPECT_EQ(p.z, 0);
-    EXPECT_EQ(mirrors(scene), mirrors(cornell_mirrors()));
+    EXPECT_EQ(mirrors(scene), mirrors(make_cornell_mirrors()));
     EXPECT_EQ(std::ranges::count(scene.objects, false, &Object::seen_by_camera), 1);
 }
 
 // ---- motion
 
 TEST(Motion, BallFourMovesUpAndDown) {
-    const Scene scene = cornell_mirrors();
+    const Scene scene = make_cornell_mirrors();
     EXPECT_TRUE(is_animated(scene));
     for (const double t : {0.0, 0.3, 1.0, 2.0, 3.7, 4.0, 1e6, -0.25}) {
-        const Scene still = at(scene, t);
+        const Scene still = scene_at_time(scene, t);
         const double y = 80 + 50 * (1 - std::cos(2 * M_PI * t / 4));
         const Object& ball4 = object_named(still, "ball4");
         EXPECT_NEAR(ball4.world_from_object[3].y, y, std::abs(t) > 100 ? 1e-7 : 1e-12) << t;
@@ -171,35 +171,35 @@ TEST(Motion, BallFourMovesUpAndDown) {
         EXPECT_EQ(object_named(still, "ball1").sphere->centre, dvec3(445, 73, 320));
         EXPECT_FALSE(is_animated(still));
     }
-    EXPECT_EQ(object_named(at(scene, 0), "ball4").sphere->centre, dvec3(500, 80, 210));
-    EXPECT_EQ(object_named(at(scene, 2), "ball4").sphere->centre, dvec3(500, 180, 210));
+    EXPECT_EQ(object_named(scene_at_time(scene, 0), "ball4").sphere->centre, dvec3(500, 80, 210));
+    EXPECT_EQ(object_named(scene_at_time(scene, 2), "ball4").sphere->centre, dvec3(500, 180, 210));
 }
 
 TEST(Motion, PeriodOfASceneIsThatOfItsLongestMotion) {
-    Scene scene = cornell_mirrors();
+    Scene scene = make_cornell_mirrors();
     EXPECT_EQ(period(scene), 4);
-    const Keys keys{.times = {1, 5.5}, .values = {{0, 0, 0}, {1, 0, 0}}};
-    scene.objects[0].motion = Keyframes{std::make_shared<const Keys>(keys)};
+    const TranslationTrack keys{.times = {1, 5.5}, .values = {{0, 0, 0}, {1, 0, 0}}};
+    scene.objects[0].motion = Keyframes{std::make_shared<const TranslationTrack>(keys)};
     EXPECT_EQ(period(scene), 5.5);
     scene.objects[1].motion = Keyframes{};
     EXPECT_EQ(period(scene), 5.5);
-    EXPECT_EQ(period(at(scene, 1)), 0) << "nothing moves any more";
+    EXPECT_EQ(period(scene_at_time(scene, 1)), 0) << "nothing moves any more";
 }
 
-dvec3 moved(const Keys& keys, double seconds) {
+dvec3 moved(const TranslationTrack& keys, double seconds) {
     Scene scene = glowing(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
-    scene.objects[0].motion = Keyframes{std::make_shared<const Keys>(keys)};
-    return dvec3(at(scene, seconds).objects[0].world_from_object[3]);
+    scene.objects[0].motion = Keyframes{std::make_shared<const TranslationTrack>(keys)};
+    return dvec3(scene_at_time(scene, seconds).objects[0].world_from_object[3]);
 }
 
 TEST(Motion, KeyframesInterpolateByStepsOrLinearlyAndRepeat) {
-    Keys keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
+    TranslationTrack keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
     EXPECT_EQ(moved(keys, 0.5), dvec3(0)); // before the first key
     EXPECT_EQ(moved(keys, 1.5), dvec3(1, 0, 0));
     EXPECT_EQ(moved(keys, 3), dvec3(4, 0.5, 0));
     EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0));   // at the time of the last key
     EXPECT_EQ(moved(keys, 5.5), dvec3(1, 0, 0)); // 4 s after t = 1.5, so the same place
-    keys.interpolation = Keys::Interpolation::step;
+    keys.interpolation = TranslationTrack::Interpolation::step;
     EXPECT_EQ(moved(keys, 1.99), dvec3(0));
     EXPECT_EQ(moved(keys, 2), dvec3(2, 0, 0));
 }
@@ -207,7 +207,7 @@ TEST(Motion, KeyframesInterpolateByStepsOrLinearlyAndRepeat) {
 TEST(Motion, CubicKeysReproduceACubic) {
     // p(t) = t^3 - 2 t has the tangent 3 t^2 - 2. A cubic Hermite spline reproduces p exactly.
     const auto p = [](double t) { return dvec3(t * t * t - 2 * t, 0, 0); };
-    Keys keys{.interpolation = Keys::Interpolation::cubic};
+    TranslationTrack keys{.interpolation = TranslationTrack::Interpolation::cubic};
     for (const double t : {0.0, 0.5, 2.0}) {
         keys.times.push_back(t);
         keys.values.push_back(p(t));
@@ -221,16 +221,19 @@ TEST(Motion, LightsWithoutASurfaceMoveToo) {
     Scene scene;
     scene.punctual.push_back(
         {.world_from_light = dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1),
-         .motion = Harmonic{{0, 4, 0}, 2}});
+         .motion = HarmonicMotion{{0, 4, 0}, 2}});
     EXPECT_TRUE(is_animated(scene));
     EXPECT_EQ(period(scene), 2);
-    const Scene still = at(scene, 1);
-    EXPECT_EQ(lights(still).at(0).position, dvec3(1, 10, 3));
+    const Scene still = scene_at_time(scene, 1);
+    EXPECT_EQ(list_lights(still).at(0).position, dvec3(1, 10, 3));
     EXPECT_FALSE(is_animated(still));
-    EXPECT_EQ(at(scene, 2).punctual[0].world_from_light, scene.punctual[0].world_from_light);
+    EXPECT_EQ(scene_at_time(scene, 2).punctual[0].world_from_light,
+              scene.punctual[0].world_from_light);
 }
 
-TEST(Motion, SceneTimeMustBeFinite) { EXPECT_THROW(at(cornell_mirrors(), std::nan("")), Error); }
+TEST(Motion, SceneTimeMustBeFinite) {
+    EXPECT_THROW(scene_at_time(make_cornell_mirrors(), std::nan("")), Error);
+}
 
 // ---- lights
 
@@ -240,7 +243,7 @@ TEST(Lights, EachConnectedPieceOfALampIsOneLight) {
     two.positions.insert(two.positions.end(), other.positions.begin(), other.positions.end());
     two.normals.insert(two.normals.end(), other.normals.begin(), other.normals.end());
     for (const uvec3& t : other.triangles) two.triangles.push_back(t + 4u);
-    const auto found = lights(glowing(two));
+    const auto found = list_lights(glowing(two));
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
     EXPECT_EQ(found[0].area, 1);
@@ -252,7 +255,7 @@ TEST(Lights, LampTrianglesWithEqualPositionsAreConnected) {
     Mesh unshared{.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, {1, 0, 1}, {1, 0, 0}},
                   .normals = std::vector<vec3>(6, vec3(0, 1, 0)),
                   .triangles = {{0, 1, 2}, {3, 4, 5}}};
-    const auto found = lights(glowing(unshared));
+    const auto found = list_lights(glowing(unshared));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
     EXPECT_EQ(found[0].area, 1);
@@ -261,30 +264,30 @@ TEST(Lights, LampTrianglesWithEqualPositionsAreConnected) {
 TEST(Lights, LightOfAClosedLampHasNoDirection) {
     dmat4 world(3);
     world[3] = dvec4(1, 2, 3, 1);
-    const auto found = lights(glowing(ball("ball", 4), world));
+    const auto found = list_lights(glowing(ball("ball", 4), world));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].normal, dvec3(0));
     scene_expect_near(found[0].position, {1, 2, 3}, 1e-12);
     EXPECT_NEAR(found[0].area, 4 * M_PI * 9, 1);
     EXPECT_TRUE(found[0].closed);
-    EXPECT_EQ(share_towards(found[0], {0, 1, 0}), .25);
+    EXPECT_EQ(light_share_towards(found[0], {0, 1, 0}), .25);
 }
 
 TEST(Lights, TwoSidedLampShinesBothWays) {
     Scene scene = glowing(quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}));
     EXPECT_TRUE(is_one_sided(scene.materials[0]));
-    EXPECT_EQ(lights(scene).at(0).normal, dvec3(0, 1, 0));
-    const std::string before = hash(scene);
+    EXPECT_EQ(list_lights(scene).at(0).normal, dvec3(0, 1, 0));
+    const std::string before = hash_scene(scene);
     scene.materials[0].two_sided = true;
     EXPECT_FALSE(is_one_sided(scene.materials[0]));
-    EXPECT_EQ(lights(scene).at(0).normal, dvec3(0));
-    EXPECT_NEAR(share_towards(lights(scene).at(0), {0, .6, .8}), .6, 1e-12);
-    EXPECT_NEAR(share_towards(lights(scene).at(0), {0, -.6, .8}), .6, 1e-12);
-    EXPECT_NE(hash(scene), before);
+    EXPECT_EQ(list_lights(scene).at(0).normal, dvec3(0));
+    EXPECT_NEAR(light_share_towards(list_lights(scene).at(0), {0, .6, .8}), .6, 1e-12);
+    EXPECT_NEAR(light_share_towards(list_lights(scene).at(0), {0, -.6, .8}), .6, 1e-12);
+    EXPECT_NE(hash_scene(scene), before);
 }
 
 TEST(Lights, OnlyLampMaterialsAreOneSided) {
-    const Scene scene = cornell_mirrors();
+    const Scene scene = make_cornell_mirrors();
     for (const Material& material : scene.materials)
         EXPECT_EQ(is_one_sided(material), material.name == "light") << material.name;
 }
@@ -295,7 +298,7 @@ TEST(Lights, LampTrianglesWithoutAreaContributeNothing) {
     mesh.normals.resize(6, vec3(1, 0, 0));
     mesh.triangles.emplace_back(0, 4, 4);
     mesh.triangles.emplace_back(5, 5, 5);
-    const auto found = lights(glowing(mesh));
+    const auto found = list_lights(glowing(mesh));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
     EXPECT_EQ(found[0].normal, dvec3(0, 1, 0));
@@ -307,7 +310,7 @@ TEST(Lights, LampNormalAndAreaFollowTheTransform) {
     world[0] = dvec4(2, 0, 0, 0);
     world[1] = dvec4(0, 0, 3, 0);
     world[2] = dvec4(0, -1, 0, 0);
-    const auto found = lights(
+    const auto found = list_lights(
         glowing(quad("a", {0, 0, 0}, {1, 1, 0}, {1, 1, 1}, {0, 0, 1}), world));
     ASSERT_EQ(found.size(), 1u);
     // The edges of the square become (2,0,3) and (0,-1,0). The normal is along (b-a) x (c-a).
@@ -342,11 +345,11 @@ double reach_of(const Scene& scene, const Camera& camera, double aspect) {
 /// The default camera is 30 degrees to the right and 20 degrees above. It is as near as possible
 /// while the scene's bounds stay within 90 % of the picture's width and height.
 TEST(DefaultCamera, DefaultCameraIsAThreeQuarterViewOfTheBounds) {
-    const Scene scene = at(cornell_mirrors(), 0);
+    const Scene scene = scene_at_time(make_cornell_mirrors(), 0);
     const dvec3 to_eye(std::sin(M_PI / 6) * std::cos(M_PI / 9), std::sin(M_PI / 9),
                        std::cos(M_PI / 6) * std::cos(M_PI / 9));
     for (const double aspect : {.25, 1.0, 16.0 / 9}) {
-        const Camera camera = default_camera(scene, aspect);
+        const Camera camera = make_default_camera(scene, aspect);
         scene_expect_near(camera.target, bounds(scene).centre(), 1e-3);
         EXPECT_EQ(camera.vertical_fov_degrees, 40);
         EXPECT_EQ(camera.up, dvec3(0, 1, 0));
@@ -356,7 +359,7 @@ TEST(DefaultCamera, DefaultCameraIsAThreeQuarterViewOfTheBounds) {
 }
 
 TEST(DefaultCamera, DefaultCameraExistsForAnEmptyScene) {
-    const Camera camera = default_camera(Scene());
+    const Camera camera = make_default_camera(Scene());
     EXPECT_GT(glm::distance(camera.eye, camera.target), 0);
 }
 
@@ -365,14 +368,15 @@ TEST(DefaultCamera, DefaultCameraExistsForAnEmptyScene) {
 class HashOf : public testing::Test {
 protected:
     HashOf() {
-        scene_ = cornell_mirrors();
-        const Keys keys{.interpolation = Keys::Interpolation::cubic,
-                        .times = {0, 1},
-                        .values = {{1, 2, 3}, {4, 5, 6}},
-                        .in_tangents = {{1, 0, 0}, {0, 1, 0}},
-                        .out_tangents = {{2, 0, 0}, {0, 2, 0}}};
-        scene_.objects[7].motion = Keyframes{.keys = std::make_shared<const Keys>(keys)};
-        hashes_ = {hash(scene_)};
+        scene_ = make_cornell_mirrors();
+        const TranslationTrack keys{.interpolation = TranslationTrack::Interpolation::cubic,
+                                    .times = {0, 1},
+                                    .values = {{1, 2, 3}, {4, 5, 6}},
+                                    .in_tangents = {{1, 0, 0}, {0, 1, 0}},
+                                    .out_tangents = {{2, 0, 0}, {0, 2, 0}}};
+        scene_.objects[7].motion = Keyframes{
+            .keys = std::make_shared<const TranslationTrack>(keys)};
+        hashes_ = {hash_scene(scene_)};
     }
 
     static Keyframes& motion(Scene& scene) { return std::get<Keyframes>(scene.objects[7].motion); }
@@ -382,7 +386,7 @@ protected:
     void changed(const char* what, Change&& change) {
         Scene other = scene_;
         change(other);
-        EXPECT_TRUE(hashes_.insert(hash(other)).second) << what;
+        EXPECT_TRUE(hashes_.insert(hash_scene(other)).second) << what;
     }
     /// Changes each component of the vector that `get` returns, one at a time.
     template <typename Get>
@@ -392,9 +396,9 @@ protected:
     template <typename Change>
     void changed_keys(const char* what, Change&& change) {
         changed(what, [&](Scene& scene) {
-            Keys keys = *motion(scene).keys;
+            TranslationTrack keys = *motion(scene).keys;
             change(keys);
-            motion(scene).keys = std::make_shared<const Keys>(keys);
+            motion(scene).keys = std::make_shared<const TranslationTrack>(keys);
         });
     }
 
@@ -444,24 +448,26 @@ TEST_F(HashOf, SceneHashChangesWithObjects) {
         "centre", [](Scene & s) -> auto& { return s.objects[6].sphere->centre; });
     changed("radius", [](Scene& s) { s.objects[6].sphere->radius += 1; });
     changed("seen", [](Scene& s) { s.objects[6].seen_by_camera = false; });
-    EXPECT_TRUE(hashes_.insert(hash(cornell_mirrors_closed())).second);
+    EXPECT_TRUE(hashes_.insert(hash_scene(make_closed_cornell_mirrors())).second);
 }
 
 TEST_F(HashOf, SceneHashChangesWithMotions) {
     changed("none", [](Scene& s) { s.objects[7].motion = {}; });
-    changed("harmonic", [](Scene& s) { s.objects[7].motion = Harmonic{{0, 50, 0}, 5}; });
-    changed("period", [](Scene& s) { s.objects[7].motion = Harmonic{{0, 50, 0}, 6}; });
+    changed("harmonic", [](Scene& s) { s.objects[7].motion = HarmonicMotion{{0, 50, 0}, 5}; });
+    changed("period", [](Scene& s) { s.objects[7].motion = HarmonicMotion{{0, 50, 0}, 6}; });
     for (int i = 0; i < 3; ++i)
         changed("amplitude", [&](Scene& s) {
-            Harmonic motion{{1, 50, 1}, 5};
+            HarmonicMotion motion{{1, 50, 1}, 5};
             motion.amplitude[i] = 9;
             s.objects[7].motion = motion;
         });
-    changed_keys("kind", [](Keys& keys) { keys.interpolation = Keys::Interpolation::linear; });
-    changed_keys("time", [](Keys& keys) { keys.times[1] = 2; });
-    changed_keys("value", [](Keys& keys) { keys.values[1].z = 9; });
-    changed_keys("in", [](Keys& keys) { keys.in_tangents[1].z = 9; });
-    changed_keys("out", [](Keys& keys) { keys.out_tangents[1].z = 9; });
+    changed_keys("kind", [](TranslationTrack& keys) {
+        keys.interpolation = TranslationTrack::Interpolation::linear;
+    });
+    changed_keys("time", [](TranslationTrack& keys) { keys.times[1] = 2; });
+    changed_keys("value", [](TranslationTrack& keys) { keys.values[1].z = 9; });
+    changed_keys("in", [](TranslationTrack& keys) { keys.in_tangents[1].z = 9; });
+    changed_keys("out", [](TranslationTrack& keys) { keys.out_tangents[1].z = 9; });
     changed_vector(
         "rest", [](Scene & s) -> auto& { return motion(s).rest; });
     for (int column = 0; column < 3; ++column)
@@ -484,16 +490,17 @@ TEST_F(HashOf, SceneHashChangesWithCameras) {
 /// The hash uses the values of animation keys, not their address, so a copied file has the same
 /// hash.
 TEST_F(HashOf, SceneHashIgnoresNameFilesAndWarnings) {
-    const std::string whole = hash(scene_);
+    const std::string whole = hash_scene(scene_);
     EXPECT_EQ(whole.size(), 16u);
     Scene copy = scene_;
     copy.name = "copy";
     copy.warnings = {"a warning"};
     copy.files = {"/elsewhere/copy.glb"};
-    copy.objects[7].motion = Keyframes{.keys = std::make_shared<const Keys>(*motion(scene_).keys),
-                                       .world_from_keys = motion(scene_).world_from_keys,
-                                       .rest = motion(scene_).rest};
-    EXPECT_EQ(hash(copy), whole);
+    copy.objects[7].motion = Keyframes{
+        .keys = std::make_shared<const TranslationTrack>(*motion(scene_).keys),
+        .world_from_keys = motion(scene_).world_from_keys,
+        .rest = motion(scene_).rest};
+    EXPECT_EQ(hash_scene(copy), whole);
 }
 
 } // namespace

@@ -49,8 +49,8 @@ TEST(Search, AddedSearchIsInTheTableOfTechniques) {
     const app::TechniqueChoice choice = app::parse_technique("test_search:much=1.5,face=64");
     EXPECT_EQ(choice.settings.front().number, 1.5);
     EXPECT_EQ(choice.settings.size(), app::parse_technique("secant").settings.size());
-    const scene::Scene room = scene::cornell_mirrors();
-    EXPECT_THAT(app::default_techniques({.scene = room}), Contains("test_search:much=2"));
+    const scene::Scene room = scene::make_cornell_mirrors();
+    EXPECT_THAT(app::list_default_techniques({.scene = room}), Contains("test_search:much=2"));
     try {
         app::parse_technique("test_search:much=some");
         FAIL();
@@ -71,9 +71,9 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
 
 /// Returns what a picture of the built-in room by the technique demands.
 bool asks_all_captures(const std::string& technique) {
-    const scene::Scene room = scene::cornell_mirrors();
-    require::Question question{.now = room, .camera = room.cameras.front()};
-    reflect::demand(question, {reflect::parse_plan(technique)});
+    const scene::Scene room = scene::make_cornell_mirrors();
+    require::ModelInput question{.now = room, .camera = room.cameras.front()};
+    reflect::add_plan_demands(question, {reflect::parse_plan(technique)});
     return question.asks_all;
 }
 

@@ -9,7 +9,9 @@
 namespace catoptric::measure {
 namespace {
 
-std::optional<int> settled(const std::vector<double>& errors) { return settled_from(errors, 0.5); }
+std::optional<int> settled(const std::vector<double>& errors) {
+    return find_settled_frame(errors, 0.5);
+}
 
 TEST(Settling, SettledFrameIsTheFirstAfterWhichErrorsStayInBounds) {
     EXPECT_EQ(settled({3, 2, 0.4, 0.1}), 3);

@@ -24,7 +24,7 @@ struct TriangleHit {
 
 TriangleHit hit_triangle(vec3 a, vec3 b, vec3 c, vec3 origin, vec3 direction) {
     TriangleHit result{};
-    result.hit = f32::triangle_test(a, b, c, origin, f32::ray_shear(direction), result.t,
+    result.hit = f32::triangle_test(a, b, c, origin, f32::make_ray_shear(direction), result.t,
                                     result.weights);
     return result;
 }
@@ -164,7 +164,7 @@ TEST(TriangleTest, FloatTriangleTestAgreesWithDouble) {
         double t;
         dvec3 weights;
         const bool hit = f64::triangle_test(dvec3(a), dvec3(b), dvec3(c), dvec3(origin),
-                                            f64::ray_shear(dvec3(direction)), t, weights);
+                                            f64::make_ray_shear(dvec3(direction)), t, weights);
         if (hit != single.hit) {
             // Float and double may disagree only where the ray passes within rounding errors of an
             // edge.
@@ -222,7 +222,7 @@ TEST(TriangleTest, TriangleTestIsUnchangedByScalingWithPowersOfTwo) {
 
 bool hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction, float t_max = test::kInfinity) {
     float t;
-    const f32::BoxRay ray = f32::box_ray({origin, direction}, vec3(-1), vec3(1), 1);
+    const f32::BoxRay ray = f32::make_box_ray({origin, direction}, vec3(-1), vec3(1), 1);
     return f32::slab_test(lo, hi, ray, t_max, t);
 }
 

@@ -1,4 +1,4 @@
-// Tests of Shapley values in games whose answers are known.
+// Tests of ShapleyValues values in games whose answers are known.
 #include "measure/shapley.hpp"
 
 #include "support/refusal.hpp"
@@ -16,14 +16,14 @@
 namespace {
 
 using catoptric::Failure;
-using catoptric::measure::Shapley;
+using catoptric::measure::ShapleyValues;
 
 constexpr std::size_t kPlayers = 5;
 constexpr std::uint32_t kAll = 31;
 
 /// Returns the worth of each player in a game in which coalition c has the value `value(c)`.
 std::vector<double> worths(const std::function<double(std::uint32_t)>& value) {
-    Shapley shapley(kPlayers, 1);
+    ShapleyValues shapley(kPlayers, 1);
     for (std::uint32_t c = kAll + 1; c-- > 0;) shapley.add(c, std::vector{value(c)});
     std::vector<double> worths;
     for (std::size_t i = 0; i < kPlayers; ++i) worths.push_back(shapley.worth(i)[0]);
@@ -83,7 +83,7 @@ TEST(Shapley, PlayersWithEqualEffectAreWorthTheSame) {
 // The glove market is a known game: two players have a left glove, one has a right glove, and a
 // pair is worth 1. The players are worth 1/6, 1/6 and 2/3.
 TEST(Shapley, ShapleyValuesOfTheGloveMarketAreTheKnownOnes) {
-    Shapley market(3, 1);
+    ShapleyValues market(3, 1);
     for (std::uint32_t c = 0; c < 8; ++c)
         market.add(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
     EXPECT_NEAR(market.worth(0)[0], 1.0 / 6, 1e-15);
@@ -92,7 +92,7 @@ TEST(Shapley, ShapleyValuesOfTheGloveMarketAreTheKnownOnes) {
 }
 
 TEST(Shapley, ShapleyKeepsSeveralGamesApart) {
-    Shapley games(2, 2);
+    ShapleyValues games(2, 2);
     games.add(0b11, std::vector{5.0, 1.0});
     games.add(0b00, std::vector{0.0, 1.0});
     games.add(0b10, std::vector{1.0, 1.0});
@@ -102,7 +102,7 @@ TEST(Shapley, ShapleyKeepsSeveralGamesApart) {
 }
 
 TEST(Shapley, InvalidCoalitionsAndPlayerCountsAreRefused) {
-    Shapley shapley(2, 1);
+    ShapleyValues shapley(2, 1);
     const std::vector<double> value{1};
     shapley.add(0, value), shapley.add(1, value), shapley.add(3, value);
     for (const auto& [action, words] : std::vector<std::pair<std::function<void()>, std::string>>{
@@ -110,7 +110,7 @@ TEST(Shapley, InvalidCoalitionsAndPlayerCountsAreRefused) {
              {[&] { shapley.add(3, value); }, "coalition 3 came twice"},
              {[&] { shapley.add(4, value); }, "coalition 4 of 2 players: wanted a number below 4"},
              {[&] { shapley.add(2, {}); }, "coalition 2: wanted values of 1 games, found 0"},
-             {[] { Shapley(17, 1); }, "wanted 1 to 16 players, found 17"}})
+             {[] { ShapleyValues(17, 1); }, "wanted 1 to 16 players, found 17"}})
         test::expect_refused(action, Failure::internal, {words});
 }
 

@@ -12,7 +12,7 @@ namespace {
 using namespace catoptric::report;
 
 StressRow row(std::vector<StressCase> cases) {
-    return {"N1", "a <stimulus>", "a property", Verdict::pass, "", std::move(cases), {}, 1};
+    return {"N1", "a <stimulus>", "a property", StressVerdict::pass, "", std::move(cases), {}, 1};
 }
 
 TEST(StressRow, WorstCaseIsTheOneFurthestBeyondItsLimit) {
@@ -32,23 +32,23 @@ TEST(StressCase, StressCaseThatMeasuresNanFails) {
 }
 
 TEST(Stress, StressFailsIfOneOfItsRowsFails) {
-    Stress stress;
+    StressResults stress;
     stress.rows = {row({}), row({})};
     EXPECT_FALSE(stress.failed());
-    for (const Verdict verdict :
-         {Verdict::quality_warning, Verdict::unsupported, Verdict::waived}) {
+    for (const StressVerdict verdict :
+         {StressVerdict::quality_warning, StressVerdict::unsupported, StressVerdict::waived}) {
         stress.rows[1].verdict = verdict;
         EXPECT_FALSE(stress.failed()) << name_of(verdict);
     }
-    stress.rows[1].verdict = Verdict::fail;
+    stress.rows[1].verdict = StressVerdict::fail;
     EXPECT_TRUE(stress.failed());
 }
 
 /// A case that the device's limits do not allow has no figure and does not count as passed.
 TEST(Stress, CaseThatCouldNotRunHasAReasonAndNoFigure) {
-    Stress stress;
+    StressResults stress;
     stress.rows = {row({}), row({{"the rest", .5, 1}})};
-    stress.rows[0].verdict = Verdict::unsupported;
+    stress.rows[0].verdict = StressVerdict::unsupported;
     stress.rows[0].remark = "the device allows max_memory = 5";
     stress.rows[1].not_run = {{"edge 16384", "allows max_size = 8192"}};
     EXPECT_THAT(stress.not_run(), testing::ElementsAre("N1: the device allows max_memory = 5",
@@ -67,7 +67,7 @@ TEST(Stress, CaseThatCouldNotRunHasAReasonAndNoFigure) {
 }
 
 TEST(Stress, StressReportNamesTheMutationThatARowDetects) {
-    Stress stress;
+    StressResults stress;
     stress.rows = {row({{"a", 0, 1}})};
     stress.rows[0].turned_red_by = "upside-down";
     EXPECT_EQ(nlohmann::json::parse(to_json(stress))["rows"][0]["turned_red_by"], "upside-down");
@@ -76,7 +76,7 @@ TEST(Stress, StressReportNamesTheMutationThatARowDetects) {
 }
 
 TEST(Stress, StressJsonHasEveryCaseAndHtmlEscapesTexts) {
-    Stress stress;
+    StressResults stress;
     stress.rows = {row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};
     const nlohmann::json json = nlohmann::json::parse(to_json(stress));
     EXPECT_EQ(json["rows"][0]["cases"][0], (nlohmann::json{{"what", "a"},

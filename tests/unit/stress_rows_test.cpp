@@ -32,7 +32,7 @@ std::multimap<std::string, std::string> rules_by_row() {
 
 TEST(StressRows, EachStressRowNamesTheMutationThatItDetects) {
     std::multimap<std::string, std::string> named;
-    for (const stress::Property* row : stress::properties())
+    for (const stress::StressProperty* row : stress::list_properties())
         named.emplace(row->id, row->turned_red_by);
     EXPECT_FALSE(named.empty());
     EXPECT_EQ(rules_by_row(), named);

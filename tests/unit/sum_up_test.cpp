@@ -1,5 +1,5 @@
-// Tests of measure::sum_up, which sums the causes of each pixel's error to the causes of a row's
-// error.
+// Tests of measure::sum_up_error_causes, which sums the causes of each pixel's error to the causes
+// of a row's error.
 #include "measure/causes.hpp"
 
 #include "report/comparison.hpp"
@@ -32,7 +32,7 @@ const std::vector<PixelCause> kCauses{{"one", {.75, 0, .25, .125}, {.5, .25, 0, 
 const measure::Mask kOff{1, 1, 1, 0, 1};
 
 TEST(SumUp, SharesOfClassesAndMirrorsAddUpToTheWhole) {
-    const Causes causes = measure::sum_up(kSumUpHits, kOff, kWhole, kCauses);
+    const Causes causes = measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, kCauses);
     EXPECT_EQ(causes.squared_error, .25);
     EXPECT_EQ(causes.squared_error_per_mirror, (std::vector{.5, .25, .125}));
     ASSERT_EQ(causes.list.size(), 3U);
@@ -55,14 +55,14 @@ TEST(SumUp, SharesOfClassesAndMirrorsAddUpToTheWhole) {
 TEST(SumUp, LargestCauseIsNamedForPixelsThatAreOff) {
     // The pixels in order: no mirror; cause `one`; cause `other`; a pixel that is not off; cause
     // `one`, which is as large as `rest` but comes first.
-    EXPECT_EQ(measure::sum_up(kSumUpHits, kOff, kWhole, kCauses).largest,
+    EXPECT_EQ(measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, kCauses).largest,
               (std::vector<std::uint8_t>{0, 1, 2, 0, 1}));
 }
 
 TEST(SumUp, PixelsThatAreNotFiniteAreLeftOut) {
     std::vector<PixelCause> causes = kCauses;
     causes[1].alone[0] = INFINITY;
-    const Causes found = measure::sum_up(kSumUpHits, kOff, kWhole, causes);
+    const Causes found = measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, causes);
     EXPECT_EQ(found.squared_error, .5 / 3);
     EXPECT_EQ(found.squared_error_per_mirror, (std::vector{0.0, .25, .125}));
     EXPECT_EQ(found.list[0].squared_error, .375 / 3);
@@ -71,11 +71,12 @@ TEST(SumUp, PixelsThatAreNotFiniteAreLeftOut) {
 
 TEST(SumUp, RowWithoutErrorHasNoShares) {
     const std::vector<double> none(4);
-    const Causes found = measure::sum_up(kSumUpHits, measure::Mask(5), none, {{"rest", none, {}}});
+    const Causes found = measure::sum_up_error_causes(kSumUpHits, measure::Mask(5), none,
+                                                      {{"rest", none, {}}});
     EXPECT_EQ(found.squared_error, 0);
     EXPECT_TRUE(std::isnan(found.list[0].share));
     EXPECT_EQ(found.rest_rmse, 0);
-    EXPECT_TRUE(measure::sum_up({}, {}, {}, {{"rest", {}, {}}}).list.empty());
+    EXPECT_TRUE(measure::sum_up_error_causes({}, {}, {}, {{"rest", {}, {}}}).list.empty());
 }
 
 TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
@@ -83,14 +84,15 @@ TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
          {std::pair(std::vector<PixelCause>{{"one", {1, 2}, {}}},
                     "one: wanted values of 4 mirror pixels, found 2"),
           {{{"one", {1, 2, 3, 4}, {1}}}, "one alone: wanted values of 4 mirror pixels, found 1"}})
-        test::expect_refused([&] { measure::sum_up(kSumUpHits, kOff, kWhole, causes); },
-                             Failure::internal, {words});
+        test::expect_refused(
+            [&] { measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, causes); },
+            Failure::internal, {words});
 }
 
-/// Returns one cause for each of cause_colours(). The first cause has the whole error.
+/// Returns one cause for each of list_cause_colours(). The first cause has the whole error.
 Causes some_causes() {
     Causes causes{.squared_error = .25, .squared_error_per_mirror = {.25}};
-    for (const report::CauseColour& colour : report::cause_colours()) {
+    for (const report::CauseColour& colour : report::list_cause_colours()) {
         const double share = causes.list.empty() ? 1 : 0;
         causes.list.push_back({.name = std::string(colour.cause),
                                .squared_error = share / 4,
@@ -107,7 +109,7 @@ TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
     report::Row row = report::sample::row("parallax", 6, .5, .1);
     row.causes = std::make_shared<measure::Causes>(some_causes());
     row.light_edges.emplace().share = .5;
-    const report::Table table = report::cause_table(
+    const report::ReportTable table = report::make_cause_table(
         report::sample::comparison({report::sample::row("raytrace", 6, 0, 0), row}));
     using Cells = std::vector<std::string>;
     ASSERT_EQ(table.columns.size(), 13U);
@@ -127,16 +129,16 @@ TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     report::Row row = report::sample::row("parallax", 6, .5, .1);
     row.display.pixels[0] = vec3(1);
     row.causes = std::make_shared<measure::Causes>(some_causes());
-    const measure::Picture picture = report::cause_picture(row);
+    const measure::Picture picture = report::make_cause_picture(row);
     EXPECT_EQ(picture.pixels[0], vec3(.35F)) << "dark";
     EXPECT_EQ(picture.pixels[1], vec3(86, 180, 233) / 255.0F);
     EXPECT_EQ(picture.pixels[2], vec3(190) / 255.0F);
     EXPECT_EQ(picture.pixels[3], vec3(0, 114, 178) / 255.0F);
     row.causes->largest.pop_back();
-    test::expect_refused([&] { report::cause_picture(row); }, Failure::internal,
+    test::expect_refused([&] { report::make_cause_picture(row); }, Failure::internal,
                          {"row 'parallax': wanted a cause for each of 12 pixels, found 11"});
-    for (const report::CauseColour& a : report::cause_colours())
-        for (const report::CauseColour& b : report::cause_colours())
+    for (const report::CauseColour& a : report::list_cause_colours())
+        for (const report::CauseColour& b : report::list_cause_colours())
             if (&a != &b) {
                 EXPECT_GT(glm::distance(a.colour, b.colour), .25F) << a.name << ", " << b.name;
             }

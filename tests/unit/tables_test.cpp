@@ -28,27 +28,27 @@
 namespace {
 
 using namespace catoptric;
-using measure::Value;
+using measure::MetricValue;
 using nlohmann::json;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-const measure::Registered kRedness{{.name = "test_only/redness",
-                                    .unit = "parts",
-                                    .help = "red of the first pixel",
-                                    .better = measure::Better::more,
-                                    .columns = {{"(test) redness", measure::Style::fixed, 2}},
-                                    .get = [](const measure::Row& row) -> Value {
-                                        return row.hdr.pixels.empty() ? measure::Difference::kNone
-                                                                      : row.hdr.pixels[0].x;
-                                    }}};
+const measure::RegisteredMetric kRedness{
+    {.name = "test_only/redness",
+     .unit = "parts",
+     .help = "red of the first pixel",
+     .better = measure::BetterDirection::more,
+     .columns = {{"(test) redness", measure::ValueFormat::fixed, 2}},
+     .get = [](const measure::Row& row) -> MetricValue {
+         return row.hdr.pixels.empty() ? measure::Difference::kNone : row.hdr.pixels[0].x;
+     }}};
 
-const measure::Registered kGreener{
+const measure::RegisteredMetric kGreener{
     {.name = "test_only_greener",
      .help = "pixels of the mask in which a is greener than b",
-     .columns = {{"(test) greener", measure::Style::fixed}},
-     .get = [](const measure::Compared& compared) {
+     .columns = {{"(test) greener", measure::ValueFormat::fixed}},
+     .get = [](const measure::PicturePair& compared) {
          double count = 0;
          for (std::size_t i = 0; i < compared.a.pixels.size(); ++i)
              count += (compared.mask.empty() || compared.mask[i] != 0) &&
@@ -59,13 +59,13 @@ const measure::Registered kGreener{
 scene::Scene make_nothing() { return {.name = "test-only"}; }
 const scene::RegisteredScene kScene{{"test-only", "nothing at all", make_nothing}};
 
-constexpr scene::Punctual::Kind kTestOnlyKind{200};
+constexpr scene::PunctualLight::Kind kTestOnlyKind{200};
 const scene::RegisteredLightKind kLightKind{
     {.id = kTestOnlyKind,
      .name = "test-only",
      .gltf_type = "spot",
      .share = [](const scene::PointLight&, double cosine) { return cosine / 2; },
-     .read = scene::read_cone}};
+     .read = scene::read_spot_cone}};
 
 constexpr std::string_view kRows[] = {"testonly", "testonly:much=2"};
 constexpr Knob kTablesKnobs[] = {
@@ -75,7 +75,7 @@ constexpr reflect::Technique kTechnique{.name = "testonly",
                                         .order = 1000,
                                         .knobs = kTablesKnobs,
                                         .compared = kRows};
-const reflect::Registered kTestOnly{kTechnique};
+const reflect::RegisteredTechnique kTestOnly{kTechnique};
 
 const app::Registered kStudied{
     {.name = "test-only",
@@ -94,9 +94,9 @@ const app::Registered kStudied{
          },
      .metrics = {{.name = "test_only_half",
                   .help = "half of the number",
-                  .columns = {{"(test) half", measure::Style::fixed, 3}}}},
+                  .columns = {{"(test) half", measure::ValueFormat::fixed, 3}}}},
      .part = {.tables = [](const measure::Comparison& comparison) {
-         report::Table table{"(test) studied", {"(test) rows"}};
+         report::ReportTable table{"(test) studied", {"(test) rows"}};
          if (std::ranges::count(comparison.studies, "test-only") > 0)
              table.rows = {{std::to_string(comparison.rows.size())}};
          return std::vector{table};
@@ -174,9 +174,9 @@ TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {
     const std::vector<float> map(2, 0.F);
     const auto greener = [&](const measure::Mask& mask) {
         const measure::Difference found = measure::difference(green, black, mask, map);
-        const auto& table = measure::difference_metrics();
+        const auto& table = measure::list_difference_metrics();
         const auto row = std::ranges::find(table, "test_only_greener", &measure::Metric::name);
-        return std::get<double>(measure::value_of(*row, found));
+        return std::get<double>(measure::metric_value(*row, found));
     };
     EXPECT_EQ(greener({}), 1);
     EXPECT_EQ(greener({255, 0}), 0);
@@ -184,16 +184,16 @@ TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {
 }
 
 TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
-    const auto& table = measure::metrics();
+    const auto& table = measure::list_metrics();
     EXPECT_TRUE(std::ranges::is_sorted(table, {}, &measure::Metric::order));
     const auto find = [&](std::string_view name) {
         return *std::ranges::find(table, name, &measure::Metric::name);
     };
     EXPECT_EQ(find("gpu_ms").unit, "ms");
-    EXPECT_EQ(find("psnr").better, measure::Better::more);
+    EXPECT_EQ(find("psnr").better, measure::BetterDirection::more);
     const auto refused = [](const measure::Metric& quantity, const auto& of) {
         try {
-            measure::value_of(quantity, of);
+            measure::metric_value(quantity, of);
         } catch (const Error& error) {
             return std::string(error.what());
         }
@@ -207,7 +207,7 @@ TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
 TEST(Tables, RegisteredSceneIsFoundByName) {
     EXPECT_EQ(scene::load("test-only").name, "test-only");
     std::vector<std::string> names;
-    for (const scene::BuiltIn& scene : scene::built_in_scenes()) names.push_back(scene.name);
+    for (const scene::BuiltInScene& scene : scene::built_in_scenes()) names.push_back(scene.name);
     EXPECT_EQ(names.front(), "cornell-mirrors");
     EXPECT_EQ(names.back(), "test-only");
     EXPECT_THAT(names, testing::IsSupersetOf(
@@ -217,7 +217,7 @@ TEST(Tables, RegisteredSceneIsFoundByName) {
 struct TableOfLightKinds : test::InFolder {};
 
 TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
-    scene::Scene scene = scene::cornell_mirrors();
+    scene::Scene scene = scene::make_cornell_mirrors();
     scene.punctual.push_back({.name = "lamp",
                               .kind = kTestOnlyKind,
                               .intensity = vec3(1, 2, 3),
@@ -229,30 +229,30 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
     ASSERT_EQ(read.punctual.size(), 1u);
     EXPECT_EQ(read.punctual[0].kind, kTestOnlyKind);
     EXPECT_NEAR(read.punctual[0].cos_outer, std::cos(.4), 1e-12);
-    EXPECT_EQ(app::light_facts(read).back().kind, "test-only");
-    EXPECT_FALSE(scene::lights(read).back().directional);
-    EXPECT_EQ(scene::lights(read).back().cos_outer, read.punctual[0].cos_outer);
+    EXPECT_EQ(app::list_light_facts(read).back().kind, "test-only");
+    EXPECT_FALSE(scene::list_lights(read).back().directional);
+    EXPECT_EQ(scene::list_lights(read).back().cos_outer, read.punctual[0].cos_outer);
 
     scene::Scene spot = scene;
-    spot.punctual[0].kind = scene::Punctual::Kind::spot;
+    spot.punctual[0].kind = scene::PunctualLight::Kind::spot;
     EXPECT_FALSE(scene::shine_alike(scene.punctual[0], spot.punctual[0]));
-    EXPECT_NE(scene::hash(scene), scene::hash(spot));
-    EXPECT_NE(require::content_hash_of(scene::lights(scene).back()),
-              require::content_hash_of(scene::lights(spot).back()));
+    EXPECT_NE(scene::hash_scene(scene), scene::hash_scene(spot));
+    EXPECT_NE(require::hash_mesh(scene::list_lights(scene).back()),
+              require::hash_mesh(scene::list_lights(spot).back()));
 }
 
 TEST_F(TableOfLightKinds, KindsHaveTheirOwnNumbers) {
     std::vector<std::string_view> names;
     for (const scene::LightKind& kind : scene::light_kinds()) names.push_back(kind.name);
     EXPECT_THAT(names, testing::ElementsAre("point", "spot", "directional", "test-only"));
-    EXPECT_THROW(scene::kind_of(scene::Punctual::Kind{199}), Error);
+    EXPECT_THROW(scene::kind_of(scene::PunctualLight::Kind{199}), Error);
 }
 
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {
     EXPECT_EQ(app::parse_technique("testonly:much=3").settings[0].number, 3.0);
     EXPECT_EQ(app::techniques().back().name, "testonly");
-    const std::vector<std::string> rows = app::default_techniques(
-        {.scene = scene::cornell_mirrors()});
+    const std::vector<std::string> rows = app::list_default_techniques(
+        {.scene = scene::make_cornell_mirrors()});
     EXPECT_THAT(rows, Contains("testonly:much=2"));
     EXPECT_THAT(rows, Contains("naive:bounces=0"));
 }

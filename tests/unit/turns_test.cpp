@@ -16,10 +16,12 @@ using namespace catoptric;
 using Mirrors = std::vector<std::uint32_t>;
 
 TEST(Turns, CapturesThatWaitedLongestAreDrawnFirst) {
-    EXPECT_EQ(render::put_off({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2), (Mirrors{1, 4}));
-    EXPECT_EQ(render::put_off({{4, 2}, {2, 2}, {3, 2}}, 1), (Mirrors{3, 4})) << "of equals";
-    EXPECT_EQ(render::put_off({{4, 2}, {2, 2}}, 2), Mirrors());
-    EXPECT_EQ(render::put_off({}, 1), Mirrors());
+    EXPECT_EQ(render::choose_postponed_mirrors({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2),
+              (Mirrors{1, 4}));
+    EXPECT_EQ(render::choose_postponed_mirrors({{4, 2}, {2, 2}, {3, 2}}, 1), (Mirrors{3, 4}))
+        << "of equals";
+    EXPECT_EQ(render::choose_postponed_mirrors({{4, 2}, {2, 2}}, 2), Mirrors());
+    EXPECT_EQ(render::choose_postponed_mirrors({}, 1), Mirrors());
 }
 
 // Mirrors request a new capture at random and keep requesting until it is drawn. No mirror may wait
@@ -31,14 +33,14 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
         std::vector<std::uint32_t> waited(kMirrors, 0);
         std::uint32_t longest = 0;
         for (int frame = 0; frame < 2000; ++frame) {
-            std::vector<render::Asking> asking;
+            std::vector<render::RedrawRequest> asking;
             for (std::uint32_t i = 0; i < kMirrors; ++i) {
                 // The share of requesting mirrors changes from none to all, so that each of them is
                 // tested.
                 const bool asks = waited[i] > 0 || numbers.between(0, 1) < (frame % 200) / 150.;
                 if (asks) asking.push_back({i, waited[i]});
             }
-            const Mirrors later = render::put_off(asking, most);
+            const Mirrors later = render::choose_postponed_mirrors(asking, most);
             EXPECT_EQ(later.size(), asking.size() - std::min<std::size_t>(asking.size(), most));
             for (std::uint32_t i = 0; i < kMirrors; ++i)
                 waited[i] = std::ranges::find(later, i) != later.end() ? waited[i] + 1 : 0;
@@ -50,19 +52,19 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
 
 TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
     app::CaptureCost pace;
-    EXPECT_EQ(pace.fitting(1, 16), 16u) << "nothing was measured";
+    EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "nothing was measured";
     pace.add(100, 0);
-    EXPECT_EQ(pace.fitting(1, 16), 16u) << "no mirror was drawn";
+    EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "no mirror was drawn";
     pace.add(16, 8); // 16 ms for 8 mirrors: 2 ms each
-    EXPECT_EQ(pace.fitting(7.9, 16), 3u);
-    EXPECT_EQ(pace.fitting(.1, 16), 1u) << "one at least";
-    EXPECT_EQ(pace.fitting(1000, 16), 16u);
+    EXPECT_EQ(pace.count_affordable_captures(7.9, 16), 3u);
+    EXPECT_EQ(pace.count_affordable_captures(.1, 16), 1u) << "one at least";
+    EXPECT_EQ(pace.count_affordable_captures(1000, 16), 16u);
     for (int k = 0; k < 4; ++k) pace.add(900, 1);
     for (int k = 0; k < 5; ++k) pace.add(4, 1);
-    EXPECT_EQ(pace.fitting(8, 16), 2u) << "the median of the last nine";
+    EXPECT_EQ(pace.count_affordable_captures(8, 16), 2u) << "the median of the last nine";
     app::CaptureCost at_once;
     at_once.add(0, 1);
-    EXPECT_EQ(at_once.fitting(1, 16), 16u);
+    EXPECT_EQ(at_once.count_affordable_captures(1, 16), 16u);
 }
 
 TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
@@ -72,7 +74,7 @@ TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
     EXPECT_EQ(app::to_text({.mirrors = 4, .most = 2}),
               "captures: at most 2 of 4 mirrors a frame; none shows what is older than 1 frame, "
               "and 2 more for each further mirror that it is seen by");
-    EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).round(), 1u);
+    EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_update_cycle(), 1u);
 }
 
 } // namespace

@@ -26,21 +26,22 @@ struct TwoLevelAlone {
                                                      numbers.between(.1f, 1)),
                    .centre = dvec3(numbers.in_cube()) + 1e-9 * dvec3(numbers.in_cube()),
                    .shift = 100},
-          whole(assemble(build({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
-          place(detail::place_at<float>(whole, record())) {}
+          whole(
+              assemble_two_level_bvh(build_bvh({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
+          place(detail::read_instance_placement<float>(whole, record())) {}
     std::uint32_t record() const {
-        return static_cast<std::uint32_t>(node_count(whole)) - 1 - f32::kBvhRecordNodes;
+        return static_cast<std::uint32_t>(count_nodes(whole)) - 1 - f32::kBvhRecordNodes;
     }
-    Instance instance;
+    BvhInstance instance;
     Bvh whole;
-    f32::Place place;
+    f32::ObjectPlacement place;
 };
 
 /// Row N15 of the stress test: a ray from strictly inside a closed mesh must hit the mesh. A ray
 /// that hits nothing is a leak.
 TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
     const std::vector<Triangle> triangles = two_level_ball(3);
-    const Bvh tree = build(triangles);
+    const Bvh tree = build_bvh(triangles);
     test::Numbers numbers(31);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelAlone alone(tree, numbers);
@@ -49,9 +50,10 @@ TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
             const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.unit() : aim.a;
             const vec3 from = .3f * numbers.in_cube();
             vec3 low;
-            const vec3 origin = f32::scene_point(alone.place, f32::arm_of(alone.place, from), low);
-            const f32::Ray ray{origin, f32::arm_of(alone.place, at - from), 0};
-            ASSERT_TRUE(closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr, low))
+            const vec3 origin = f32::scene_point(alone.place,
+                                                 f32::offset_from_centre(alone.place, from), low);
+            const f32::Ray ray{origin, f32::offset_from_centre(alone.place, at - from), 0};
+            ASSERT_TRUE(find_closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr, low))
                 << "thing " << k << ", ray " << i;
         }
     }
@@ -62,7 +64,7 @@ TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
 TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
     std::size_t met = 0;
     const std::vector<Triangle> triangles = two_level_ball(3);
-    const Bvh tree = build(triangles);
+    const Bvh tree = build_bvh(triangles);
     test::Numbers numbers(32);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelAlone alone(tree, numbers);
@@ -71,26 +73,28 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
             const Triangle& t = triangles[number];
             vec3 error;
             const vec3 own = f32::triangle_point(t.a, t.b, t.c, numbers.weights(), error);
-            const vec3 arm = f32::arm_of(alone.place, own);
-            vec3 facet = f32::facet_normal(f32::arm_of(alone.place, t.a),
-                                           f32::arm_of(alone.place, t.b),
-                                           f32::arm_of(alone.place, t.c));
+            const vec3 arm = f32::offset_from_centre(alone.place, own);
+            vec3 facet = f32::facet_normal(f32::offset_from_centre(alone.place, t.a),
+                                           f32::offset_from_centre(alone.place, t.b),
+                                           f32::offset_from_centre(alone.place, t.c));
             if (dot(facet, arm) < 0) facet = -facet;
             vec3 direction = numbers.direction();
             if (dot(direction, facet) < 0) direction = -direction;
             vec3 low;
             const vec3 origin = f32::scene_point(
                 alone.place,
-                f32::spawn_origin(arm, f32::arm_error(alone.place, own, error), facet, direction),
+                f32::spawn_origin(arm, f32::offset_rounding_error(alone.place, own, error), facet,
+                                  direction),
                 low);
             const f32::Ray ray{origin, direction, 100 + number + 1};
-            const auto hit = closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr, low);
+            const auto hit = find_closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr,
+                                                     low);
             if (!hit) continue;
             // The ball is a subdivided tetrahedron and not convex everywhere, so the ray may meet
             // it again. The ray in double precision must then meet it, too.
-            const f64::Ray exact{dvec3(own), dvec3(f32::to_own(alone.place, direction)),
+            const f64::Ray exact{dvec3(own), dvec3(f32::to_object_space(alone.place, direction)),
                                  number + 1};
-            const auto wanted = closest_hit<double>(tree, exact, 1e300);
+            const auto wanted = find_closest_hit<double>(tree, exact, 1e300);
             ASSERT_TRUE(wanted) << "thing " << k << ", ray " << i << " of " << number << " meets "
                                 << hit->triangle - 100 << " at " << hit->t;
             ++met;
@@ -104,14 +108,14 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
 TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
     test::Numbers numbers(33);
     const std::vector<Triangle> shape = two_level_ball(2);
-    const Bvh tree = build(shape);
+    const Bvh tree = build_bvh(shape);
     std::vector<Triangle> room, all;
     for (int i = 0; i < 40; ++i) {
         const vec3 a = 2.0f * numbers.in_cube();
         room.push_back({a, a + numbers.in_cube(), a + numbers.in_cube(), 0, 0});
     }
     all = room;
-    std::vector<Instance> instances;
+    std::vector<BvhInstance> instances;
     for (std::uint32_t k = 0; k < 30; ++k) {
         const auto first = static_cast<std::uint32_t>(all.size());
         instances.push_back({&tree, test::turned_to(numbers, .5, .6),
@@ -124,18 +128,19 @@ TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
             all.push_back({put(t.a), put(t.b), put(t.c), k + 1, instances[k].flags});
         }
     }
-    const Bvh flat = build(room), one = build(all), two = assemble(flat, instances);
-    std::vector<Instance> backwards(instances.rbegin(), instances.rend());
-    const Bvh other = assemble(flat, backwards);
+    const Bvh flat = build_bvh(room), one = build_bvh(all),
+              two = assemble_two_level_bvh(flat, instances);
+    std::vector<BvhInstance> backwards(instances.rbegin(), instances.rend());
+    const Bvh other = assemble_two_level_bvh(flat, backwards);
     std::size_t found = 0, apart = 0;
     for (int i = 0; i < 20000; ++i) {
         const f32::Ray ray{3.0f * numbers.in_cube(), numbers.direction(), 0};
         const std::uint32_t skipped = i % 2 ? kHidden : 0;
-        const auto wanted = closest_hit<float>(one, ray, test::kInfinity, skipped),
-                   hit = closest_hit<float>(two, ray, test::kInfinity, skipped),
-                   again = closest_hit<float>(other, ray, test::kInfinity, skipped);
+        const auto wanted = find_closest_hit<float>(one, ray, test::kInfinity, skipped),
+                   hit = find_closest_hit<float>(two, ray, test::kInfinity, skipped),
+                   again = find_closest_hit<float>(other, ray, test::kInfinity, skipped);
         ASSERT_EQ(hit.has_value(), again.has_value());
-        ASSERT_EQ(hit.has_value(), any_hit<float>(two, ray, test::kInfinity, skipped));
+        ASSERT_EQ(hit.has_value(), has_any_hit<float>(two, ray, test::kInfinity, skipped));
         if (hit) {
             ASSERT_EQ(hit->t, again->t);
             ASSERT_EQ(hit->triangle, again->triangle);
@@ -160,13 +165,13 @@ TEST(TwoLevel, ScalingByPowersOfTwoChangesNoHit) {
     const Bvh whole = crowd.hierarchy();
     std::size_t found = 0;
     const auto walk = [](const Bvh& bvh, const test::CrowdRay& r) {
-        return closest_hit<float>(bvh, r.ray, r.t_max, 0, nullptr, r.low);
+        return find_closest_hit<float>(bvh, r.ray, r.t_max, 0, nullptr, r.low);
     };
     for (int k = -20; k <= 20; ++k)
         for (const bool scene : {true, false}) {
             const float s = std::ldexp(1.0f, k), in_scene = scene ? s : 1, in_own = scene ? 1 : s;
             const Bvh scaled = crowd.hierarchy(in_scene, in_own);
-            ASSERT_EQ(node_count(scaled), node_count(whole));
+            ASSERT_EQ(count_nodes(scaled), count_nodes(whole));
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const bool direction = i % 8 < 4;
                 auto wanted = walk(whole, rays[i]);
@@ -180,7 +185,7 @@ TEST(TwoLevel, ScalingByPowersOfTwoChangesNoHit) {
 }
 
 TEST(TwoLevel, TreeWithoutInstancesStaysFlat) {
-    const Bvh flat = build(two_level_ball(1)), same = assemble(flat, {});
+    const Bvh flat = build_bvh(two_level_ball(1)), same = assemble_two_level_bvh(flat, {});
     EXPECT_EQ(same.nodes.size(), flat.nodes.size());
     EXPECT_EQ(same.triangles, flat.triangles);
 }
@@ -189,7 +194,7 @@ TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
     test::Numbers numbers(34);
     for (int i = 0; i < 1000; ++i) {
         const dvec3 v = dvec3(numbers.in_cube()) + 1e-8 * dvec3(numbers.in_cube());
-        const vec3 low = low_part(v);
+        const vec3 low = float_rounding_error(v);
         for (int k = 0; k < 3; ++k) {
             const volatile float high = static_cast<float>(v[k]);
             EXPECT_NEAR(double{high} + double{low[k]}, v[k], 1e-15);
@@ -198,10 +203,10 @@ TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
 }
 
 TEST(TwoLevel, StretchOfKnownMatricesIsInBounds) {
-    EXPECT_EQ(stretch(dmat3(.25)), 1);
-    EXPECT_LE(stretch(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
-    EXPECT_GT(stretch(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
-    EXPECT_EQ(stretch(dmat3(0)), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(bound_rounding_amplification(dmat3(.25)), 1);
+    EXPECT_LE(bound_rounding_amplification(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
+    EXPECT_GT(bound_rounding_amplification(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
+    EXPECT_EQ(bound_rounding_amplification(dmat3(0)), std::numeric_limits<double>::infinity());
 }
 
 } // namespace

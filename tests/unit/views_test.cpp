@@ -64,45 +64,46 @@ Comparison with_views(std::vector<Row> rows) {
 TEST(Views, EqualRowsTieOverViews) {
     const Row row = over("a", kFlips);
     for (const char* figure : {"flip", "off", "mae", "rmse"})
-        EXPECT_FALSE(measure::apart(row, row, figure)) << figure;
+        EXPECT_FALSE(measure::differ_over_views(row, row, figure)) << figure;
 }
 
 /// The two rows differ by 1e-6 in each view. The views differ from each other by far more.
 TEST(Views, RowThatIsSlightlyWorseInEachViewDoesNotTie) {
     const Row a = over("a", kFlips), b = over("b", plus(kFlips, 1e-6));
-    EXPECT_TRUE(measure::apart(a, b, "flip"));
-    EXPECT_TRUE(measure::apart(b, a, "flip"));
-    EXPECT_LT(measure::difference_over_views(a, b, "flip").high, 0);
-    EXPECT_GT(measure::difference_over_views(b, a, "flip").low, 0);
+    EXPECT_TRUE(measure::differ_over_views(a, b, "flip"));
+    EXPECT_TRUE(measure::differ_over_views(b, a, "flip"));
+    EXPECT_LT(measure::metric_difference_over_views(a, b, "flip").high, 0);
+    EXPECT_GT(measure::metric_difference_over_views(b, a, "flip").low, 0);
 }
 
 TEST(Views, OneOutlierDoesNotBreakATie) {
     std::vector<double> flips = kFlips;
     flips[4] = .99;
-    EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", flips), "flip"));
+    EXPECT_FALSE(measure::differ_over_views(over("a", kFlips), over("b", flips), "flip"));
     // With many views, one outlier does not hide a difference that all other views show.
     std::vector<double> many(30, .1), more(30, .11);
     more[7] = 0;
-    EXPECT_TRUE(measure::apart(over("a", many), over("b", more), "flip"));
+    EXPECT_TRUE(measure::differ_over_views(over("a", many), over("b", more), "flip"));
 }
 
 TEST(Views, TooFewViewsAlwaysTie) {
     const std::vector<double> five(kFlips.begin(), kFlips.begin() + 5);
-    EXPECT_FALSE(measure::apart(over("a", five), over("b", plus(five, .1)), "flip"));
-    EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", {}), "flip")) << "of a run cut short";
+    EXPECT_FALSE(measure::differ_over_views(over("a", five), over("b", plus(five, .1)), "flip"));
+    EXPECT_FALSE(measure::differ_over_views(over("a", kFlips), over("b", {}), "flip"))
+        << "of a run cut short";
 }
 
 /// A view that shows no mirror pixel in one row is left out of the comparison of both rows.
 TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
     std::vector<double> holed = plus(kFlips, 1e-3);
     holed[0] = test::kDoubleNan;
-    EXPECT_TRUE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
+    EXPECT_TRUE(measure::differ_over_views(over("a", kFlips), over("b", holed), "flip"));
     holed[1] = holed[2] = test::kDoubleNan; // five views are left, too few
-    EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
-    const measure::Metric& flip = *std::ranges::find(measure::difference_metrics(), "flip",
+    EXPECT_FALSE(measure::differ_over_views(over("a", kFlips), over("b", holed), "flip"));
+    const measure::Metric& flip = *std::ranges::find(measure::list_difference_metrics(), "flip",
                                                      &measure::Metric::name);
-    const measure::OverViews found = measure::over_views(over("b", holed), measure::masks().front(),
-                                                         flip);
+    const measure::MetricOverViews found = measure::metric_over_views(
+        over("b", holed), measure::list_row_masks().front(), flip);
     EXPECT_EQ(found.values.size(), 8u);
     EXPECT_NEAR(found.median, .181, 1e-12);
     EXPECT_FALSE(found.ci95.is_known());
@@ -110,19 +111,20 @@ TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
 
 TEST(Views, WithoutDrawnViewsAnyDifferenceCounts) {
     const Row a = sample::row("a", 5, .1, .2), b = sample::row("b", 5, .1, .2000001);
-    EXPECT_TRUE(measure::apart(a, b, "flip"));
-    EXPECT_FALSE(measure::apart(a, b, "rmse"));
+    EXPECT_TRUE(measure::differ_over_views(a, b, "flip"));
+    EXPECT_FALSE(measure::differ_over_views(a, b, "rmse"));
     Row unknown = a;
     unknown.error = {};
-    EXPECT_FALSE(measure::apart(a, unknown, "flip"));
+    EXPECT_FALSE(measure::differ_over_views(a, unknown, "flip"));
 }
 
 TEST(Views, MetricsThatAreNoNumberOfADifferenceAreRefused) {
     const Row row = over("a", kFlips);
     for (const char* name : {"max_at", "gpu_ms", "flop"})
-        EXPECT_THAT(test::refusal(Failure::internal, [&] { measure::apart(row, row, name); }),
-                    HasSubstr("'" + std::string(name) +
-                              "': wanted a figure of a difference that is a number"));
+        EXPECT_THAT(
+            test::refusal(Failure::internal, [&] { measure::differ_over_views(row, row, name); }),
+            HasSubstr("'" + std::string(name) +
+                      "': wanted a figure of a difference that is a number"));
 }
 
 TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
@@ -132,7 +134,7 @@ TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
     for (std::size_t i = 0; i < other.size(); ++i) other[i] += i % 2 == 0 ? -.01 : .01;
     const Comparison made = with_views(
         {over("worst", plus(kFlips, .4)), over("good", kFlips), over("fair", other), exact});
-    const std::vector<std::string> words = views_in_words(made);
+    const std::vector<std::string> words = describe_views(made);
     ASSERT_EQ(words.size(), 4u);
     EXPECT_EQ(words[0],
               "By FLIP, view by view, the least first: good, fair, worst. Ties: good and fair. All "
@@ -141,7 +143,7 @@ TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
                 testing::StartsWith("By off, view by view, the least first: good, fair, worst."));
     EXPECT_THAT(words[2], testing::StartsWith("By MAE, view by view, the least first: "));
     EXPECT_THAT(words[3], HasSubstr("95 % interval of their difference"));
-    const auto first = [](const Comparison& of) { return views_in_words(of).front(); };
+    const auto first = [](const Comparison& of) { return describe_views(of).front(); };
     EXPECT_THAT(first(with_views({over("a", kFlips), over("b", kFlips)})),
                 HasSubstr("No two of them are apart."));
     EXPECT_THAT(first(with_views({over("a", kFlips), over("b", plus(kFlips, .1))})),
@@ -156,17 +158,17 @@ TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
     less[0] = .99; // an outlier in one of nine views
     Comparison made = with_views({over("low", low), over("less", less)});
     made.views.resize(low.size());
-    const measure::Order order = measure::orders_over_views(made).front();
-    const measure::RowMask& mirrors = measure::masks().front();
-    EXPECT_LT(measure::over_views(made.rows[0], mirrors, *order.figure).median,
-              measure::over_views(made.rows[1], mirrors, *order.figure).median);
+    const measure::RowOrder order = measure::order_rows_over_views(made).front();
+    const measure::RowMask& mirrors = measure::list_row_masks().front();
+    EXPECT_LT(measure::metric_over_views(made.rows[0], mirrors, *order.figure).median,
+              measure::metric_over_views(made.rows[1], mirrors, *order.figure).median);
     EXPECT_EQ(order.rows, (std::vector<const Row*>{&made.rows[1], &made.rows[0]}));
     EXPECT_TRUE(order.ties.empty());
     EXPECT_TRUE(order.reversed.empty());
 }
 
 TEST(Views, ViewsTableHasMediansAndTheWorstView) {
-    const Table table = views_table(with_views({over("a", kFlips)}));
+    const ReportTable table = make_views_table(with_views({over("a", kFlips)}));
     EXPECT_EQ(table.title, "Over 8 views");
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
@@ -193,7 +195,7 @@ TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
     EXPECT_EQ(flip["values"], json(kFlips));
     EXPECT_EQ(views["worst"],
               json::parse(R"({"view": 2, "flip": 0.3, "image": "images/worst-a.png"})"));
-    for (const measure::RowMask& mask : measure::masks())
+    for (const measure::RowMask& mask : measure::list_row_masks())
         for (const char* figure : {"flip", "off", "mae", "rmse", "longest_line", "psnr", "p99"})
             EXPECT_TRUE(views[std::string(mask.field)].contains(figure)) << mask.field << figure;
     EXPECT_TRUE(views["error_all"]["flip"]["median"].is_null()) << "nothing is known of it";
@@ -264,27 +266,28 @@ std::vector<std::string> cameras(const std::vector<measure::View>& views) {
 
 TEST(DrawnViews, DrawnViewsAreDeterminedByTheirSeed) {
     const scene::Scene scene = test::room(2, 1);
-    const std::vector<measure::View> views = app::drawn_views(request_of(scene, 1), 12);
+    const std::vector<measure::View> views = app::draw_random_views(request_of(scene, 1), 12);
     ASSERT_EQ(views.size(), 12u);
     std::set<std::string> all;
     for (const measure::View& view : views) {
         all.insert(view.camera.name);
         EXPECT_EQ(view.time, .5) << "nothing moves";
     }
-    EXPECT_EQ(cameras(app::drawn_views(request_of(scene, 1), 12)), cameras(views));
+    EXPECT_EQ(cameras(app::draw_random_views(request_of(scene, 1), 12)), cameras(views));
     // Neighbouring seeds share no view. If fewer views are drawn, they are the first ones of the
     // longer list.
-    for (const std::string& name : cameras(app::drawn_views(request_of(scene, 2), 12)))
+    for (const std::string& name : cameras(app::draw_random_views(request_of(scene, 2), 12)))
         all.insert(name);
     EXPECT_EQ(all.size(), 24u);
-    EXPECT_EQ(app::drawn_views(request_of(scene, 1), 6).back().camera.name, views[5].camera.name);
+    EXPECT_EQ(app::draw_random_views(request_of(scene, 1), 6).back().camera.name,
+              views[5].camera.name);
 }
 
 TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
     scene::Scene scene = test::room(2, 1);
-    scene.objects.back().motion = scene::Harmonic{.amplitude = {.1, 0, 0}, .period = 1.6};
+    scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}, .period = 1.6};
     std::set<double> times;
-    for (const measure::View& view : app::drawn_views(request_of(scene, 1), 12)) {
+    for (const measure::View& view : app::draw_random_views(request_of(scene, 1), 12)) {
         EXPECT_GE(view.time, .5);
         EXPECT_LT(view.time, 2.1);
         EXPECT_EQ(view.time, std::round(view.time * 1000) / 1000) << "it can be typed";
@@ -297,9 +300,9 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
 
 TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
     const app::Request request = request_of(test::room(1, 1), 1);
-    EXPECT_TRUE(app::drawn_views(request, 1).empty());
+    EXPECT_TRUE(app::draw_random_views(request, 1).empty());
     for (const int count : {-1, 0, 2, 5})
-        EXPECT_THAT(test::refusal(Failure::usage, [&] { app::drawn_views(request, count); }),
+        EXPECT_THAT(test::refusal(Failure::usage, [&] { app::draw_random_views(request, count); }),
                     HasSubstr("views: wanted 1 or at least 6, since fewer bound no median with 95 "
                               "% confidence, found " +
                               std::to_string(count)));

@@ -59,7 +59,7 @@ TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
 
 TEST(MirrorOverride, MirrorOverrideChangesOnlyTheNamedObject) {
     Scene scene = wishes_room();
-    apply(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
+    apply_edit(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
     const Material mirror{.name = "wood", .mirror = true, .reflectance = {1, .5f, .25f}};
     EXPECT_EQ(of(scene, 0), mirror) << "the rest of the surface is dropped";
@@ -69,7 +69,7 @@ TEST(MirrorOverride, MirrorOverrideChangesOnlyTheNamedObject) {
 TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
     const auto made = [](const std::string& pattern) {
         Scene scene = wishes_room();
-        apply(scene, {.mirrors = {{pattern, vec3(1)}}});
+        apply_edit(scene, {.mirrors = {{pattern, vec3(1)}}});
         return mirrors(scene);
     };
     EXPECT_THAT(made("table*"), ElementsAre(0u, 1u));
@@ -90,12 +90,13 @@ TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
 
 TEST(MirrorOverride, LaterMirrorOverrideWins) {
     Scene scene = wishes_room();
-    apply(scene, over({.mirrors = {{"wood", vec3(.5f)}}}, {.mirrors = {{"table*", vec3(.1f)}}}));
+    apply_edit(scene, combine_overrides({.mirrors = {{"wood", vec3(.5f)}}},
+                                        {.mirrors = {{"table*", vec3(.1f)}}}));
     EXPECT_EQ(of(scene, 0).reflectance, vec3(.5f));
 }
 
 TEST(Over, CombinedOverridesHoldEachPatternOnce) {
-    const SceneOverrides both = over(
+    const SceneOverrides both = combine_overrides(
         {.mirrors = {{"a", vec3(1)}}, .lights = {"l"}},
         {.mirrors = {{"a", vec3(.5f)}, {"b", vec3(1)}}, .lights = {"l", "k"}});
     EXPECT_EQ(both.mirrors, (std::vector<MirrorOverride>{{"b", vec3(1)}, {"a", vec3(1)}}));
@@ -105,23 +106,24 @@ TEST(Over, CombinedOverridesHoldEachPatternOnce) {
 TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
     Scene scene = wishes_room();
     scene.objects[1].name = "it's a * [1]=2";
-    const std::vector<std::string> options = app::mirror_options(scene);
+    const std::vector<std::string> options = app::suggest_mirror_options(scene);
     EXPECT_THAT(options, ElementsAre("--mirror 'frame/glass'"))
         << "what emits light is no candidate";
     scene.materials[0].emission_texture.emplace();
-    EXPECT_EQ(app::mirror_options(scene).size(), 3u) << "what glows here and there is one";
+    EXPECT_EQ(app::suggest_mirror_options(scene).size(), 3u) << "what glows here and there is one";
     scene.materials[0].emission_texture.reset(), scene.materials[0].emission = vec3(0);
-    EXPECT_THAT(app::mirror_options(scene),
+    EXPECT_THAT(app::suggest_mirror_options(scene),
                 ElementsAre("--mirror 'frame/glass'", "--mirror 'table top'",
                             "--mirror 'it'\\''s a \\* \\[1]=2=1'"));
-    const MirrorOverride wish = read_mirror_override("--mirror", pattern_of(scene.objects[1].name));
-    apply(scene, {.mirrors = {wish}});
+    const MirrorOverride wish = read_mirror_override("--mirror",
+                                                     make_mirror_pattern(scene.objects[1].name));
+    apply_edit(scene, {.mirrors = {wish}});
     EXPECT_THAT(mirrors(scene), ElementsAre(1u));
-    EXPECT_TRUE(matches(pattern_of("\x1b[2J\xff"), "\x1b[2J\xff"));
-    EXPECT_EQ(pattern_of("\x1b\xff"), "??");
+    EXPECT_TRUE(matches_pattern(make_mirror_pattern("\x1b[2J\xff"), "\x1b[2J\xff"));
+    EXPECT_EQ(make_mirror_pattern("\x1b\xff"), "??");
     const std::string longest(100, 'n'), wide = std::string(59, 'n') + "\xc3\xa4 and more";
-    EXPECT_EQ(pattern_of(longest), std::string(60, 'n') + "*");
-    EXPECT_EQ(pattern_of(wide), std::string(59, 'n') + "*");
+    EXPECT_EQ(make_mirror_pattern(longest), std::string(60, 'n') + "*");
+    EXPECT_EQ(make_mirror_pattern(wide), std::string(59, 'n') + "*");
 }
 
 TEST(LightWish, LightOverrideEmitsFactorTimesMeanTexel) {
@@ -129,47 +131,48 @@ TEST(LightWish, LightOverrideEmitsFactorTimesMeanTexel) {
     Texture half;
     half.image = std::make_shared<Image>(Image{"i", {2, 1}, {0xff0000ffu, 0xff000000u}});
     scene.materials[0].emission_texture = half;
-    EXPECT_EQ(lights(scene).size(), 1u);
-    apply(scene, {.lights = {"table top"}});
+    EXPECT_EQ(list_lights(scene).size(), 1u);
+    apply_edit(scene, {.lights = {"table top"}});
     EXPECT_EQ(of(scene, 0).light, vec3(.125f, 0, 0));
     EXPECT_EQ(of(scene, 1).light, std::nullopt);
-    EXPECT_EQ(lights(scene).size(), 2u);
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply(scene, {.lights = {"frame"}}); }),
+    EXPECT_EQ(list_lights(scene).size(), 2u);
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply_edit(scene, {.lights = {"frame"}}); }),
                 HasSubstr("--light 'frame': wanted something that emits light"));
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply(scene, {.lights = {"lmap"}}); }),
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply_edit(scene, {.lights = {"lmap"}}); }),
                 HasSubstr("did you mean 'lamp'"));
 }
 
 TEST(TurnZUp, TurnZUpMapsZToYExactly) {
     Scene scene = wishes_room();
     scene.cameras.push_back({.name = "c", .eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}});
-    scene.punctual.push_back({.kind = Punctual::Kind::spot});
-    scene.objects[3].motion = Harmonic{.amplitude = {1, 2, 3}};
+    scene.punctual.push_back({.kind = PunctualLight::Kind::spot});
+    scene.objects[3].motion = HarmonicMotion{.amplitude = {1, 2, 3}};
     const dvec3 centre = bounds(scene, scene.objects[1]).centre();
-    const dvec3 before = at(scene, .25).objects[3].sphere->centre;
-    apply(scene, {.up = Up::z});
+    const dvec3 before = scene_at_time(scene, .25).objects[3].sphere->centre;
+    apply_edit(scene, {.up = UpAxis::z});
     EXPECT_EQ(scene.cameras[0].eye, dvec3(1, 3, -2));
     EXPECT_EQ(scene.cameras[0].up, dvec3(0, 1, 0));
     EXPECT_EQ(bounds(scene, scene.objects[1]).centre(), dvec3(centre.x, centre.z, -centre.y));
     EXPECT_EQ(scene.objects[1].sphere->centre, dvec3(0, -5, 0));
-    EXPECT_EQ(at(scene, .25).objects[3].sphere->centre, dvec3(before.x, before.z, -before.y));
-    EXPECT_EQ(lights(scene).back().axis, dvec3(0, -1, 0)) << "along -z of the file";
+    EXPECT_EQ(scene_at_time(scene, .25).objects[3].sphere->centre,
+              dvec3(before.x, before.z, -before.y));
+    EXPECT_EQ(list_lights(scene).back().axis, dvec3(0, -1, 0)) << "along -z of the file";
     EXPECT_GT(glm::determinant(dmat3(scene.objects[0].world_from_object)), 0);
 }
 
 /// Turning the scene from z up to y up also turns the objects and cameras that follow a rig, at
 /// every instant.
 TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
-    Rig rig;
-    rig.nodes.push_back({.translations = std::make_shared<const Keys>(
-                             Keys{.times = {0, 1}, .values = {{0, 0, 0}, {1, 2, 3}}})});
-    const Follows follows{.rig = std::make_shared<const Rig>(std::move(rig))};
+    NodeRig rig;
+    rig.nodes.push_back({.translations = std::make_shared<const TranslationTrack>(
+                             TranslationTrack{.times = {0, 1}, .values = {{0, 0, 0}, {1, 2, 3}}})});
+    const RigAttachment follows{.rig = std::make_shared<const NodeRig>(std::move(rig))};
     Scene scene = wishes_room();
     scene.objects[0].motion = follows;
     scene.cameras = {{.eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}, .follows = follows}};
     const Scene turned = [&] {
         Scene copy = scene;
-        apply(copy, {.up = Up::z});
+        apply_edit(copy, {.up = UpAxis::z});
         return copy;
     }();
     for (const double seconds : {0.0, .5, 1.0}) {
@@ -177,7 +180,7 @@ TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
         EXPECT_LT(
             glm::length(camera_at(turned.cameras[0], seconds).eye - dvec3(eye.x, eye.z, -eye.y)),
             1e-12);
-        const Scene before = at(scene, seconds), after = at(turned, seconds);
+        const Scene before = scene_at_time(scene, seconds), after = scene_at_time(turned, seconds);
         const dvec3 centre = bounds(before, before.objects[0]).centre();
         EXPECT_LT(glm::length(bounds(after, after.objects[0]).centre() -
                               dvec3(centre.x, centre.z, -centre.y)),
@@ -189,24 +192,24 @@ TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestAtTheCentre) {
     Scene scene = wishes_room();
     scene.materials[0].emission = vec3(0), scene.materials[2].emission = vec3(1e-6f);
     for (int i = 0; i < 6; ++i) { // equal lights, so the nearest is the strongest
-        Punctual light{.name = "p" + std::to_string(i), .intensity = vec3(100)};
+        PunctualLight light{.name = "p" + std::to_string(i), .intensity = vec3(100)};
         light.world_from_light[3] = dvec4(100.0 * (6 - i), 0, 0, 1);
         scene.punctual.push_back(light);
     }
-    Punctual away{.name = "away", .kind = Punctual::Kind::spot, .intensity = vec3(1e6)};
+    PunctualLight away{.name = "away", .kind = PunctualLight::Kind::spot, .intensity = vec3(1e6)};
     away.cos_outer = .9; // shines along -z, away from the centre
     away.world_from_light[3] = dvec4(2, 4, -50, 1);
     scene.punctual.push_back(away);
-    leave_out_lights(scene, 7);
+    drop_weakest_lights(scene, 7);
     EXPECT_EQ(scene.unsupported.size(), 1u);
     EXPECT_EQ(scene.unsupported[0].id, "lights-left-out");
     EXPECT_EQ(scene.unsupported[0].count, 1u);
     EXPECT_EQ(scene.unsupported[0].first, "light 'away'");
     scene.unsupported.clear();
-    leave_out_lights(scene, 3);
+    drop_weakest_lights(scene, 3);
     std::vector<std::string> kept;
-    for (const Punctual& light : scene.punctual) kept.push_back(light.name);
-    EXPECT_EQ(lights(scene).size(), 3u);
+    for (const PunctualLight& light : scene.punctual) kept.push_back(light.name);
+    EXPECT_EQ(list_lights(scene).size(), 3u);
     EXPECT_THAT(kept, ElementsAre("p3", "p4", "p5"));
     EXPECT_EQ(of(scene, 3).light, vec3(0)) << "the far small lamp glows, and lights nothing";
     EXPECT_EQ(of(scene, 3).emission, vec3(1e-6f));
@@ -226,10 +229,10 @@ TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestPartsOfAMesh) {
     scene.materials[0].two_sided = true;
     scene.meshes = {boards};
     scene.objects = {{.name = "lamp"}};
-    const std::vector<PointLight> all = lights(scene);
+    const std::vector<PointLight> all = list_lights(scene);
     const double centre = bounds(scene).centre().z;
-    leave_out_lights(scene, 16);
-    const std::vector<PointLight> kept = lights(scene);
+    drop_weakest_lights(scene, 16);
+    const std::vector<PointLight> kept = list_lights(scene);
     ASSERT_EQ(kept.size(), 16u);
     double farthest = 0;
     for (const PointLight& light : kept)
@@ -248,30 +251,31 @@ TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestPartsOfAMesh) {
 }
 
 TEST(CameraNamed, OrthographicCameraIsReadFromNumbers) {
-    const Camera camera = camera_named("1,2,3:4,5,6:h=2.5", Scene());
+    const Camera camera = find_camera_by_name("1,2,3:4,5,6:h=2.5", Scene());
     EXPECT_EQ(camera.eye, dvec3(1, 2, 3));
     EXPECT_EQ(camera.target, dvec3(4, 5, 6));
     EXPECT_EQ(camera.orthographic_height, 2.5);
-    EXPECT_EQ(camera_text(camera), "1,2,3:4,5,6:h=2.5");
-    EXPECT_EQ(camera_text(camera_named("0.5,0,0:0,0,1:40", Scene())), "0.5,0,0:0,0,1:40");
-    EXPECT_THAT(test::refusal(Failure::usage, [] { camera_named("0,0,0:0,0,1:h=0", Scene()); }),
-                HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
+    EXPECT_EQ(format_camera(camera), "1,2,3:4,5,6:h=2.5");
+    EXPECT_EQ(format_camera(find_camera_by_name("0.5,0,0:0,0,1:40", Scene())), "0.5,0,0:0,0,1:40");
+    EXPECT_THAT(
+        test::refusal(Failure::usage, [] { find_camera_by_name("0,0,0:0,0,1:h=0", Scene()); }),
+        HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
 }
 
 TEST(ExposureFor, ExposureBringsThe95thPercentileTo80Percent) {
     measure::Picture picture(10, 10);
     for (std::size_t i = 0; i < 100; ++i) picture.pixels[i] = vec3(i < 90 ? .01f : .1f);
-    EXPECT_EQ(app::exposure_for(picture), 3) << "log2(.8 / .1)";
+    EXPECT_EQ(app::choose_exposure_for_picture(picture), 3) << "log2(.8 / .1)";
     for (vec3& pixel : picture.pixels) pixel *= 1.25f; // log2(.8 / .125) = 2.68, nearest to 8/3
-    EXPECT_DOUBLE_EQ(app::exposure_for(picture), 8.0 / 3);
+    EXPECT_DOUBLE_EQ(app::choose_exposure_for_picture(picture), 8.0 / 3);
     picture.pixels.assign(100, vec3(0, 1, 0)); // luminance .7152 (Rec. 709)
-    EXPECT_EQ(app::exposure_for(picture), 0);
+    EXPECT_EQ(app::choose_exposure_for_picture(picture), 0);
     picture.pixels.assign(100, vec3(0, 0, 1)); // luminance .0722 (Rec. 709): 3.47 stops
-    EXPECT_DOUBLE_EQ(app::exposure_for(picture), 10.0 / 3);
+    EXPECT_DOUBLE_EQ(app::choose_exposure_for_picture(picture), 10.0 / 3);
     picture.pixels.assign(100, vec3(NAN));
-    EXPECT_EQ(app::exposure_for(picture), 0);
+    EXPECT_EQ(app::choose_exposure_for_picture(picture), 0);
     picture.pixels.assign(100, vec3(0));
-    EXPECT_EQ(app::exposure_for(picture), 0);
+    EXPECT_EQ(app::choose_exposure_for_picture(picture), 0);
 }
 
 } // namespace

@@ -13,11 +13,11 @@ using test::kBlack, test::nothing;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Returns the error text of graph::plan. Fails the test if `plan` accepts the graph or fails in
-/// another way.
+/// Returns the error text of graph::plan_graph. Fails the test if `plan_graph` accepts the graph or
+/// fails in another way.
 std::string wrong_graph_refusal(const Graph& graph, Failure failure = Failure::internal,
                                 GraphLimits limits = {}) {
-    return test::refusal(failure, [&] { plan(graph, limits, plain_sizer()); });
+    return test::refusal(failure, [&] { plan_graph(graph, limits, make_default_sizer()); });
 }
 
 /// Holds a graph with images and a buffer. Each test adds passes with one mistake.
@@ -30,19 +30,28 @@ struct WrongGraph : ::testing::Test {
     BufferHandle args = g.buffer({.name = "args", .bytes = 64});
 
     void make(ImageHandle image) {
-        g.pass("make").writes(image, Use::colour, kBlack).layers(image.layer_count).record(nothing);
+        g.pass("make")
+            .writes(image, ResourceUse::colour, kBlack)
+            .layers(image.layer_count)
+            .record(nothing);
     }
 };
 
 TEST_F(WrongGraph, GraphWithoutAMistakeIsAccepted) {
     make(cubes);
-    g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    g.pass("view")
+        .reads(cubes, ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
+        .record(nothing);
     g.mark_output(out);
-    EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
+    EXPECT_EQ(plan_graph(g, {}, make_default_sizer()).passes.size(), 2u);
 }
 
 TEST_F(WrongGraph, ReadBeforeWriteIsRefused) {
-    g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    g.pass("view")
+        .reads(cubes, ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
+        .record(nothing);
     make(cubes);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
@@ -50,7 +59,7 @@ TEST_F(WrongGraph, ReadBeforeWriteIsRefused) {
 }
 
 TEST_F(WrongGraph, UpdateOfUnwrittenLayersIsRefused) {
-    g.pass("mend").updates(out, Use::colour, kBlack).area({1, 1, 2, 2}).record(nothing);
+    g.pass("mend").updates(out, ResourceUse::colour, kBlack).area({1, 1, 2, 2}).record(nothing);
     g.mark_output(out);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
@@ -59,15 +68,21 @@ TEST_F(WrongGraph, UpdateOfUnwrittenLayersIsRefused) {
 
 TEST_F(WrongGraph, UpdateWithoutAnAreaIsRefused) {
     make(out);
-    g.pass("mend").updates(out, Use::colour, kBlack).record(nothing);
+    g.pass("mend").updates(out, ResourceUse::colour, kBlack).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
 }
 
 TEST_F(WrongGraph, ReadOfPartlyWrittenLayersIsRefused) {
-    g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
-    g.pass("b").writes(cubes.layers(12, 12), Use::colour, kBlack).layers(12).record(nothing);
-    g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    g.pass("a").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).layers(6).record(nothing);
+    g.pass("b")
+        .writes(cubes.layers(12, 12), ResourceUse::colour, kBlack)
+        .layers(12)
+        .record(nothing);
+    g.pass("view")
+        .reads(cubes, ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
+        .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
               "layers [6,12)");
@@ -75,10 +90,13 @@ TEST_F(WrongGraph, ReadOfPartlyWrittenLayersIsRefused) {
 
 TEST_F(WrongGraph, ReadOfTheLastFrameDoesNotCountAsAWrite) {
     g.pass("old")
-        .reads(g.previous(cubes), Use::sampled)
-        .writes(out, Use::colour, kBlack)
+        .reads(g.previous(cubes), ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
         .record(nothing);
-    g.pass("new").reads(cubes, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    g.pass("new")
+        .reads(cubes, ResourceUse::sampled)
+        .writes(args, ResourceUse::storage_write)
+        .record(nothing);
     make(cubes);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'new' reads 'cubes' [0,24) as sampled before any pass writes "
@@ -86,21 +104,24 @@ TEST_F(WrongGraph, ReadOfTheLastFrameDoesNotCountAsAWrite) {
 }
 
 TEST_F(WrongGraph, LoadOfUnwrittenLayersIsRefused) {
-    g.pass("glow").writes(out, Use::colour).record(nothing);
+    g.pass("glow").writes(out, ResourceUse::colour).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'glow' loads (has no clear for) 'out' [0,1) as colour before any "
               "pass writes layers [0,1)");
 }
 
 TEST_F(WrongGraph, StorageUseOfUnwrittenLayersIsRefused) {
-    g.pass("blur").writes(out, Use::storage).record(nothing);
+    g.pass("blur").writes(out, ResourceUse::storage).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'blur' reads and writes 'out' [0,1) as storage before any pass "
               "writes layers [0,1)");
 }
 
 TEST_F(WrongGraph, BufferReadBeforeWriteIsRefused) {
-    g.pass("draw").reads(args, Use::indirect).writes(out, Use::colour, kBlack).record(nothing);
+    g.pass("draw")
+        .reads(args, ResourceUse::indirect)
+        .writes(out, ResourceUse::colour, kBlack)
+        .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'draw' reads buffer 'args' as indirect before any pass writes it");
 }
@@ -108,8 +129,8 @@ TEST_F(WrongGraph, BufferReadBeforeWriteIsRefused) {
 TEST_F(WrongGraph, SamplingAnAttachedLayerIsRefused) {
     make(cubes);
     g.pass("capture")
-        .reads(cubes, Use::sampled)
-        .writes(cubes.layers(6, 6), Use::colour, kBlack)
+        .reads(cubes, ResourceUse::sampled)
+        .writes(cubes.layers(6, 6), ResourceUse::colour, kBlack)
         .layers(6)
         .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
@@ -119,7 +140,10 @@ TEST_F(WrongGraph, SamplingAnAttachedLayerIsRefused) {
 
 TEST_F(WrongGraph, SamplingAStorageTargetIsRefused) {
     make(out);
-    g.pass("blur").writes(out, Use::storage_write).reads(out, Use::sampled).record(nothing);
+    g.pass("blur")
+        .writes(out, ResourceUse::storage_write)
+        .reads(out, ResourceUse::sampled)
+        .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'blur' reads 'out' [0,1) as sampled while it writes 'out' [0,1) as "
               "storage_write, in layers [0,1)");
@@ -128,18 +152,21 @@ TEST_F(WrongGraph, SamplingAStorageTargetIsRefused) {
 TEST_F(WrongGraph, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
     make(cubes);
     g.pass("capture")
-        .reads(cubes.layers(0, 6), Use::sampled)
-        .reads(g.previous(cubes), Use::sampled)
-        .writes(cubes.layers(6, 6), Use::colour, kBlack)
+        .reads(cubes.layers(0, 6), ResourceUse::sampled)
+        .reads(g.previous(cubes), ResourceUse::sampled)
+        .writes(cubes.layers(6, 6), ResourceUse::colour, kBlack)
         .layers(6)
         .record(nothing);
     g.mark_output(cubes);
-    EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
+    EXPECT_EQ(plan_graph(g, {}, make_default_sizer()).passes.size(), 2u);
 }
 
 TEST_F(WrongGraph, BufferReadWhileWrittenIsRefused) {
-    g.pass("fill").writes(args, Use::copy_to).record(nothing);
-    g.pass("sort").reads(args, Use::storage_read).writes(args, Use::storage_write).record(nothing);
+    g.pass("fill").writes(args, ResourceUse::copy_to).record(nothing);
+    g.pass("sort")
+        .reads(args, ResourceUse::storage_read)
+        .writes(args, ResourceUse::storage_write)
+        .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'sort' reads buffer 'args' as storage_read while it writes buffer "
               "'args' as storage_write");
@@ -147,8 +174,8 @@ TEST_F(WrongGraph, BufferReadWhileWrittenIsRefused) {
 
 TEST_F(WrongGraph, TwoWritesOfTheSameLayersAreRefused) {
     g.pass("twice")
-        .writes(cubes.layers(0, 6), Use::storage_write)
-        .writes(cubes.layers(4, 6), Use::copy_to)
+        .writes(cubes.layers(0, 6), ResourceUse::storage_write)
+        .writes(cubes.layers(4, 6), ResourceUse::copy_to)
         .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'twice' writes 'cubes' [0,6) as storage_write and 'cubes' [4,10) "
@@ -158,9 +185,9 @@ TEST_F(WrongGraph, TwoWritesOfTheSameLayersAreRefused) {
 TEST_F(WrongGraph, TwoLayoutsAtOnceAreRefused) {
     make(out);
     g.pass("look")
-        .reads(out, Use::sampled)
-        .reads(out, Use::storage_read)
-        .writes(args, Use::storage_write)
+        .reads(out, ResourceUse::sampled)
+        .reads(out, ResourceUse::storage_read)
+        .writes(args, ResourceUse::storage_write)
         .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'look' reads 'out' [0,1) as sampled and 'out' [0,1) as "
@@ -175,7 +202,7 @@ TEST_F(WrongGraph, OutputThatIsNeverWrittenIsRefused) {
 }
 
 TEST_F(WrongGraph, OutputLayersThatAreNeverWrittenAreRefused) {
-    g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
+    g.pass("a").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).layers(6).record(nothing);
     g.mark_output(cubes.layers(3, 6));
     EXPECT_EQ(wrong_graph_refusal(g), "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
 }
@@ -207,18 +234,18 @@ TEST_F(WrongGraph, OutputOfAnotherGraphIsRefused) {
 
 TEST_F(WrongGraph, PreviousOfAnUnwrittenImageIsRefused) {
     g.pass("view")
-        .reads(g.previous(cubes), Use::sampled)
-        .writes(out, Use::colour, kBlack)
+        .reads(g.previous(cubes), ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
         .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads previous('cubes') as sampled but no pass writes 'cubes'");
 }
 
 TEST_F(WrongGraph, PreviousOfUnwrittenLayersIsRefused) {
-    g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
+    g.pass("a").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).layers(6).record(nothing);
     g.pass("view")
-        .reads(g.previous(cubes.layers(0, 12)), Use::sampled)
-        .writes(out, Use::colour, kBlack)
+        .reads(g.previous(cubes.layers(0, 12)), ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kBlack)
         .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads previous('cubes') [0,12) as sampled but no pass "
@@ -226,7 +253,7 @@ TEST_F(WrongGraph, PreviousOfUnwrittenLayersIsRefused) {
 }
 
 TEST_F(WrongGraph, WriteToThePreviousFrameIsRefused) {
-    g.pass("rewrite").writes(g.previous(out), Use::colour, kBlack).record(nothing);
+    g.pass("rewrite").writes(g.previous(out), ResourceUse::colour, kBlack).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'rewrite' writes previous('out') [0,1) as colour: last frame's "
               "contents are only read");
@@ -242,34 +269,39 @@ TEST_F(WrongGraph, PreviousOfAnotherGraphIsRefused) {
 }
 
 TEST_F(WrongGraph, LayersOutOfRangeAreRefused) {
-    g.pass("capture").writes(cubes.layers(20, 6), Use::colour, kBlack).layers(6).record(nothing);
+    g.pass("capture")
+        .writes(cubes.layers(20, 6), ResourceUse::colour, kBlack)
+        .layers(6)
+        .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'capture' uses 'cubes' [20,26) as colour, but the image has layers "
               "[0,24)");
 }
 
 TEST_F(WrongGraph, LayerRangeThatOverflowsIsRefused) {
-    g.pass("capture").writes(cubes.layers(1, ~0u), Use::storage_write).record(nothing);
+    g.pass("capture").writes(cubes.layers(1, ~0u), ResourceUse::storage_write).record(nothing);
     EXPECT_THAT(wrong_graph_refusal(g), HasSubstr("but the image has layers [0,24)"));
 }
 
 TEST_F(WrongGraph, EmptyLayerRangeIsRefused) {
-    g.pass("capture").writes(cubes.layers(3, 0), Use::storage_write).record(nothing);
+    g.pass("capture").writes(cubes.layers(3, 0), ResourceUse::storage_write).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'capture' names no layer of 'cubes' as storage_write");
 }
 
 TEST_F(WrongGraph, ImageOfAnotherGraphIsRefused) {
-    g.pass("a").writes(ImageHandle{.id = 3, .layer_count = 1}, Use::storage_write).record(nothing);
+    g.pass("a")
+        .writes(ImageHandle{.id = 3, .layer_count = 1}, ResourceUse::storage_write)
+        .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names image number 3, but the graph has 3");
 }
 
 TEST_F(WrongGraph, BufferOfAnotherGraphIsRefused) {
-    g.pass("a").writes(BufferHandle{1}, Use::storage_write).record(nothing);
+    g.pass("a").writes(BufferHandle{1}, ResourceUse::storage_write).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names buffer number 1, but the graph has 1");
 }
 
 TEST_F(WrongGraph, AttachmentWithAnotherLayerCountIsRefused) {
-    g.pass("capture").writes(cubes.layers(0, 6), Use::colour, kBlack).record(nothing);
+    g.pass("capture").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'capture' renders 1 layer(s), but attaches 'cubes' [0,6) as "
               "colour, which are 6");
@@ -278,8 +310,8 @@ TEST_F(WrongGraph, AttachmentWithAnotherLayerCountIsRefused) {
 TEST_F(WrongGraph, AttachmentsOfDifferentSizesAreRefused) {
     const ImageHandle small = g.image({.name = "small", .width = 8, .height = 4});
     g.pass("view")
-        .writes(small, Use::colour, kBlack)
-        .writes(depth, Use::depth, kBlack)
+        .writes(small, ResourceUse::colour, kBlack)
+        .writes(depth, ResourceUse::depth, kBlack)
         .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' attaches 'small' [0,1) as colour (8x4) and 'depth' [0,1) as "
@@ -290,22 +322,22 @@ TEST_F(WrongGraph, TwoDepthAttachmentsAreRefused) {
     const ImageHandle other = g.image(
         {.name = "other", .format = Format::d32f, .width = 8, .height = 8});
     g.pass("view")
-        .writes(other, Use::depth, kBlack)
-        .writes(depth, Use::depth, kBlack)
+        .writes(other, ResourceUse::depth, kBlack)
+        .writes(depth, ResourceUse::depth, kBlack)
         .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
 }
 
 TEST_F(WrongGraph, DepthUseOfAColourFormatIsRefused) {
-    g.pass("shadow").writes(out, Use::depth, kBlack).record(nothing);
+    g.pass("shadow").writes(out, ResourceUse::depth, kBlack).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'shadow' uses 'out' [0,1) as depth, but its format rgba16f is a "
               "colour format");
 }
 
 TEST_F(WrongGraph, ColourUseOfADepthFormatIsRefused) {
-    g.pass("shadow").writes(depth, Use::colour, kBlack).record(nothing);
+    g.pass("shadow").writes(depth, ResourceUse::colour, kBlack).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'shadow' uses 'depth' [0,1) as colour, but its format d32f is a "
               "depth format");
@@ -334,23 +366,23 @@ TEST_F(WrongGraph, ImageWithoutANameIsRefused) {
 
 TEST_F(WrongGraph, PassWithoutANameIsRefused) {
     make(out);
-    g.pass("").writes(out, Use::colour, kBlack).record(nothing);
+    g.pass("").writes(out, ResourceUse::colour, kBlack).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass number 1 has no name");
 }
 
 TEST_F(WrongGraph, PassWithoutABodyIsRefused) {
-    g.pass("forgotten").writes(out, Use::colour, kBlack);
+    g.pass("forgotten").writes(out, ResourceUse::colour, kBlack);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'forgotten' has no body");
 }
 
 TEST_F(WrongGraph, PassThatWritesNothingIsRefused) {
     make(out);
-    g.pass("look").reads(out, Use::sampled).record(nothing);
+    g.pass("look").reads(out, ResourceUse::sampled).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'look' writes nothing");
 }
 
 TEST_F(WrongGraph, PassWithoutLayersIsRefused) {
-    g.pass("view").writes(out, Use::colour, kBlack).layers(0).record(nothing);
+    g.pass("view").writes(out, ResourceUse::colour, kBlack).layers(0).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'view' renders 0 layers");
 }
 
@@ -381,14 +413,17 @@ TEST_F(WrongGraph, BufferWithoutSizeIsRefused) {
 }
 
 TEST_F(WrongGraph, ClearOfAnImageThatIsNotAttachedIsRefused) {
-    g.pass("blur").writes(out, Use::storage_write, kBlack).record(nothing);
+    g.pass("blur").writes(out, ResourceUse::storage_write, kBlack).record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'blur' clears 'out' [0,1) as storage_write, but only attachments "
               "are cleared");
 }
 
 TEST_F(WrongGraph, CopyInARasterPassIsRefused) {
-    g.pass("view").writes(out, Use::colour, kBlack).writes(args, Use::copy_to).record(nothing);
+    g.pass("view")
+        .writes(out, ResourceUse::colour, kBlack)
+        .writes(args, ResourceUse::copy_to)
+        .record(nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' has attachments and uses buffer 'args' as copy_to: copies "
               "need a pass of their own");
@@ -397,11 +432,13 @@ TEST_F(WrongGraph, CopyInARasterPassIsRefused) {
 // Tries every use as a read and as a write, of an image and of a buffer, so that no wrong
 // combination is accepted.
 TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
-    for (const Use use : {Use::sampled, Use::storage_read, Use::storage_write, Use::storage,
-                          Use::colour, Use::depth, Use::copy_from, Use::copy_to, Use::indirect}) {
-        const bool reads = use == Use::sampled || use == Use::storage_read ||
-                           use == Use::copy_from || use == Use::indirect;
-        const bool image_only = use == Use::colour || use == Use::depth;
+    for (const ResourceUse use :
+         {ResourceUse::sampled, ResourceUse::storage_read, ResourceUse::storage_write,
+          ResourceUse::storage, ResourceUse::colour, ResourceUse::depth, ResourceUse::copy_from,
+          ResourceUse::copy_to, ResourceUse::indirect}) {
+        const bool reads = use == ResourceUse::sampled || use == ResourceUse::storage_read ||
+                           use == ResourceUse::copy_from || use == ResourceUse::indirect;
+        const bool image_only = use == ResourceUse::colour || use == ResourceUse::depth;
         const std::string name(name_of(use));
         if (reads) {
             Graph wrong = g;
@@ -409,7 +446,7 @@ TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
             EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' writes 'out' [0,1) as " + name +
                                                       ", which is not a way to write an image");
         }
-        if ((!reads && use != Use::depth) || use == Use::indirect) {
+        if ((!reads && use != ResourceUse::depth) || use == ResourceUse::indirect) {
             Graph wrong = g;
             wrong.pass("p").reads(out, use).record(nothing);
             EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' reads 'out' [0,1) as " + name +
@@ -434,7 +471,10 @@ TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
 TEST_F(WrongGraph, CulledPassesAreValidated) {
     make(out);
     g.mark_output(out);
-    g.pass("debug").reads(cubes, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    g.pass("debug")
+        .reads(cubes, ResourceUse::sampled)
+        .writes(args, ResourceUse::storage_write)
+        .record(nothing);
     EXPECT_THAT(wrong_graph_refusal(g), AllOf(HasSubstr("'debug'"), HasSubstr("'cubes'")));
 }
 
@@ -489,7 +529,7 @@ TEST_F(WrongGraph, GraphAtEveryLimitIsAccepted) {
                              .max_framebuffer_layers = 24,
                              .max_memory = 12288,
                              .max_allocation = 12288};
-    EXPECT_EQ(plan(g, limits, plain_sizer()).bytes, 12288u);
+    EXPECT_EQ(plan_graph(g, limits, make_default_sizer()).bytes, 12288u);
 }
 
 } // namespace

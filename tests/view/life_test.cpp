@@ -34,8 +34,8 @@ class ViewLife : public test::WindowTest {};
 TEST_F(ViewLife, MemoryStaysConstantOverFrames) {
     constexpr int kFrames = 50;
     std::vector<std::uint64_t> resident, on_device;
-    Driver driver;
-    driver.after = [&](const Report& report) {
+    TestDriver driver;
+    driver.after = [&](const ViewReport& report) {
         if (report.frame < 200 || report.frame % kFrames != 0) return;
         resident.push_back(resident_bytes());
         on_device.push_back(
@@ -97,8 +97,9 @@ TEST_F(ViewLife, SignalsAreAnsweredFromTheFirstInitialiserOn) {
 /// is 0.
 TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> sizes;
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window& window) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state,
+                        ViewWindow& window) {
         if (frame % 3 == 1)
             window.resize({400 + 10 * static_cast<std::uint32_t>(frame),
                            60 + 2 * static_cast<std::uint32_t>(frame)});
@@ -106,7 +107,7 @@ TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
         if (frame == 40) state.shows_panels = false;
         if (frame == 62) inputs.closes = true;
     };
-    driver.after = [&](const Report& report) {
+    driver.after = [&](const ViewReport& report) {
         const uvec2 size = report.viewer.spec().size;
         sizes.insert({size.x, size.y});
         EXPECT_LT(report.frame, 62u);
@@ -122,14 +123,14 @@ TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
 /// to the previous plan and frees the images of the failed plan.
 TEST_F(ViewLife, PlanWithoutMemoryFallsBackToThePlanBefore) {
     int refused = 0;
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
         if (!state.said.empty()) ++refused, state.said.clear();
         if (frame % 2 == 0 && refused < static_cast<int>(frame) / 2)
-            state.plan = plan_of("secant:face=16384");
+            state.plan = parse_plan_text("secant:face=16384");
     };
-    driver.after = [&](const Report& report) {
-        EXPECT_EQ(text_of(report.state.plan), "reuse:face=16");
+    driver.after = [&](const ViewReport& report) {
+        EXPECT_EQ(technique_text(report.state.plan), "reuse:face=16");
     };
     EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "12"}, driver),
               0);
@@ -143,14 +144,15 @@ TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
     const std::string kept = before ? before : "";
     ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
     const Words words{"--technique", "reuse:face=16"};
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window& window) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state,
+                        ViewWindow& window) {
         if (frame == 1) window.resize({380, 50});
         state.gain = 32, state.motion.speed = -2, state.flies = true;
         if (frame > 2 && inputs.window == uvec2(380, 50)) inputs.closes = true;
     };
     EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32"}, driver), 0);
-    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window&) {
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
         EXPECT_EQ(inputs.window, uvec2(380, 50));
         EXPECT_EQ(state.gain, 32);
         EXPECT_EQ(state.motion.speed, -2);
@@ -160,12 +162,12 @@ TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
     EXPECT_EQ(view(words, driver), 0);
     Words scripted = words;
     scripted.insert(scripted.end(), {"--frames", "1", "--size", "32x32"});
-    driver.before = [&](std::size_t, Inputs&, State& state, Window&) {
-        EXPECT_EQ(state.gain, State().gain);
+    driver.before = [&](std::size_t, UserInput&, ViewState& state, ViewWindow&) {
+        EXPECT_EQ(state.gain, ViewState().gain);
         state.gain = 64;
     };
     EXPECT_EQ(view(scripted, driver), 0);
-    EXPECT_EQ(load_settings(settings_file()).gain, 32);
+    EXPECT_EQ(load_settings(settings_file_path()).gain, 32);
     if (before)
         ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
     else

@@ -35,7 +35,7 @@ public:
     Panel(const Panel&) = delete;
     Panel& operator=(const Panel&) = delete;
 
-    void click(State& state, float x, float y) {
+    void click(ViewState& state, float x, float y) {
         for (const bool down : {false, true, false, false}) {
             ImGui::GetIO().MousePos = {x, y};
             ImGui::GetIO().MouseDown[0] = down;
@@ -43,7 +43,7 @@ public:
             ImGui::SetNextWindowPos({0, 0});
             ImGui::SetNextWindowSize({360, 700});
             ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
-            draw_plan(state, scene_, {});
+            draw_plan_controls(state, scene_, {});
             ImGui::End();
             ImGui::Render();
         }
@@ -64,32 +64,32 @@ protected:
 
     /// Returns the plans that a click leads to, for clicks all over the panel. A second click below
     /// the first one may choose from a list that the first click opened.
-    std::set<std::string> reached(const State& from,
-                                  const std::function<PlanState(const State&)>& plan) {
+    std::set<std::string> reached(const ViewState& from,
+                                  const std::function<PlanState(const ViewState&)>& plan) {
         std::set<std::string> texts;
         for (const float x : {30.f, 220.f, 250.f, 284.f})
             for (float y = 6; y < 400; y += 8) {
-                State state = from;
+                ViewState state = from;
                 Panel panel(scene, fonts);
                 panel.click(state, x, y);
-                texts.insert(text_of(plan(state)));
+                texts.insert(technique_text(plan(state)));
                 panel.click(state, 60, y + 44);
-                texts.insert(text_of(plan(state)));
+                texts.insert(technique_text(plan(state)));
                 EXPECT_LE(state.chosen, 4u);
             }
         for (const std::string& text : texts)
             EXPECT_NO_THROW(static_cast<void>(app::parse_technique(text))) << text;
         return texts;
     }
-    static PlanState plan_itself(const State& state) { return state.plan; }
+    static PlanState plan_itself(const ViewState& state) { return state.plan; }
 
     scene::Scene scene = scene::load("cornell-mirrors", {});
     ImFontAtlas fonts;
 };
 
 TEST_F(ViewPanel, ControlsChangeTheKnobsOfAllMirrors) {
-    State state;
-    state.plan = plan_of("secant");
+    ViewState state;
+    state.plan = parse_plan_text("secant");
     const std::set<std::string> texts = reached(state, plan_itself);
     for (const char* text : {"secant:face=128", "secant:face=512", "secant:face=auto",
                              "secant:shadow_map=512", "secant:distance=r16f"})
@@ -100,8 +100,8 @@ TEST_F(ViewPanel, ControlsChangeTheKnobsOfAllMirrors) {
 }
 
 TEST_F(ViewPanel, ControlsChangeTheKnobsOfTheChosenMirror) {
-    State state;
-    state.plan = plan_of("secant:face=64");
+    ViewState state;
+    state.plan = parse_plan_text("secant:face=64");
     state.chosen = 2;
     std::set<std::string> texts = reached(state, plan_itself);
     texts.erase("secant:face=64"); // the plan after a click beside all controls
@@ -113,15 +113,15 @@ TEST_F(ViewPanel, ControlsChangeTheKnobsOfTheChosenMirror) {
 }
 
 TEST_F(ViewPanel, ControlsEditTheChosenOneOfTwoPlans) {
-    State state;
-    state.mode = Mode::split;
-    state.plan = plan_of("secant"), state.other = plan_of("parallax");
+    ViewState state;
+    state.mode = ViewMode::split;
+    state.plan = parse_plan_text("secant"), state.other = parse_plan_text("parallax");
     state.edits_other = true;
-    EXPECT_THAT(reached(state, [](const State& s) { return s.other; }),
+    EXPECT_THAT(reached(state, [](const ViewState& s) { return s.other; }),
                 Contains("parallax:face=512"));
     const std::set<std::string> texts = reached(
-        state, [](const State& s) { return s.edits_other ? s.plan : State().plan; });
-    EXPECT_THAT(texts, Each(text_of(plan_of("secant"))));
+        state, [](const ViewState& s) { return s.edits_other ? s.plan : ViewState().plan; });
+    EXPECT_THAT(texts, Each(technique_text(parse_plan_text("secant"))));
 }
 
 } // namespace

@@ -51,15 +51,15 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
         seen.push_back(name);
         if (first.size() < 3) first.push_back(written);
     };
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
-        state.other = plan_of("parallax:face=16,shadow_map=64");
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
+        state.other = parse_plan_text("parallax:face=16,shadow_map=64");
         state.divider = 40.0 / 64, state.gain = 2;
         state.cause = 8;
-        state.mode = static_cast<Mode>(std::min<std::size_t>(frame / 10, kModes - 1));
-        if (frame >= 60) state.mode = Mode::split, state.against = Against::reference;
+        state.mode = static_cast<ViewMode>(std::min<std::size_t>(frame / 10, kModes - 1));
+        if (frame >= 60) state.mode = ViewMode::split, state.against = ComparisonPicture::reference;
     };
-    driver.after = [&](const Report& report) {
+    driver.after = [&](const ViewReport& report) {
         if (report.frame % 10 == 9)
             expect_shown(report.viewer, report.frame < 60
                                             ? name_of(report.state.mode) + std::string(".png")
@@ -91,17 +91,18 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
 
 /// A change of view, time or size starts the reference picture again.
 TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
-    const auto passes = [](const Report& report) { return report.viewer.reference().passes(); };
+    const auto passes = [](const ViewReport& report) { return report.viewer.reference().passes(); };
     std::vector<int> seen;
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window& window) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state,
+                        ViewWindow& window) {
         inputs.on_controls = false;
-        state.mode = Mode::split, state.against = Against::reference;
+        state.mode = ViewMode::split, state.against = ComparisonPicture::reference;
         inputs.wheel = frame == 7 ? 1 : 0;
         if (frame == 14) state.motion.time = .5;
         if (frame == 21) window.resize({400, 40});
     };
-    driver.after = [&](const Report& report) {
+    driver.after = [&](const ViewReport& report) {
         seen.push_back(passes(report));
         const auto made = report.viewer.reference().display();
         if (!made) return;
@@ -126,7 +127,7 @@ TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
         PlanState plan;
         plan.rest.technique = technique.name;
         for (const app::KnobInfo& knob : technique.knobs)
-            if (knob.name == "face" || knob.name == "shadow_map") set(plan.rest, knob, "16");
+            if (knob.name == "face" || knob.name == "shadow_map") set_knob(plan.rest, knob, "16");
         plans.push_back(plan);
         std::size_t turned = 0;
         for (const app::KnobInfo& knob : technique.knobs) {
@@ -136,19 +137,19 @@ TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
                                                                  std::min(knob.low + 2, knob.high)))
                                       : knob.choices.back() == knob.value ? knob.choices.front()
                                                                           : knob.choices.back();
-            set(plan.rest, knob, value);
+            set_knob(plan.rest, knob, value);
             plans.push_back(plan);
             ++turned;
         }
         EXPECT_GE(turned, 2u) << technique.name;
     }
     std::size_t drawn = 0;
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
         state.plan = plans[(frame - 1) / 2];
     };
-    driver.after = [&](const Report& report) {
-        EXPECT_EQ(report.state.said, "") << text_of(report.state.plan);
+    driver.after = [&](const ViewReport& report) {
+        EXPECT_EQ(report.state.said, "") << technique_text(report.state.plan);
         drawn += report.state.plan == plans[(report.frame - 1) / 2];
     };
     const std::string frames = std::to_string(2 * plans.size());
@@ -173,14 +174,14 @@ TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
                              glm::dot(at, forward);
         return dvec2(edge / 2 + glm::dot(at, right) * scale, edge / 2 - glm::dot(at, up) * scale);
     };
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window&) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
         inputs.on_controls = false;
         inputs.mouse = pixel_of(frame <= 4 ? 3 : 4);
         inputs.down[0] = frame == 3 || frame == 6;
         if (frame == 5 && state.chosen != 0) state.plan.own[state.chosen] = {"raytrace", {}};
     };
-    driver.after = [&](const Report& report) {
+    driver.after = [&](const ViewReport& report) {
         EXPECT_EQ(report.state.chosen, report.frame < 4   ? 0u
                                        : report.frame < 7 ? 3u
                                                           : 4u)
@@ -196,16 +197,17 @@ TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
 /// offers for copying renders the same bytes.
 TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
     std::string command;
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window&) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
         inputs.on_controls = false;
         inputs.mouse = {20. + static_cast<double>(frame), 30};
         inputs.down[0] = frame > 2 && frame < 9;
         inputs.wheel = frame == 10 ? 3 : 0;
         if (frame == 5) state.motion.time = .125;
-        if (frame == 12) set(state.plan.rest, find("secant")->knobs.front(), "3");
+        if (frame == 12)
+            set_knob(state.plan.rest, find_technique_info("secant")->knobs.front(), "3");
     };
-    driver.after = [&](const Report& report) { command = report.command; };
+    driver.after = [&](const ViewReport& report) { command = report.command; };
     EXPECT_EQ(view({"cornell-mirrors", "--technique", "secant:face=auto", "--size", "80x64",
                     "--mirror", "back*=.5", "--frames", "60", "--screenshot", path("shown.png")},
                    driver),
@@ -222,14 +224,14 @@ TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
 /// to a message.
 TEST_F(ViewPicture, DroppedSceneFileIsLoaded) {
     write("broken.glb", "no scene");
-    Driver driver;
-    driver.before = [&](std::size_t frame, Inputs& inputs, State&, Window&) {
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState&, ViewWindow&) {
         if (frame == 3) inputs.dropped = {path("broken.glb")};
         if (frame == 5) inputs.dropped = {"flat"};
     };
     std::vector<std::string> said, scenes;
     std::string command;
-    driver.after = [&](const Report& report) {
+    driver.after = [&](const ViewReport& report) {
         said.push_back(report.state.said);
         scenes.push_back(const_cast<Viewer&>(report.viewer).session().scene().name);
         command = report.command;

@@ -22,39 +22,43 @@ using namespace catoptric::view;
 using testing::ElementsAre;
 
 const app::KnobInfo& knob(const std::string& technique, const std::string& name) {
-    return *std::ranges::find(find(technique)->knobs, name, &app::KnobInfo::name);
+    return *std::ranges::find(find_technique_info(technique)->knobs, name, &app::KnobInfo::name);
 }
 
 TEST(ViewPlan, PlanTextMatchesTheCommandLine) {
-    EXPECT_EQ(text_of(plan_of("secant:face=64,steps=3")), "secant:face=64,steps=3");
-    EXPECT_EQ(text_of(plan_of("reuse:face=256")), "reuse"); // 256 is the default
-    EXPECT_EQ(text_of(plan_of("1=planar *=reuse")), "1=planar *=reuse");
-    EXPECT_THROW(plan_of("secand"), Error);
-    EXPECT_THAT(words_of(plan_of("reuse")), ElementsAre("--technique", "reuse"));
-    EXPECT_THAT(words_of(plan_of("auto")), ElementsAre("--technique", "auto"));
+    EXPECT_EQ(technique_text(parse_plan_text("secant:face=64,steps=3")), "secant:face=64,steps=3");
+    EXPECT_EQ(technique_text(parse_plan_text("reuse:face=256")), "reuse"); // 256 is the default
+    EXPECT_EQ(technique_text(parse_plan_text("1=planar *=reuse")), "1=planar *=reuse");
+    EXPECT_THROW(parse_plan_text("secand"), Error);
+    EXPECT_THAT(plan_option_words(parse_plan_text("reuse")), ElementsAre("--technique", "reuse"));
+    EXPECT_THAT(plan_option_words(parse_plan_text("auto")), ElementsAre("--technique", "auto"));
 }
 
 TEST(ViewPlan, EditedMirrorGetsARuleOfItsOwn) {
-    PlanState plan = plan_of("reuse");
+    PlanState plan = parse_plan_text("reuse");
     plan.own[2] = plan.rest;
-    EXPECT_EQ(text_of(plan), "reuse"); // mirror 2 equals the rest
+    EXPECT_EQ(technique_text(plan), "reuse"); // mirror 2 equals the rest
     plan.own[2] = {"raytrace", {}};
-    set(plan.own[2], knob("raytrace", "depth"), "3");
-    set(plan.rest, knob("reuse", "face"), "64");
-    EXPECT_EQ(text_of(plan), "2=raytrace:depth=3 *=reuse:face=64");
-    EXPECT_THAT(words_of(plan), ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
-    set(plan.rest, knob("reuse", "face"), "256");
-    EXPECT_EQ(text_of(plan), "2=raytrace:depth=3 *=reuse");
-    EXPECT_EQ(text_of(with(plan_of("hybrid"), "show", "state")), "hybrid:show=state");
-    EXPECT_EQ(text_of(with(plan, "show", "state")), text_of(plan)); // no technique has this knob
+    set_knob(plan.own[2], knob("raytrace", "depth"), "3");
+    set_knob(plan.rest, knob("reuse", "face"), "64");
+    EXPECT_EQ(technique_text(plan), "2=raytrace:depth=3 *=reuse:face=64");
+    EXPECT_THAT(plan_option_words(plan),
+                ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
+    set_knob(plan.rest, knob("reuse", "face"), "256");
+    EXPECT_EQ(technique_text(plan), "2=raytrace:depth=3 *=reuse");
+    EXPECT_EQ(technique_text(with_knob(parse_plan_text("hybrid"), "show", "state")),
+              "hybrid:show=state");
+    EXPECT_EQ(technique_text(with_knob(plan, "show", "state")),
+              technique_text(plan)); // no technique has this knob
 }
 
 TEST(ViewPlan, SuggestedPlanBecomesRulesByMirrorNumber) {
     const std::vector<PlanEntry> drawn{
         {1, "ball", "reuse", {{"face", "64", 64, true}, {"colour", "half", {}, false}}, "far"},
         {2, "wall", "planar", {}, "flat"}};
-    EXPECT_EQ(text_of(resolved(plan_of("auto"), drawn)), "2=planar *=reuse:face=64");
-    EXPECT_EQ(text_of(resolved(plan_of("reuse"), drawn)), "reuse");
+    EXPECT_EQ(technique_text(resolve_plan_by_mirror(parse_plan_text("auto"), drawn)),
+              "2=planar *=reuse:face=64");
+    EXPECT_EQ(technique_text(resolve_plan_by_mirror(parse_plan_text("reuse"), drawn)), "reuse");
 }
 
 class ViewCamera : public testing::Test {
@@ -64,27 +68,27 @@ protected:
 };
 
 TEST_F(ViewCamera, CameraOrbitsAroundItsTarget) {
-    const scene::Camera turned = moved(camera, {.turned = {100, 40}}, false, 400, 10);
+    const scene::Camera turned = move_camera(camera, {.turned = {100, 40}}, false, 400, 10);
     EXPECT_EQ(turned.target, camera.target);
     EXPECT_NEAR(distance(turned), 4, 1e-12);
     // The scene follows the mouse, so the eye moves up and to the picture's left, which is +x.
     EXPECT_NEAR(turned.eye.y, 1 + 4 * std::sin(.2), 1e-12);
     EXPECT_NEAR(turned.eye.x, 4 * std::cos(.2) * std::sin(.5), 1e-12);
-    const scene::Camera above = moved(camera, {.turned = {0, 1e6}}, false, 400, 10);
+    const scene::Camera above = move_camera(camera, {.turned = {0, 1e6}}, false, 400, 10);
     EXPECT_LT(above.eye.y, 5); // the eye never passes over the target
-    EXPECT_NEAR(distance(moved(camera, {.wheel = 1}, false, 400, 10)), 3.6, 1e-12);
+    EXPECT_NEAR(distance(move_camera(camera, {.wheel = 1}, false, 400, 10)), 3.6, 1e-12);
 }
 
 TEST_F(ViewCamera, FlightMovesTheEyeAndTurningKeepsIt) {
-    const scene::Camera ahead = moved(camera, {.flown = {0, 0, 3}}, true, 400, 10);
+    const scene::Camera ahead = move_camera(camera, {.flown = {0, 0, 3}}, true, 400, 10);
     EXPECT_NEAR(ahead.eye.z, 10, 1e-12); // a flight of 3 s covers the reach, 10
-    const scene::Camera turned = moved(camera, {.turned = {100, 0}}, true, 400, 10);
+    const scene::Camera turned = move_camera(camera, {.turned = {100, 0}}, true, 400, 10);
     EXPECT_EQ(turned.eye, camera.eye);
     EXPECT_LT(turned.target.x, -1); // a turn to the right, which is -x
 }
 
 TEST_F(ViewCamera, ShiftMovesTheSceneByThePixelsDragged) {
-    const scene::Camera shifted = moved(camera, {.shifted = {400, 0}}, false, 400, 10);
+    const scene::Camera shifted = move_camera(camera, {.shifted = {400, 0}}, false, 400, 10);
     EXPECT_NEAR(glm::length(shifted.eye - camera.eye), 8 * std::tan(glm::radians(22.5)), 1e-12);
     EXPECT_EQ(shifted.eye - camera.eye, shifted.target - camera.target);
 }
@@ -93,11 +97,11 @@ TEST_F(ViewCamera, ShiftMovesTheSceneByThePixelsDragged) {
 /// unchanged.
 TEST_F(ViewCamera, CameraTextGivesTheSameCamera) {
     scene::Camera c = camera;
-    EXPECT_EQ(moved(c, {}, false, 400, 10), camera);
+    EXPECT_EQ(move_camera(c, {}, false, 400, 10), camera);
     for (int i = 0; i < 50; ++i) {
-        c = moved(c, {.turned = {13.3, -7.1 * (i % 3 - 1)}, .shifted = {1, 2}, .wheel = .1}, i % 2,
-                  400, 10);
-        scene::Camera typed = scene::camera_named(scene::camera_text(c), {});
+        c = move_camera(c, {.turned = {13.3, -7.1 * (i % 3 - 1)}, .shifted = {1, 2}, .wheel = .1},
+                        i % 2, 400, 10);
+        scene::Camera typed = scene::find_camera_by_name(scene::format_camera(c), {});
         typed.name = c.name;
         ASSERT_EQ(typed, c);
     }
@@ -108,22 +112,22 @@ TEST_F(ViewCamera, CameraTextGivesTheSameCamera) {
 TEST_F(ViewCamera, CameraStaysValidAtExtremeInput) {
     for (const double wheel : {1e3, -1e5}) {
         scene::Camera c = camera;
-        for (int i = 0; i < 10; ++i) c = moved(c, {.wheel = wheel}, false, 400, 10);
-        EXPECT_NO_THROW(static_cast<void>(scene::camera_named(scene::camera_text(c), {})));
+        for (int i = 0; i < 10; ++i) c = move_camera(c, {.wheel = wheel}, false, 400, 10);
+        EXPECT_NO_THROW(static_cast<void>(scene::find_camera_by_name(scene::format_camera(c), {})));
     }
     camera.vertical_fov_degrees = 179.9; // degrees, more than `--camera` accepts
-    EXPECT_EQ(moved(camera, {.turned = {9, 9}}, false, 400, 10), camera);
+    EXPECT_EQ(move_camera(camera, {.turned = {9, 9}}, false, 400, 10), camera);
 }
 
 TEST(ViewHand, MouseDragsTheDividerAndClicksMirrors) {
-    State state;
+    ViewState state;
     state.camera = {.eye = {0, 1, 0}, .target = {0, 1, 4}};
     const scene::Camera before = state.camera;
-    state.mode = Mode::split;
-    Hand hand;
+    state.mode = ViewMode::split;
+    DragState hand;
     const auto at = [&](double x, double y, bool down) {
-        Inputs inputs{.mouse = {x, y}, .down = {down}};
-        return hand.apply(inputs, state, {200, 100}, 10);
+        UserInput inputs{.mouse = {x, y}, .down = {down}};
+        return hand.apply_drag(inputs, state, {200, 100}, 10);
     };
     at(101, 50, true);
     at(160, 20, true);
@@ -153,42 +157,42 @@ TEST(ViewInputs, MousePositionIsConvertedToPixels) {
 }
 
 TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
-    State state;
-    state.plan = plan_of("hybrid"), state.other = plan_of("reuse");
-    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid"));
-    state.mode = Mode::split;
-    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid", "reuse"));
-    EXPECT_EQ(shown(state).second, 1u);
+    ViewState state;
+    state.plan = parse_plan_text("hybrid"), state.other = parse_plan_text("reuse");
+    EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid"));
+    state.mode = ViewMode::split;
+    EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid", "reuse"));
+    EXPECT_EQ(choose_shown_pictures(state).second, 1u);
     state.other = state.plan; // a frame accepts each technique only once
-    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid"));
-    state.against = Against::reference;
-    EXPECT_EQ(shown(state).second, app::Showing::kCanvas);
-    EXPECT_TRUE(wants_canvas(state));
-    state.mode = Mode::answers;
-    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid:show=state"));
-    EXPECT_FALSE(wants_canvas(state));
+    EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid"));
+    state.against = ComparisonPicture::reference;
+    EXPECT_EQ(choose_shown_pictures(state).second, app::WindowPictures::kCanvas);
+    EXPECT_TRUE(needs_host_picture(state));
+    state.mode = ViewMode::answers;
+    EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid:show=state"));
+    EXPECT_FALSE(needs_host_picture(state));
 }
 
 TEST(ViewState, EachMirrorNumberHasItsOwnColour) {
     std::set<std::tuple<int, int, int>> colours;
     for (std::uint32_t mirror = 0; mirror <= 16; ++mirror) {
-        const glm::ivec3 c(colour_of(mirror) * 16.f);
+        const glm::ivec3 c(mirror_number_colour(mirror) * 16.f);
         colours.insert({c.x, c.y, c.z});
     }
     EXPECT_EQ(colours.size(), 17u);
-    const measure::Picture picture = numbers_picture({0, 1U | 3U << 16U}, {2, 1});
+    const measure::Picture picture = make_mirror_number_picture({0, 1U | 3U << 16U}, {2, 1});
     EXPECT_EQ(picture.at(0, 0), vec3(0));
-    EXPECT_EQ(picture.at(1, 0), colour_of(1));
+    EXPECT_EQ(picture.at(1, 0), mirror_number_colour(1));
 }
 
 TEST(ViewMotion, TimeAdvancesBySpeedWhilePlaying) {
-    EXPECT_EQ(advanced({.time = 2}, .5), 2);
-    EXPECT_EQ(advanced({.time = 2, .plays = true, .speed = -2}, .5), 1);
+    EXPECT_EQ(advance_playback_time({.time = 2}, .5), 2);
+    EXPECT_EQ(advance_playback_time({.time = 2, .plays = true, .speed = -2}, .5), 1);
 }
 
 TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
-    State state;
-    state.plan = plan_of("1=planar *=reuse");
+    ViewState state;
+    state.plan = parse_plan_text("1=planar *=reuse");
     state.motion.time = .25, state.exposure = -1;
     const std::vector<std::string> words{"hall of mirrors.glb",
                                          "--mirror",
@@ -205,36 +209,37 @@ TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
                                          "--budget-ms",
                                          "4"};
     EXPECT_EQ(
-        render_command(words, state, "0,1,2:3,4,5:40", {64, 48}),
+        make_render_command(words, state, "0,1,2:3,4,5:40", {64, 48}),
         "catoptric render 'hall of mirrors.glb' --mirror 'wall*=.9' --environment studio --plan "
         "'1=planar *=reuse' --camera 0,1,2:3,4,5:40 --time 0.25 --size 64x48 --exposure -1 --model "
         "required -o view.png");
-    EXPECT_THAT(render_words({"-qv", "-vv", "--verbose", "--seed", "7", "--", "-q"}, state,
-                             "0,1,2:3,4,5:40", {64, 48}),
+    EXPECT_THAT(make_render_words({"-qv", "-vv", "--verbose", "--seed", "7", "--", "-q"}, state,
+                                  "0,1,2:3,4,5:40", {64, 48}),
                 testing::AllOf(testing::Not(testing::Contains("-qv")),
                                testing::Not(testing::Contains("-vv")), testing::Contains("7"),
                                testing::Contains("view.png")));
-    const std::vector<std::string> odd = render_words({"-q", "--", "-q"}, state, "0", {64, 48});
+    const std::vector<std::string> odd = make_render_words({"-q", "--", "-q"}, state, "0",
+                                                           {64, 48});
     EXPECT_EQ(odd.at(1), "--plan");
     EXPECT_THAT(std::vector(odd.end() - 3, odd.end()), ElementsAre("view.png", "--", "-q"));
-    EXPECT_EQ(quoted("it's"), "'it'\\''s'");
-    EXPECT_EQ(quoted(""), "''");
+    EXPECT_EQ(quote_for_shell("it's"), "'it'\\''s'");
+    EXPECT_EQ(quote_for_shell(""), "''");
 }
 
 TEST(ViewSettings, SettingsAreReadAsTheyWereWritten) {
     const ViewerSettings settings{
         .window = {800, 600}, .shows_panels = false, .flies = true, .speed = -.5, .gain = 16};
-    EXPECT_EQ(settings_of(text_of(settings)), settings);
+    EXPECT_EQ(parse_settings(technique_text(settings)), settings);
     for (const char* text :
          {"", "[]", "{\"width\": -4, \"height\": 5}", "{\"gain\": 3}", "{\"speed\": \"x\"}",
           "{\"speed\": 1e999, \"panels\": 7}", "{\"width\": 99999, \"height\": 3}"})
-        EXPECT_EQ(settings_of(text), ViewerSettings()) << text;
+        EXPECT_EQ(parse_settings(text), ViewerSettings()) << text;
 }
 
 TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
-    Times times;
+    TimeStatistics times;
     const auto sample = [](double ms) {
-        Times::Sample s;
+        TimeStatistics::FrameTimeSample s;
         s.frame.passes = {{"view", 0, ms}};
         s.interval_ms = 20;
         return s;
@@ -243,7 +248,7 @@ TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
     EXPECT_EQ(times.passes().at(0).median, 4);
     EXPECT_EQ(times.passes().at(0).ci95.low, 1);
     EXPECT_EQ(times.fps(), 50);
-    Times::Sample other = sample(9);
+    TimeStatistics::FrameTimeSample other = sample(9);
     other.frame.passes[0].name = "trace";
     times.add(other);
     EXPECT_EQ(times.count(), 1u);

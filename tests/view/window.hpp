@@ -22,14 +22,14 @@ protected:
 
     /// Runs the window program with the given command line and the validation layer. Returns its
     /// exit code.
-    static int view(Words words, const Driver& driver = {}) {
+    static int view(Words words, const TestDriver& driver = {}) {
         words.insert(words.end(), {"--validate", "-q"});
         ViewOptions options;
-        parse(words, [&](const ViewOptions& parsed) {
+        parse_view_command(words, [&](const ViewOptions& parsed) {
             options = parsed;
             return 0;
         })();
-        return run(options, driver);
+        return run_view_window(options, driver);
     }
     std::string path(const std::string& name) const { return (folder / name).string(); }
     void expect_rendered(const std::string& picture, Words words) const {

@@ -14,7 +14,7 @@ const uint kNothing = 0xffffffffu;
 void main() {
     uint i = gl_GlobalInvocationID.x;
     Ray ray = Ray(texelFetch(rays, int(2u * i)).xyz, texelFetch(rays, int(2u * i + 1u)).xyz, 0u);
-    Hit hit;
-    bool found = closest_hit(ray, kLargest, 0u, hit);
+    TraceHit hit;
+    bool found = find_closest_hit(ray, kLargest, 0u, hit);
     if (!trace_exhausted) met[i] = uvec2(floatBitsToUint(hit.t), found ? hit.triangle : kNothing);
 }

@@ -23,13 +23,13 @@ layout(push_constant) uniform Push {
 const float kLift = 1.0 / 1048576.0; // distance from the surface at which reflected and shadow rays start, scene units
 const float kFarthest = 3.4e38;
 
-struct Hit {
+struct TraceHit {
     float t, u, v;
     int triangle;
 };
 
 // Intersects the ray with triangle i, and replaces the hit if the new hit is nearer.
-void meet(int i, vec3 from, vec3 along, inout Hit hit) {
+void meet(int i, vec3 from, vec3 along, inout TraceHit hit) {
     vec3 a = texelFetch(triangles, 3 * i).xyz;
     vec3 e = texelFetch(triangles, 3 * i + 1).xyz;
     vec3 f = texelFetch(triangles, 3 * i + 2).xyz;
@@ -40,12 +40,12 @@ void meet(int i, vec3 from, vec3 along, inout Hit hit) {
     vec3 q = cross(s, e);
     float v = dot(along, q) * inverse;
     float t = dot(f, q) * inverse;
-    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < hit.t) hit = Hit(t, u, v, i);
+    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < hit.t) hit = TraceHit(t, u, v, i);
 }
 
 #ifdef SKIP_LINKS
 
-void walk(vec3 from, vec3 along, bool any, inout Hit hit) {
+void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
     // The ray is transformed to steps of the grid, in which its points keep their t.
     vec3 inverse = 1.0 / (along * grid.w);
     vec3 start = -(from - grid.xyz) * grid.w * inverse;
@@ -78,7 +78,7 @@ void walk(vec3 from, vec3 along, bool any, inout Hit hit) {
 
 shared uint waiting[32 * 64];
 
-void walk(vec3 from, vec3 along, bool any, inout Hit hit) {
+void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
     vec3 inverse = 1.0 / along;
     vec3 start = -from * inverse;
     uint depth = 0u, child = 1u;
@@ -128,7 +128,7 @@ vec3 radiance(vec3 from, vec3 along) {
     bool goes_on;
     do {
         goes_on = false;
-        Hit hit = Hit(kFarthest, 0.0, 0.0, -1);
+        TraceHit hit = TraceHit(kFarthest, 0.0, 0.0, -1);
         walk(from, along, false, hit);
         if (hit.triangle < 0) continue;
         int i = 3 * hit.triangle;
@@ -147,7 +147,7 @@ vec3 radiance(vec3 from, vec3 along) {
             float cosines = max(-dot(to_light, light_normal.xyz), 0.0) * max(dot(to_light, n), 0.0);
             if (cosines > 0.0 && albedo.rgb != vec3(0)) {
                 vec3 origin = leaving(point, facet, to_light);
-                Hit blocked = Hit(light.w, 0.0, 0.0, -1);
+                TraceHit blocked = TraceHit(light.w, 0.0, 0.0, -1);
                 walk(origin, light.xyz - origin, true, blocked);
                 if (blocked.triangle < 0)
                     sum += weight * albedo.rgb * intensity.rgb * (cosines / (distance * distance * 3.14159265));

@@ -10,18 +10,18 @@ INLINE vec3 environment_direction(vec3 d, real cosine, real sine) {
 // The four texels around a direction of any length in an equirectangular map, with their bilinear weights. Row 0 is at
 // +y, the map's middle is at -z, and +x lies to the right of the middle. The map wraps horizontally and clamps at the
 // poles.
-struct MapPlace {
+struct EnvironmentMapPosition {
     uint left, right, above, below;
     real across, down;
 };
-INLINE MapPlace map_place(vec3 d, uint width, uint height) {
+INLINE EnvironmentMapPosition environment_map_position(vec3 d, uint width, uint height) {
     real level = sqrt(d.x * d.x + d.z * d.z);
     real azimuth = level > real(0) ? atan(d.x, -d.z) : real(0);
     real x = (real(0.5) + azimuth / (real(2) * kPi)) * real(width) - real(0.5);
     real y = clamp(atan(level, d.y) / kPi * real(height) - real(0.5), real(0), real(height) - real(1));
     real first = floor(x);
     real top = min(floor(y), max(real(height) - real(2), real(0)));
-    MapPlace place;
+    EnvironmentMapPosition place;
     place.left = uint(first + real(width)) % width;
     place.right = (place.left + 1u) % width;
     place.above = uint(top);
@@ -33,7 +33,7 @@ INLINE MapPlace map_place(vec3 d, uint width, uint height) {
 
 // Returns the grey radiance of the built-in studio environment in the unit direction `d`. The studio has a bright
 // ceiling that darkens to the floor, and a soft box to the left behind a camera that looks along -z.
-INLINE real studio(vec3 d) {
+INLINE real studio_radiance(vec3 d) {
     real grey = d.y < real(0) ? mix(real(0.6), real(0.25), -d.y) : mix(real(0.6), real(0.9), d.y);
     // Direction of the soft box: azimuth -150 degrees, elevation 50 degrees.
     vec3 box = vec3(real(-0.32139380484326967), real(0.76604444311897804), real(0.55667039922641936));

@@ -4,21 +4,21 @@
 // The placement of an instance. A position in scene units is the centre plus an arm. The arm is the matrix of the
 // columns `scene_...` times the position in object space. Object space keeps the digits of an object that is small
 // compared with its distance from the scene's origin. The centre is a sum of two floats, as are origins of rays.
-struct Place {
+struct ObjectPlacement {
     vec3 own_x, own_y, own_z;       // rows of the matrix from the scene's axes to object space
     vec3 scene_x, scene_y, scene_z; // columns of the matrix from object space to the scene's axes
     vec3 centre, centre_low;        // origin of the object space and its rounding error, scene units
 };
 
-INLINE vec3 to_own(Place place, vec3 arm) {
+INLINE vec3 to_object_space(ObjectPlacement place, vec3 arm) {
     return vec3(dot(place.own_x, arm), dot(place.own_y, arm), dot(place.own_z, arm));
 }
-INLINE vec3 arm_of(Place place, vec3 own) {
+INLINE vec3 offset_from_centre(ObjectPlacement place, vec3 own) {
     return own.x * place.scene_x + own.y * place.scene_y + own.z * place.scene_z;
 }
 // Transforms a normal from object space to the scene by the inverse transpose. Returns a unit vector, or zero if the
 // normal is zero.
-INLINE vec3 scene_normal(Place place, vec3 own) {
+INLINE vec3 scene_normal(ObjectPlacement place, vec3 own) {
     vec3 n = own.x * place.own_x + own.y * place.own_y + own.z * place.own_z;
     real size = largest(abs(n));
     return size > real(0) ? normalize(n / size) : vec3(real(0));
@@ -36,20 +36,20 @@ INLINE vec3 difference_of_sums(vec3 a, vec3 a_low, vec3 b, vec3 b_low) {
 
 // Transforms a ray to an instance's object space, where its points have the same t. `low` is the rounding error of the
 // ray's origin.
-INLINE Ray own_ray(Place place, Ray ray, vec3 low) {
+INLINE Ray ray_in_object_space(ObjectPlacement place, Ray ray, vec3 low) {
     precise vec3 high = ray.origin - place.centre;
     precise vec3 rest = low - place.centre_low;
     precise vec3 arm = high + rest;
     Ray result;
-    result.origin = to_own(place, arm);
-    result.direction = to_own(place, ray.direction);
+    result.origin = to_object_space(place, arm);
+    result.direction = to_object_space(place, ray.direction);
     result.leaves = ray.leaves;
     return result;
 }
 
-// Returns a bound of the error of arm_of(own), where `own` has the error `error`. The bound covers the roundings of the
-// transform to the scene, of a ray's transform back, and of the centre's two floats.
-INLINE vec3 arm_error(Place place, vec3 own, vec3 error) {
+// Returns a bound of the error of offset_from_centre(own), where `own` has the error `error`. The bound covers the
+// roundings of the transform to the scene, of a ray's transform back, and of the centre's two floats.
+INLINE vec3 offset_rounding_error(ObjectPlacement place, vec3 own, vec3 error) {
     vec3 x = abs(place.scene_x);
     vec3 y = abs(place.scene_y);
     vec3 z = abs(place.scene_z);
@@ -61,7 +61,7 @@ INLINE vec3 arm_error(Place place, vec3 own, vec3 error) {
 }
 
 // Returns the centre plus an arm as the sum of two floats, the result and `low` (Knuth's two-sum).
-INLINE vec3 scene_point(Place place, vec3 arm, OUT(vec3) low) {
+INLINE vec3 scene_point(ObjectPlacement place, vec3 arm, OUT(vec3) low) {
     precise vec3 sum = place.centre + arm;
     precise vec3 added = sum - place.centre;
     precise vec3 lost = (place.centre - (sum - added)) + (arm - added);

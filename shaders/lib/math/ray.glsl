@@ -20,15 +20,15 @@ struct RayShear {
 };
 
 // Permutes the components of a vector cyclically, so that component `axis` comes last.
-INLINE vec3 turned(vec3 v, int axis) {
+INLINE vec3 permute_to_axis(vec3 v, int axis) {
     return axis == 2 ? v : (axis == 0 ? vec3(v.y, v.z, v.x) : vec3(v.z, v.x, v.y));
 }
 
-INLINE RayShear ray_shear(vec3 direction) {
+INLINE RayShear make_ray_shear(vec3 direction) {
     vec3 size = abs(direction);
     RayShear result;
     result.axis = size.z >= size.x && size.z >= size.y ? 2 : (size.y >= size.x ? 1 : 0);
-    precise vec3 d = turned(direction, result.axis);
+    precise vec3 d = permute_to_axis(direction, result.axis);
     precise real x = d.x / d.z;
     precise real y = d.y / d.z;
     result.shear = vec3(x, y, real(1) / d.z);
@@ -86,9 +86,9 @@ INLINE int short_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f) {
 // divided by their sum, are the barycentric weights of a, b, c (see `barycentric`).
 INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT(real) t,
                           OUT(vec3) weights) {
-    precise vec3 ta = turned(a - origin, ray.axis);
-    precise vec3 tb = turned(b - origin, ray.axis);
-    precise vec3 tc = turned(c - origin, ray.axis);
+    precise vec3 ta = permute_to_axis(a - origin, ray.axis);
+    precise vec3 tb = permute_to_axis(b - origin, ray.axis);
+    precise vec3 tc = permute_to_axis(c - origin, ray.axis);
     precise real ax = ta.x - ray.shear.x * ta.z;
     precise real ay = ta.y - ray.shear.y * ta.z;
     precise real bx = tb.x - ray.shear.x * tb.z;
@@ -109,7 +109,7 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
     vec3 e, f;
     int between = short_edges(a, b, c, e, f);
     vec3 corner = between == 0 ? ta : (between == 1 ? tb : tc);
-    precise vec3 normal = turned(vec3(e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z,
+    precise vec3 normal = permute_to_axis(vec3(e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z,
                                       e.x * f.y - e.y * f.x), ray.axis);
     precise real height = normal.x * corner.x + normal.y * corner.y + normal.z * corner.z;
     precise real slope = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
@@ -147,7 +147,7 @@ struct BoxRay {
 // Prepares a ray for box tests. `lo` and `hi` bound the geometry that the ray may meet. Boxes of geometry outside these
 // bounds are widened when the tree is built (engine/bvh/bvh.cpp). `times` is the factor by which boxes are widened for
 // instances below them (engine/bvh/tlas.hpp), else 1.
-INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
+INLINE BoxRay make_box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
     real reach = largest(max(abs(lo - ray.origin), abs(hi - ray.origin)));
     real slack = gamma_bound(16) * reach * times;
     BoxRay result;

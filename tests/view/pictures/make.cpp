@@ -17,43 +17,47 @@ using namespace catoptric::view;
 struct Shot {
     std::string name;
     std::size_t frames;
-    std::function<void(State&)> set;
+    std::function<void(ViewState&)> set;
     uvec2 window{872, 512};
 };
 
 const std::vector<Shot> kShots{
-    {"plan", 12, [](State& state) { state.said = ""; }, {872, 1000}},
-    {"split", 8, [](State& state) { state.mode = Mode::split, state.other = plan_of("parallax"); }},
-    {"difference", 6, [](State& state) { state.mode = Mode::difference, state.gain = 8; }},
-    {"answers", 6, [](State& state) { state.mode = Mode::answers; }},
-    {"numbers", 6, [](State& state) { state.mode = Mode::numbers; }},
+    {"plan", 12, [](ViewState& state) { state.said = ""; }, {872, 1000}},
+    {"split", 8,
+     [](ViewState& state) {
+         state.mode = ViewMode::split, state.other = parse_plan_text("parallax");
+     }},
+    {"difference", 6, [](ViewState& state) { state.mode = ViewMode::difference, state.gain = 8; }},
+    {"answers", 6, [](ViewState& state) { state.mode = ViewMode::answers; }},
+    {"numbers", 6, [](ViewState& state) { state.mode = ViewMode::numbers; }},
     {"causes", 16,
-     [](State& state) {
-         state.mode = Mode::causes, state.cause = shared::kAblateTexels, state.gain = 16;
+     [](ViewState& state) {
+         state.mode = ViewMode::causes, state.cause = shared::kAblateTexels, state.gain = 16;
      }},
     {"reference", 24,
-     [](State& state) {
-         state.mode = Mode::split, state.against = Against::reference, state.judges = true;
+     [](ViewState& state) {
+         state.mode = ViewMode::split, state.against = ComparisonPicture::reference,
+         state.judges = true;
      }},
     {"mirror", 8,
-     [](State& state) {
-         state.mode = Mode::plan, state.judges = false, state.chosen = 3;
+     [](ViewState& state) {
+         state.mode = ViewMode::plan, state.judges = false, state.chosen = 3;
          state.plan.own[3] = {"raytrace", {{"depth", "2"}}};
      }},
-    {"keys", 4, [](State& state) { state.shows_keys = true; }},
+    {"keys", 4, [](ViewState& state) { state.shows_keys = true; }},
 };
 
 int make(const std::filesystem::path& folder) {
     const test::Display display;
     check(display.is_there(), Failure::no_device, "Xvfb does not start: apt-get install xvfb");
     std::size_t shot = 0, last = kShots.front().frames;
-    Driver driver;
-    driver.before = [&](std::size_t, Inputs& inputs, State& state, Window& window) {
+    TestDriver driver;
+    driver.before = [&](std::size_t, UserInput& inputs, ViewState& state, ViewWindow& window) {
         inputs.on_controls = true; // ignores the mouse pointer of the X server
         kShots[shot].set(state);
         window.resize(kShots[shot].window);
     };
-    driver.after = [&](const Report& report) {
+    driver.after = [&](const ViewReport& report) {
         if (report.frame < last) return;
         ::usleep(500000); // waits until the X server has drawn
         const auto& [name, frames, set, size] = kShots[shot];
@@ -63,14 +67,15 @@ int make(const std::filesystem::path& folder) {
     };
     std::size_t frames = 0;
     for (const Shot& one : kShots) frames += one.frames;
-    return parse({"--frames", std::to_string(frames), "--time", "0.4"},
-                 [&](const ViewOptions& options) { return run(options, driver); })();
+    return parse_view_command(
+        {"--frames", std::to_string(frames), "--time", "0.4"},
+        [&](const ViewOptions& options) { return run_view_window(options, driver); })();
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    return cli::run_guarded("catoptric_view_pictures", [&] {
+    return cli::run_other_program_guarded("catoptric_view_pictures", [&] {
         check(argc == 2, Failure::usage, "wanted a folder for the pictures");
         return make(argv[1]);
     });
