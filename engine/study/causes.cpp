@@ -201,7 +201,7 @@ void add_causes(const StudyInput& input) {
     }
 }
 
-const Registered kCauses{
+const RegisteredStudy kCauses{
     {.name = "causes",
      .help = "also split each row's error by cause; draws at least 32 more pictures per row",
      .order = 20,

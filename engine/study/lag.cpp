@@ -287,7 +287,7 @@ void add_lag(const StudyInput& input) {
                 *(input.comparison.lag = std::make_shared<report::LagResults>()));
 }
 
-const Registered kLagStudy{
+const RegisteredStudy kLagStudy{
     {.name = "lag",
      .help = "also measure how far rows that read last frame's captures lag behind a moving scene; "
              "about 2300 frames per row",

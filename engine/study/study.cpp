@@ -18,7 +18,7 @@ std::vector<Study>& study_table() {
 
 } // namespace
 
-Registered::Registered(Study study) {
+RegisteredStudy::RegisteredStudy(Study study) {
     for (measure::Metric metric : study.metrics) {
         metric.study = study.name;
         const measure::RegisteredMetric registers(std::move(metric));

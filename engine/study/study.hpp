@@ -58,8 +58,8 @@ struct Study {
 
 /// Registers a study with its metrics and its part of the report. Define it at namespace scope: the
 /// study enters the table while the program starts.
-struct Registered {
-    explicit Registered(Study study);
+struct RegisteredStudy {
+    explicit RegisteredStudy(Study study);
 };
 
 /// Returns all studies by `order`, then name.

@@ -87,7 +87,7 @@ void add_views(const StudyInput& input) {
                       input.comparison);
 }
 
-const Registered kViewsStudy{
+const RegisteredStudy kViewsStudy{
     {.name = "views",
      .help = "also measure errors over N random views from --seed, at least 6, with intervals (1: "
              "none)",

@@ -222,7 +222,7 @@ TEST(Table, EveryTechniqueInTheSourceFolderIsRegistered) {
         if (entry.path().extension() != ".cpp") continue;
         std::ifstream file(entry.path());
         const std::string text{std::istreambuf_iterator<char>(file), {}};
-        const std::regex row(R"((^|\n)const Registered \w+\{)");
+        const std::regex row(R"((^|\n)const RegisteredTechnique \w+\{)");
         rows += static_cast<std::size_t>(
             std::distance(std::sregex_iterator(text.begin(), text.end(), row), {}));
     }

@@ -77,7 +77,7 @@ constexpr reflect::Technique kTechnique{.name = "testonly",
                                         .compared = kRows};
 const reflect::RegisteredTechnique kTestOnly{kTechnique};
 
-const app::Registered kStudied{
+const app::RegisteredStudy kStudied{
     {.name = "test-only",
      .help = "for a test",
      .number = "N",
