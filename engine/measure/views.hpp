@@ -17,7 +17,7 @@ struct MetricOverViews {
 /// Returns a metric of a row over its views. `figure` must be a metric of a difference that is one
 /// number.
 MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure);
-/// Returns whether a metric of differences is one number, so that it has a median.
+/// Returns whether the value of a metric is one number. Only such metrics have a median over views.
 bool is_single_number(const Metric& figure);
 
 /// Returns the 95 % interval of the median of a's metric minus b's, over the mirrors, view by view.

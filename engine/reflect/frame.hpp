@@ -12,7 +12,8 @@ struct CaptureHistory {
     const require::Model& model;
     /// TechniqueOutputs::kept of the frame before; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
-    render::ComparisonBuffers* comparisons = nullptr; ///< see render::PreviousCaptures
+    /// Buffers in which captures are compared with those of the frame before; may be null.
+    render::ComparisonBuffers* comparisons = nullptr;
     std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
 };
 /// The model that culls no work, so that all captures are drawn.

@@ -119,8 +119,8 @@ public:
         wants_tracing_[static_cast<std::size_t>(spheres)] = true;
         wants_first_hits_ = wants_first_hits_ || first_hits;
     }
-    /// Writes the added views, and updates the hierarchies that passes of this frame want. Call it
-    /// after the frame's passes are declared.
+    /// Writes the views that `add_view` added to device memory, and updates the bounding volume
+    /// hierarchies that passes of this frame read. Call it after the frame's passes are declared.
     void prepare() const;
     /// Binds the hierarchy. Updates it first if `prepare` has not.
     void bind_tracing(graph::PassCommands& commands, SphereMode spheres = SphereMode::mesh) const;

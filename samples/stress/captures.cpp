@@ -123,7 +123,8 @@ void judge_captured_glyphs(StressBench& bench) {
               .05);
 }
 
-/// Returns a camera on a unit ball around 0. The centre of its picture reflects along `wanted`.
+/// Returns a camera that looks at a mirror ball of radius 1 around 0. The ray through the centre of
+/// the picture is reflected by the ball in the direction `wanted`.
 scene::Camera make_camera_along(dvec3 wanted) {
     const dvec3 n = normalize(wanted + .4 * normalize(cross(wanted, dvec3(.3, -.5, .8))));
     const dvec3 incoming = wanted - 2 * dot(wanted, n) * n;

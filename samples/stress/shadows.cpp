@@ -143,8 +143,8 @@ void judge_plane_self_shadow(StressBench& bench, double factor, int edge) {
               1 - double(lit) / double(judged), .005);
 }
 
-/// Returns a plane with a board under a lamp that is turned to it. With a face of its shadow map
-/// straight across, no plane would be lifted off its shadow.
+/// Returns a plane and a board above it, lit by a tilted lamp. The tilt makes the faces of the
+/// shadow map slanted against the plane, so that shadow look-ups are lifted off the plane.
 scene::Scene make_board_under_lamp(const ShadowBoard& board) {
     constexpr double kTurn = .6, kHalf = .2;
     scene::Scene scene = make_plane_with_lamp();

@@ -29,7 +29,8 @@ protected:
     }
     void expect_given_up(const Fault& fault, const Words& any_of) const {
         const std::string place = fault.call + std::to_string(fault.at) +
-                                  std::to_string(fault.result); // one folder per concurrent run
+                                  std::to_string(
+                                      fault.result); // tests that run at once use different folders
         std::filesystem::create_directory(folder / place);
         write(place + "/x.exr", "old");
         const Watched watched = watch(words, fault, place);

@@ -7,7 +7,7 @@
 
 namespace {
 
-constexpr double kDeviceLongest = 2; // seconds
+constexpr double kDeviceLongest = 2; // most seconds that a program may take to end
 constexpr int kFindsNone = VK_SUCCESS;
 
 class NoDevice : public Faults {

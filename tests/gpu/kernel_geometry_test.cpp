@@ -171,8 +171,9 @@ TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
             ASSERT_TRUE(hits[i].exhausted() || test::same(hits[i], expected))
                 << i << ' ' << test::text(hits[i]);
         }
-        std::cout << "[ MEASURED ] N21 copies in " << count << " objects: " << found
-                  << " rays hit, " << gave_up << " gave up\n";
+        std::cout << "[ MEASURED ] case N21, copies of one triangle in " << count
+                  << " objects: " << found << " rays hit, " << gave_up
+                  << " ended at the limit of steps\n";
         EXPECT_GT(found, rays.size() / 4);
         if (count < 60000)
             EXPECT_EQ(gave_up, 0u);
