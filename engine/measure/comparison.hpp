@@ -19,8 +19,6 @@ namespace catoptric::measure {
 
 using catoptric::AutoFace;
 using catoptric::CulledWork;
-using HostTimeParts = HostTimes; ///< each a median over frames
-using RayCounters = RayCounts;
 struct Causes; // internal: report.json has their data
 struct LagResults;
 struct Studied;
@@ -195,8 +193,8 @@ struct Row : Errors {
     SampleSummary host_ms; ///< host work before the device can begin, without waiting
     /// host_ms plus device time, frame by frame, because the two do not overlap.
     SampleSummary frame_ms;
-    HostTimeParts host_parts;
-    bool moves = false; ///< whether the scene moved, so that the host had work in each frame
+    HostTimes host_parts; ///< each a median over frames
+    bool moves = false;   ///< whether the scene moved, so that the host had work in each frame
     /// Returns the time by which the row is ranked. It is frame_ms if the scene moves, because the
     /// host then works in each frame, and gpu_ms otherwise.
     const SampleSummary& time_ms() const { return moves ? frame_ms : gpu_ms; }
@@ -204,8 +202,8 @@ struct Row : Errors {
     /// Sum of all pass times of a frame divided by wall_ms, frame by frame. It is near 1 if the
     /// timestamps are right.
     SampleSummary closure;
-    std::uint64_t memory_bytes = 0;  ///< memory of the frame's images
-    std::optional<RayCounters> rays; ///< rays of one frame; empty if the row traces none
+    std::uint64_t memory_bytes = 0; ///< memory of the frame's images
+    std::optional<RayCounts> rays;  ///< rays of one frame; empty if the row traces none
     /// Texels of half-float captures that are clipped at 65504.
     std::optional<std::size_t> saturated_texels;
     std::optional<LookupErrorSummary>

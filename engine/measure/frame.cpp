@@ -17,7 +17,7 @@ MetricValue list_pass_times(const Row& row) {
 }
 
 /// Returns a count of rays, or no value if the row traces none.
-template <std::uint64_t RayCounters::*Kind>
+template <std::uint64_t RayCounts::*Kind>
 MetricValue ray_count_value(const Row& row) {
     return row.rays ? static_cast<double>((*row.rays).*Kind) : NAN;
 }
@@ -130,17 +130,17 @@ const RegisteredMetric kPrimaryRays{{.name = "rays/primary",
                                      .unit = "rays",
                                      .help = "number of camera rays of a frame",
                                      .order = 240,
-                                     .get = ray_count_value<&RayCounters::primary>}};
+                                     .get = ray_count_value<&RayCounts::primary>}};
 const RegisteredMetric kMirrorRays{{.name = "rays/mirror",
                                     .unit = "rays",
                                     .help = "number of reflected rays of a frame",
                                     .order = 241,
-                                    .get = ray_count_value<&RayCounters::mirror>}};
+                                    .get = ray_count_value<&RayCounts::mirror>}};
 const RegisteredMetric kShadowRays{{.name = "rays/shadow",
                                     .unit = "rays",
                                     .help = "number of shadow rays of a frame",
                                     .order = 242,
-                                    .get = ray_count_value<&RayCounters::shadow>}};
+                                    .get = ray_count_value<&RayCounts::shadow>}};
 const RegisteredMetric kSaturated{
     {.name = "saturated_texels",
      .unit = "texels",

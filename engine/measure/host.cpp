@@ -5,7 +5,7 @@ namespace catoptric::measure {
 
 namespace {
 
-template <double HostTimeParts::*Part>
+template <double HostTimes::*Part>
 MetricValue host_time_part(const Row& row) {
     return row.host_parts.*Part;
 }
@@ -24,26 +24,26 @@ const RegisteredMetric kUpdate{
      .help = "median time to write moved objects and to find views and lights",
      .better = BetterDirection::less,
      .order = 24,
-     .get = host_time_part<&HostTimeParts::update>}};
+     .get = host_time_part<&HostTimes::update>}};
 const RegisteredMetric kHierarchy{{.name = "host_parts/hierarchy",
                                    .unit = "ms",
                                    .help = "median time to build or refit hierarchies",
                                    .better = BetterDirection::less,
                                    .order = 25,
-                                   .get = host_time_part<&HostTimeParts::hierarchy>}};
+                                   .get = host_time_part<&HostTimes::hierarchy>}};
 const RegisteredMetric kCompile{
     {.name = "host_parts/compile",
      .unit = "ms",
      .help = "median time to declare passes, and to plan them if their shape is new",
      .better = BetterDirection::less,
      .order = 26,
-     .get = host_time_part<&HostTimeParts::compile>}};
+     .get = host_time_part<&HostTimes::compile>}};
 const RegisteredMetric kRecord{{.name = "host_parts/record",
                                 .unit = "ms",
                                 .help = "median time to record the command buffer",
                                 .better = BetterDirection::less,
                                 .order = 27,
-                                .get = host_time_part<&HostTimeParts::record>}};
+                                .get = host_time_part<&HostTimes::record>}};
 const RegisteredMetric kFrameTime{
     {.name = "frame_ms",
      .unit = "ms",

@@ -35,12 +35,11 @@ struct Texture {
 
 /// Optical model of a surface, the same for raster and rays. It is evaluated at the visible point,
 /// with the textures' values there. Let c = albedo (times texture, times the vertices' colour), m =
-/// metallic and a = roughness.
-/// The diffuse colour is c (1 - m). F0 = mix(dielectric_f0, c, m), and F90 = mix(dielectric_f90, 1,
-/// m). The surface is sharp where a <= Scene::mirror_max_roughness. A sharp surface shows R times
-/// what the mirrored ray sees, plus (1 - R) times its diffuse light. Here R = F0 + (F90 - F0) (1 -
-/// cos)^5 (Schlick 1994). Elsewhere the surface is Lambertian, including its metal part. With
-/// `mirror`, R is `reflectance` at every angle.
+/// metallic and a = roughness. The diffuse colour is c (1 - m). F0 = mix(dielectric_f0, c, m), and
+/// F90 = mix(dielectric_f90, 1, m). The surface is sharp where a <= Scene::mirror_max_roughness. A
+/// sharp surface shows R times what the mirrored ray sees, plus (1 - R) times its diffuse light.
+/// Here R = F0 + (F90 - F0) (1 - cos)^5 (Schlick 1994). Elsewhere the surface is Lambertian,
+/// including its metal part. With `mirror`, R is `reflectance` at every angle.
 struct Material {
     std::string name;
     vec3 albedo{0};          ///< base colour, linear, in [0,1]

@@ -5,7 +5,7 @@
 namespace catoptric::app {
 
 std::string to_text(const CaptureBudget& slices) {
-    const std::uint32_t round = slices.frames_per_update_cycle(), oldest = round - 1;
+    const std::uint32_t round = slices.frames_per_cycle(), oldest = round - 1;
     return fmt::format("captures: at most {} of {} mirror{} a frame; none shows what is older than "
                        "{} frame{}, and {} more for each further mirror that it is seen by",
                        slices.most, slices.mirrors, slices.mirrors == 1 ? "" : "s", oldest,

@@ -50,8 +50,7 @@ struct FrameSpec {
     /// first frame draws all captures. Later frames draw as many as fit by the session's
     /// measurements, at least one. Therefore pictures depend on the speed of the device.
     double budget_ms = 0;
-    bool with_lookup =
-        false; ///< also record where mirrors looked (TechniqueResult::lookup); costs time
+    bool with_lookup = false; ///< fill TechniqueResult::lookup, which costs time
     /// A frame that keeps the history unchanged: the next frame has the history that this one had.
     bool keeps_history = false;
 };
@@ -91,9 +90,7 @@ struct CaptureBudget {
 
     /// Returns the number of frames within which each waiting capture is drawn, as long as `most`
     /// does not change.
-    std::uint32_t frames_per_update_cycle() const {
-        return most > 0 ? (mirrors + most - 1) / most : 1;
-    }
+    std::uint32_t frames_per_cycle() const { return most > 0 ? (mirrors + most - 1) / most : 1; }
 };
 
 /// Results of one technique or plan in a frame.

@@ -116,9 +116,8 @@ std::string explain_culling_as_json(const Request& request,
                                          {"pixel_share", *gap->pixel_share}});
     document["captures"] = slices ? OrderedJson{{"mirrors", slices->mirrors},
                                                 {"most", slices->most},
-                                                {"oldest_frames",
-                                                 slices->frames_per_update_cycle() - 1},
-                                                {"round_frames", slices->frames_per_update_cycle()},
+                                                {"oldest_frames", slices->frames_per_cycle() - 1},
+                                                {"round_frames", slices->frames_per_cycle()},
                                                 {"said", to_text(*slices)}}
                                   : OrderedJson();
     return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";

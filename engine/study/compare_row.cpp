@@ -28,7 +28,7 @@ measure::SampleSummary summarise_over_frames(const FrameTimesByRound& rounds, Va
     return measure::summarise_samples(samples);
 }
 
-report::HostTimeParts summarise_host_times(const FrameTimesByRound& rounds) {
+HostTimes summarise_host_times(const FrameTimesByRound& rounds) {
     const auto part = [&](double HostTimes::*which) {
         return summarise_over_frames(rounds,
                                      [&](const FrameTimes& frame) { return frame.host.*which; })
@@ -134,8 +134,7 @@ report::Row make_row_description(const std::string& text, const TechniqueResult&
     row.scene_passes = part.scene_passes;
     row.scene_draws = part.scene_draws;
     row.memory_bytes = part.memory_bytes;
-    if (part.rays)
-        row.rays = report::RayCounters{part.rays->primary, part.rays->mirror, part.rays->shadow};
+    if (part.rays) row.rays = RayCounts{part.rays->primary, part.rays->mirror, part.rays->shadow};
     row.traced_fraction = part.traced_fraction;
     if (part.auto_face)
         row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};

@@ -60,8 +60,8 @@ Json make_capture_budget_json(const std::optional<app::CaptureBudget>& slices, d
             {"most", slices->most},
             {"drawn", slices->drawn},
             {"waiting", slices->waiting},
-            {"oldest_frames", slices->frames_per_update_cycle() - 1},
-            {"round_frames", slices->frames_per_update_cycle()},
+            {"oldest_frames", slices->frames_per_cycle() - 1},
+            {"round_frames", slices->frames_per_cycle()},
             {"said", app::to_text(*slices)}};
 }
 

@@ -50,7 +50,7 @@ void expect_told(const app::Frame& frame, std::uint32_t most) {
     const app::CaptureBudget& slices = *frame.slices();
     EXPECT_EQ(drawn(frame.times()).size(), slices.drawn);
     EXPECT_EQ(slices.most, std::min(most, slices.mirrors));
-    EXPECT_LT(slices.longest, slices.frames_per_update_cycle());
+    EXPECT_LT(slices.longest, slices.frames_per_cycle());
     EXPECT_EQ(frame.waiting(), slices.waiting);
 }
 

@@ -103,7 +103,7 @@ inline Comparison usual() {
     Row exact = row("raytrace:depth=16", 12, 0, 0,
                     {number("depth", 16, true), choice("sphere", "mesh")});
     exact.is_reference = true;
-    exact.rays = RayCounters{12, 6, 18};
+    exact.rays = RayCounts{12, 6, 18};
     Comparison made = comparison(
         {naive(0, 2, 0.3, 0.5), row("reuse", 7, 0.09, 0.2, {number("face", 256)}),
          row("parallax", 6, 0.03, 0.1, {choice("distance", "r32f")}), exact});

@@ -74,7 +74,7 @@ TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
     EXPECT_EQ(app::to_text({.mirrors = 4, .most = 2}),
               "captures: at most 2 of 4 mirrors a frame; none shows what is older than 1 frame, "
               "and 2 more for each further mirror that it is seen by");
-    EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_update_cycle(), 1u);
+    EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_cycle(), 1u);
 }
 
 } // namespace
