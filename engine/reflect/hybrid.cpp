@@ -20,10 +20,11 @@ constexpr auto kKnobs = list_search_knobs(std::array{kForce});
 MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
                                   const KnobSettings& settings, const MirrorInputs& around) {
     MirrorShading look = make_pyramid_shading(graph, inputs, settings, around);
-    if (settings.as<Force>(kForce) == Force::unknown)
-        look.mirror.constants.emplace_back("trusts_none", 1u);
+    const bool traces_all = settings.as<Force>(kForce) == Force::unknown;
+    if (traces_all) look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
-    if (inputs.scene.device().numbers_triangles()) {
+    // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
+    if (traces_all && inputs.scene.device().numbers_triangles()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }

@@ -212,15 +212,13 @@ TEST_F(Memory, FailureOfEachKindOfCallInAComparisonKeepsItsFiles) {
 
 /// Test of case Z1 of docs/extremes.md: a run allocates what `graph` announces and two more parts.
 /// One part belongs to the scene. It does not grow with the picture and is larger if rays are
-/// traced, and larger still if they start at drawn triangles. The other part is a buffer of 16
+/// traced. The other part is a buffer of 16
 /// bytes per pixel through which pictures are read.
 TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
     const std::string said = test::in_child([&] {
         constexpr std::uint64_t kCounters = 256; // bytes; counters enlarge the buffer at 1x1
         WatchedHere here(folder / "calls");
-        // Bytes of the scene by its content: 0 without a hierarchy, 1 with one, 2 with the list
-        // that finds drawn triangles in the hierarchy, too.
-        std::map<int, std::uint64_t> scenes;
+        std::map<bool, std::uint64_t> scenes; // bytes without and with a BVH for rays
         std::string wrong;
         for (const std::string technique :
              {"raytrace", "parallax:face=64", "reuse:face=32", "hybrid:face=32"}) {
@@ -239,10 +237,8 @@ TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
                             static_cast<unsigned long long>(watched.most_bytes),
                             static_cast<unsigned long long>(announced),
                             static_cast<unsigned long long>(rest));
-                const int content = technique == "raytrace"           ? 1
-                                    : technique.starts_with("hybrid") ? 2
-                                                                      : 0;
-                const std::uint64_t scene = scenes.try_emplace(content, rest).first->second;
+                const bool traces = technique == "raytrace" || technique.starts_with("hybrid");
+                const std::uint64_t scene = scenes.try_emplace(traces, rest).first->second;
                 const std::uint64_t apart = std::max(rest, scene) - std::min(rest, scene);
                 if (watched.most_bytes < known || apart > kCounters || !watched.ended.err.empty())
                     wrong += technique + " at " + std::to_string(size.x) + "x" +
