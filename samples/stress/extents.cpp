@@ -105,7 +105,7 @@ void judge_scene_extents(StressBench& bench) {
 
 const RegisteredProperty kExtents{
     {"N5", "a stray triangle to 1e9 away, a sky and a ground of 1e6, a ball of 1e-3 in 1e3",
-     "what is looked at keeps its precision (FLIP)", judge_scene_extents, "core_is_everything"}};
+     "the objects in view keep precision (FLIP)", judge_scene_extents, "core_is_everything"}};
 
 } // namespace
 

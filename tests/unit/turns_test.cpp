@@ -19,7 +19,7 @@ TEST(Turns, CapturesThatWaitedLongestAreDrawnFirst) {
     EXPECT_EQ(render::choose_postponed_mirrors({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2),
               (Mirrors{1, 4}));
     EXPECT_EQ(render::choose_postponed_mirrors({{4, 2}, {2, 2}, {3, 2}}, 1), (Mirrors{3, 4}))
-        << "of equals";
+        << "of mirrors that waited equally long, the lower number is drawn first";
     EXPECT_EQ(render::choose_postponed_mirrors({{4, 2}, {2, 2}}, 2), Mirrors());
     EXPECT_EQ(render::choose_postponed_mirrors({}, 1), Mirrors());
 }
