@@ -29,8 +29,8 @@ uvec2 count_work_groups(uint pixels) {
     return uvec2(min(groups, kListGroups), (groups + kListGroups - 1u) / kListGroups);
 }
 
-void main() {
-    uvec2 pixel = gl_GlobalInvocationID.xy;
+// Lists the pixels of one 8x8 block that the tracer takes.
+void list_pixels(uvec2 pixel) {
     bool inside = all(lessThan(pixel, size));
     ivec2 place = ivec2(min(pixel, size - 1u));
 #ifdef FIRST_HIT
@@ -62,4 +62,18 @@ void main() {
     }
     if (is_listed != 0u) list[first + before] = pixel.y * size.x + pixel.x;
     if (all(equal(pixel, uvec2(0)))) arguments.groups.z = 1u;
+}
+
+// Blocks are listed in the order in which work groups come by. Which pixels are traced together, and thereby the number
+// of live lanes, differs from run to run. Where work is counted, the first work group lists all blocks in order.
+void main() {
+    if (count_work == 0u) {
+        list_pixels(gl_GlobalInvocationID.xy);
+        return;
+    }
+    if (any(notEqual(gl_WorkGroupID, uvec3(0)))) return;
+    for (uint block = 0u; block < gl_NumWorkGroups.x * gl_NumWorkGroups.y; ++block) {
+        list_pixels(8u * uvec2(block % gl_NumWorkGroups.x, block / gl_NumWorkGroups.x) + gl_LocalInvocationID.xy);
+        barrier();
+    }
 }

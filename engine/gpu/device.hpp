@@ -98,6 +98,8 @@ public:
     /// Returns whether fragment shaders may read the number of their triangle. Vulkan ties this to
     /// geometry shaders.
     bool numbers_triangles() const { return numbers_triangles_; }
+    /// Returns whether the device counts vertices, fragments and other invocations.
+    bool has_pipeline_statistics() const { return pipeline_statistics_; }
     bool needs_staging() const { return staged_; }
     std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
@@ -176,6 +178,7 @@ private:
     VariantChoices choices_{};
     bool layered_ = true;
     bool doubles_ = false, numbers_triangles_ = false;
+    bool pipeline_statistics_ = false;
     bool filters_floats_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;

@@ -126,6 +126,7 @@ void Device::read_physical_device(const DeviceOptions& options) {
     layered_ = options.layered && has.v12.shaderOutputLayer;
     doubles_ = has.core.features.shaderFloat64;
     numbers_triangles_ = has.core.features.geometryShader;
+    pipeline_statistics_ = has.core.features.pipelineStatisticsQuery;
     filters_floats_ = DeviceFeatures::filters_floats(physical_);
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);

@@ -262,6 +262,7 @@ void DeviceFeatures::switch_on(VkPhysicalDevice device) {
     core.features.fragmentStoresAndAtomics = true;
     core.features.shaderClipDistance = true;
     core.features.shaderFloat64 = has.core.features.shaderFloat64;
+    core.features.pipelineStatisticsQuery = has.core.features.pipelineStatisticsQuery;
     core.features.geometryShader = has.core.features.geometryShader; // for gl_PrimitiveID
     v12.scalarBlockLayout = true;
     v12.timelineSemaphore = true;

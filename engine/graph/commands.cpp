@@ -7,6 +7,25 @@
 
 namespace catoptric::graph {
 
+namespace {
+
+// Names in shaders/lib/work.glsl.
+constexpr const char* kCountWork = "count_work";
+constexpr std::string_view kWorkBuffer = "WorkBuffer";
+
+/// Returns the bytes of one mip of a part of an image.
+std::uint64_t count_bytes(const ImageDesc& desc, const ImageHandle& part) {
+    return std::uint64_t{size_at_mip(desc.width, part.first_mip)} *
+           size_at_mip(desc.height, part.first_mip) * part.layer_count *
+           bytes_per_texel(desc.format);
+}
+
+} // namespace
+
+void PassCommands::count(WorkKind kind, std::uint64_t count) {
+    if (WorkCounter* const work = recorder_.work()) work->add(kind, count);
+}
+
 void PassCommands::use(gpu::RasterState state) {
     gpu::Attachments attachments;
     for (const ImageUse& use : pass_.images) {
@@ -15,6 +34,7 @@ void PassCommands::use(gpu::RasterState state) {
         if (use.use == ResourceUse::depth) attachments.depth = true;
     }
     if (layer_count_ > 1) state.vertex += "#layered";
+    if (recorder_.work()) state.features.emplace_back(kCountWork, 1u);
     pipeline_name_ = state.vertex + "+" + state.fragment;
     pipeline_ = &recorder_.pipelines().raster(state, attachments);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
@@ -23,7 +43,12 @@ void PassCommands::use(gpu::RasterState state) {
 
 void PassCommands::use(const gpu::ComputeState& state) {
     pipeline_name_ = state.shader;
-    pipeline_ = &recorder_.pipelines().compute(state);
+    gpu::ComputeState counting;
+    if (recorder_.work()) {
+        counting = state;
+        counting.features.emplace_back(kCountWork, 1u);
+    }
+    pipeline_ = &recorder_.pipelines().compute(recorder_.work() ? counting : state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
@@ -91,11 +116,13 @@ void PassCommands::draw(std::uint32_t first_index, std::uint32_t index_count,
     const std::uint32_t end = std::min(first_layer + layer_count, first_layer_ + layer_count_);
     if (first >= end || index_count == 0) return;
     flush();
+    count(WorkKind::draws);
     vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first_instance + first);
 }
 
 void PassCommands::draw_covering_triangle() {
     flush();
+    count(WorkKind::draws);
     vkCmdDraw(commands_, 3, 1, 0, 0);
 }
 
@@ -107,6 +134,7 @@ void PassCommands::scissor(const PixelArea& area) {
 
 void PassCommands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     flush();
+    count(WorkKind::dispatches);
     vkCmdDispatch(commands_, x, y, z);
 }
 
@@ -118,6 +146,7 @@ void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offse
           "' dispatches what buffer '", graph_.buffers()[arguments.id].name,
           "' says but does not declare it as indirect");
     flush();
+    count(WorkKind::dispatches);
     vkCmdDispatchIndirect(commands_, recorder_.buffer(arguments), offset);
 }
 
@@ -143,6 +172,7 @@ void PassCommands::copy(ImageHandle from, ImageHandle to) {
     region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
     region.extent = {size_at_mip(desc.width, from.first_mip),
                      size_at_mip(desc.height, from.first_mip), 1};
+    count(WorkKind::bytes, count_bytes(desc, from));
     vkCmdCopyImage(commands_, recorder_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                    recorder_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
@@ -151,17 +181,20 @@ void PassCommands::copy(ImageHandle from, BufferHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
     const VkBufferImageCopy region = make_copy_region(graph_.images()[from.id], from);
+    count(WorkKind::bytes, count_bytes(graph_.images()[from.id], from));
     vkCmdCopyImageToBuffer(commands_, recorder_.physical(from).image,
                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.buffer(to), 1, &region);
 }
 
 void PassCommands::fill(BufferHandle buffer, std::uint32_t word) {
     require_declared(buffer, "target of a fill");
+    count(WorkKind::bytes, graph_.buffers()[buffer.id].bytes);
     vkCmdFillBuffer(commands_, recorder_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
 void PassCommands::update(BufferHandle buffer, std::span<const std::byte> bytes) {
     require_declared(buffer, "target of an update");
+    count(WorkKind::bytes, bytes.size());
     vkCmdUpdateBuffer(commands_, recorder_.buffer(buffer), 0, bytes.size(), bytes.data());
 }
 
@@ -262,10 +295,11 @@ void PassCommands::flush() {
         writes.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const gpu::ShaderBinding& binding = pipeline_->bindings[i];
+            const bool is_work = binding.name == kWorkBuffer && recorder_.work();
             const auto bound = bound_.find(list_of(binding));
-            check(bound != bound_.end(), Failure::internal, "pass '", pass_.name,
+            check(is_work || bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
-            require_kind(binding, bound->second);
+            if (!is_work) require_kind(binding, bound->second);
             VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
             write.dstSet = set;
             write.dstBinding = binding.binding;
@@ -274,7 +308,9 @@ void PassCommands::flush() {
             write.pImageInfo = images.data() + images.size();
             write.pBufferInfo = &buffers[i];
             write.pTexelBufferView = &texels[i];
-            if (is_image_binding(binding.kind) || binding.kind == gpu::BindingKind::sampler)
+            if (is_work)
+                buffers[i] = recorder_.work()->shader_counts();
+            else if (is_image_binding(binding.kind) || binding.kind == gpu::BindingKind::sampler)
                 write_images(binding, bound->second, images);
             else
                 write_buffer(binding, bound->second, buffers[i], texels[i]);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/work.hpp"
 #include "gpu/buffer.hpp"
 #include "gpu/pipeline.hpp"
 #include "graph/graph.hpp"
@@ -101,6 +102,8 @@ private:
     };
     using BoundResource = std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::Buffer*>;
     void flush();
+    /// Adds to the counted work of the pass, if the frame counts work.
+    void count(WorkKind kind, std::uint64_t count = 1);
     void require_declared(ImageHandle image, std::string_view name) const;
     void require_declared(BufferHandle buffer, std::string_view name) const;
     void require_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;

@@ -69,6 +69,16 @@ void set_barrier_scopes(VulkanBarrier& barrier, const BarrierScopes& sides) {
     barrier.dstStageMask = sides.after.stages, barrier.dstAccessMask = sides.after.access;
 }
 
+/// Returns the bytes of an attachment that a pass loads or clears before it draws, plus those that
+/// it stores.
+std::uint64_t count_attachment_bytes(const VkRenderingAttachmentInfo& attachment, Format format,
+                                     const VkRenderingInfo& rendering) {
+    const VkExtent2D extent = rendering.renderArea.extent;
+    const std::uint64_t once = std::uint64_t{extent.width} * extent.height * rendering.layerCount *
+                               bytes_per_texel(format);
+    return once * (attachment.storeOp == VK_ATTACHMENT_STORE_OP_STORE ? 2 : 1);
+}
+
 } // namespace
 
 FrameRecorder::FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines)
@@ -84,8 +94,8 @@ FrameRecorder::FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines)
 }
 
 void FrameRecorder::record(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
-                           std::size_t slot_index, PassTiming timing) {
-    graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index;
+                           std::size_t slot_index, PassTiming timing, WorkCounter* work) {
+    graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index, work_ = work;
     commands_ = slot.commands;
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -166,6 +176,7 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
         label.pLabelName = pass.name.c_str();
         begin_label_(commands_, &label);
     }
+    if (work_) work_->begin_pass(commands_);
     if (!pass.is_raster()) {
         PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
@@ -174,6 +185,7 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
     } else {
         for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer) render(planned, layer, 1);
     }
+    if (work_) work_->end_pass(commands_);
     if (end_label_) end_label_(commands_);
 }
 
@@ -216,6 +228,19 @@ void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32
         depth_ = info;
 }
 
+void FrameRecorder::count_bytes(const Pass& pass, const VkRenderingInfo& rendering) {
+    std::size_t colour = 0;
+    for (const ImageUse& use : pass.images) {
+        if (use.use != ResourceUse::colour && use.use != ResourceUse::depth) continue;
+        const VkRenderingAttachmentInfo& attachment = use.use == ResourceUse::depth
+                                                          ? depth_
+                                                          : colours_[colour++];
+        work_->add(
+            WorkKind::bytes,
+            count_attachment_bytes(attachment, graph_->images()[use.image.id].format, rendering));
+    }
+}
+
 /// Records one rendering scope over some layers of the pass's attachments.
 void FrameRecorder::render(const PlannedPass& planned, std::uint32_t first_layer,
                            std::uint32_t layer_count) {
@@ -233,6 +258,7 @@ void FrameRecorder::render(const PlannedPass& planned, std::uint32_t first_layer
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours_.size());
     rendering.pColorAttachments = colours_.data();
     rendering.pDepthAttachment = depth_.imageView ? &depth_ : nullptr;
+    if (work_) count_bytes(pass, rendering);
     vkCmdBeginRendering(commands_, &rendering);
     const VkViewport viewport{
         0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};

@@ -3,6 +3,7 @@
 #include "gpu/pipeline.hpp"
 #include "graph/commands.hpp"
 #include "graph/slot.hpp"
+#include "graph/work_counter.hpp"
 
 namespace catoptric::graph {
 
@@ -12,12 +13,15 @@ public:
     FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines);
 
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
+    /// `work` counts the frame's work; null: nothing is counted.
     void record(const Graph& graph, CompiledGraph& shape, FrameSlot& slot, std::size_t slot_index,
-                PassTiming timing);
+                PassTiming timing, WorkCounter* work);
 
     // Returns the device. Only Commands may call this function, while a pass records its commands.
     gpu::Device& device() { return device_; }
     gpu::Pipelines& pipelines() { return pipelines_; }
+    /// Returns the counter of the frame's work; null: nothing is counted.
+    WorkCounter* work() { return work_; }
     PhysicalImage& physical(ImageHandle image);
     VkBuffer buffer(BufferHandle buffer) const;
     VkSampler sampler(TextureFilter filter) const {
@@ -32,6 +36,7 @@ private:
     void render(const PlannedPass& planned, std::uint32_t first_layer, std::uint32_t layer_count);
     void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                         std::uint32_t layer_count);
+    void count_bytes(const Pass& pass, const VkRenderingInfo& rendering);
     void barriers(const std::vector<PlannedBarrier>& list, bool last);
     void add(const PlannedBarrier& barrier, bool last);
     void full_barrier();
@@ -48,6 +53,7 @@ private:
     CompiledGraph* shape_ = nullptr;
     FrameSlot* slot_ = nullptr;
     std::size_t slot_index_ = 0;
+    WorkCounter* work_ = nullptr;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     // Members rather than locals, so that their memory is reused.
     std::vector<VkImageMemoryBarrier2> image_barriers_;

@@ -29,6 +29,13 @@ gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device) {
     return {device.handle(), semaphore};
 }
 
+std::vector<std::string> list_pass_names(const CompiledGraph& shape) {
+    std::vector<std::string> names;
+    for (const PlannedPass& planned : shape.plan.passes)
+        names.push_back(shape.outline.passes()[planned.pass].name);
+    return names;
+}
+
 /// Returns the number of the frame and the names of all its passes. A lost device does not tell
 /// which pass was running.
 std::string describe_frame(std::uint64_t frame, const CompiledGraph& shape) {
@@ -128,7 +135,7 @@ CompiledGraph& GraphRunner::compile(const Graph& graph) {
 }
 
 FrameTicket GraphRunner::submit(const Graph& graph, PassTiming timing, bool stays,
-                                const ExternalSemaphores& outside) {
+                                const ExternalSemaphores& outside, bool counts_work) {
     device_.check_usable();
     const double waited_before = wait_ms_;
     CompiledGraph& shape = compile(graph);
@@ -147,7 +154,9 @@ FrameTicket GraphRunner::submit(const Graph& graph, PassTiming timing, bool stay
     compile_ms_ = 0;
 
     const SteadyClock::time_point record_begin = SteadyClock::now();
-    recorder_.record(graph, shape, slot, index, timing);
+    slot.work = counts_work ? std::make_unique<WorkCounter>(device_, list_pass_names(shape))
+                            : nullptr;
+    recorder_.record(graph, shape, slot, index, timing, slot.work.get());
     times.record_ms = elapsed_milliseconds(record_begin);
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
@@ -234,6 +243,12 @@ bool GraphRunner::has_ended(FrameTicket ticket) {
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
         device_.check_waited(result, "run " + describe_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
+}
+
+std::vector<PassWork> GraphRunner::work(FrameTicket ticket) {
+    FrameSlot& slot = slot_of(ticket);
+    finish(slot);
+    return slot.work ? slot.work->read() : std::vector<PassWork>();
 }
 
 const GraphFrameTimes& GraphRunner::wait(FrameTicket ticket) {

@@ -56,10 +56,10 @@ public:
 
     /// Records and submits a frame. If `in_flight` frames are on the device, waits for the oldest.
     /// `stays`: the frame does not advance the history, so that the next frame sees the same last
-    /// frame. Throws `exhausted`. Throws `device_lost` if a wait fails or the device refuses the
-    /// frame.
+    /// frame. `counts_work`: the frame counts its work, which makes it slower. Throws `exhausted`.
+    /// Throws `device_lost` if a wait fails or the device refuses the frame.
     FrameTicket submit(const Graph& graph, PassTiming timing, bool stays = false,
-                       const ExternalSemaphores& outside = {});
+                       const ExternalSemaphores& outside = {}, bool counts_work = false);
     /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
     /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
     /// has taken its slot.
@@ -69,6 +69,10 @@ public:
     GraphFrameTimes run(const Graph& graph, PassTiming timing, bool stays = false) {
         return wait(submit(graph, timing, stays));
     }
+
+    /// Waits for the frame and returns the work of its passes, in order of execution. Empty if the
+    /// frame did not count its work.
+    std::vector<PassWork> work(FrameTicket ticket);
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.

@@ -4,6 +4,7 @@
 #include "gpu/device.hpp"
 #include "graph/compiled_graph.hpp"
 #include "graph/frame_times.hpp"
+#include "graph/work_counter.hpp"
 
 #include <memory>
 
@@ -30,6 +31,7 @@ public:
     std::shared_ptr<CompiledGraph> shape;
     SteadyClock::time_point submitted;
     GraphFrameTimes times;
+    std::unique_ptr<WorkCounter> work; ///< null: the frame does not count its work
 
 private:
     const gpu::Device& device_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/work.hpp"
 #include "require/model.hpp"
 #include "session/engine.hpp"
 #include "session/session.hpp"
@@ -55,6 +56,7 @@ struct FrameHooks {
     /// Causes of error to remove from mirrors: a sum of shared::kAblate... (shaders/shared.h).
     std::uint32_t ablated = 0;
     bool with_captures = false; ///< make captures readable (Access::captures)
+    bool counts_work = false;   ///< count the work (Access::work), which makes the frame slower
 };
 
 /// Pipelines that an engine has compiled so far. A software driver compiles more of a pipeline in
@@ -120,6 +122,8 @@ struct Access {
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
     /// `internal` without `with_captures`.
     static render::CapturedCubes captures(const Frame& frame, std::size_t part = 0);
+    /// Returns the work of the frame's passes, in order of execution. Empty without `counts_work`.
+    static std::vector<PassWork> work(const Frame& frame);
     /// Returns the linear pictures and all data that the next frame can read of this one, as bytes.
     /// If two successive frames of a still scene have equal states, the picture changes no more.
     /// Empty if nothing is remembered.

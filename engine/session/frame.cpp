@@ -86,6 +86,10 @@ render::CapturedCubes Access::captures(const Frame& frame, std::size_t part) {
             runner.read(self.ticket, *cubes.distance), self.session->resident->space()};
 }
 
+std::vector<PassWork> Access::work(const Frame& frame) {
+    return frame.impl_->runner().work(frame.impl_->ticket);
+}
+
 std::vector<std::byte> Access::state(const Frame& frame) {
     const Frame::Impl& self = *frame.impl_;
     self.check_last();

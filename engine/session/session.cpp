@@ -186,11 +186,11 @@ Frame Access::submit(Session& session, const FrameSpec& spec, const FrameHooks& 
     self.resident->prepare();
     const double hierarchy_ms = compute_milliseconds_since(trees);
     const graph::ExternalSemaphores outside = finish(frame);
-    const graph::FrameTicket ticket = self.runner.submit(frame.graph,
-                                                         spec.timing == PassTimingMode::isolated
-                                                             ? graph::PassTiming::isolated
-                                                             : graph::PassTiming::pipelined,
-                                                         spec.keeps_history, outside);
+    const graph::FrameTicket ticket = self.runner.submit(
+        frame.graph,
+        spec.timing == PassTimingMode::isolated ? graph::PassTiming::isolated
+                                                : graph::PassTiming::pipelined,
+        spec.keeps_history, outside, hooks.counts_work);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
     if (!spec.keeps_history) self.store_captures(frame, ticket);

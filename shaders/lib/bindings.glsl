@@ -5,6 +5,7 @@
 
 #include "lib/math.glsl"
 #include "lib/texels.glsl"
+#include "lib/work.glsl"
 #include "shared.h"
 
 // Data that all invocations read at the same index is in uniform buffers. Data that they read at different indices is
@@ -36,6 +37,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define DETAILS_BINDING 40
 #define ATTRIBUTES_BINDING 41
 #define TEXELS_BINDING 42
+// lib/work.glsl uses binding 43.
 // Bindings from 64 on are texel lists that lib/texels.glsl keeps in storage buffers.
 
 // Reads the surface of an object.

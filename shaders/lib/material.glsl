@@ -54,6 +54,7 @@ vec4 read_texel_colour(TextureUse use, int x, int y) {
 // Samples a texture. `uv` holds both sets of texture coordinates. Returns white if the material has no such texture.
 vec4 sample_texture(TextureUse use, vec4 uv) {
     if (use.size == 0u) return vec4(1);
+    count_lookup(kWorkTextureLookups);
     vec3 place = vec3((use.how & kTextureSecondUv) != 0u ? uv.zw : uv.xy, 1);
     float u = dot(use.u_row, place), v = dot(use.v_row, place);
     int width = int(use.size & 0xffffu), height = int(use.size >> 16u);

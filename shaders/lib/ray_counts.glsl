@@ -2,6 +2,7 @@
 #ifndef CATOPTRIC_RAY_COUNTS_GLSL
 #define CATOPTRIC_RAY_COUNTS_GLSL
 
+#define TRACE_COUNTS_LANES
 #include "lib/whitted.glsl"
 
 layout(set = 0, binding = COUNTERS_BINDING, scalar) buffer CountersBuffer { Counters value; } counters;
@@ -29,6 +30,15 @@ void count_rays() {
     uint shadows = subgroupAdd(shadow_rays);
     uint exhausted = subgroupAdd(trace_exhausted ? 1u : 0u);
     uint longest = subgroupMax(trace_steps);
+    if (count_work != 0u) {
+        add_work(kWorkCameraRays, camera_rays);
+        add_work(kWorkMirrorRays, mirror_rays);
+        add_work(kWorkShadowRays, shadow_rays);
+        add_work(kWorkNodes, nodes_visited);
+        add_work(kWorkTriangles, triangles_tested);
+        add_work(kWorkNodeLanes, node_lanes);
+        add_work(kWorkTriangleLanes, triangle_lanes);
+    }
     if (!subgroupElect()) return;
     atomicAdd(counters.value.primary_rays, primary);
     atomicAdd(counters.value.mirror_rays, mirrors);

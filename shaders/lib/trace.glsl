@@ -18,6 +18,7 @@
 #include "lib/math.glsl"
 #include "lib/plain.glsl"
 #include "lib/texels.glsl"
+#include "lib/work.glsl"
 
 #ifndef TRACE_LOCAL_SIZE
 #define TRACE_LOCAL_SIZE 64
@@ -30,6 +31,12 @@
 #endif
 #ifdef NAIVE
 #define TRACE_PRIVATE_STACK
+#endif
+// Whether this lane stands for its subgroup. TRACE_COUNTS_LANES says that the shader may use subgroup operations.
+#ifdef TRACE_COUNTS_LANES
+#define IS_ELECTED subgroupElect()
+#else
+#define IS_ELECTED true
 #endif
 
 #ifdef NAIVE
@@ -48,6 +55,10 @@ shared uint trace_stack[kBvhMaxStack * TRACE_LOCAL_SIZE];
 
 // The number of node visits and triangle tests of all rays of this invocation.
 uint trace_steps = 0u;
+// The same, each for itself, and the number of times that this invocation stood for its subgroup in a node visit or a
+// triangle test. The sum of the latter over all lanes is the number of visits and tests that subgroups executed, so
+// nodes / node_lanes is the mean number of live lanes. Only counted if count_work is 1.
+uint nodes_visited = 0u, triangles_tested = 0u, node_lanes = 0u, triangle_lanes = 0u;
 // Whether some walk of this invocation stopped before its end, so that its answer is wrong. A walk stops at
 // kMaxTraceSteps, or because the driver stops its loops. The software driver silently ends all loops of an invocation
 // after 65,535 iterations, counted over the eight lanes that run together.
@@ -211,6 +222,10 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
                 uint second;
                 trace_node(bvh_index(child), walked.boxes, best.t, child, second);
                 ++trace_steps;
+                if (count_work != 0u) {
+                    ++nodes_visited;
+                    if (IS_ELECTED) ++node_lanes;
+                }
                 if (second != kBvhNothing) {
                     STACK(waiting) = second;
                     ++waiting;
@@ -248,6 +263,10 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
             if (i < count) {
                 trace_triangle(first + i, walked, skipped_flags, best, found);
                 ++trace_steps;
+                if (count_work != 0u) {
+                    ++triangles_tested;
+                    if (IS_ELECTED) ++triangle_lanes;
+                }
                 ++i;
             }
         } while (i < count);

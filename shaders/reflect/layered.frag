@@ -33,20 +33,24 @@ struct ArcSample {
 // layer.
 float first_layer_distance(uint mirror, ivec3 texel) {
 #define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_distance_unit(mirror)
+    count_lookup(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, FIRST)
 }
 float second_layer_distance(uint mirror, ivec3 texel) {
 #define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_distance_unit(mirror)
+    count_lookup(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, SECOND)
 }
 // Returns the captured distances, scene units, of four texels in the first layer. gather_second_layer reads the second
 // layer.
 vec4 gather_first_layer(uint mirror, vec3 at) {
 #define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_distance_unit(mirror)
+    count_lookup(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, FIRSTS)
 }
 vec4 gather_second_layer(uint mirror, vec3 at) {
 #define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_distance_unit(mirror)
+    count_lookup(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, SECONDS)
 }
 // Returns the weighted sum of the colours of four texels in both layers.
@@ -58,6 +62,7 @@ vec3 sum_weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 1)),                                               \
          dot(in_first, textureGather(FACES_OF(colour1, i), at, 2)) +                                                   \
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 2)))
+    add_work(kWorkColourLookups, 6u);
     RETURN_OF_ARRAY(mirror, WEIGHTED)
 }
 // Returns a direction's position on its cube face, in texels, and the array layer of that face.

@@ -1,0 +1,96 @@
+#include "graph/work_counter.hpp"
+
+#include <cstring>
+
+namespace catoptric::graph {
+
+namespace {
+
+// The order of the bits is the order of the results.
+constexpr VkQueryPipelineStatisticFlags kStatistics =
+    VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
+    VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
+    VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
+    VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
+constexpr WorkKind kCountedByQuery[] = {WorkKind::vertices, WorkKind::primitives,
+                                        WorkKind::fragments, WorkKind::invocations};
+constexpr std::size_t kResults = std::size(kCountedByQuery);
+constexpr std::uint64_t kShaderBytes = shared::kShaderWorkKinds * 2 * sizeof(std::uint32_t);
+
+} // namespace
+
+WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes) : device_(device) {
+    for (std::string& name : passes) passes_.push_back({std::move(name), {}});
+    const std::uint64_t alignment = device.limits().minStorageBufferOffsetAlignment;
+    stride_ = (kShaderBytes + alignment - 1) / alignment * alignment;
+    buffer_ = gpu::Buffer(device, "counted work", stride_ * passes_.size(),
+                          gpu::BufferUsage::read_back);
+    if (!device.has_pipeline_statistics() || passes_.empty()) return;
+    VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
+    create.queryCount = static_cast<std::uint32_t>(passes_.size());
+    create.pipelineStatistics = kStatistics;
+    VkQueryPool pool = VK_NULL_HANDLE;
+    gpu::check_vk(vkCreateQueryPool(device.handle(), &create, nullptr, &pool),
+                  "create pipeline statistics");
+    statistics_ = {device.handle(), pool};
+    vkResetQueryPool(device.handle(), pool, 0, create.queryCount);
+}
+
+void WorkCounter::begin_pass(VkCommandBuffer commands) {
+    if (pass_ == 0) {
+        vkCmdFillBuffer(commands, buffer_.handle(), 0, VK_WHOLE_SIZE, 0);
+        gpu::record_barrier_after_copies(
+            commands,
+            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    }
+    for (const WorkKind kind : {WorkKind::draws, WorkKind::dispatches, WorkKind::bytes})
+        add(kind, 0);
+    add(WorkKind::passes, 1);
+    if (statistics_) vkCmdBeginQuery(commands, statistics_, static_cast<std::uint32_t>(pass_), 0);
+}
+
+void WorkCounter::end_pass(VkCommandBuffer commands) {
+    if (statistics_) vkCmdEndQuery(commands, statistics_, static_cast<std::uint32_t>(pass_));
+    if (++pass_ < passes_.size()) return;
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+                           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                           VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+VkDescriptorBufferInfo WorkCounter::shader_counts() const {
+    return {buffer_.handle(), pass_ * stride_, kShaderBytes};
+}
+
+std::vector<PassWork> WorkCounter::read() {
+    const std::vector<std::byte> bytes = buffer_.read();
+    std::vector<std::uint64_t> results(kResults * passes_.size());
+    if (statistics_)
+        gpu::check_vk(vkGetQueryPoolResults(device_.handle(), statistics_, 0,
+                                            static_cast<std::uint32_t>(passes_.size()),
+                                            results.size() * sizeof results[0], results.data(),
+                                            kResults * sizeof results[0],
+                                            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                      "read pipeline statistics");
+    for (std::size_t i = 0; i < passes_.size(); ++i) {
+        WorkCounts& counts = passes_[i].counts;
+        std::uint32_t words[shared::kShaderWorkKinds][2]; // the low word comes first
+        std::memcpy(words, bytes.data() + i * stride_, kShaderBytes);
+        for (std::size_t kind = 0; kind < shared::kShaderWorkKinds; ++kind)
+            counts.values[kind] = std::uint64_t{words[kind][1]} << 32 | words[kind][0];
+        for (std::size_t k = 0; statistics_ && k < kResults; ++k)
+            counts[kCountedByQuery[k]] = results[kResults * i + k];
+    }
+    return passes_;
+}
+
+} // namespace catoptric::graph

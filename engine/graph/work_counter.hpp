@@ -1,0 +1,41 @@
+#pragma once
+
+#include "core/work.hpp"
+#include "gpu/buffer.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace catoptric::graph {
+
+/// Counts the work of the passes of one frame, in three ways. The recorder adds commands and bytes.
+/// A query of pipeline statistics counts vertices, fragments and invocations. Shaders that are
+/// built with `count_work` add rays and look-ups to a part of a buffer that belongs to the pass
+/// (shaders/lib/work.glsl). Counting makes a frame slower, so such a frame's times mean nothing.
+class WorkCounter {
+public:
+    /// `passes`: names of the frame's passes, in order of execution.
+    WorkCounter(gpu::Device& device, std::vector<std::string> passes);
+
+    /// Records the begin and the end of the next pass, outside of rendering.
+    void begin_pass(VkCommandBuffer commands);
+    void end_pass(VkCommandBuffer commands);
+    /// Adds to a count of the pass that is being recorded.
+    void add(WorkKind kind, std::uint64_t count) { passes_[pass_].counts.add(kind, count); }
+    /// Returns the buffer and the part of it in which the shaders of this pass count.
+    VkDescriptorBufferInfo shader_counts() const;
+    /// Returns the counts of all passes. The frame must have ended.
+    std::vector<PassWork> read();
+
+private:
+    gpu::Device& device_;
+    std::vector<PassWork> passes_;
+    std::size_t pass_ = 0;
+    std::uint64_t stride_ = 0; ///< bytes between the parts of two passes
+    gpu::Buffer buffer_;
+    gpu::UniqueQueryPool statistics_; ///< null if the device has no pipeline statistics
+};
+
+} // namespace catoptric::graph

@@ -1,0 +1,73 @@
+#include "measure/work.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace catoptric::measure {
+
+namespace {
+
+/// Returns "work/" and the name of each kind. Metrics refer to these texts.
+const std::array<std::string, kWorkKindCount>& list_metric_names() {
+    static const std::array<std::string, kWorkKindCount> kNames = [] {
+        std::array<std::string, kWorkKindCount> names;
+        for (std::size_t i = 0; i < kWorkKindCount; ++i)
+            names[i] = "work/" + std::string(kWorkKinds[i].name);
+        return names;
+    }();
+    return kNames;
+}
+
+MetricValue to_metric_value(const std::optional<std::uint64_t>& count) {
+    return count ? MetricValue(static_cast<double>(*count)) : MetricValue();
+}
+
+} // namespace
+
+std::vector<Metric> list_work_metrics() {
+    std::vector<Metric> metrics;
+    for (std::size_t i = 0; i < kWorkKindCount; ++i)
+        metrics.push_back({.name = list_metric_names()[i],
+                           .help = kWorkKinds[i].help,
+                           .better = BetterDirection::less,
+                           .order = 700 + static_cast<int>(i),
+                           .get = Metric::OfStudy{}});
+    metrics.push_back({.name = kWorkByPass,
+                       .help = "the same counts for each pass of the frame",
+                       .order = 700 + static_cast<int>(kWorkKindCount),
+                       .get = Metric::OfStudy{}});
+    return metrics;
+}
+
+void set_row_work(Row& row, const std::vector<PassWork>& passes) {
+    const WorkCounts sum = sum_work(passes);
+    for (std::size_t i = 0; i < kWorkKindCount; ++i)
+        set_studied(row, list_metric_names()[i], to_metric_value(sum.values[i]));
+    std::vector<ValueParts> list;
+    for (const PassWork& pass : passes) {
+        list.push_back({"pass", pass.name, {}});
+        for (std::size_t i = 0; i < kWorkKindCount; ++i)
+            if (pass.counts.values[i].value_or(0) > 0)
+                list.back().values.emplace_back(kWorkKinds[i].name,
+                                                to_metric_value(pass.counts.values[i]));
+    }
+    set_studied(row, kWorkByPass, std::move(list));
+}
+
+WorkCounts work_of_row(const Row& row) {
+    WorkCounts counts;
+    for (std::size_t i = 0; i < kWorkKindCount; ++i) {
+        const MetricValue value = studied(row, list_metric_names()[i]);
+        if (const double* number = std::get_if<double>(&value))
+            counts.values[i] = static_cast<std::uint64_t>(*number);
+    }
+    return counts;
+}
+
+bool has_work(const Row& row) {
+    return !is_missing_value(studied(row, "work/" + std::string(kWorkKinds[0].name)));
+}
+
+} // namespace catoptric::measure

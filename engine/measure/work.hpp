@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/work.hpp"
+#include "measure/metric.hpp"
+
+#include <vector>
+
+/// Counted work of rows, as metrics of the study `work`.
+namespace catoptric::measure {
+
+/// Name of the metric that holds the work of each pass.
+inline constexpr const char* kWorkByPass = "work_by_pass";
+
+/// Returns the metrics: "work/" with the name of each kind of work, and kWorkByPass.
+std::vector<Metric> list_work_metrics();
+/// Sets the metrics of a row from the work of its passes.
+void set_row_work(Row& row, const std::vector<PassWork>& passes);
+/// Returns the row's counts over all passes. Kinds that were not counted have no value.
+WorkCounts work_of_row(const Row& row);
+/// Returns whether the row's work was counted.
+bool has_work(const Row& row);
+
+} // namespace catoptric::measure

@@ -1,0 +1,24 @@
+#include "session/work.hpp"
+
+#include "session/access.hpp"
+#include "session/watcher.hpp"
+
+namespace catoptric::app {
+
+std::vector<PassWork> count_frame_work(Session& session, const Request& request,
+                                       const Watcher& watcher) {
+    session.forget();
+    const int last = request.warmup + 1;
+    std::vector<PassWork> work;
+    for (int k = 1; k <= last; ++k) {
+        FrameSpec spec = request;
+        spec.time = request.instant(k);
+        const Frame frame = Access::frame(session, spec, {.counts_work = k == last});
+        frame.times(); // waits, so that a stop signal takes effect soon
+        if (k == last) work = Access::work(frame);
+        tell_frame(watcher, k, last);
+    }
+    return work;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "study/study.hpp"
+
+namespace catoptric::app {
+
+/// Counts the work of one frame of each row whose work is not yet counted.
+void count_row_work(const StudyInput& input);
+
+} // namespace catoptric::app

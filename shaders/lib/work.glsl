@@ -1,0 +1,25 @@
+// Counted work: how often shaders look textures up and trace rays. Only frames that count work
+// (engine/graph/work_counter.hpp) are drawn with count_work = 1. In all other frames the engine removes this code, and
+// the buffer's binding, before the driver sees the shader.
+#ifndef CATOPTRIC_WORK_GLSL
+#define CATOPTRIC_WORK_GLSL
+
+#include "lib/constants.glsl"
+#include "shared.h"
+
+layout(constant_id = COUNT_WORK_CONSTANT) const uint count_work = 0u;
+
+// The counts of the pass: the low and the high word of each.
+layout(set = 0, binding = 43, scalar) buffer WorkBuffer { uvec2 work_counts[kShaderWorkKinds]; };
+
+// Adds to a count of the pass, kWork... in shared.h. Helper invocations of a fragment shader add nothing.
+void add_work(uint kind, uint count) {
+    if (count_work == 0u || count == 0u) return;
+    uint before = atomicAdd(work_counts[kind].x, count);
+    if (before + count < before) atomicAdd(work_counts[kind].y, 1u);
+}
+void count_lookup(uint kind) {
+    if (count_work != 0u) add_work(kind, 1u);
+}
+
+#endif
