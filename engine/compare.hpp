@@ -15,8 +15,9 @@ inline constexpr const char* kReference = "raytrace:depth=16";
 inline constexpr int kRounds = 6; ///< fewest rounds that give a confidence interval of the median
 
 struct StudyChoice {
-    std::string name; ///< option of `catoptric compare` without "--"
-    int count = 1;    ///< the option's number, such as that of drawn views
+    std::string name;                    ///< option of `catoptric compare` without "--"
+    int count = 1;                       ///< the option's number, such as that of drawn views
+    std::vector<std::string> texts = {}; ///< the option's words, such as file names
 };
 
 struct CompareRequest {

@@ -47,6 +47,7 @@ void WorkCounter::begin_pass(VkCommandBuffer commands) {
     }
     for (const WorkKind kind : {WorkKind::draws, WorkKind::dispatches, WorkKind::bytes})
         add(kind, 0);
+    add(WorkKind::frames, pass_ == 0 ? 1 : 0);
     add(WorkKind::passes, 1);
     if (statistics_) vkCmdBeginQuery(commands, statistics_, static_cast<std::uint32_t>(pass_), 0);
 }

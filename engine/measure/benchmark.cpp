@@ -11,9 +11,31 @@ namespace catoptric::measure {
 
 namespace {
 
-bool has_cycle_counts(const Benchmark& benchmark) {
-    return std::ranges::all_of(
-        benchmark.rounds, [](const BenchmarkRound& round) { return round.cycles.has_value(); });
+bool has_counts(const Benchmark& benchmark, std::optional<double> BenchmarkRound::*count) {
+    return std::ranges::all_of(benchmark.rounds, [count](const BenchmarkRound& round) {
+        return (round.*count).has_value();
+    });
+}
+
+CostKind choose_cost(const Benchmark& before, const Benchmark& after, bool on_processors) {
+    const auto both_have = [&](std::optional<double> BenchmarkRound::*count) {
+        return has_counts(before, count) && has_counts(after, count);
+    };
+    if (!on_processors) return CostKind::real_time;
+    if (both_have(&BenchmarkRound::cycles)) return CostKind::cycles;
+    return both_have(&BenchmarkRound::instructions) ? CostKind::instructions : CostKind::cpu_time;
+}
+
+/// Compares the counted work that both have. Every round of a benchmark has the same counts.
+void compare_counts(const Benchmark& before, const Benchmark& after, BenchmarkChange& change) {
+    if (before.rounds.empty() || after.rounds.empty()) return;
+    const std::map<std::string, double>& old_counts = before.rounds.back().counters;
+    for (const auto& [name, count] : after.rounds.back().counters) {
+        const auto old = old_counts.find(name);
+        if (!name.starts_with(kWorkCounters) || old == old_counts.end()) continue;
+        ++change.compared_counts;
+        if (old->second != count) change.counts.push_back({name, old->second, count});
+    }
 }
 
 bool is_cpu_device_run(const BenchmarkRun& run) {
@@ -29,9 +51,8 @@ BenchmarkChange compute_change(const Benchmark& before, const Benchmark& after,
                                bool on_processors) {
     BenchmarkChange change;
     change.name = after.name;
-    change.cost = !on_processors                                        ? CostKind::real_time
-                  : has_cycle_counts(before) && has_cycle_counts(after) ? CostKind::cycles
-                                                                        : CostKind::cpu_time;
+    change.cost = choose_cost(before, after, on_processors);
+    compare_counts(before, after, change);
     const std::vector<double> old_costs = list_round_costs(before, change.cost);
     const std::vector<double> new_costs = list_round_costs(after, change.cost);
     change.medians = {compute_percentile(old_costs, .5), compute_percentile(new_costs, .5)};
@@ -46,6 +67,7 @@ BenchmarkChange compute_change(const Benchmark& before, const Benchmark& after,
 std::string name_of(CostKind cost) {
     switch (cost) {
     case CostKind::cycles: return "cycles";
+    case CostKind::instructions: return "instructions";
     case CostKind::cpu_time: return "processor time";
     case CostKind::real_time: break;
     }
@@ -53,8 +75,10 @@ std::string name_of(CostKind cost) {
 }
 
 double round_cost(const BenchmarkRound& round, CostKind cost) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     switch (cost) {
-    case CostKind::cycles: return round.cycles.value_or(std::numeric_limits<double>::quiet_NaN());
+    case CostKind::cycles: return round.cycles.value_or(kNone);
+    case CostKind::instructions: return round.instructions.value_or(kNone);
     case CostKind::cpu_time: return round.cpu_ms;
     case CostKind::real_time: break;
     }

@@ -42,11 +42,12 @@ struct BenchmarkRun {
 };
 
 /// The cost by which benchmarks are compared.
-enum class CostKind { cycles, cpu_time, real_time };
-/// Returns "cycles", "processor time" or "time".
+enum class CostKind { cycles, instructions, cpu_time, real_time };
+/// Returns "cycles", "instructions", "processor time" or "time".
 std::string name_of(CostKind cost);
 
-/// Returns a round's cost in cycles or milliseconds. Returns NaN if the round has no cycles.
+/// Returns a round's cost in cycles, instructions or milliseconds. Returns NaN if the round has no
+/// cycles or no instructions.
 double round_cost(const BenchmarkRound& round, CostKind cost);
 /// Returns the costs of all rounds, in order.
 std::vector<double> list_round_costs(const Benchmark& benchmark, CostKind cost);
@@ -63,6 +64,18 @@ struct CostRatio {
 /// without a pair.
 CostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
+/// Beginning of the names of counters that hold counted work (core/work.hpp), such as "work/nodes".
+inline constexpr const char* kWorkCounters = "work/";
+
+/// Counted work of a benchmark that differs before and after a change.
+struct CountChange {
+    std::string name; ///< name of the counter
+    double before = 0, after = 0;
+    /// Returns whether the work has grown by more than a hundredth. Counts have no noise, so no
+    /// clock is needed to tell.
+    bool is_growth() const { return after > 1.01 * before; }
+};
+
 /// Costs of one benchmark before and after a change.
 struct BenchmarkChange {
     /// Result of the comparison. `slower` and `faster`: the cost says so and the elapsed time does
@@ -74,6 +87,8 @@ struct BenchmarkChange {
     std::array<double, 2> medians{}; ///< medians of the cost, before and after
     CostRatio ratio;                 ///< cost after, divided by cost before
     CostRatio real_ratio;            ///< the same for the elapsed time
+    std::size_t compared_counts = 0; ///< number of counts of work that both have
+    std::vector<CountChange> counts; ///< those that differ
     ChangeOutcome outcome() const;
 };
 /// Returns "slower", "faster", "mixed", "same" or "unknown".
@@ -84,9 +99,10 @@ struct BenchmarkChanges {
         list; ///< the benchmarks of both runs, in the order of the later run
     std::vector<std::string> only_before, only_after;
 };
-/// Compares the benchmarks that both runs contain. The cost is cycles if both runs counted them.
-/// Otherwise the cost is processor time, because it repeats even if other programs run at the same
-/// time. If a run's device is not a processor, the cost is elapsed time.
+/// Compares the benchmarks that both runs contain. The cost is cycles if both runs counted them,
+/// or else instructions if both counted those. Otherwise the cost is processor time, because it
+/// repeats even if other programs run at the same time. Counted work is compared in any case. If a
+/// run's device is not a processor, the cost is elapsed time.
 BenchmarkChanges compare_benchmark_runs(const BenchmarkRun& before, const BenchmarkRun& after);
 
 /// Returns one run with the rounds of `first` followed by those of `more`. Benchmarks that `more`

@@ -195,7 +195,12 @@ std::string to_json(const measure::BenchmarkChanges& changes) {
                     {"after", number_json(change.medians[1])},
                     {"ratio", make_ratio_json(change.ratio)},
                     {"real_time_ratio", make_ratio_json(change.real_ratio)},
-                    {"outcome", name_of(change.outcome())}};
+                    {"outcome", name_of(change.outcome())},
+                    {"counts", list_json(change.counts, [](const measure::CountChange& count) {
+                         return Json{{"name", count.name},
+                                     {"before", number_json(count.before)},
+                                     {"after", number_json(count.after)}};
+                     })}};
     });
     document["only_before"] = changes.only_before;
     document["only_after"] = changes.only_after;

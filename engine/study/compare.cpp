@@ -80,6 +80,7 @@ public:
                     .run({.session = session_,
                           .request = request_,
                           .count = choice.count,
+                          .texts = choice.texts,
                           .truth = truths_,
                           .comparison = comparison_,
                           .tell = [this] { report_progress(); }});

@@ -50,6 +50,7 @@ const Study& find_study(std::string_view name) {
 void check_study(const StudyChoice& choice, const std::string& reference) {
     const Study& study = find_study(choice.name);
     if (study.check_reference != nullptr) study.check_reference(reference);
+    if (study.check_words != nullptr) study.check_words(choice.texts);
 }
 
 } // namespace catoptric::app

@@ -20,7 +20,8 @@ struct StudyInput {
     /// The request of the comparison. `base.techniques` has the text of each row, in the order of
     /// the rows.
     const CompareRequest& request;
-    int count = 1;         ///< see StudyChoice
+    int count = 1;                  ///< see StudyChoice
+    std::vector<std::string> texts; ///< see StudyChoice
     ReferenceCache& truth; ///< reference pictures and first hits of the comparison's camera
     report::Comparison& comparison;
     /// Passes the unfinished comparison on, for example to a writer of reports. Call it after each
@@ -36,6 +37,10 @@ struct Study {
     /// Symbol of the option's number in the help, such as "N". Empty: the option has no number.
     std::string_view number = {};
     int low = 1, high = 1; ///< limits of the number
+    /// Symbol of the option's words in the help, such as "FILE". Empty: the option has no words.
+    std::string_view words = {};
+    /// Throws `usage` or `bad_data` for words that the study cannot use. May be null.
+    void (*check_words)(const std::vector<std::string>& texts) = nullptr;
     /// Throws `usage` for a number that the study cannot use. `option` names it in the message. May
     /// be null.
     void (*check_count)(std::string_view option, int count) = nullptr;

@@ -4,8 +4,11 @@
 #include "session/access.hpp"
 #include "session/rays.hpp"
 #include "session/technique_choice.hpp"
+#include "session/work.hpp"
 
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace catoptric::app {
@@ -27,6 +30,7 @@ public:
         IterationFigures iteration{times.host.sum(),
                                    {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
         if (rays_) iteration.counters["rays"] = *rays_;
+        iteration.counters.insert(work_.begin(), work_.end());
         return iteration;
     }
 
@@ -35,16 +39,26 @@ public:
         if (!is_read_)
             if (const auto rays = frames_->frame().read().rays)
                 rays_ = static_cast<double>(rays->primary + rays->mirror + rays->shadow);
-        is_read_ = true;
         frames_->suspend();
+        if (!is_read_) count_work();
+        is_read_ = true;
     }
 
 private:
+    void count_work() {
+        const WorkCounts work = sum_work(count_frame_work(*session_, request_));
+        for (std::size_t i = 0; i < kWorkKindCount; ++i)
+            if (work.values[i])
+                work_[measure::kWorkCounters + std::string(kWorkKinds[i].name)] =
+                    static_cast<double>(*work.values[i]);
+    }
+
     std::shared_ptr<Session> session_;
     Request request_;
     std::optional<Frames> frames_;
     bool is_read_ = false;
     std::optional<double> rays_;
+    std::map<std::string, double> work_; ///< counted work of one frame
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 // catoptric bench: measures the cost of frames and of their preparation, and compares runs or
 // builds.
 #include "bench_against.hpp"
+#include "bench_costs.hpp"
 #include "bench_table.hpp"
 #include "bench_tune.hpp"
 #include "benchmark/bench_subjects.hpp"
@@ -31,13 +32,15 @@ constexpr const char* kBenchExamples = R"(Examples:
   catoptric bench --compare before.json now.json
   catoptric bench --against ../before/build/release/catoptric
   catoptric bench --tune
+  catoptric bench --costs -o device.json
 
 SCENE comes before --techniques. frame/...: a whole frame on all threads; host/...: the calling thread's part of it;
 load/: making or reading the scene; session/: putting it on the device; hierarchy/: building its tree.
 Cycles are user-mode cycles. If the system does not count them (perf_event), processor time is used.
 --tune measures frames of the ray tracer with each shader variant and with the default, and stores variants that are
 certainly faster in the profile; pictures stay equal, byte for byte.
-Exit code 1 if --compare or --against finds a slower benchmark: the interval of its ratio lies above 1.)";
+Exit code 1 if --compare or --against finds a slower benchmark (the interval of its ratio lies above 1), or a
+benchmark whose counted work has grown by more than a hundredth.)";
 
 /// Techniques that are measured by default.
 const std::vector<std::string> kTechniques{"raytrace:depth=4",
@@ -64,6 +67,8 @@ struct BenchArguments {
     std::vector<std::string> before_and_after; ///< files to compare
     std::string against;                       ///< program of another build
     bool tunes = false;
+    bool fits_costs = false;
+    std::string times; ///< with `fits_costs`: file of times of another device
     std::vector<std::string> command;
 };
 
@@ -180,14 +185,18 @@ int judge_changes(const BenchArguments& options, const measure::BenchmarkRun& be
     const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(before, after);
     if (options.against.empty() &&
         std::ranges::any_of(changes.list, [](const measure::BenchmarkChange& change) {
-            return change.cost != measure::CostKind::cycles;
+            return change.cost != measure::CostKind::cycles &&
+                   change.cost != measure::CostKind::instructions;
         }))
         print_warning(
             "the files hold times, not cycles: what the machine did otherwise when the second was "
             "measured is in the ratios; --against measures two programs in turn");
     write_result(options, report::to_json(changes), make_changes_table(changes));
     const std::string slower = describe_slower_benchmarks(changes);
-    check(slower.empty(), Failure::threshold, "slower: ", slower);
+    const std::string grown = describe_grown_work(changes);
+    check(slower.empty() && grown.empty(), Failure::threshold,
+          slower.empty() ? "" : "slower: ", slower, slower.empty() || grown.empty() ? "" : "; ",
+          grown.empty() ? "" : "more work: ", grown);
     return 0;
 }
 
@@ -232,8 +241,20 @@ int run_bench(const BenchArguments& options) {
     const bool compares = !options.before_and_after.empty(), in_turn = !options.against.empty();
     for (const auto& [both, names] : {std::pair{compares && in_turn, "--compare and --against"},
                                       {options.tunes && compares, "--tune and --compare"},
-                                      {options.tunes && in_turn, "--tune and --against"}})
+                                      {options.tunes && in_turn, "--tune and --against"},
+                                      {options.fits_costs && compares, "--costs and --compare"},
+                                      {options.fits_costs && in_turn, "--costs and --against"},
+                                      {options.fits_costs && options.tunes, "--costs and --tune"}})
         check(!both, Failure::usage, names, ": wanted one of them, found both");
+    check(options.times.empty() || options.fits_costs, Failure::usage,
+          "--times: wanted together with --costs, found it alone");
+    if (options.fits_costs)
+        return run_cost_fit({.common = options.common,
+                             .scenes = options.scenes,
+                             .techniques = options.techniques,
+                             .times = options.times,
+                             .output = options.output,
+                             .rounds = options.rounds});
     if (options.tunes) return run_tuning(options);
     return compares  ? compare_benchmark_files(options)
            : in_turn ? run_against_program(options)
@@ -280,6 +301,13 @@ void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
               "find the shader variants that suit the device; write a profile to the user's "
               "configuration or to -o FILE",
               options->tunes);
+    verb.flag("--costs",
+              "fit the costs of this device: nanoseconds for each ray, look-up, fragment and so "
+              "on, for 'compare --costs'; all built-in scenes if no SCENE is named",
+              options->fits_costs);
+    verb.option("--times", "FILE",
+                "with --costs: fit the costs of another device to its times in FILE",
+                options->times);
     add_common_options_without_scene(verb, options->common);
     verb.set_action([options] { return run_bench(*options); });
 }

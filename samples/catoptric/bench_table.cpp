@@ -42,19 +42,40 @@ std::vector<std::string> benchmark_cells(const Benchmark& benchmark, bool counte
     return cells;
 }
 
-/// Returns a cost as text, in millions of cycles or in milliseconds.
+bool is_counted(CostKind cost) {
+    return cost == CostKind::cycles || cost == CostKind::instructions;
+}
+
+/// Returns a cost as text, in millions of cycles or instructions, or in milliseconds.
 std::string format_cost(double cost, CostKind of) {
-    return format_benchmark_number(of == CostKind::cycles ? cost / 1e6 : cost);
+    return format_benchmark_number(is_counted(of) ? cost / 1e6 : cost);
 }
 
 /// Returns the kinds of cost that the list compares.
 std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
     std::string text;
-    for (const CostKind cost : {CostKind::cycles, CostKind::cpu_time, CostKind::real_time})
+    for (const CostKind cost :
+         {CostKind::cycles, CostKind::instructions, CostKind::cpu_time, CostKind::real_time})
         if (std::ranges::find(changes.list, cost, &BenchmarkChange::cost) != changes.list.end())
             text += (text.empty() ? "" : " or ") + name_of(cost) +
-                    (cost == CostKind::cycles ? " in user mode, millions" : ", ms");
+                    (is_counted(cost) ? " in user mode, millions" : ", ms");
     return text;
+}
+
+/// Returns a line for each count of work that differs, or a sentence if none differs.
+std::string format_count_changes(const measure::BenchmarkChanges& changes) {
+    std::size_t compared = 0;
+    TableCells cells{{"counted work", "count", "before", "after", "ratio"}};
+    for (const BenchmarkChange& change : changes.list) {
+        compared += change.compared_counts;
+        for (const measure::CountChange& count : change.counts)
+            cells.push_back(
+                {escape_control_characters(change.name), escape_control_characters(count.name),
+                 fmt::format("{:.0f}", count.before), fmt::format("{:.0f}", count.after),
+                 count.before > 0 ? fmt::format("{:.4f}", count.after / count.before) : "-"});
+    }
+    if (cells.size() > 1) return align_columns(cells);
+    return compared == 0 ? "" : fmt::format("counted work: all {} counts are equal\n", compared);
 }
 
 std::string format_name_list(const char* title, const std::vector<std::string>& names) {
@@ -106,8 +127,18 @@ std::string make_changes_table(const measure::BenchmarkChanges& changes) {
     return (changes.list.empty()
                 ? "nothing is in both\n"
                 : "compared by " + list_cost_kinds(changes) + "\n" + align_columns(cells, 7)) +
-           format_name_list("only before", changes.only_before) +
+           format_count_changes(changes) + format_name_list("only before", changes.only_before) +
            format_name_list("only after", changes.only_after);
+}
+
+std::string describe_grown_work(const measure::BenchmarkChanges& changes) {
+    std::string text;
+    for (const BenchmarkChange& change : changes.list)
+        for (const measure::CountChange& count : change.counts)
+            if (count.is_growth())
+                text += fmt::format("{}{} {} {:.0f} instead of {:.0f}", text.empty() ? "" : ", ",
+                                    change.name, count.name, count.after, count.before);
+    return text;
 }
 
 std::string describe_slower_benchmarks(const measure::BenchmarkChanges& changes) {

@@ -15,5 +15,8 @@ std::string make_changes_table(const measure::BenchmarkChanges& changes);
 /// Returns the benchmarks that are slower, such as "frame/x 1.21 [1.18 - 1.25]", separated by
 /// commas; empty if none is.
 std::string describe_slower_benchmarks(const measure::BenchmarkChanges& changes);
+/// Returns the counts of work that have grown by more than a hundredth, such as "frame/x work/nodes
+/// 120 instead of 100", separated by commas; empty if none has.
+std::string describe_grown_work(const measure::BenchmarkChanges& changes);
 
 } // namespace catoptric::cli

@@ -238,7 +238,12 @@ int run_compare(const CompareOptions& options) {
     return 0;
 }
 
-enum class StudyOption : std::uint8_t { number, flag };
+enum class StudyOption : std::uint8_t { number, words, flag };
+
+StudyOption find_study_option(const app::Study& study) {
+    if (!study.number.empty()) return StudyOption::number;
+    return study.words.empty() ? StudyOption::flag : StudyOption::words;
+}
 
 /// Adds the options of all studies whose option is of this kind. `options` must outlive the
 /// parsing.
@@ -248,9 +253,20 @@ void add_studies(CommandVerb& verb, CompareOptions& options, StudyOption kind) {
         const auto choose = [&options, &study](int count) {
             options.studies.push_back({std::string(study.name), count});
         };
-        if (study.number.empty() != (kind == StudyOption::flag)) continue;
+        if (find_study_option(study) != kind) continue;
         if (kind == StudyOption::flag) {
             verb.option_without_value(option, help, [choose] { choose(1); });
+            continue;
+        }
+        if (kind == StudyOption::words) {
+            verb.repeated(option, std::string(study.words), help, [&](const std::string& text) {
+                const auto known = std::ranges::find(options.studies, study.name,
+                                                     &app::StudyChoice::name);
+                if (known == options.studies.end())
+                    options.studies.push_back({std::string(study.name), 1, {text}});
+                else
+                    known->texts.push_back(text);
+            });
             continue;
         }
         verb.option(option, std::string(study.number), help, [=, &study](const std::string& text) {
@@ -290,6 +306,7 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                     options->rounds = static_cast<int>(
                         parse_integer("--rounds", text, app::kRounds, 10000));
                 });
+    add_studies(verb, *options, StudyOption::words);
     add_studies(verb, *options, StudyOption::flag);
     add_common_options_without_scene(verb, options->common);
     verb.option("--csv", "COLUMNS", "columns of rows.csv: table (as in the report) or all (table)",

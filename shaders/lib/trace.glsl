@@ -257,6 +257,10 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
                 }
             }
             ++trace_steps;
+            if (count_work != 0u) {
+                ++nodes_visited;
+                if (IS_ELECTED) ++node_lanes;
+            }
             count = 0u;
         }
         do {

@@ -52,6 +52,21 @@ TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
     // A measurement compared with itself has no slower benchmark.
     const test::Ended same = cli({"bench", "--compare", "out.json", "out.json"});
     EXPECT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_THAT(same.out, testing::ContainsRegex("counted work: all [0-9]+ counts are equal"));
+    // More visited nodes are found even if the times are equal.
+    json grown = document;
+    double nodes = 0;
+    for (json& entry : grown["benchmarks"])
+        if (entry.contains("work/nodes")) {
+            nodes = entry["work/nodes"];
+            entry["work/nodes"] = 2 * nodes;
+        }
+    ASSERT_GT(nodes, 0);
+    write("grown.json", grown.dump());
+    const test::Ended more = cli({"bench", "--compare", "out.json", "grown.json"});
+    EXPECT_EQ(more.exit_code, 1);
+    EXPECT_THAT(more.err, HasSubstr("catoptric: more work: frame/flat/16x16/raytrace:depth=1 "
+                                    "work/nodes "));
 }
 
 TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {

@@ -96,6 +96,33 @@ TEST(BenchmarkCompare, CyclesAreComparedIfBothRunsCountedThem) {
               CostKind::cpu_time);
 }
 
+TEST(BenchmarkCompare, InstructionsAreComparedIfCyclesAreNotCounted) {
+    Benchmark counted = benchmark("a", kSix), more = benchmark("a", kSix);
+    for (BenchmarkRound& round : counted.rounds) round.instructions = 1e6;
+    for (BenchmarkRound& round : more.rounds) round.instructions = 3e6;
+    const BenchmarkChange found = change(benchmark_run_of({counted}), benchmark_run_of({more}));
+    EXPECT_EQ(found.cost, CostKind::instructions);
+    EXPECT_EQ(found.ratio.median, 3);
+}
+
+TEST(BenchmarkCompare, CountedWorkIsComparedWithoutAClock) {
+    Benchmark before = benchmark("a", kSix), after = benchmark("a", kSix);
+    for (BenchmarkRound& round : before.rounds)
+        round.counters = {{"work/nodes", 1000}, {"work/draws", 7}, {"work/bytes", 5}, {"rays", 1}};
+    for (BenchmarkRound& round : after.rounds)
+        round.counters = {{"work/nodes", 1011}, {"work/draws", 7}, {"work/bytes", 4}, {"rays", 9}};
+    const BenchmarkChange found = change(benchmark_run_of({before}), benchmark_run_of({after}));
+    EXPECT_EQ(found.outcome(), Outcome::same);
+    EXPECT_EQ(found.compared_counts, 3u);
+    ASSERT_EQ(found.counts.size(), 2u);
+    EXPECT_EQ(found.counts[0].name, "work/bytes");
+    EXPECT_FALSE(found.counts[0].is_growth());
+    EXPECT_EQ(found.counts[1].name, "work/nodes");
+    EXPECT_EQ(found.counts[1].after, 1011);
+    EXPECT_TRUE(found.counts[1].is_growth());
+    EXPECT_FALSE((measure::CountChange{"work/nodes", 1000, 1010}).is_growth());
+}
+
 TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
     Benchmark shared = benchmark("a", times(1.1));
     for (BenchmarkRound& round : shared.rounds) round.real_ms /= 2;

@@ -1,0 +1,99 @@
+#include "benchmark/costs.hpp"
+
+#include "measure/statistics.hpp"
+#include "session/access.hpp"
+#include "session/technique_choice.hpp"
+#include "session/work.hpp"
+#include "study/row_run.hpp"
+
+#include <memory>
+
+namespace catoptric::app {
+
+namespace {
+
+std::string name_sample(const Request& request) {
+    return request.scene.name + "/" + std::to_string(request.size.x) + "x" +
+           std::to_string(request.size.y) + "/" + name_of(request.model) + "/" +
+           parse_technique(request.techniques.front()).label;
+}
+
+/// Returns one request for each technique.
+std::vector<Request> split_by_technique(const Request& request) {
+    std::vector<Request> rows;
+    for (const std::string& technique : request.techniques) {
+        rows.push_back(request);
+        rows.back().techniques = {technique};
+    }
+    return rows;
+}
+
+double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& rounds) {
+    std::vector<std::vector<double>> samples;
+    for (const std::vector<FrameTimes>& round : rounds) {
+        samples.emplace_back();
+        for (const FrameTimes& frame : round) samples.back().push_back(frame.gpu_ms);
+    }
+    return measure::summarise_samples(samples).median;
+}
+
+/// Measures the rows of one size and model, and appends them to `samples`.
+void measure_rows(Session& session, const Request& request, const BenchOptions& options,
+                  std::vector<measure::CostSample>& samples) {
+    const std::vector<Request> rows = split_by_technique(request);
+    const int rounds = choose_round_count(options.iterations, options.rounds);
+    std::vector<std::unique_ptr<RowMeasurement>> runs;
+    for (int round = 0; round < rounds; ++round)
+        for (std::size_t place = 0; place < rows.size(); ++place) {
+            // Every second round goes backwards, so that no row always follows the same other.
+            const std::size_t i = round % 2 == 0 ? place : rows.size() - 1 - place;
+            if (round == 0)
+                runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher));
+            tell_row(options.watcher, name_sample(rows[i]),
+                     static_cast<std::size_t>(round) * rows.size() + place,
+                     static_cast<std::size_t>(rounds) * rows.size());
+            runs[i]->measure(count_frames_of_round(options.iterations, rounds, round));
+            runs[i]->suspend();
+        }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        samples.push_back({name_sample(rows[i]),
+                           sum_work(count_frame_work(session, rows[i], options.watcher)),
+                           compute_median_device_time(runs[i]->rounds())});
+}
+
+} // namespace
+
+std::vector<measure::CostSample> measure_cost_samples(Engine& engine, const Request& request,
+                                                      const BenchOptions& options) {
+    Session session(engine, request.scene);
+    std::vector<measure::CostSample> samples;
+    for (const RenderedWork model : {RenderedWork::everything, RenderedWork::required})
+        for (const std::uint32_t divisor : {1u, 2u}) {
+            Request part = request;
+            part.model = model;
+            part.size = glm::max(request.size / divisor, uvec2(1));
+            part.frames = options.iterations;
+            measure_rows(session, part, options, samples);
+        }
+    return samples;
+}
+
+std::vector<measure::CostSample> count_work_samples(Engine& engine, const Request& request,
+                                                    const Watcher& watcher) {
+    Session session(engine, request.scene);
+    std::vector<measure::CostSample> samples;
+    for (const Request& row : split_by_technique(request))
+        samples.push_back({name_sample(row), sum_work(count_frame_work(session, row, watcher)), 0});
+    return samples;
+}
+
+std::vector<WorkKind> list_fitted_kinds() {
+    std::vector<WorkKind> kinds;
+    for (std::size_t i = 0; i < kWorkKindCount; ++i) {
+        const auto kind = static_cast<WorkKind>(i);
+        if (kind != WorkKind::node_lanes && kind != WorkKind::triangle_lanes) kinds.push_back(kind);
+    }
+    return kinds;
+}
+
+} // namespace catoptric::app

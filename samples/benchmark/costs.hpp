@@ -1,0 +1,28 @@
+#pragma once
+
+#include "benchmark/bench.hpp"
+#include "measure/costs.hpp"
+#include "session/run.hpp"
+
+#include <string>
+#include <vector>
+
+/// Measures rows whose times and counted work determine the costs of a device.
+namespace catoptric::app {
+
+/// Measures each technique of the request in rounds, at the request's size and at half of it, with
+/// the model `everything` and with `required`. Returns the median of the device's time, and the
+/// counted work of one frame. Names of samples are "SCENE/WxH/MODEL/TECHNIQUE". `iterations` and
+/// `rounds` are those of each row.
+std::vector<measure::CostSample> measure_cost_samples(Engine& engine, const Request& request,
+                                                      const BenchOptions& options);
+
+/// Counts the work of one frame of each technique of the request. The times of the samples are 0.
+std::vector<measure::CostSample> count_work_samples(Engine& engine, const Request& request,
+                                                    const Watcher& watcher);
+
+/// Returns the kinds of work whose costs are fitted to times of this program: all but the numbers
+/// of lanes, of which the device's driver decides.
+std::vector<WorkKind> list_fitted_kinds();
+
+} // namespace catoptric::app

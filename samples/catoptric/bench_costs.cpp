@@ -1,0 +1,124 @@
+#include "bench_costs.hpp"
+
+#include "benchmark/costs.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "places.hpp"
+#include "progress.hpp"
+#include "report/costs.hpp"
+#include "report/text.hpp"
+#include "scene/built_in.hpp"
+#include "session/device_facts.hpp"
+#include "study/asked.hpp"
+#include "table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace catoptric::cli {
+
+namespace {
+
+/// Number of measured frames of each row, and frames before them in which captures settle.
+constexpr int kFrames = 12, kWarmup = 14;
+
+/// Returns one request per scene.
+std::vector<app::Request> make_cost_requests(const CostsArguments& arguments) {
+    std::vector<std::string> scenes = arguments.scenes;
+    if (scenes.empty())
+        for (const scene::BuiltInScene& scene : scene::built_in_scenes())
+            scenes.emplace_back(scene.name);
+    std::vector<app::Request> requests;
+    for (const std::string& scene : scenes) {
+        CommonOptions common = arguments.common;
+        common.scene = scene;
+        app::Request request = make_request(common, app::check_has_mirror);
+        request.frames = common.frames.value_or(kFrames);
+        request.warmup = common.warmup.value_or(kWarmup);
+        request.techniques = arguments.techniques.empty() ? app::list_default_techniques(request)
+                                                          : arguments.techniques;
+        requests.push_back(std::move(request));
+    }
+    return requests;
+}
+
+measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments, app::Engine& engine,
+                                              const std::vector<app::Request>& requests,
+                                              const app::Watcher& watcher) {
+    std::vector<measure::CostSample> samples;
+    for (const app::Request& request : requests)
+        for (measure::CostSample& sample : app::measure_cost_samples(
+                 engine, request,
+                 {.iterations = request.frames, .rounds = arguments.rounds, .watcher = watcher}))
+            samples.push_back(std::move(sample));
+    const measure::DeviceFacts device = app::make_device_facts(engine);
+    return measure::fit_costs(device.name + ", " + device.driver, std::move(samples),
+                              app::list_fitted_kinds());
+}
+
+/// Fits the costs of the device whose times the file has, to work that is counted on this device.
+measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments, app::Engine& engine,
+                                               app::Request request, const app::Watcher& watcher) {
+    const report::TimesElsewhere times = report::read_times_file(arguments.times);
+    request.techniques.clear();
+    for (const report::TimesElsewhere::TimedRow& row : times.rows)
+        request.techniques.push_back(row.technique);
+    std::vector<measure::CostSample> samples = app::count_work_samples(engine, request, watcher);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ms = times.rows[i].ms;
+    measure::DeviceCosts costs = measure::fit_costs(times.device, std::move(samples), times.kinds);
+    costs.note = times.note;
+    return costs;
+}
+
+std::string make_costs_text(const measure::DeviceCosts& costs) {
+    std::string text = costs.device + "\n";
+    for (const measure::UnitCost& unit : costs.units) {
+        const WorkKindFacts& kind = kWorkKinds[static_cast<std::size_t>(unit.kind)];
+        text += fmt::format("  {:<17} {:>12.5g} ns  {}\n", kind.name, unit.ns, kind.help);
+    }
+    const measure::CostFit& fit = *costs.fit;
+    text += fmt::format("{} rows, each predicted by costs that were fitted to the others: {:.0f} % "
+                        "within 20 %, {:.0f} % within 50 %\n",
+                        fit.samples.size(), 100 * fit.share_within(1.2),
+                        100 * fit.share_within(1.5));
+    return text;
+}
+
+} // namespace
+
+int run_cost_fit(const CostsArguments& arguments) {
+    check(!arguments.common.both_models && !arguments.common.model, Failure::usage,
+          "--model: --costs measures each row with both models, so it takes none");
+    check(arguments.times.empty() || arguments.techniques.empty(), Failure::usage,
+          "--techniques: the techniques are those of --times");
+    CostsArguments asked = arguments;
+    if (!asked.times.empty() && asked.scenes.empty()) asked.scenes = {asked.common.scene};
+    check(asked.times.empty() || asked.scenes.size() == 1, Failure::usage,
+          "--times: wanted the one scene whose times were measured, found ", asked.scenes.size());
+    if (!asked.times.empty()) report::read_times_file(asked.times); // refuses it before any work
+    std::vector<app::Request> requests = make_cost_requests(asked);
+    if (!asked.output.empty()) check_file_can_be_made(asked.output);
+    std::vector<std::filesystem::path> inputs;
+    for (const app::Request& request : requests)
+        inputs.insert(inputs.end(), request.scene.files.begin(), request.scene.files.end());
+    if (!asked.times.empty()) inputs.emplace_back(asked.times);
+    if (!asked.output.empty()) check_outputs_differ_from_inputs({asked.output}, inputs);
+    app::Engine engine(make_engine_options(asked.common.device));
+    print_device_and_warnings(engine, asked.common.manners);
+    ProgressPrinter progress(asked.common.manners);
+    const app::Watcher watcher = make_progress_watcher(progress);
+    const measure::DeviceCosts costs =
+        asked.times.empty()
+            ? fit_costs_of_this_device(asked, engine, requests, watcher)
+            : fit_costs_of_other_device(asked, engine, std::move(requests.front()), watcher);
+    progress.clear();
+    const std::string json = report::to_json(costs);
+    print_result(asked.common.manners.json ? json : make_costs_text(costs));
+    if (asked.output.empty()) return 0;
+    write_file(asked.output, json);
+    print_note(asked.common.manners, "written: " + asked.output);
+    return 0;
+}
+
+} // namespace catoptric::cli

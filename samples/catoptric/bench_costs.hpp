@@ -1,0 +1,24 @@
+#pragma once
+
+#include "options.hpp"
+
+#include <string>
+#include <vector>
+
+namespace catoptric::cli {
+
+struct CostsArguments {
+    CommonOptions common;
+    std::vector<std::string> scenes;     ///< empty: all built-in scenes
+    std::vector<std::string> techniques; ///< empty: those that `compare` proposes for each scene
+    std::string times;                   ///< file of times of another device; empty: measure
+    std::string output;                  ///< empty: only printed
+    int rounds = 6;
+};
+
+/// Runs `bench --costs`: fits the costs of a device to the times and the counted work of rows,
+/// prints them and writes them. Returns the exit code. Throws as app::measure_cost_samples and
+/// measure::fit_costs do.
+int run_cost_fit(const CostsArguments& arguments);
+
+} // namespace catoptric::cli

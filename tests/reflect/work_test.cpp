@@ -1,0 +1,191 @@
+// Tests of counted work. The counts are compared with those of other code: the traversal on the
+// CPU, the tracer's own ray counters, masks of pixels, and the plan of the frame.
+#include "bvh/closest_hit.hpp"
+#include "gpu/shader.hpp"
+#include "gpu/specialise.hpp"
+#include "measure/work.hpp"
+#include "render/views.hpp"
+#include "session/access.hpp"
+#include "session/rays.hpp"
+#include "session/work.hpp"
+#include "support/drawn_hall.hpp"
+#include "support/rendering.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kWorkSize{96, 64};
+constexpr std::uint64_t kWorkPixels = std::uint64_t{kWorkSize.x} * kWorkSize.y;
+
+std::vector<PassWork> count_work(const scene::Scene& scene, const std::string& technique,
+                                 app::RenderedWork model = app::RenderedWork::everything) {
+    app::Request asked = test::request(scene, {technique}, kWorkSize);
+    asked.model = model;
+    asked.warmup = 3;
+    app::Session session(test::engine(), scene);
+    return app::count_frame_work(session, asked);
+}
+
+std::uint64_t total(const std::vector<PassWork>& passes, WorkKind kind) {
+    return sum_work(passes)[kind].value_or(0);
+}
+
+/// Returns the work of all camera rays, by the traversal on the CPU.
+bvh::TraversalCounters count_on_cpu(const scene::Scene& scene) {
+    const app::Request asked = test::request(scene, {"raytrace"}, kWorkSize);
+    const render::SceneUnits units = render::make_scene_units(scene);
+    const render::Geometry geometry = render::make_geometry(scene, units);
+    const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
+    const shared::View view = render::make_camera_view(asked.camera, units, kWorkSize, 0,
+                                                       render::geometry_bounds(geometry));
+    bvh::TraversalCounters sum;
+    for (std::size_t pixel = 0; pixel < kWorkPixels; ++pixel) {
+        bvh::TraversalCounters one;
+        bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, kWorkSize, pixel),
+                                     std::numeric_limits<float>::max(),
+                                     bvh::kHidden | bvh::kOneSided, &one);
+        sum.nodes += one.nodes, sum.triangles += one.triangles;
+    }
+    return sum;
+}
+
+TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
+    for (const char* name : {"cornell-mirrors", "flat"}) {
+        const scene::Scene scene = scene::load(name);
+        const auto work = count_work(scene, "raytrace:depth=0,shadow=none");
+        const bvh::TraversalCounters wanted = count_on_cpu(scene);
+        EXPECT_EQ(total(work, WorkKind::camera_rays), kWorkPixels) << name;
+        EXPECT_EQ(total(work, WorkKind::mirror_rays), 0u) << name;
+        EXPECT_EQ(total(work, WorkKind::shadow_rays), 0u) << name;
+        // Rounding may differ where the compiler of the shader contracts arithmetic.
+        const double slack = 1e-3;
+        EXPECT_NEAR(double(total(work, WorkKind::nodes)), double(wanted.nodes),
+                    slack * double(wanted.nodes))
+            << name;
+        EXPECT_NEAR(double(total(work, WorkKind::triangles)), double(wanted.triangles),
+                    slack * double(wanted.triangles))
+            << name;
+    }
+}
+
+TEST(Work, RaysAreThoseOfTheTracersOwnCounters) {
+    const scene::Scene scene = test::drawn_hall(3, 5);
+    for (const char* technique : {"raytrace:depth=4", "raytrace:depth=4,first=raster", "hybrid"}) {
+        const auto work = count_work(scene, technique);
+        const app::TechniqueResult drawn = test::render(scene, technique, kWorkSize, 4);
+        ASSERT_TRUE(drawn.rays) << technique;
+        EXPECT_EQ(total(work, WorkKind::camera_rays), drawn.rays->primary) << technique;
+        EXPECT_EQ(total(work, WorkKind::mirror_rays), drawn.rays->mirror) << technique;
+        EXPECT_EQ(total(work, WorkKind::shadow_rays), drawn.rays->shadow) << technique;
+    }
+}
+
+TEST(Work, LiveLanesLieBetweenOneAndTheSubgroup) {
+    const auto work = count_work(scene::load("cornell-mirrors"), "raytrace:depth=4");
+    for (const auto& [each, lanes] : {std::pair(WorkKind::nodes, WorkKind::node_lanes),
+                                      std::pair(WorkKind::triangles, WorkKind::triangle_lanes)}) {
+        const double live = double(total(work, each)) / double(total(work, lanes));
+        std::cout << "[ MEASURED ] live lanes: " << live << '\n';
+        EXPECT_GT(live, 1.5);
+        EXPECT_LE(live, 128);
+    }
+}
+
+TEST(Work, CountsRepeatToTheLastDigit) {
+    const scene::Scene scene = test::drawn_hall(5, 4);
+    for (const char* technique :
+         {"parallax", "layered", "hybrid", "raytrace:depth=4", "raytrace:depth=4,first=raster"})
+        EXPECT_EQ(count_work(scene, technique, app::RenderedWork::required),
+                  count_work(scene, technique, app::RenderedWork::required))
+            << technique;
+}
+
+TEST(Work, CountingChangesNoPixel) {
+    const scene::Scene scene = scene::load("cornell-mirrors");
+    for (const char* technique : {"parallax", "pyramid", "layered", "hybrid", "raytrace:depth=4",
+                                  "raytrace:depth=4,first=raster"}) {
+        const app::Request asked = test::request(scene, {technique}, kWorkSize);
+        app::Session session(test::engine(), scene);
+        const measure::Picture plain = session.frame(asked).hdr();
+        session.forget();
+        const app::Frame counted = app::Access::frame(session, asked, {.counts_work = true});
+        EXPECT_FALSE(app::Access::work(counted).empty());
+        EXPECT_EQ(counted.hdr().pixels, plain.pixels) << technique;
+    }
+}
+
+TEST(Work, FrameThatDoesNotCountHasNoWork) {
+    const scene::Scene scene = scene::load("flat");
+    app::Session session(test::engine(), scene);
+    const app::Frame frame = session.frame(test::request(scene, {"parallax"}, kWorkSize));
+    EXPECT_TRUE(app::Access::work(frame).empty());
+}
+
+TEST(Work, LookupsFollowFromTheMasks) {
+    const scene::Scene scene = scene::load("flat"); // mirrors do not overlap in its view
+    const app::TechniqueResult traced = test::render(scene, "raytrace", kWorkSize);
+    const measure::Mask mask = measure::mask_mirror_pixels(traced.hits);
+    const auto mirror_pixels = static_cast<double>(
+        std::ranges::count_if(mask, [](auto in) { return in != 0; }));
+    ASSERT_GT(mirror_pixels, 100);
+    // One look-up a pixel. Rasterised outlines differ from traced ones by a few pixels.
+    EXPECT_NEAR(double(total(count_work(scene, "planar"), WorkKind::colour_lookups)), mirror_pixels,
+                .05 * mirror_pixels);
+    // Each step of march reads at least one distance.
+    const auto march = count_work(scene, "march"), parallax = count_work(scene, "parallax");
+    EXPECT_GE(double(total(march, WorkKind::distance_lookups)), 2 * mirror_pixels);
+    EXPECT_GE(total(march, WorkKind::distance_lookups),
+              total(parallax, WorkKind::distance_lookups));
+    EXPECT_EQ(total(count_work(scene, "naive:bounces=0,shadow=none"), WorkKind::shadow_lookups),
+              0u);
+}
+
+TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
+    const scene::Scene scene = scene::load("cornell-mirrors");
+    const auto work = count_work(scene, "naive:bounces=1");
+    app::Session session(test::engine(), scene);
+    const app::Frame frame = session.frame(test::request(scene, {"naive:bounces=1"}, kWorkSize));
+    ASSERT_EQ(work.size(), frame.times().passes.size());
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        EXPECT_EQ(work[i].name, frame.times().passes[i].name);
+        EXPECT_EQ(work[i].counts[WorkKind::passes], 1u);
+    }
+    EXPECT_EQ(total(work, WorkKind::frames), 1u);
+    EXPECT_EQ(total(work, WorkKind::passes), work.size());
+    // Composing draws one triangle, reads nothing by attachment and stores 4 bytes a pixel, which
+    // are cleared or loaded and stored.
+    const PassWork& compose = work.back();
+    EXPECT_EQ(compose.counts[WorkKind::draws], 1u) << compose.name;
+    EXPECT_EQ(compose.counts[WorkKind::bytes], 2 * 4 * kWorkPixels) << compose.name;
+    EXPECT_GE(compose.counts[WorkKind::fragments].value_or(0), kWorkPixels);
+    // A capture's six faces: each draws the objects around the mirror.
+    for (const PassWork& pass : work)
+        if (pass.name.find("capture") != std::string::npos) {
+            EXPECT_GE(pass.counts[WorkKind::draws].value_or(0), 1u) << pass.name;
+        }
+}
+
+TEST(Work, ShadersOfOtherFramesHaveNoCountingCode) {
+    for (const char* name : {"reflect/parallax.frag", "reflect/layered.frag", "raytrace.comp",
+                             "trace_list.comp", "reflect/pyramid.comp"}) {
+        const gpu::EmbeddedShader& shader = gpu::find_shader(name);
+        const auto constants = gpu::reflect_spirv(name, shader.words).constants;
+        const auto switch_ = std::ranges::find(constants, "count_work",
+                                               &gpu::SpecialisationConstant::name);
+        ASSERT_NE(switch_, constants.end()) << name;
+        const auto has_buffer = [&](std::uint32_t value) {
+            const auto words = gpu::specialise_shader(name, shader.words, {{switch_->id, value}});
+            const auto bindings = gpu::reflect_spirv(name, words).bindings;
+            return std::ranges::count(bindings, "WorkBuffer", &gpu::ShaderBinding::name) > 0;
+        };
+        EXPECT_FALSE(has_buffer(0)) << name;
+        if (std::string(name) != "trace_list.comp") {
+            EXPECT_TRUE(has_buffer(1)) << name;
+        }
+    }
+}
+
+} // namespace

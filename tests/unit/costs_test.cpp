@@ -1,0 +1,190 @@
+// Tests of costs: the fit recovers known costs, predictions follow from them, and files are read
+// back or refused.
+#include "measure/costs.hpp"
+#include "measure/work.hpp"
+#include "report/costs.hpp"
+#include "support/refusal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace {
+
+using namespace catoptric;
+
+WorkCounts make_counts(std::uint64_t rays, std::uint64_t fragments, std::uint64_t passes) {
+    WorkCounts counts;
+    counts[WorkKind::camera_rays] = rays;
+    counts[WorkKind::fragments] = fragments;
+    counts[WorkKind::passes] = passes;
+    return counts;
+}
+
+constexpr WorkKind kCostKinds[] = {WorkKind::camera_rays, WorkKind::fragments, WorkKind::passes};
+
+/// Returns rows of a device with 100 ns a ray, 2 ns a fragment and 50 us a pass, whose times are
+/// off by at most the share `noise`.
+std::vector<measure::CostSample> draw_samples(std::size_t count, double noise) {
+    std::mt19937_64 random(7);
+    const auto draw = [&](double most) { return most * double(random() >> 11) * 0x1p-53; };
+    std::vector<measure::CostSample> samples;
+    for (std::size_t i = 0; i < count; ++i) {
+        const WorkCounts counts = make_counts(std::uint64_t(draw(1e6)), std::uint64_t(draw(1e7)),
+                                              1 + std::uint64_t(draw(30)));
+        const double ms = 1e-6 * (100 * double(*counts[WorkKind::camera_rays]) +
+                                  2 * double(*counts[WorkKind::fragments]) +
+                                  5e4 * double(*counts[WorkKind::passes]));
+        samples.push_back(
+            {"row " + std::to_string(i), counts, ms * (1 + noise * (2 * draw(1) - 1))});
+    }
+    return samples;
+}
+
+double cost_of(const measure::DeviceCosts& costs, WorkKind kind) {
+    for (const measure::UnitCost& unit : costs.units)
+        if (unit.kind == kind) return unit.ns;
+    return 0;
+}
+
+TEST(Costs, FitRecoversTheCostsOfALinearDevice) {
+    const measure::DeviceCosts costs = measure::fit_costs("d", draw_samples(40, 0), kCostKinds);
+    EXPECT_NEAR(cost_of(costs, WorkKind::camera_rays), 100, 1e-3);
+    EXPECT_NEAR(cost_of(costs, WorkKind::fragments), 2, 1e-5);
+    EXPECT_NEAR(cost_of(costs, WorkKind::passes), 5e4, 1);
+    ASSERT_TRUE(costs.fit);
+    EXPECT_EQ(costs.fit->share_within(1.0001), 1);
+    EXPECT_EQ(costs.origin, measure::CostOrigin::fitted);
+}
+
+TEST(Costs, FitOfNoisyTimesIsNear) {
+    const measure::DeviceCosts costs = measure::fit_costs("d", draw_samples(60, .1), kCostKinds);
+    EXPECT_NEAR(cost_of(costs, WorkKind::camera_rays), 100, 5);
+    EXPECT_NEAR(cost_of(costs, WorkKind::fragments), 2, .2);
+    EXPECT_EQ(costs.fit->share_within(1.2), 1);
+    EXPECT_LT(costs.fit->share_within(1.01), 1);
+}
+
+TEST(Costs, NoCostIsNegative) {
+    // Rows with more fragments take less time, so the best cost of a fragment would be negative.
+    std::vector<measure::CostSample> samples;
+    for (std::uint64_t i = 1; i <= 8; ++i)
+        samples.push_back({"row", make_counts(1000, 1000 * i, 1), 10.0 - double(i)});
+    const measure::DeviceCosts costs = measure::fit_costs("d", samples, kCostKinds);
+    for (const measure::UnitCost& unit : costs.units) EXPECT_GT(unit.ns, 0);
+    EXPECT_EQ(cost_of(costs, WorkKind::fragments), 0);
+}
+
+TEST(Costs, RowIsPredictedByTheOtherRows) {
+    std::vector<measure::CostSample> samples = draw_samples(20, 0);
+    samples[4].ms *= 3; // its own time does not help to predict it
+    const measure::DeviceCosts costs = measure::fit_costs("d", samples, kCostKinds);
+    EXPECT_NEAR(costs.fit->left_out_ms[4], samples[4].ms / 3, 1e-6 * samples[4].ms);
+}
+
+TEST(Costs, FitRefusesTooFewRowsAndTimesThatAreNotPositive) {
+    EXPECT_EQ(test::refusal(Failure::usage,
+                            [] { measure::fit_costs("d", draw_samples(2, 0), kCostKinds); }),
+              "fitting the costs of 3 kinds of work: wanted at least as many measured rows, found "
+              "2");
+    std::vector<measure::CostSample> samples = draw_samples(9, 0);
+    samples[3].ms = 0;
+    EXPECT_EQ(test::refusal(Failure::usage, [&] { measure::fit_costs("d", samples, kCostKinds); }),
+              "row 'row 3': wanted a time above 0 ms, found 0");
+}
+
+measure::DeviceCosts make_costs() {
+    measure::DeviceCosts costs{.device = "card", .origin = measure::CostOrigin::literature};
+    costs.units = {{WorkKind::camera_rays, 10, {5, 20}, "a paper"},
+                   {WorkKind::fragments, 1, {.5, 4}, "a data sheet"},
+                   {WorkKind::passes, 1000, {}, ""}};
+    return costs;
+}
+
+TEST(Costs, TimeIsTheSumOfCountsTimesCosts) {
+    const measure::PredictedTime time = measure::predict_time(make_costs(),
+                                                              make_counts(1000, 5000, 3));
+    EXPECT_DOUBLE_EQ(time.ms, 1e-6 * (10 * 1000 + 5000 + 3000));
+    EXPECT_DOUBLE_EQ(time.low, 1e-6 * (5 * 1000 + .5 * 5000 + 3000));
+    EXPECT_DOUBLE_EQ(time.high, 1e-6 * (20 * 1000 + 4 * 5000 + 3000));
+}
+
+measure::Row make_costed_row(const std::string& technique, double flip, std::uint64_t rays,
+                             std::uint64_t fragments) {
+    measure::Row row;
+    row.technique = row.label = technique;
+    row.error.pixels = 10, row.error.flip = flip, row.error.rmse = flip;
+    measure::set_row_work(row, {{"pass", make_counts(rays, fragments, 1)}});
+    return row;
+}
+
+TEST(Costs, FrontDependsOnTheCostsOfRaysAndOfOtherWork) {
+    const std::vector<measure::Row> rows{make_costed_row("raytrace", 0, 1000, 0),
+                                         make_costed_row("secant", .02, 0, 6000),
+                                         make_costed_row("worse", .03, 0, 7000)};
+    const measure::PredictedFront front = measure::find_predicted_front(make_costs(), rows);
+    // A traced frame costs 10 us and a searched one 6 us, but 5 and 24 us where rays are cheap.
+    EXPECT_EQ(front.rows, (std::vector<std::size_t>{1, 0}));
+    EXPECT_EQ(front.rows_if_rays_are_cheap, (std::vector<std::size_t>{0}));
+    EXPECT_EQ(front.rows_if_rays_are_dear, (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(Costs, RowWithoutCountsIsNotOnTheFront) {
+    measure::Row blank;
+    blank.error.pixels = 10, blank.error.flip = 0;
+    const measure::PredictedFront front = measure::find_predicted_front(
+        make_costs(), {blank, make_costed_row("secant", .02, 0, 6000)});
+    EXPECT_EQ(front.rows, (std::vector<std::size_t>{1}));
+    EXPECT_TRUE(std::isnan(front.times[0].ms));
+}
+
+TEST(Costs, FileIsReadBack) {
+    const measure::DeviceCosts wanted = make_costs();
+    const measure::DeviceCosts found = report::read_costs(report::to_json(wanted), "costs.json");
+    EXPECT_EQ(found.device, wanted.device);
+    EXPECT_EQ(found.origin, wanted.origin);
+    ASSERT_EQ(found.units.size(), wanted.units.size());
+    for (std::size_t i = 0; i < found.units.size(); ++i) {
+        EXPECT_EQ(found.units[i].kind, wanted.units[i].kind);
+        EXPECT_EQ(found.units[i].ns, wanted.units[i].ns);
+        EXPECT_EQ(found.units[i].source, wanted.units[i].source);
+        EXPECT_EQ(found.units[i].range.is_known(), wanted.units[i].range.is_known());
+    }
+}
+
+std::string refuse_costs(const std::string& text) {
+    return test::refusal(Failure::bad_data, [&] { report::read_costs(text, "c.json"); });
+}
+
+TEST(Costs, FileIsRefusedWithPlaceWantedAndFound) {
+    const std::string head = R"({"schema": "catoptric/costs/1", "device": "d", "origin": "given")";
+    EXPECT_EQ(
+        refuse_costs("{}"),
+        "c.json: schema: wanted costs of a device, schema 'catoptric/costs/1', found nothing");
+    EXPECT_EQ(refuse_costs(head + "}"),
+              "c.json: costs: wanted a list with at least one entry, found nothing");
+    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "fragment", "ns": 1}]})"),
+              "c.json: costs[0].work: wanted a kind of work, found 'fragment' (did you mean "
+              "'fragments'?)");
+    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": -1}]})"),
+              "c.json: costs[0].ns: wanted nanoseconds of at least 0, found '-1'");
+    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": 3, "range": [4, 5]}]})"),
+              "c.json: costs[0].range: wanted a range around ns, 3.000000, found a list");
+    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": 3},
+                                                 {"work": "draws", "ns": 3}]})"),
+              "c.json: costs[1].work: 'draws' is given twice");
+    EXPECT_EQ(refuse_costs(R"({"schema": "catoptric/costs/1", "device": "d", "origin": "felt"})"),
+              "c.json: origin: wanted fitted, literature or given, found '\"felt\"'");
+}
+
+TEST(Work, CountsOfARowAreReadBack) {
+    const std::vector<PassWork> passes{{"a", make_counts(1, 2, 1)}, {"b", make_counts(3, 4, 1)}};
+    measure::Row row;
+    EXPECT_FALSE(measure::has_work(row));
+    measure::set_row_work(row, passes);
+    EXPECT_TRUE(measure::has_work(row));
+    EXPECT_EQ(measure::work_of_row(row), make_counts(4, 6, 2));
+    EXPECT_EQ(sum_work(passes, "b"), make_counts(3, 4, 1));
+}
+
+} // namespace
