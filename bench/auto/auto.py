@@ -6,7 +6,7 @@ Writes OUT/auto.json (every figure) and OUT/auto.md (a line for each scene). Pri
 `auto`, in one of three ways:
   faster: the row's processor time is less than that of `auto` / 1.15, and its FLIP is no larger.
   better: the row's FLIP is less than that of `auto` / 1.1, and its processor time is no larger.
-  traces more: `auto` traces a larger share of the mirror pixels than `hybrid`.
+  traces more: `auto` traces more rays from mirrors than `hybrid`.
 The exit code is 1 if a row beats `auto`. Results in OUT/auto.json are kept; --again measures them again.
 
 Each view is measured in two steps. The first step measures the FLIP of every row from one frame. The second step
@@ -28,7 +28,7 @@ FASTER, BETTER = 1.15, 1.1
 
 
 def measured(arguments, name, scene, view, rows, timing):
-    """Returns, by row: processor time of a frame in milliseconds, FLIP and rmse on mirrors, share of traced pixels,
+    """Returns, by row: processor time of a frame in milliseconds, FLIP and rmse on mirrors, number of traced rays from mirrors,
     and the technique that draws each mirror."""
     folder = os.path.join(arguments.out, "compare")
     run = subprocess.run([arguments.program, "compare", scene, "-o", folder, "--size", arguments.size, "--camera", "seeded",
@@ -40,7 +40,7 @@ def measured(arguments, name, scene, view, rows, timing):
     for row in json.loads(run.stdout)["rows"]:
         error = row["error"]
         found[row["label"]] = {"ms": row["cpu_ms"]["median"], "flip": error["flip"], "rmse": error["rmse"],
-                               "traced": row.get("traced_fraction") or 0,
+                               "traced": (row.get("rays") or {}).get("mirror", 0),
                                "drawn": [[entry["technique"], entry["settings"]] for entry in row["plan"]],
                                "plan": sorted({entry["why"] for entry in row["plan"]}) if row["label"] == "auto" else []}
     return found
