@@ -11,12 +11,13 @@
 
 #define INLINE inline
 #define OUT(type) type&
+#define INOUT(type) type&
 #define precise
 #define CATOPTRIC_SHADER_PRELUDE(scalar, splitter)                                                 \
     using real = scalar;                                                                           \
     using vec3 = glm::vec<3, real>;                                                                \
     using uint = std::uint32_t;                                                                    \
-    using glm::abs, glm::atan, glm::clamp, glm::cross, glm::dot, glm::floor, glm::length,          \
+    using glm::abs, glm::atan, glm::clamp, glm::cos, glm::sin, glm::cross, glm::dot, glm::floor, glm::length,          \
         glm::max, glm::min, glm::mix, glm::normalize, glm::pow, glm::smoothstep, glm::sqrt;        \
     using std::isnan;                                                                              \
     const real kUnitRoundoff = std::numeric_limits<real>::epsilon() / 2;                           \
@@ -39,5 +40,6 @@ CATOPTRIC_SHADER_PRELUDE(double, 0x1p27 + 1) // splits a double's 53 bits
 #undef CATOPTRIC_SHADER_PRELUDE
 #undef precise
 #undef OUT
+#undef INOUT
 #undef INLINE
 #undef CATOPTRIC_MATH_GLSL

@@ -7,6 +7,7 @@
 #define real float
 #define INLINE
 #define OUT(type) out type
+#define INOUT(type) inout type
 const real kUnitRoundoff = 5.9604644775390625e-8; // largest relative rounding error of a float, 2^-24
 const real kSplitter = 4097.0;                    // 2^12 + 1: splits a float's 24 bits into two halves
 
@@ -35,6 +36,8 @@ INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 #include "lib/math/light.glsl"
 #include "lib/math/environment.glsl"
 #include "lib/math/surface.glsl"
+#include "lib/math/lobe.glsl"
+#include "lib/math/random.glsl"
 #include "lib/math/ray.glsl"
 #include "lib/math/leaving.glsl"
 #include "lib/math/object_space.glsl"

@@ -1,0 +1,81 @@
+// Tests of the lobe and of random numbers on the device: the shader must give what the same code
+// gives in C++.
+#include "core/shader_math.hpp"
+#include "support/device.hpp"
+#include "support/numbers.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace catoptric;
+
+struct LobeAnswer {
+    vec3 to_light{0};
+    float weight = 0, density = 0, lobe = 0, u = 0, v = 0;
+};
+static_assert(sizeof(LobeAnswer) == 32);
+
+std::vector<vec4> draw_lobe_questions(std::size_t count) {
+    test::Numbers numbers(11);
+    std::vector<vec4> asked;
+    while (asked.size() < count) {
+        vec3 to_eye = numbers.direction();
+        to_eye.z = std::abs(to_eye.z);
+        const float roughness = asked.size() % 10 == 0 ? 0 : numbers.between(.02f, 1);
+        if (to_eye.z > 1e-3f) asked.emplace_back(to_eye, roughness);
+    }
+    return asked;
+}
+
+std::vector<LobeAnswer> lobe_answers_of_device(const std::vector<vec4>& asked) {
+    auto& [device, pipelines] = test::bench();
+    gpu::Buffer input;
+    upload_to_buffer(device, input, "asked", asked, gpu::BufferUsage::plain);
+    graph::GraphRunner runner(device, pipelines);
+    graph::Graph graph;
+    const graph::BufferHandle out = graph.buffer({"answers", asked.size() * sizeof(LobeAnswer)});
+    graph.pass("lobe")
+        .writes(out, graph::ResourceUse::storage_write)
+        .record([&](graph::PassCommands& commands) {
+            commands.bind("Asked", input);
+            commands.bind("Answers", out);
+            commands.use(gpu::ComputeState{"tests/lobe.comp", {}});
+            commands.push(static_cast<std::uint32_t>(asked.size()));
+            commands.dispatch(static_cast<std::uint32_t>((asked.size() + 63) / 64), 1);
+        });
+    graph.mark_output(out);
+    test::run(runner, graph);
+    return test::read_as<LobeAnswer>(runner, out);
+}
+
+TEST(Lobe, DeviceGivesWhatTheSameCodeGivesInCpp) {
+    const std::vector<vec4> asked = draw_lobe_questions(4096);
+    const std::vector<LobeAnswer> found = lobe_answers_of_device(asked);
+    for (std::uint32_t i = 0; i < asked.size(); ++i) {
+        const vec3 to_eye(asked[i]), white(1), half(.5f);
+        float u, v;
+        f32::sample_point(i % 97, i, i % 5, 7, u, v);
+        // Random numbers are arithmetic of integers, so they are equal.
+        ASSERT_EQ(found[i].u, u) << i;
+        ASSERT_EQ(found[i].v, v) << i;
+        const float alpha = f32::alpha_of_roughness(asked[i].w);
+        const vec3 wanted = f32::sample_lobe(alpha, to_eye, u, v);
+        EXPECT_LT(length(found[i].to_light - wanted), 2e-4f) << i << " roughness " << asked[i].w;
+        // The functions of the direction are compared at the device's own direction.
+        const vec3 to_light = found[i].to_light;
+        const auto near = [](float a, float b) {
+            return std::abs(a - b) <= 2e-3f * std::abs(b) + 1e-6f;
+        };
+        EXPECT_TRUE(
+            near(found[i].weight, f32::sampled_lobe_weight(alpha, half, white, to_eye, to_light).x))
+            << i;
+        if (asked[i].w < .1f)
+            continue; // a narrow lobe turns roundings of the direction into factors
+        EXPECT_TRUE(near(found[i].density, f32::lobe_pdf(alpha, to_eye, to_light))) << i;
+        EXPECT_TRUE(near(found[i].lobe, f32::evaluate_lobe(alpha, half, white, to_eye, to_light).x))
+            << i;
+    }
+}
+
+} // namespace

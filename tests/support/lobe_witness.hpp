@@ -1,0 +1,58 @@
+#pragma once
+
+#include "core/math.hpp"
+
+#include <cmath>
+#include <numbers>
+
+/// A witness for the lobe of rough surfaces: quadrature in double precision, with formulas that
+/// share nothing with shaders/lib/math/lobe.glsl. Directions are in tangent space, whose z is the
+/// normal.
+namespace test {
+
+using catoptric::dvec3;
+
+/// Returns the reflectance times the cosine for a Fresnel reflectance of 1, with textbook formulas:
+/// D by the angle of the half vector, G2 by the lambdas of Smith.
+inline double textbook_lobe(double roughness, const dvec3& o, const dvec3& i) {
+    if (i.z <= 0) return 0;
+    const double alpha = roughness * roughness;
+    const dvec3 h = glm::normalize(o + i);
+    const double cos2 = h.z * h.z, tan2 = (1 - cos2) / cos2;
+    const double d = 1 / (std::numbers::pi * alpha * alpha * cos2 * cos2 *
+                          std::pow(1 + tan2 / (alpha * alpha), 2));
+    const auto lambda = [&](const dvec3& w) {
+        const double tan2_w = (1 - w.z * w.z) / (w.z * w.z);
+        return (std::sqrt(1 + alpha * alpha * tan2_w) - 1) / 2;
+    };
+    return d / (1 + lambda(o) + lambda(i)) / (4 * o.z);
+}
+
+/// Integrates a function of half vectors and light over the hemisphere of lights. The half vectors
+/// are spread by the distribution's own width, so that narrow lobes are resolved.
+template <typename Function>
+double integrate_over_half_vectors(double roughness, const dvec3& o, Function&& function) {
+    constexpr int kAround = 512, kOut = 2048;
+    const double alpha = roughness * roughness;
+    double sum = 0;
+    for (int k = 0; k < kOut; ++k) {
+        // tan(theta) = alpha s / (1 - s) for s in (0, 1) covers all half vectors.
+        const double s = (k + .5) / kOut, tangent = alpha * s / (1 - s);
+        const double theta = std::atan(tangent);
+        const double step = alpha / ((1 - s) * (1 - s)) / (1 + tangent * tangent) / kOut;
+        for (int j = 0; j < kAround; ++j) {
+            const double phi = 2 * std::numbers::pi * (j + .5) / kAround;
+            const dvec3 h{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                          std::cos(theta)};
+            const double cosine = glm::dot(o, h);
+            if (cosine <= 0) continue;
+            const dvec3 i = 2 * cosine * h - o;
+            // A solid angle of half vectors is 1 / (4 o.h) of that of lights.
+            const double angle = std::sin(theta) * step * 2 * std::numbers::pi / kAround;
+            sum += function(i) * 4 * cosine * angle;
+        }
+    }
+    return sum;
+}
+
+} // namespace test

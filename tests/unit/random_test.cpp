@@ -1,0 +1,121 @@
+// Tests of random numbers by counters (shaders/lib/math/random.glsl): stratification, independence,
+// repeatability.
+#include "core/shader_math.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace {
+
+using namespace catoptric;
+
+struct UnitPoint {
+    float u, v;
+};
+
+UnitPoint point_of(std::uint32_t pixel, std::uint32_t index, std::uint32_t pair,
+                   std::uint32_t seed) {
+    UnitPoint point{};
+    f32::sample_point(pixel, index, pair, seed, point.u, point.v);
+    return point;
+}
+
+TEST(Random, ReversesBits) {
+    EXPECT_EQ(f32::reversed_bits(1), 0x80000000u);
+    EXPECT_EQ(f32::reversed_bits(0x12345678u), 0x1e6a2c48u);
+    EXPECT_EQ(f32::reversed_bits(f32::reversed_bits(0xdeadbeefu)), 0xdeadbeefu);
+}
+
+TEST(Random, SecondCoordinateIsThatOfSobolsSequence) {
+    // The first points of the second dimension: 0, 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8 in Gray-code
+    // free order.
+    const double wanted[] = {0, .5, .75, .25, .625, .125, .375, .875};
+    for (std::uint32_t i = 0; i < 8; ++i) EXPECT_EQ(f32::sobol_second(i) * 0x1p-32, wanted[i]) << i;
+}
+
+/// Each elementary interval of area 2^-k has one of the first 2^k points, whatever its shape.
+/// Points that are merely random, or scrambled so that strata mix, fail.
+TEST(Random, FirstPointsAreANet) {
+    for (const std::uint32_t pixel : {0u, 17u, 262143u})
+        for (const std::uint32_t seed : {1u, 99u})
+            for (std::uint32_t k = 1; k <= 8; ++k)
+                for (std::uint32_t across = 0; across <= k; ++across) {
+                    std::set<std::pair<int, int>> cells;
+                    for (std::uint32_t i = 0; i < 1u << k; ++i) {
+                        const UnitPoint point = point_of(pixel, i, 3, seed);
+                        cells.emplace(int(point.u * float(1u << across)),
+                                      int(point.v * float(1u << (k - across))));
+                    }
+                    EXPECT_EQ(cells.size(), std::size_t{1} << k)
+                        << pixel << " " << seed << " " << k << " " << across;
+                }
+}
+
+TEST(Random, NumbersLieInTheUnitSquareAndAreEqualForEqualArguments) {
+    for (std::uint32_t i = 0; i < 4096; ++i) {
+        const UnitPoint a = point_of(i, i / 3, i % 7, 5), b = point_of(i, i / 3, i % 7, 5);
+        EXPECT_TRUE(a.u >= 0 && a.u < 1 && a.v >= 0 && a.v < 1);
+        EXPECT_TRUE(a.u == b.u && a.v == b.v);
+    }
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+    double ab = 0, aa = 0, bb = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ab += (a[i] - .5) * (b[i] - .5);
+        aa += (a[i] - .5) * (a[i] - .5), bb += (b[i] - .5) * (b[i] - .5);
+    }
+    return ab / std::sqrt(aa * bb);
+}
+
+/// Pixels, dimensions and seeds have patterns of their own.
+TEST(Random, PixelsDimensionsAndSeedsAreIndependent) {
+    constexpr std::uint32_t kCount = 4096;
+    const auto series = [&](auto&& point_at) {
+        std::vector<double> values;
+        for (std::uint32_t i = 0; i < kCount; ++i) values.push_back(point_at(i).u);
+        return values;
+    };
+    const auto base = series([](std::uint32_t i) { return point_of(i, 0, 0, 1); });
+    const double most = 4 / std::sqrt(double(kCount)); // four standard errors
+    EXPECT_LT(std::abs(correlation(
+                  base, series([](std::uint32_t i) { return point_of(i + 1, 0, 0, 1); }))),
+              most);
+    EXPECT_LT(
+        std::abs(correlation(base, series([](std::uint32_t i) { return point_of(i, 1, 0, 1); }))),
+        1); // samples of one pixel are stratified, so they are not independent
+    EXPECT_LT(
+        std::abs(correlation(base, series([](std::uint32_t i) { return point_of(i, 0, 1, 1); }))),
+        most);
+    EXPECT_LT(
+        std::abs(correlation(base, series([](std::uint32_t i) { return point_of(i, 0, 0, 2); }))),
+        most);
+    double sum = 0;
+    for (const double value : base) sum += value;
+    EXPECT_NEAR(sum / kCount, .5, 4 * .2887 / std::sqrt(double(kCount)));
+}
+
+/// The error of a mean of n stratified points falls faster than 1/sqrt(n), at which it falls for
+/// independent ones.
+TEST(Random, MeanOfASmoothFunctionConvergesFast) {
+    const auto error = [](std::uint32_t count) {
+        double squares = 0;
+        for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
+            double sum = 0;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const UnitPoint point = point_of(pixel, i, 0, 7);
+                sum += std::exp(point.u) * point.v;
+            }
+            const double wanted = (std::exp(1.0) - 1) / 2;
+            squares += std::pow(sum / count - wanted, 2);
+        }
+        return std::sqrt(squares / 64);
+    };
+    EXPECT_LT(error(256), error(16) / 8); // 4 for independent points
+}
+
+} // namespace
