@@ -48,6 +48,11 @@ void main() {
     bool inside = find_pixel_to_trace(pixel);
     if (inside) {
         uint met;
+        if (traces_lobes != 0u) {
+            path_pixel = pixel.y * asked.size.x + pixel.x;
+            path_sample = asked.sample_index;
+            path_seed = asked.seed;
+        }
         if (first_raster != 0u) first_words = imageLoad(picture, ivec2(pixel));
         vec3 sum = trace_radiance(make_camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
         // The picture's alpha holds the numbers of the mirrors that the ray of the first sample meets.

@@ -25,6 +25,15 @@ constexpr Knob kSamples{
     .low = 1,
     .high = 65536,
     .value = 1};
+constexpr Knob kRays{
+    .name = "rays",
+    .help =
+        "rays of each sample, whose directions are drawn from the lobes of rough surfaces (GGX, "
+        "roughness above 0.04); 0: all surfaces reflect sharply",
+    .low = 0,
+    .high = 65536,
+    .value = 0};
+constexpr std::int64_t kMostPaths = 65536; // of a pixel: samples times rays
 constexpr Knob kSphere{.name = "sphere",
                        .help = "shape of balls: triangles or exact spheres",
                        .high = 1,
@@ -42,8 +51,8 @@ constexpr Knob kWithout{.name = "without",
                         .help = "rule of robustness to leave out, to measure its cost",
                         .high = 5,
                         .choices = kRules};
-constexpr Knob kKnobs[] = {kDepth, kSamples, kTracedShadow,  kSphere, kFirst,
-                           kHit,   kWithout, kShadowMapEdge, kCapture};
+constexpr Knob kKnobs[] = {kDepth, kSamples, kRays,    kTracedShadow,  kSphere,
+                           kFirst, kHit,     kWithout, kShadowMapEdge, kCapture};
 
 bool is_first_raster(const KnobSettings& settings) {
     return settings.as<First>(kFirst) == First::raster;
@@ -53,6 +62,7 @@ TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting&
     const SharedKnobs::Shadow shadow = shared_knobs(settings).shadow;
     return {.depth = static_cast<std::uint32_t>(settings.integer(kDepth)),
             .samples = settings.integer(kSamples),
+            .rays = static_cast<std::uint32_t>(settings.integer(kRays)),
             // A scene without lights has no shadow map, and no light needs a shadow test.
             .shadow = shadow == SharedKnobs::Shadow::none ? TracerSettings::TracedShadow::none
                       : shadow == SharedKnobs::Shadow::map && lighting.shadow_map
@@ -66,11 +76,18 @@ TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting&
 }
 
 std::string conflict(const KnobSettings& settings) {
+    if (settings.integer(kRays) * std::int64_t{settings.integer(kSamples)} > kMostPaths)
+        return "rays=" + settings.text(kRays) + " for each of samples=" + settings.text(kSamples) +
+               ": wanted at most 65536 in all";
     if (!is_first_raster(settings)) return {};
     if (settings.integer(kSamples) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
                settings.text(kSamples);
+    if (settings.integer(kRays) > 1)
+        return "first=raster keeps the surface of each pixel for one ray; wanted rays=0 or rays=1, "
+               "found rays=" +
+               settings.text(kRays);
     if (settings.as<Shape>(kSphere) == Shape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
     return {};

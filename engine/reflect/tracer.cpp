@@ -4,6 +4,9 @@
 // this limit.
 #include "reflect/tracer.hpp"
 
+#include "core/content_hash.hpp"
+
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -57,6 +60,7 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
              {"has_shadow_map", reads_shadow_map(tracer) ? 1u : 0u},
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
              {"first_raster", tracer.first_raster ? 1u : 0u},
+             {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
              {"without", tracer.without},
              {"fixed_offset", scene.space().length(kReportOffset)}},
             scene.tracing_features(sphere_mode_of_tracer(tracer))};
@@ -71,15 +75,25 @@ void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene
         commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::TextureFilter::compare);
 }
 
-/// Runs one dispatch per sample, with barriers between them.
+/// Returns the seed of the lobes' directions. It depends on the number of rays, so that a row with
+/// few rays shares no ray with a reference of many.
+std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
+    const std::uint64_t mixed =
+        ContentHash().add(seed).add(tracer.rays).add(tracer.samples).value();
+    return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
+}
+
+/// Runs one dispatch per sample and ray, with barriers between them.
 template <typename Dispatch>
 void dispatch_samples(graph::PassCommands& commands, const TracerSettings& tracer, uvec2 size,
                       std::uint64_t seed, Dispatch&& dispatch) {
     const std::vector<vec2> offsets = make_sample_offsets(tracer.samples, seed);
-    for (std::uint32_t i = 0; i < offsets.size(); ++i) {
+    const std::uint32_t rays = std::max(tracer.rays, 1u);
+    const auto count = static_cast<std::uint32_t>(offsets.size()) * rays;
+    const std::uint32_t lobe_seed = make_lobe_seed(tracer, seed);
+    for (std::uint32_t i = 0; i < count; ++i) {
         if (i > 0) commands.barrier();
-        commands.push(shared::TraceParameters{offsets[i], i,
-                                              static_cast<std::uint32_t>(offsets.size()), size});
+        commands.push(shared::TraceParameters{offsets[i / rays], i, count, size, lobe_seed});
         dispatch();
     }
 }

@@ -10,6 +10,9 @@ struct TracerSettings {
 
     std::uint32_t depth = render::kReferenceDepth; ///< mirror bounces; longer paths end black
     int samples = 1; ///< rays per pixel: 1 = its centre, n*n = a regular grid, else stratified
+    /// Rays from each rough surface, in directions drawn from its lobe; each starts with a camera
+    /// ray of its own. 0: rough surfaces reflect sharply.
+    std::uint32_t rays = 0;
     TracedShadow shadow = TracedShadow::ray;
     /// Has a shadow map if `shadow` is `map`. With `first_raster` and `ray`, a shadow map here
     /// spares the shadow rays where it can tell alone.

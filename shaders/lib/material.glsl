@@ -90,11 +90,20 @@ vec3 facet_normal_for_shading(uint detail, vec3 facet) {
     return facet;
 }
 
-// Evaluates the material at a point. Sets the surface's albedo to the diffuse part, and its reflectance to the weight
+// The specular lobe of the surface that was evaluated last: its roughness, and the reflectance seen head-on and at
+// grazing angle. A roughness of 0 is a perfect mirror.
+struct SpecularLobe {
+    float roughness;
+    vec3 f0, f90;
+};
+SpecularLobe specular_lobe = SpecularLobe(0.0, vec3(0), vec3(1));
+
+// Evaluates the material at a point. Sets specular_lobe, and sets the surface's albedo to the diffuse part, and its reflectance to the weight
 // of a mirrored ray. `cosine` is the cosine between the normal and the direction to the viewer.
 void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
     MaterialParameters detail = read_material_parameters(surface.detail);
     bool is_constant = (detail.flags & kMaterialConstant) != 0u;
+    specular_lobe.roughness = 0.0;
     if (!is_constant) surface.reflectance = vec3(0);
     if ((detail.flags & kMaterialVaries) == 0u) return;
     vec3 colour = surface.albedo * at.colour.rgb * sample_texture(detail.albedo, at.uv).rgb;
@@ -107,8 +116,10 @@ void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) 
     vec4 rough = sample_texture(detail.rough, at.uv);
     float metallic = detail.metallic * rough.b;
     bool is_sharp = detail.roughness * rough.g <= detail.max_specular_roughness;
-    if (!is_constant && is_sharp)
-        surface.reflectance = schlick(mix(detail.f0, colour, metallic), mix(detail.f90, vec3(1), metallic), cosine);
+    if (!is_constant && is_sharp) {
+        specular_lobe = SpecularLobe(detail.roughness * rough.g, mix(detail.f0, colour, metallic), mix(detail.f90, vec3(1), metallic));
+        surface.reflectance = schlick(specular_lobe.f0, specular_lobe.f90, cosine);
+    }
     // A rough metal is drawn as if it were diffuse.
     if (is_constant || is_sharp) colour *= (1.0 - metallic) * (1.0 - surface.reflectance);
     surface.albedo = colour;

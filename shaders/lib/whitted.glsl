@@ -53,6 +53,12 @@ layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // shadow method: 
 // then traced only where the shadow map cannot tell.
 layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 
+// 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: all surfaces reflect sharply.
+layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u;
+const float kMostSharpRoughness = 0.04; // smoother surfaces reflect as perfect mirrors
+// The arguments of sample_point for the traced path.
+uint path_pixel = 0u, path_sample = 0u, path_seed = 0u;
+
 uint camera_rays = 0u; // camera rays that walked through the BVH
 uint mirror_rays = 0u;
 uint shadow_rays = 0u;
@@ -250,6 +256,26 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
     return spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
 }
 
+// Draws the direction in which a ray leaves a rough surface at the path's `bounce`th reflection. `direction` is that of
+// the arriving ray. Multiplies the weight by the lobe's weight. Returns false, with the perfect mirror's direction, if
+// the surface is smooth or is seen from behind its shading normal.
+bool draw_lobe_direction(SurfacePoint p, vec3 direction, uint bounce, inout vec3 weight, out vec3 leaving) {
+    leaving = mirror_direction(direction, p.normal, p.facet);
+    if (traces_lobes == 0u || details == 0u || !(specular_lobe.roughness > kMostSharpRoughness)) return false;
+    vec3 tangent, bitangent;
+    tangent_frame(p.normal, tangent, bitangent);
+    vec3 to_eye = -vec3(dot(tangent, direction), dot(bitangent, direction), dot(p.normal, direction));
+    if (!(to_eye.z > 0.0)) return false;
+    float alpha = alpha_of_roughness(specular_lobe.roughness), u, v;
+    sample_point(path_pixel, path_sample, bounce, path_seed, u, v);
+    vec3 drawn = sample_lobe(alpha, to_eye, u, v);
+    weight *= sampled_lobe_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
+    leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * p.normal;
+    // Light from below the facet's plane cannot reach the surface.
+    if (!(dot(leaving, facet_side(p.normal, p.facet)) > 0.0)) weight = vec3(0);
+    return true;
+}
+
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
     if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
@@ -325,16 +351,18 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         } else if (bounce == max_depth) {
             done = true;
         } else {
-            weight *= surface.reflectance;
+            vec3 direction;
+            if (!draw_lobe_direction(point, ray.direction, bounce, weight, direction)) {
+                weight *= surface.reflectance;
 #ifdef DOUBLES
-            vec3 direction = exact_reflection();
-#else
-            vec3 direction = mirror_direction(ray.direction, point.normal, point.facet);
+                direction = exact_reflection();
 #endif
+            }
             ray = Ray(leaving_ray_origin(point, direction), direction, point.leaves);
             skipped = 0u;
             ++mirror_rays;
             ++bounce;
+            if (traces_lobes != 0u) done = weight == vec3(0);
         }
     } while (!done);
     // The software driver silently stops this loop, too, after it has stopped a loop of the BVH walk.

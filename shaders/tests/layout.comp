@@ -48,7 +48,7 @@ void main() {
     Placement p = placements[1];
     put(p.x), put(p.y), put(p.z), put(p.centre), put(p.centre_low);
     TraceParameters t = traces[1];
-    put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size);
+    put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size), put(t.seed);
     Counters c = counters[1];
     put(c.primary_rays), put(c.mirror_rays), put(c.shadow_rays), put(c.longest_walk), put(c.exhausted);
     put(c.mirror_pixels), put(c.listed);

@@ -1,0 +1,194 @@
+// Tests of rays from rough surfaces (raytrace:rays=N). The witness is an integral over the lobe in
+// double precision (support/lobe_witness.hpp).
+#include "scene/build.hpp"
+#include "scene/surroundings.hpp"
+#include "support/drawn_hall.hpp"
+#include "support/lobe_witness.hpp"
+#include "support/numbers.hpp"
+#include "support/refusal.hpp"
+#include "support/rendering.hpp"
+
+#include <array>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr int kRoughEdge = 16;
+constexpr uvec2 kRoughSize{kRoughEdge, kRoughEdge};
+
+/// Returns an environment of smooth, bright and coloured light.
+std::shared_ptr<scene::Environment> make_smooth_environment() {
+    auto map = std::make_shared<scene::Environment>();
+    map->size = {64, 32};
+    for (std::uint32_t row = 0; row < map->size.y; ++row)
+        for (std::uint32_t column = 0; column < map->size.x; ++column) {
+            const float azimuth = 6.2832f * (float(column) + .5f) / 64;
+            const float height = std::cos(3.1416f * (float(row) + .5f) / 32);
+            map->texels.push_back(
+                {1 + .8f * std::sin(azimuth), .6f + .5f * height, 1 + .9f * std::cos(2 * azimuth)});
+        }
+    return map;
+}
+
+/// Returns a metal floor of this roughness below an environment, seen at a slant.
+scene::Scene make_rough_floor(float roughness, std::shared_ptr<const scene::Environment> sky) {
+    scene::Scene scene{.name = "floor"};
+    scene.mirror_max_roughness = 1;
+    const std::size_t metal = test::add_material(
+        scene,
+        {.name = "metal", .albedo = vec3(.9f, .6f, .3f), .metallic = 1, .roughness = roughness});
+    test::add_quad(scene, "floor", metal, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50});
+    scene.environment = std::move(sky);
+    scene.cameras.push_back(
+        {.eye = {0, 2, 6}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov_degrees = 40});
+    return scene;
+}
+
+dvec3 direction_of_pixel(const scene::Camera& camera, int x, int y) {
+    const dvec3 forward = glm::normalize(camera.target - camera.eye),
+                right = glm::normalize(glm::cross(forward, camera.up)),
+                down = glm::cross(forward, right);
+    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees / 2));
+    return glm::normalize(forward + tangent * (2 * (x + .5) / kRoughEdge - 1) * right +
+                          tangent * (2 * (y + .5) / kRoughEdge - 1) * down);
+}
+
+/// Returns the radiance of a pixel of the floor by quadrature. The floor's frame has z upwards.
+dvec3 wanted_radiance(const scene::Scene& scene, double roughness, int x, int y) {
+    const dvec3 direction = direction_of_pixel(scene.cameras.front(), x, y);
+    const dvec3 to_eye(-direction.x, direction.z, -direction.y), f0(.9, .6, .3);
+    dvec3 sum(0);
+    for (int channel = 0; channel < 3; ++channel)
+        sum[channel] = test::integrate_over_half_vectors(roughness, to_eye, [&](const dvec3& i) {
+            if (i.z <= 0) return 0.0;
+            const double away = 1 - glm::dot(to_eye, glm::normalize(to_eye + i));
+            const double fresnel = f0[channel] + (1 - f0[channel]) * std::pow(away, 5);
+            const dvec3 light = scene::environment_radiance(*scene.environment, {i.x, i.z, -i.y});
+            return fresnel * light[channel] * test::textbook_lobe(roughness, to_eye, i);
+        });
+    return sum;
+}
+
+measure::Picture trace_with_seed(const scene::Scene& scene, const std::string& technique,
+                                 std::uint64_t seed) {
+    app::Request asked = test::request(scene, {technique}, kRoughSize);
+    asked.seed = seed;
+    return app::run(test::engine(), asked).parts.front().hdr;
+}
+
+/// Pixels lie within their own error bars of the integral as often as chance allows.
+TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
+    constexpr int kSeeds = 8;
+    for (const float roughness : {.1f, .3f, .6f}) {
+        const scene::Scene scene = make_rough_floor(roughness, make_smooth_environment());
+        std::vector<measure::Picture> pictures;
+        for (int seed = 1; seed <= kSeeds; ++seed)
+            pictures.push_back(trace_with_seed(scene, "raytrace:rays=128,depth=2",
+                                               static_cast<std::uint64_t>(seed)));
+        int compared = 0, apart = 0;
+        double largest = 0;
+        test::Numbers numbers(5);
+        for (int k = 0; k < 12; ++k) {
+            const int x = int(numbers.below(kRoughEdge)), y = 6 + int(numbers.below(10));
+            const dvec3 wanted = wanted_radiance(scene, roughness, x, y);
+            for (int channel = 0; channel < 3; ++channel) {
+                double mean = 0, squares = 0;
+                for (const measure::Picture& picture : pictures) {
+                    const double value = picture.at(x, y)[channel];
+                    mean += value / kSeeds, squares += value * value / kSeeds;
+                }
+                const double error = std::sqrt(std::max(squares - mean * mean, 0.) / (kSeeds - 1));
+                ++compared;
+                apart += std::abs(mean - wanted[channel]) > 4 * error + 1e-3;
+                largest = std::max(largest, std::abs(mean - wanted[channel]));
+            }
+        }
+        std::cout << "[ MEASURED ] roughness " << roughness << ": " << apart << " of " << compared
+                  << " apart, largest difference " << largest << '\n';
+        EXPECT_LE(apart, 1) << roughness;
+        EXPECT_LT(largest, .02) << roughness;
+    }
+}
+
+TEST(RoughRays, ErrorFallsWithTheNumberOfRays) {
+    const scene::Scene scene = make_rough_floor(.4f, make_smooth_environment());
+    const auto error = [&](const std::string& rays) {
+        return test::rmse(trace_with_seed(scene, "raytrace:rays=" + rays, 1),
+                          trace_with_seed(scene, "raytrace:rays=" + rays, 2));
+    };
+    const double few = error("4"), many = error("64");
+    std::cout << "[ MEASURED ] difference of two seeds: " << few << " with 4 rays, " << many
+              << " with 64\n";
+    EXPECT_LT(many, few / 3); // 4 for independent rays
+    EXPECT_GT(few, 0);
+}
+
+TEST(RoughRays, SmoothSurfacesAreAsWithoutRays) {
+    for (const char* name : {"cornell-mirrors", "gallery"}) {
+        const scene::Scene scene = scene::load(name);
+        EXPECT_EQ(test::render(scene, "raytrace:rays=1", {48, 48}).hdr.pixels,
+                  test::render(scene, "raytrace", {48, 48}).hdr.pixels)
+            << name;
+    }
+    // Up to the sharp limit, a surface is a perfect mirror.
+    const scene::Scene polished = make_rough_floor(.04f, make_smooth_environment()),
+                       rough = make_rough_floor(.06f, make_smooth_environment());
+    EXPECT_EQ(trace_with_seed(polished, "raytrace:rays=1", 1).pixels,
+              trace_with_seed(polished, "raytrace", 1).pixels);
+    EXPECT_NE(trace_with_seed(rough, "raytrace:rays=1", 1).pixels,
+              trace_with_seed(rough, "raytrace", 1).pixels);
+}
+
+TEST(RoughRays, PictureIsAFunctionOfItsSeed) {
+    const scene::Scene scene = make_rough_floor(.5f, make_smooth_environment());
+    EXPECT_EQ(trace_with_seed(scene, "raytrace:rays=3", 7).pixels,
+              trace_with_seed(scene, "raytrace:rays=3", 7).pixels);
+    EXPECT_NE(trace_with_seed(scene, "raytrace:rays=3", 7).pixels,
+              trace_with_seed(scene, "raytrace:rays=3", 8).pixels);
+}
+
+/// A closed white furnace: the light that rough balls reflect between each other stays below that
+/// of perfect mirrors, because a single-scattering lobe loses light, and is never above it.
+TEST(RoughRays, RoughMirrorsInAFurnaceGainNoLight) {
+    scene::Scene furnace = test::furnace(2);
+    for (scene::Material& material : furnace.materials)
+        if (material.mirror) {
+            material.mirror = false;
+            material.albedo = vec3(1), material.metallic = 1, material.roughness = .5f;
+        }
+    furnace.mirror_max_roughness = .6f; // the walls are rougher and stay diffuse
+    const measure::Picture sharp = test::render(furnace, "raytrace:depth=16", {32, 32}).hdr;
+    const measure::Picture rough = test::render(furnace, "raytrace:depth=16,rays=64", {32, 32}).hdr;
+    double most = 0, sharp_sum = 0, rough_sum = 0;
+    for (std::size_t i = 0; i < sharp.pixels.size(); ++i) {
+        most = std::max(most, double(rough.pixels[i].x));
+        sharp_sum += sharp.pixels[i].x, rough_sum += rough.pixels[i].x;
+    }
+    std::cout << "[ MEASURED ] furnace: brightest " << most << ", mean "
+              << rough_sum / double(rough.pixels.size()) << " instead of "
+              << sharp_sum / double(sharp.pixels.size()) << '\n';
+    EXPECT_NEAR(sharp_sum / double(sharp.pixels.size()), test::kFurnace.x, 1e-6);
+    EXPECT_LE(most, test::kFurnace.x * 1.001); // a lobe that gained light would be brighter
+    EXPECT_LT(rough_sum, sharp_sum);
+    EXPECT_GT(rough_sum, .8 * sharp_sum);
+}
+
+TEST(RoughRays, TooManyRaysAreRefused) {
+    EXPECT_THAT(test::refusal(Failure::usage,
+                              [] {
+                                  test::render(scene::load("flat"),
+                                               "raytrace:rays=1000,samples=100", kRoughSize);
+                              }),
+                testing::HasSubstr("rays=1000 for each of samples=100: wanted at most 65536 in "
+                                   "all"));
+    EXPECT_THAT(test::refusal(Failure::usage,
+                              [] {
+                                  test::render(scene::load("flat"), "raytrace:rays=2,first=raster",
+                                               kRoughSize);
+                              }),
+                testing::HasSubstr("wanted rays=0 or rays=1, found rays=2"));
+}
+
+} // namespace
