@@ -258,21 +258,23 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
 
 // Draws the direction in which a ray leaves a rough surface at the path's `bounce`th reflection. `direction` is that of
 // the arriving ray. Multiplies the weight by the lobe's weight. Returns false, with the perfect mirror's direction, if
-// the surface is smooth or is seen from behind its shading normal.
+// the surface is smooth. The lobe's normal is half-way between the arriving ray and the perfect mirror's direction,
+// which mirror_direction keeps above the facet at the outlines of smooth bodies.
 bool draw_lobe_direction(SurfacePoint p, vec3 direction, uint bounce, inout vec3 weight, out vec3 leaving) {
     leaving = mirror_direction(direction, p.normal, p.facet);
     if (traces_lobes == 0u || details == 0u || !(specular_lobe.roughness > kMostSharpRoughness)) return false;
     vec3 tangent, bitangent;
-    tangent_frame(p.normal, tangent, bitangent);
-    vec3 to_eye = -vec3(dot(tangent, direction), dot(bitangent, direction), dot(p.normal, direction));
+    vec3 normal = normalize(leaving - direction);
+    tangent_frame(normal, tangent, bitangent);
+    vec3 to_eye = -vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
     if (!(to_eye.z > 0.0)) return false;
     float alpha = alpha_of_roughness(specular_lobe.roughness), u, v;
     sample_point(path_pixel, path_sample, bounce, path_seed, u, v);
     vec3 drawn = sample_lobe(alpha, to_eye, u, v);
     weight *= sampled_lobe_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
-    leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * p.normal;
+    leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
     // Light from below the facet's plane cannot reach the surface.
-    if (!(dot(leaving, facet_side(p.normal, p.facet)) > 0.0)) weight = vec3(0);
+    if (!(dot(leaving, facet_side(normal, p.facet)) > 0.0)) weight = vec3(0);
     return true;
 }
 
