@@ -8,13 +8,14 @@
 #   views      docs/views.md
 #   drawn      docs/drawn.md
 #   lag        the tables of docs/lag.md
+#   fronts     the fronts of docs/costs.md
 # PROGRAM is the catoptric program. TESTS is the folder with catoptric_bench, cli_test and gpu_test. ./dev results calls
 # this script.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$1 tests=$2
 parts=("${@:3}")
-((${#parts[@]})) || parts=(rows causes precision stress views drawn lag)
+((${#parts[@]})) || parts=(rows causes precision stress views drawn lag fronts)
 mkdir -p out docs/images
 
 # Callers first make TEXT by `text=$(...)`, because a failure in this assignment ends the script. A failure within an
@@ -169,6 +170,22 @@ make_lag() {
     "$program" compare -o out/lag --lag --size 256x256 --techniques reuse parallax secant
     text=$(awk '/^## / {on = /^## Lag: /} on' out/lag/report.md | sed 's/^## Lag: /### Lag: /')
     put lag docs/lag.md "$text"
+}
+
+# Predicts the times of rows on other devices. Counts and errors do not depend on the load of the machine.
+make_fronts() {
+    local costs=() file scene
+    for file in docs/costs/*.json; do [[ $file == *.times.json ]] || costs+=(--costs "$file"); done
+    text=$(
+        for scene in cornell-mirrors cornell-mirrors-closed flat room courtyard gallery; do
+            "$program" compare $scene -o out/fronts --model required --size 256x256 --frames 6 --warmup 14 "${costs[@]}" \
+                --techniques reuse parallax proxy secant march pyramid layered hybrid planar raytrace:depth=4 \
+                raytrace:depth=4,first=raster >/dev/null
+            echo "**$scene**"
+            grep -o 'Front on .*' out/fronts/report.md | sed 's/^/- /'
+            echo
+        done)
+    put fronts docs/costs.md "$text"
 }
 
 for part in "${parts[@]}"; do

@@ -220,8 +220,8 @@ struct Counters {
 // Work that shaders count in frames that count work (lib/work.glsl). engine/core/work.hpp explains each kind.
 const uint kWorkCameraRays = 0u, kWorkMirrorRays = 1u, kWorkShadowRays = 2u, kWorkNodes = 3u, kWorkTriangles = 4u,
            kWorkNodeLanes = 5u, kWorkTriangleLanes = 6u, kWorkShadowLookups = 7u, kWorkColourLookups = 8u,
-           kWorkDistanceLookups = 9u, kWorkTextureLookups = 10u;
-const uint kShaderWorkKinds = 11u;
+           kWorkDistanceLookups = 9u, kWorkTextureLookups = 10u, kWorkMaterials = 11u, kWorkLights = 12u;
+const uint kShaderWorkKinds = 13u;
 
 // Push constants of the pass that shows pictures in a window (engine/session/screen.cpp).
 struct ScreenParameters {

@@ -6,7 +6,8 @@ Writes OUT/auto.json (every figure) and OUT/auto.md (a line for each scene). Pri
 `auto`, in one of three ways:
   faster: the row's processor time is less than that of `auto` / 1.15, and its FLIP is no larger.
   better: the row's FLIP is less than that of `auto` / 1.1, and its processor time is no larger.
-  traces more: `auto` traces more rays from mirrors than `hybrid`.
+  traces more: `auto` traces more rays from mirrors than `hybrid`, by more than 1 %. Single pixels differ, because
+  `auto` draws what captures show of small mirrors in a simpler way.
 The exit code is 1 if a row beats `auto`. Results in OUT/auto.json are kept; --again measures them again.
 
 Each view is measured in two steps. The first step measures the FLIP of every row from one frame. The second step
@@ -28,8 +29,8 @@ FASTER, BETTER = 1.15, 1.1
 
 
 def measured(arguments, name, scene, view, rows, timing):
-    """Returns, by row: processor time of a frame in milliseconds, FLIP and rmse on mirrors, number of traced rays from mirrors,
-    and the technique that draws each mirror."""
+    """Returns, by row: processor time of a frame in milliseconds, FLIP and rmse on mirrors, number of traced rays from
+    mirrors, and the technique that draws each mirror."""
     folder = os.path.join(arguments.out, "compare")
     run = subprocess.run([arguments.program, "compare", scene, "-o", folder, "--size", arguments.size, "--camera", "seeded",
                           "--seed", str(view), *timing, "--quiet", "--json", "--techniques", *rows],
@@ -81,7 +82,7 @@ def beaten(found):
             worse.append(("faster", name, ours["ms"] / row["ms"]))
         if row["timed"] and row["ms"] <= ours["ms"] and row["flip"] * BETTER < ours["flip"]:
             worse.append(("better", name, ours["flip"] / max(row["flip"], 1e-9)))
-        if name == "hybrid" and ours["traced"] > row["traced"] + 1e-9:
+        if name == "hybrid" and ours["traced"] > 1.01 * row["traced"]:
             worse.append(("traces more", name, ours["traced"] / max(row["traced"], 1e-9)))
     return worse
 

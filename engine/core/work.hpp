@@ -26,6 +26,8 @@ enum class WorkKind : std::uint8_t {
     colour_lookups,
     distance_lookups,
     texture_lookups,
+    materials,
+    lights,
     vertices,
     primitives,
     fragments,
@@ -53,6 +55,9 @@ inline constexpr WorkKindFacts kWorkKinds[] = {
     {"colour_lookups", "look-ups of colours, objects and normals in captures and mirrored views"},
     {"distance_lookups", "look-ups of distances in captures, and of bounds in a pyramid"},
     {"texture_lookups", "look-ups in textures of materials and in the environment"},
+    {"materials",
+     "evaluations of a material at a point, in scenes whose materials vary or reflect"},
+    {"lights", "evaluations of a light at a point, without its shadow"},
     {"vertices", "invocations of vertex shaders"},
     {"primitives", "triangles that clipping put out"},
     {"fragments", "invocations of fragment shaders, as the device counts them"},
@@ -65,7 +70,7 @@ inline constexpr WorkKindFacts kWorkKinds[] = {
 };
 inline constexpr std::size_t kWorkKindCount = std::size(kWorkKinds);
 static_assert(static_cast<std::size_t>(WorkKind::bytes) + 1 == kWorkKindCount);
-static_assert(static_cast<std::size_t>(WorkKind::texture_lookups) + 1 == shared::kShaderWorkKinds);
+static_assert(static_cast<std::size_t>(WorkKind::lights) + 1 == shared::kShaderWorkKinds);
 
 /// Counts by kind. A kind that the device cannot count has no value.
 struct WorkCounts {

@@ -28,18 +28,21 @@ std::vector<Request> split_by_technique(const Request& request) {
     return rows;
 }
 
-double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& rounds) {
+/// Returns the median time of the frames on the device. `threads`: those of a device that is a
+/// processor; 0 for other devices.
+double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& rounds, int threads) {
     std::vector<std::vector<double>> samples;
     for (const std::vector<FrameTimes>& round : rounds) {
         samples.emplace_back();
-        for (const FrameTimes& frame : round) samples.back().push_back(frame.gpu_ms);
+        for (const FrameTimes& frame : round)
+            samples.back().push_back(threads > 0 ? frame.cpu_ms / threads : frame.gpu_ms);
     }
     return measure::summarise_samples(samples).median;
 }
 
 /// Measures the rows of one size and model, and appends them to `samples`.
-void measure_rows(Session& session, const Request& request, const BenchOptions& options,
-                  std::vector<measure::CostSample>& samples) {
+void measure_rows(Session& session, const Request& request, int threads,
+                  const BenchOptions& options, std::vector<measure::CostSample>& samples) {
     const std::vector<Request> rows = split_by_technique(request);
     const int rounds = choose_round_count(options.iterations, options.rounds);
     std::vector<std::unique_ptr<RowMeasurement>> runs;
@@ -58,7 +61,7 @@ void measure_rows(Session& session, const Request& request, const BenchOptions& 
     for (std::size_t i = 0; i < rows.size(); ++i)
         samples.push_back({name_sample(rows[i]),
                            sum_work(count_frame_work(session, rows[i], options.watcher)),
-                           compute_median_device_time(runs[i]->rounds())});
+                           compute_median_device_time(runs[i]->rounds(), threads)});
 }
 
 } // namespace
@@ -73,7 +76,7 @@ std::vector<measure::CostSample> measure_cost_samples(Engine& engine, const Requ
             part.model = model;
             part.size = glm::max(request.size / divisor, uvec2(1));
             part.frames = options.iterations;
-            measure_rows(session, part, options, samples);
+            measure_rows(session, part, engine.device().threads, options, samples);
         }
     return samples;
 }

@@ -11,9 +11,10 @@
 namespace catoptric::app {
 
 /// Measures each technique of the request in rounds, at the request's size and at half of it, with
-/// the model `everything` and with `required`. Returns the median of the device's time, and the
-/// counted work of one frame. Names of samples are "SCENE/WxH/MODEL/TECHNIQUE". `iterations` and
-/// `rounds` are those of each row.
+/// the model `everything` and with `required`. Returns the median time of a frame, and the counted
+/// work of one frame. On a processor, the time is processor time divided by the device's threads,
+/// which other programs hardly change. On other devices it is the device's time. Names of samples
+/// are "SCENE/WxH/MODEL/TECHNIQUE". `iterations` and `rounds` are those of each row.
 std::vector<measure::CostSample> measure_cost_samples(Engine& engine, const Request& request,
                                                       const BenchOptions& options);
 

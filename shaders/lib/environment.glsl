@@ -17,7 +17,7 @@ vec3 environment_radiance(vec3 direction) {
     if (environment_kind == kNoEnvironment) return vec3(0);
     vec3 d = environment_direction(direction, sky.value.turn.x, sky.value.turn.y);
     if (environment_kind == kStudioEnvironment) return vec3(sky.value.scale * studio_radiance(d));
-    count_lookup(kWorkTextureLookups);
+    count_once(kWorkTextureLookups);
     EnvironmentMapPosition at = environment_map_position(d, sky.value.size.x, sky.value.size.y);
     return sky.value.scale * mix(mix(sky_texel(at.left, at.above), sky_texel(at.right, at.above), at.across),
                                  mix(sky_texel(at.left, at.below), sky_texel(at.right, at.below), at.across), at.down);

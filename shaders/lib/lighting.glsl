@@ -16,6 +16,7 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet) {
     uint all = one_light != 0u ? 1u : frame.value.light_count;
     uint count = surface.albedo == vec3(0) ? 0u : all;
     uint light = 0u;
+    if (count_work != 0u) add_work(kWorkLights, count);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;

@@ -54,7 +54,7 @@ vec4 read_texel_colour(TextureUse use, int x, int y) {
 // Samples a texture. `uv` holds both sets of texture coordinates. Returns white if the material has no such texture.
 vec4 sample_texture(TextureUse use, vec4 uv) {
     if (use.size == 0u) return vec4(1);
-    count_lookup(kWorkTextureLookups);
+    count_once(kWorkTextureLookups);
     vec3 place = vec3((use.how & kTextureSecondUv) != 0u ? uv.zw : uv.xy, 1);
     float u = dot(use.u_row, place), v = dot(use.v_row, place);
     int width = int(use.size & 0xffffu), height = int(use.size >> 16u);
@@ -101,6 +101,7 @@ SpecularLobe specular_lobe = SpecularLobe(0.0, vec3(0), vec3(1));
 // Evaluates the material at a point. Sets specular_lobe, and sets the surface's albedo to the diffuse part, and its reflectance to the weight
 // of a mirrored ray. `cosine` is the cosine between the normal and the direction to the viewer.
 void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
+    count_once(kWorkMaterials);
     MaterialParameters detail = read_material_parameters(surface.detail);
     bool is_constant = (detail.flags & kMaterialConstant) != 0u;
     specular_lobe.roughness = 0.0;

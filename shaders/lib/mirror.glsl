@@ -43,7 +43,7 @@ struct MirrorPath {
 bool is_mirror(vec4 surface) { return surface.x > 0.0; }
 vec4 read_captured_surface(uint mirror, vec3 direction) {
 #define SURFACE(i) textureLod(SURFACE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_lookup(kWorkColourLookups);
+    count_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, SURFACE)
 }
 

@@ -48,7 +48,7 @@ float sample_parallel_shadow_map(uint light, vec3 position, vec3 normal, float e
         // interpolated.
         float slack = kDepthError * (1.0 + view.near * edge * texel * sine / max(abs(cosine), kDepthError));
         float depth = 1.0 - view.near * dot(view.forward, v) + slack;
-        count_lookup(kWorkShadowLookups);
+        count_once(kWorkShadowLookups);
         return texture(shadow_map, vec4(place * 0.5 + 0.5, float(light * shadow_face_count() + window), depth));
     }
     return 1.0;
@@ -71,7 +71,7 @@ float sample_shadow_map(uint light, vec3 position, vec3 normal, float error, uin
     float height = abs(dot(n, v));
     float slack = kDepthError * (1.0 + place.z * dot(abs(n), vec3(1)) / height);
     float layer = float(light * shadow_face_count() + uint(face));
-    count_lookup(kWorkShadowLookups);
+    count_once(kWorkShadowLookups);
     return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, read_light(light).near / place.z * (1.0 + slack)));
 }
 float sample_shadow_map(uint light, vec3 position, vec3 normal, float error) {

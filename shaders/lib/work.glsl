@@ -18,7 +18,7 @@ void add_work(uint kind, uint count) {
     uint before = atomicAdd(work_counts[kind].x, count);
     if (before + count < before) atomicAdd(work_counts[kind].y, 1u);
 }
-void count_lookup(uint kind) {
+void count_once(uint kind) {
     if (count_work != 0u) add_work(kind, 1u);
 }
 

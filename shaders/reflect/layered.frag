@@ -33,24 +33,24 @@ struct ArcSample {
 // layer.
 float first_layer_distance(uint mirror, ivec3 texel) {
 #define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_distance_unit(mirror)
-    count_lookup(kWorkDistanceLookups);
+    count_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, FIRST)
 }
 float second_layer_distance(uint mirror, ivec3 texel) {
 #define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_distance_unit(mirror)
-    count_lookup(kWorkDistanceLookups);
+    count_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, SECOND)
 }
 // Returns the captured distances, scene units, of four texels in the first layer. gather_second_layer reads the second
 // layer.
 vec4 gather_first_layer(uint mirror, vec3 at) {
 #define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_distance_unit(mirror)
-    count_lookup(kWorkDistanceLookups);
+    count_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, FIRSTS)
 }
 vec4 gather_second_layer(uint mirror, vec3 at) {
 #define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_distance_unit(mirror)
-    count_lookup(kWorkDistanceLookups);
+    count_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, SECONDS)
 }
 // Returns the weighted sum of the colours of four texels in both layers.

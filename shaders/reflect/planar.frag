@@ -11,7 +11,7 @@ void main() {
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
     Surface surface = surface_at_fragment(n, facet);
-    count_lookup(kWorkColourLookups);
+    count_once(kWorkColourLookups);
     vec3 shown = surface.reflectance * texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0).rgb;
     if (lights_mirrors != 0u) shown += shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
     write_surface(shown);

@@ -22,7 +22,7 @@ int captured_face_edge(uint mirror) {
 }
 float read_stored_distance(uint mirror, ivec3 texel) {
 #define STORED_AT(i) texelFetch(FACES_OF(distance_faces, i), texel, 0).r
-    count_lookup(kWorkDistanceLookups);
+    count_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, STORED_AT)
 }
 

@@ -22,7 +22,7 @@ vec2 bounds_of_texels(ivec2 cell, int layer, int face) {
     for (int i = 0; i < 4; ++i) {
         ivec2 corner = min(2 * cell + 2 * ivec2(i & 1, i >> 1), ivec2(face));
         vec2 place = vec2(2 * corner) / float(face) - 1.0;
-        count_lookup(kWorkDistanceLookups);
+        count_once(kWorkDistanceLookups);
         vec4 d = textureGather(distances, vec4(cube_direction(layer % 6, vec3(place, 1)), layer / 6));
         bound.x = min(bound.x, min(min(d.x, d.y), min(d.z, d.w)));
         bound.y = max(bound.y, max(max(d.x, d.y), max(d.z, d.w)));

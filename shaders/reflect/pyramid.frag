@@ -126,7 +126,7 @@ void advance_to_next_cell(inout CellWalk walk, RayArc arc, vec2 leave, int face)
 
 uint read_packed_bounds(uint mirror, ivec3 place) {
 #define PACKED(i) texelFetch(WHOLE_FACES_OF(bounds, i), place, 0).r
-    count_lookup(kWorkDistanceLookups);
+    count_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, PACKED)
 }
 

@@ -134,6 +134,10 @@ TEST(Work, LookupsFollowFromTheMasks) {
     // One look-up a pixel. Rasterised outlines differ from traced ones by a few pixels.
     EXPECT_NEAR(double(total(count_work(scene, "planar"), WorkKind::colour_lookups)), mirror_pixels,
                 .05 * mirror_pixels);
+    // One light at each traced point of a scene with one lamp.
+    const auto lit = count_work(scene, "raytrace:depth=0,shadow=none");
+    EXPECT_LE(total(lit, WorkKind::lights), kWorkPixels * scene::list_lights(scene).size());
+    EXPECT_GT(total(lit, WorkKind::lights), kWorkPixels / 4);
     // Each step of march reads at least one distance.
     const auto march = count_work(scene, "march"), parallax = count_work(scene, "parallax");
     EXPECT_GE(double(total(march, WorkKind::distance_lookups)), 2 * mirror_pixels);
