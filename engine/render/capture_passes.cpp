@@ -4,6 +4,7 @@
 #include "render/face_area.hpp"
 #include "render/pass_faces.hpp"
 #include "render/passes.hpp"
+#include "render/shown_faces.hpp"
 
 #include <limits>
 
@@ -46,6 +47,15 @@ bool may_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint
                 .empty();
 }
 
+/// Returns the balls inside mirrors that a capture draws completely.
+std::vector<InnerBall> list_hiding_balls(const GpuScene& scene, const MirrorShaders& looks) {
+    std::vector<InnerBall> balls;
+    for (std::uint32_t mirror = 0; mirror < scene.mirror_count(); ++mirror)
+        if (looks.of_mirror[mirror] != MirrorShaders::kInParts)
+            balls.push_back(scene.inner_ball(mirror));
+    return balls;
+}
+
 /// Declares a pass that draws a range of faces of a mirror's capture. `peeled`: draws only what
 /// lies behind these distances.
 void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
@@ -74,16 +84,26 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
     pass.writes(depth, ResourceUse::depth, kFarthest)
         .layers(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
-                 drawing = std::move(drawing),
+                 edge = options.face, drawing = std::move(drawing),
                  leaves_out = options.leaves_out_spheres](PassCommands& commands) {
-            draw_scene(commands, scene, drawing, [&](std::size_t object) {
+            const auto is_wanted = [&](std::size_t object) {
                 const DrawRange& range = scene.ranges()[object];
                 return object != scene.mirror_object(mirror) &&
                        !(leaves_out && range.mirror && range.exact_sphere && !range.lit) &&
                        may_face_show_object(scene, mirror, face, part, object);
-            });
-            if (!drawing.peeled)
-                draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+            };
+            if (drawing.peeled) { // a second layer shows what the first layer hides
+                draw_scene(commands, scene, drawing, is_wanted);
+                return;
+            }
+            const std::vector<std::uint8_t> shown = find_shown_faces(
+                std::span(scene.views()).subspan(drawing.first_view, drawing.layers),
+                {edge, scene.device().limits().subPixelPrecisionBits}, scene.ranges(),
+                list_hiding_balls(scene, *drawing.looks), is_wanted);
+            draw_scene(
+                commands, scene, drawing, [&](std::size_t object) { return shown[object] != 0; },
+                shown);
+            draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
 }
 

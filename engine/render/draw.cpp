@@ -26,7 +26,7 @@ gpu::Winding back_face_winding(const shared::View& view) {
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
 void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, VisibleTriangles triangles) {
+                 std::uint32_t first_view, std::uint32_t layers, const DrawnParts& parts) {
     const DrawRange& range = scene.ranges()[object];
     const auto instance = static_cast<std::uint32_t>(object) << shared::kLayerBits;
     scene.bind_vertices(commands, object);
@@ -34,12 +34,16 @@ void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t obje
         const auto draw = [&](std::uint32_t from, std::uint32_t indices) {
             commands.draw(range.first_index + from, indices, first, count, instance);
         };
-        if (!triangles) return draw(0, range.index_count);
-        for (const auto& [from, end] : *triangles) draw(3 * from, 3 * (end - from));
+        if (!parts.triangles) return draw(0, range.index_count);
+        for (const auto& [from, end] : *parts.triangles) draw(3 * from, 3 * (end - from));
+    };
+    const auto is_drawn_in = [&](std::uint32_t layer) {
+        if (!parts.layers.empty()) return (parts.layers[object] >> layer & 1) != 0;
+        return may_view_show_box(scene.views()[first_view + layer], range);
     };
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
-        while (end < layers && may_view_show_box(scene.views()[first_view + end], range)) ++end;
+        while (end < layers && is_drawn_in(end)) ++end;
         if (end > layer) draw_layers(layer, end - layer);
         layer = end + 1;
     }
@@ -94,8 +98,7 @@ gpu::ShaderConstants fragment_shader_constants(const GpuScene& scene, const Draw
 }
 
 void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
-                  const MirrorShader& look, const ObjectFilter& wanted,
-                  VisibleTriangles triangles = nullptr) {
+                  const MirrorShader& look, const ObjectFilter& wanted, const DrawnParts& parts) {
     gpu::RasterState state{"", kBlackMirror, drawing.store};
     state.features = fragment_shader_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
@@ -108,8 +111,7 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSetti
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
     const auto& draw = drawing.peeled ? draw_objects : draw_objects_without_backs;
-    draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted,
-         triangles);
+    draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted, parts);
 }
 
 /// Returns whether no back face of the object is visible in a view and back faces can be skipped.
@@ -126,7 +128,7 @@ bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::s
 
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const ObjectFilter& wanted, VisibleTriangles triangles) {
+                  const ObjectFilter& wanted, const DrawnParts& parts) {
     std::ranges::copy(scene.features(first_view), std::back_inserter(state.features));
     const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
@@ -139,7 +141,7 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterStat
                 commands.use(state);
                 commands.push(shared::DrawParameters{first_view, ablated});
             }
-            draw_object(commands, scene, i, first_view, layers, triangles);
+            draw_object(commands, scene, i, first_view, layers, parts);
         }
     }
 }
@@ -147,20 +149,21 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterStat
 void draw_objects_without_backs(PassCommands& commands, const GpuScene& scene,
                                 gpu::RasterState state, std::uint32_t first_view,
                                 std::uint32_t layers, std::uint32_t ablated,
-                                const ObjectFilter& wanted, VisibleTriangles triangles) {
+                                const ObjectFilter& wanted, const DrawnParts& parts) {
     const shared::View& view = scene.views()[first_view];
     const auto is_front = [&](std::size_t i) { return can_cull_back_faces(scene, view, i); };
     draw_objects(
         commands, scene, state, first_view, layers, ablated,
-        [&](std::size_t i) { return wanted(i) && !is_front(i); }, triangles);
+        [&](std::size_t i) { return wanted(i) && !is_front(i); }, parts);
     state.hidden = back_face_winding(view);
     draw_objects(
         commands, scene, std::move(state), first_view, layers, ablated,
-        [&](std::size_t i) { return wanted(i) && is_front(i); }, triangles);
+        [&](std::size_t i) { return wanted(i) && is_front(i); }, parts);
 }
 
 void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
-                const ObjectFilter& wanted) {
+                const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
+    const DrawnParts whole{nullptr, shown};
     const auto& [first_view, layers, lighting, looks, store, completing_tracer, peeled] = drawing;
     const gpu::ShaderConstants features = fragment_shader_constants(scene, drawing);
     scene.bind(commands);
@@ -175,28 +178,34 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
         diffuse.hidden = hidden;
-        draw_objects(commands, scene, diffuse, first_view, layers, 0, [&](std::size_t i) {
-            const DrawRange& range = scene.ranges()[i];
-            return !range.mirror && range.one_sided == one_sided && wanted(i);
-        });
+        draw_objects(
+            commands, scene, diffuse, first_view, layers, 0,
+            [&](std::size_t i) {
+                const DrawRange& range = scene.ranges()[i];
+                return !range.mirror && range.one_sided == one_sided && wanted(i);
+            },
+            whole);
     };
     const auto is_black = [&](std::size_t object) {
         return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);
     };
     const auto draw_all_mirrors = [&] {
         for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
-            draw_mirrors(commands, scene, drawing, looks->looks[look], [&](std::size_t i) {
-                const std::uint32_t mirror = scene.mirror_of(i);
-                return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
-                       !is_black(i);
-            });
-        for (const MirrorPartShader& part : looks->parts)
             draw_mirrors(
-                commands, scene, drawing, looks->looks[part.look],
+                commands, scene, drawing, looks->looks[look],
                 [&](std::size_t i) {
-                    return scene.mirror_of(i) == part.mirror + 1 && wanted(i) && !is_black(i);
+                    const std::uint32_t mirror = scene.mirror_of(i);
+                    return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
+                           !is_black(i);
                 },
-                &part.triangles);
+                whole);
+        for (const MirrorPartShader& part : looks->parts)
+            draw_mirrors(commands, scene, drawing, looks->looks[part.look],
+                         [&](std::size_t i) {
+                             return scene.mirror_of(i) == part.mirror + 1 && wanted(i) &&
+                                    !is_black(i);
+                         },
+                         {&part.triangles, shown});
     };
     // In a scene of many mirrors, other mirrors cover most of a capture. Drawing them first avoids
     // shading what they hide.
@@ -211,7 +220,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
         if (is_shut(i))
             return draw_objects(commands, scene,
                                 {"", kBlackMirror, store, gpu::Winding::none, features}, first_view,
-                                layers, 0, is_shut);
+                                layers, 0, is_shut, whole);
 }
 
 } // namespace catoptric::render

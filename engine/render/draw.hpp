@@ -3,6 +3,7 @@
 #include "render/mirror_shaders.hpp"
 
 #include <functional>
+#include <span>
 
 /// Functions that record the draws of scene objects into a raster pass.
 namespace catoptric::render {
@@ -10,22 +11,27 @@ namespace catoptric::render {
 /// Returns whether an object, given by its index, is drawn.
 using ObjectFilter = std::function<bool(std::size_t)>;
 
-/// The triangles of an object to draw; null: all of them.
-using VisibleTriangles = const std::vector<scene::TriangleRun>*;
+/// The part of each object to draw.
+struct DrawnParts {
+    const std::vector<scene::TriangleRun>* triangles = nullptr; ///< null: all triangles
+    /// For each object, the layers to draw it into: bit k stands for layer k (shown_faces.hpp).
+    /// Empty: all layers whose views may meet the object.
+    std::span<const std::uint8_t> layers;
+};
 
 /// Draws the wanted objects with this fragment shader and state. Draws each object into those
 /// layers whose views may meet it; the views start at `first_view`. Draws objects with an object
 /// space last.
 void draw_objects(graph::PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const ObjectFilter& wanted, VisibleTriangles triangles = nullptr);
+                  const ObjectFilter& wanted, const DrawnParts& parts = {});
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
 void draw_objects_without_backs(graph::PassCommands& commands, const GpuScene& scene,
                                 gpu::RasterState state, std::uint32_t first_view,
                                 std::uint32_t layers, std::uint32_t ablated,
-                                const ObjectFilter& wanted, VisibleTriangles triangles = nullptr);
+                                const ObjectFilter& wanted, const DrawnParts& parts = {});
 
 /// The settings with which a picture of the scene is drawn.
 struct DrawSettings {
@@ -41,8 +47,8 @@ struct DrawSettings {
 };
 
 /// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
-/// draw the mirrors first.
+/// draw the mirrors first. `layers`: see DrawnParts.
 void draw_scene(graph::PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
-                const ObjectFilter& wanted);
+                const ObjectFilter& wanted, std::span<const std::uint8_t> layers = {});
 
 } // namespace catoptric::render

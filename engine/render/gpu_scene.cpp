@@ -199,11 +199,21 @@ bool GpuScene::has_other_mirrors() const {
     });
 }
 
+/// Returns the largest ball around `centre`, scene units, that lies inside the object. Its radius
+/// is 0 if the object does not hide its own back.
+InnerBall GpuScene::make_inner_ball(std::size_t object, const dvec3& centre) {
+    InnerBall ball{vec3(centre), 0, object};
+    if (geometry_.ranges[object].shell)
+        ball.radius = nearest_.distance(
+            geometry_, centre, [&](std::size_t i, const DrawRange&) { return i != object; });
+    return ball;
+}
+
 /// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.
 void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
-    flats_.resize(mirror_objects_.size());
+    flats_.resize(mirror_objects_.size()), inner_balls_.resize(mirror_objects_.size());
     scene_views_.clear();
     for (std::size_t mirror = 0; mirror < mirror_objects_.size(); ++mirror) {
         const std::size_t object = mirror_objects_[mirror];
@@ -212,6 +222,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
             probe_places_[mirror] = space_.to_scene_units(
                 scene::bounds(now, now.objects[object]).centre());
             flats_[mirror] = flat_faces_in_scene_units(space_, now, object);
+            inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
         }
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];

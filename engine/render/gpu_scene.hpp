@@ -8,6 +8,7 @@
 #include "render/nearest.hpp"
 #include "render/resident.hpp"
 #include "render/scene_changes.hpp"
+#include "render/shown_faces.hpp"
 #include "render/sky.hpp"
 #include "render/tracing.hpp"
 #include "render/vertices.hpp"
@@ -53,6 +54,8 @@ public:
     const std::vector<shared::View>& views() const { return views_; }
     /// Returns the index of the object that is the given mirror. Mirrors count from 0 here.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+    /// Returns a ball inside the mirror. Only mirrors that hide their own back have one.
+    const InnerBall& inner_ball(std::uint32_t mirror) const { return inner_balls_[mirror]; }
     /// Returns the mirror number of the object, from 1; 0: no mirror.
     std::uint32_t mirror_of(std::size_t object) const { return surfaces_[object].mirror; }
     /// Returns the flat faces of each mirror, scene units; empty for mirrors that are not flat.
@@ -146,6 +149,7 @@ private:
     void fill_placements();
     void fill_lights(const scene::Scene& now, bool others);
     void fill_probes(const scene::Scene& now, const SceneChanges& changes);
+    InnerBall make_inner_ball(std::size_t object, const dvec3& centre);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
@@ -169,7 +173,8 @@ private:
     std::vector<shared::Light> lights_;
     std::vector<std::vector<std::uint8_t>> backdrops_; ///< result of find_backdrops for each light
     std::vector<std::size_t> mirror_objects_;
-    std::vector<bool> hides_all_; ///< result of hides_all_from_camera for each object
+    std::vector<InnerBall> inner_balls_; ///< ball inside each mirror
+    std::vector<bool> hides_all_;        ///< result of hides_all_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};
