@@ -3,7 +3,7 @@
 
 growth.py [--rounds N] CATOPTRIC OUT [VARIABLE...]: measures every size in each round, and fits power laws to the
 medians. Writes OUT/growth.md, OUT/growth.json and a plot of each variable. Time is the processor time of all threads.
-Memory is the peak memory of a process that renders one picture. All variables take a quarter of an hour.
+Memory is the peak memory of a process that renders one picture. All variables take half an hour.
 """
 import argparse
 import json
@@ -125,13 +125,24 @@ def measure_mirrors(program, folder, rounds):
                         {n: {"lattice": 4, "mirrors": n, "lights": 1, "edge": 8} for n in (1, 2, 4, 8, 16, 32, 64)})
 
 
+def measure_crowd(program, folder, rounds):
+    return scene_series(program, folder, rounds, 128, ["parallax:face=32"], [],
+                        {n: {"lattice": 6, "mirrors": n, "lights": 1, "edge": 8} for n in (64, 128, 216)})
+
+
+def measure_lattice(program, folder, rounds):
+    return scene_series(program, folder, rounds, 128, ["parallax:face=32"], [],
+                        {n ** 3: {"lattice": n, "mirrors": n ** 3, "lights": 1, "edge": 8} for n in (4, 5, 6)})
+
+
 def measure_lights(program, folder, rounds):
     return scene_series(program, folder, rounds, 128, ["raytrace:depth=4", "parallax:face=64"], [],
                         {n: {"lattice": 2, "mirrors": 2, "lights": n, "edge": 16} for n in (1, 2, 4, 8, 16)})
 
 
 UNITS = {"pixels": "pixels", "samples": "samples a pixel", "bounces": "bounces", "face": "texels of a face",
-         "triangles": "triangles", "mirrors": "mirrors, of 64 balls", "lights": "point lights"}
+         "triangles": "triangles", "mirrors": "mirrors, of 64 balls", "crowd": "mirrors, of 216 balls",
+         "lattice": "mirrors, with no other balls", "lights": "point lights"}
 MEASURE = {name: globals()[f"measure_{name}"] for name in UNITS}
 
 
