@@ -37,9 +37,8 @@ struct CompareRequest {
     std::vector<std::string> command; ///< command line that the report quotes
     std::string images;               ///< see measure::Comparison::images
     Watcher watcher;
-    /// Called with the unfinished comparison, whose `complete` is false; may be empty. The calls
-    /// follow each row of the first round, each later round, and each row or drawn view of the
-    /// later steps.
+    /// Called with the unfinished comparison, whose `complete` is false, after each row of the
+    /// first round, after each later round, and after each part of a study. May be empty.
     std::function<void(const measure::Comparison&)> on_finished_row;
 };
 
