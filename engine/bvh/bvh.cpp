@@ -2,11 +2,14 @@
 
 #include "bvh/copies.hpp"
 #include "bvh/top_level_tree.hpp"
+#include "bvh/words.hpp"
 #include "core/error.hpp"
 #include "core/large_pages.hpp"
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <memory>
 
 namespace catoptric::bvh {
@@ -15,11 +18,21 @@ namespace {
 constexpr std::uint32_t kMaxTriangles = f32::kBvhIndexMask;
 constexpr std::size_t kRunCount = 8192; // triangles that one task of a thread reads
 
+/// The references that have been written for a list of triangles.
+struct WrittenReferences {
+    /// Those of triangles that cast shadows, and those of other triangles. The references of both
+    /// lie in one run.
+    std::array<ReferenceRange, 2> parts;
+    std::vector<std::size_t> shadowless; ///< places in the run of the second part, ascending
+
+    std::size_t count() const { return parts[0].count + parts[1].count; }
+};
+
 /// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
-/// `core` means that all triangles lie in the core. Returns the part that the references make up.
-ReferenceRange write_triangle_references(std::span<const Triangle> triangles, std::size_t first,
-                                         const BoundingBox& core, TriangleReference* into) {
-    ReferenceRange part;
+/// `core` means that all triangles lie in the core.
+WrittenReferences write_triangle_references(std::span<const Triangle> triangles, std::size_t first,
+                                            const BoundingBox& core, TriangleReference* into) {
+    WrittenReferences written;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         if (!is_finite(t)) continue;
@@ -27,31 +40,56 @@ ReferenceRange write_triangle_references(std::span<const Triangle> triangles, st
         if (!core.empty()) box = pad_box(box, compute_box_padding(box, core));
         const TriangleReference r{load_lanes(box.lo, id_to_float_word(first + i)),
                                   load_lanes(box.hi, 0)};
-        part.add(r);
+        const bool is_shadowless = (t.flags & kShadowless) != 0;
+        if (is_shadowless) written.shadowless.push_back(written.count());
+        written.parts[is_shadowless ? 1 : 0].add(r);
         *into++ = r;
     }
-    return part;
+    return written;
 }
 
-/// Writes references to all finite triangles, on several threads. Returns the part that they make
-/// up.
-ReferenceRange write_references_in_parallel(std::span<const Triangle> triangles,
-                                            const BoundingBox& core, TriangleReferences into,
-                                            unsigned threads) {
-    std::vector<ReferenceRange> runs((triangles.size() + kRunCount - 1) / kRunCount);
+/// Writes references to all finite triangles, on several threads.
+WrittenReferences write_references_in_parallel(std::span<const Triangle> triangles,
+                                               const BoundingBox& core, TriangleReferences into,
+                                               unsigned threads) {
+    std::vector<WrittenReferences> runs((triangles.size() + kRunCount - 1) / kRunCount);
     run_in_parallel(runs.size(), threads, [&](std::size_t i) {
         const std::size_t first = i * kRunCount,
                           count = std::min(kRunCount, triangles.size() - first);
         runs[i] = write_triangle_references(triangles.subspan(first, count), first, core,
                                             &into[first]);
     });
-    ReferenceRange all;
+    WrittenReferences all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        if (all.count < i * kRunCount) // an earlier run had triangles that are not finite
-            std::copy_n(&into[i * kRunCount], runs[i].count, &into[all.count]);
-        all.box.add(runs[i].box), all.centres.add(runs[i].centres), all.count += runs[i].count;
+        const std::size_t before = all.count();
+        if (before < i * kRunCount) // an earlier run had triangles that are not finite
+            std::copy_n(&into[i * kRunCount], runs[i].count(), &into[before]);
+        for (const std::size_t place : runs[i].shadowless) all.shadowless.push_back(before + place);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const ReferenceRange& part = runs[i].parts[k];
+            all.parts[k].box.add(part.box), all.parts[k].centres.add(part.centres);
+            all.parts[k].count += part.count;
+        }
     }
     return all;
+}
+
+/// Returns the parts that get a tree each: all references, or first those of triangles that cast
+/// shadows. In the latter case, moves the others behind them.
+std::vector<ReferenceRange> separate_shadowless(const WrittenReferences& written,
+                                                TriangleReferences references) {
+    const auto& [casters, others] = written.parts;
+    if (casters.count == 0 || others.count == 0 || others.count > kMaxShadowlessApart) {
+        ReferenceRange all = casters;
+        all.box.add(others.box), all.centres.add(others.centres), all.count += others.count;
+        return {all};
+    }
+    std::size_t end = written.count();
+    for (auto place = written.shadowless.rbegin(); place != written.shadowless.rend(); ++place)
+        std::swap(references[*place], references[--end]);
+    std::vector<ReferenceRange> parts{casters, others};
+    parts[1].first = casters.count;
+    return parts;
 }
 
 } // namespace
@@ -75,23 +113,34 @@ Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, Co
                         nullptr,
                         leaf,
                         copies};
-    const ReferenceRange root = write_references_in_parallel(triangles, core, work.buffers[0],
-                                                             threads);
+    const WrittenReferences written = write_references_in_parallel(triangles, core, work.buffers[0],
+                                                                   threads);
+    const std::vector<ReferenceRange> parts = separate_shadowless(written, work.buffers[0]);
     Bvh bvh;
-    bvh.dropped = triangles.size() - root.count;
-    bvh.triangles.reserve(3 * root.count);
+    bvh.dropped = triangles.size() - written.count();
+    bvh.triangles.reserve(3 * written.count());
     advise_large_pages(bvh.triangles.data(), bvh.triangles.capacity() * sizeof(vec4));
-    bvh.triangles.resize(3 * root.count);
+    bvh.triangles.resize(3 * written.count());
     work.triangles = bvh.triangles.data();
     bvh.nodes.resize(4, vec4(0));
-    const std::size_t kept = build_tree_in_parallel(work, root, threads, bvh.nodes);
-    bvh.copies = root.count - kept;
+    const std::size_t kept = build_tree_in_parallel(work, parts, threads, bvh.nodes);
+    bvh.copies = written.count() - kept;
     bvh.triangles.resize(3 * kept);
-    const BoundingBox slack = core.empty() ? root.box.box() : core;
+    BoxExtent bounds;
+    for (const ReferenceRange& part : parts) bounds.add(part.box);
+    const BoundingBox slack = core.empty() ? bounds.box() : core;
     bvh.nodes[0] = vec4(slack.lo, id_to_float_word(count_triangles(bvh)));
     bvh.nodes[1] = vec4(slack.hi, id_to_float_word(count_nodes(bvh)));
+    if (parts.size() == 2)
+        set_walk_start(bvh, float_to_bits(bvh.nodes[4].w), float_to_bits(bvh.nodes[5].w));
+    else
+        set_walk_start(bvh, f32::kBvhRoot, f32::kBvhNothing);
     bvh.cost = compute_sah_cost(bvh);
     return bvh;
+}
+
+void set_walk_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others) {
+    bvh.nodes[3] = vec4(std::bit_cast<float>(casters), std::bit_cast<float>(others), 0, 0);
 }
 
 std::size_t count_nodes(const Bvh& bvh) { return bvh.nodes.size() / 4; }

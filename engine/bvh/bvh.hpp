@@ -26,6 +26,8 @@ inline constexpr std::uint32_t kMasked = f32::kBvhMasked;
 inline constexpr std::uint32_t kBall = f32::kBvhBall;
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
+/// The most kShadowless triangles that get a subtree of their own.
+inline constexpr std::size_t kMaxShadowlessApart = 256;
 
 /// Returns a sphere that takes the place of a triangle. Only walks with TRACE_BALLS set
 /// (shaders/lib/trace.glsl) can intersect spheres.
@@ -39,7 +41,8 @@ inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uin
 /// `nodes` has four vec4 a node. Each w holds the bits of a word (see below):
 ///   node 0, the header:  lo.xyz of the core, number of kept triangles
 ///                        hi.xyz of the core, number of nodes including the header
-///                        two vec4 of zeros
+///                        a vec4 of zeros (see tlas.hpp)
+///                        words at which walks begin (see below), 0, 0
 ///   node 1, the root, and all other nodes hold the boxes of their two children:
 ///                        lo.xyz of child 0, word of child 0
 ///                        hi.xyz of child 0, word of child 1
@@ -57,6 +60,12 @@ inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uin
 /// A child's word holds its triangle count in bits 27..29 and the place of its first triangle in
 /// bits 0..26. Count 0 means an inner node, whose place is in bits 0..26 (0: no child). All other
 /// words hold their number in bits 0..28.
+///
+/// Walks begin at the first word of the header. If there are triangles that cast no shadow, but at
+/// most kMaxShadowlessApart, the first word is the root's first child, with all triangles that cast
+/// shadows, and the second word is the root's other child. Shadow rays walk the first child alone.
+/// Other rays walk it before the second child. Otherwise the first word is the root, and the second
+/// word is kBvhNothing.
 struct Bvh {
     std::vector<vec4> nodes;
     std::vector<vec4> triangles;
@@ -116,6 +125,9 @@ IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds
 /// whole tree. The value rises as the triangles of a refitted tree move away from their neighbours.
 /// Costs O(n).
 double compute_sah_cost(const Bvh& bvh);
+
+/// Writes the two words of the header at which walks begin.
+void set_walk_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others);
 
 std::size_t count_nodes(const Bvh& bvh);     ///< including the header
 std::size_t count_triangles(const Bvh& bvh); ///< of the triangles that the build kept

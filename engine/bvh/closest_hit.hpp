@@ -139,7 +139,9 @@ std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const
     std::array<std::uint32_t, f32::kBvhMaxStack> stack;
     std::size_t waiting = 0;
     TraversalCounters count;
-    std::uint32_t child = f32::kBvhRoot;
+    std::uint32_t child = float_to_bits(bvh.nodes[3].x);
+    const std::uint32_t others = float_to_bits(bvh.nodes[3].y);
+    if (others != f32::kBvhNothing && (skipped_flags & kShadowless) == 0) stack[waiting++] = others;
     while (child != f32::kBvhNothing) {
         if (f32::bvh_is_inner(child)) {
             ++count.nodes;

@@ -184,6 +184,7 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
     result.nodes[0] = vec4(core.lo, id_to_float_word(count_triangles(result)));
     result.nodes[1] = vec4(core.hi, id_to_float_word(count_nodes(result)));
     result.nodes[2].x = static_cast<float>(times);
+    set_walk_start(result, f32::kBvhRoot, f32::kBvhNothing);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));
     result.nodes[5] = vec4(in_flat.hi, std::bit_cast<float>(top_root));
     result.nodes[6] = vec4(in_top.lo, 0);

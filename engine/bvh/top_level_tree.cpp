@@ -47,9 +47,14 @@ public:
     TopLevelTreeBuilder(const BuildWorkspace& work, unsigned threads)
         : work_(work), threads_(threads) {}
 
-    void build_from_root(const ReferenceRange& root) {
-        branches_.push_back({root});
+    void build_from_root(std::span<const ReferenceRange> parts) {
         std::vector<std::size_t> level{0};
+        if (parts.size() == 2) {
+            branches_.push_back({{}, 0, 1});
+            level = {1, 2};
+        }
+        for (const ReferenceRange& part : parts)
+            branches_.push_back({part, static_cast<std::uint32_t>(parts.size() - 1)});
         while (!level.empty()) level = divide_level(level);
         build_subtrees();
     }
@@ -205,10 +210,11 @@ private:
 
 } // namespace
 
-std::size_t build_tree_in_parallel(const BuildWorkspace& work, const ReferenceRange& root,
-                                   unsigned threads, std::vector<vec4>& nodes) {
+std::size_t build_tree_in_parallel(const BuildWorkspace& work,
+                                   std::span<const ReferenceRange> parts, unsigned threads,
+                                   std::vector<vec4>& nodes) {
     TopLevelTreeBuilder crown(work, threads);
-    crown.build_from_root(root);
+    crown.build_from_root(parts);
     return crown.append_to(nodes);
 }
 

@@ -214,7 +214,13 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
     WalkState walked = begin_walk_in_scene(ray);
     bool found = false;
     uint waiting = 0u;
-    uint child = kBvhRoot;
+    // Triangles without a shadow may have a tree of their own, which shadow rays need not walk.
+    vec4 start = bvh_nodes_at(3u);
+    uint child = floatBitsToUint(start.x);
+    if ((skipped_flags & kBvhShadowless) == 0u && floatBitsToUint(start.y) != kBvhNothing) {
+        STACK(0u) = floatBitsToUint(start.y);
+        waiting = 1u;
+    }
     do {
         // Descends to a leaf. If the ray meets neither child of a node, the next node comes from the stack.
         do {

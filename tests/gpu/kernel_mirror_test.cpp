@@ -49,6 +49,31 @@ TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
     }
 }
 
+/// A few triangles cast no shadow, so they have a tree of their own.
+TEST(KernelMirror, HitsWithATreeOfShadowlessTrianglesEqualTheCppTraversal) {
+    test::Numbers numbers(6);
+    std::vector<bvh::Triangle> triangles(2000);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const vec3 centre = numbers.in_cube();
+        triangles[i] = {centre + 0.1f * numbers.in_cube(), centre + 0.1f * numbers.in_cube(),
+                        centre + 0.1f * numbers.in_cube()};
+        if (i % 20 == 0) triangles[i].flags = bvh::kShadowless;
+    }
+    Kernel kernel(triangles);
+    const std::vector<KernelRay> rays = random_rays(20000, vec3(-1), vec3(1), 7);
+    std::size_t found[2] = {};
+    for (const std::uint32_t skipped : {0u, bvh::kShadowless}) {
+        const std::vector<KernelHit> hits = kernel.closest(rays, skipped),
+                                     shadows = kernel.any(rays, skipped);
+        EXPECT_EQ(test::differences(kernel, rays, hits, skipped), 0u);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(hits[i].found(), shadows[i].found()) << i;
+            found[skipped == 0 ? 0 : 1] += hits[i].found() ? 1 : 0;
+        }
+    }
+    EXPECT_GT(found[0], found[1]) << "some rays meet only triangles without shadows";
+}
+
 /// Scales triangles and rays by a power of two. Every rounding stays the same, so a hit keeps all
 /// its bits, except that t may scale too.
 TEST(KernelMirror, N2b_ScalingByPowersOfTwoChangesNoBit) {

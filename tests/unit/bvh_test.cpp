@@ -1,5 +1,6 @@
 #include "bvh/bvh.hpp"
 #include "bvh/closest_hit.hpp"
+#include "bvh/words.hpp"
 #include "support/hierarchies.hpp"
 #include "support/numbers.hpp"
 #include "support/special_values.hpp"
@@ -46,6 +47,40 @@ TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
         const Bvh bvh = build_bvh(soup(count, 1));
         expect_sound(bvh, count);
         EXPECT_EQ(bvh.dropped, 0u);
+    }
+}
+
+/// Counts how many triangles cast shadows among those stored before the given place.
+std::size_t count_casters_before(const Bvh& bvh, std::size_t place) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < place; ++i)
+        count += (float_word_to_integer(bvh.triangles[3 * i + 2].w) & kShadowless) == 0 ? 1 : 0;
+    return count;
+}
+
+TEST(Bvh, AFewTrianglesWithoutShadowsGetATreeOfTheirOwn) {
+    constexpr std::size_t kCount = 20000; // more than one task reads
+    for (const std::size_t shadowless : {0, 1, 7, 256, 257, 20000}) {
+        SCOPED_TRACE(shadowless);
+        std::vector<Triangle> triangles = soup(kCount, 31);
+        for (std::size_t i = 0; i < shadowless; ++i)
+            triangles[7919 * i % kCount].flags = kShadowless;
+        for (std::size_t i = 3; i < kCount; i += 1000)
+            if (triangles[i].flags == 0) triangles[i].b.x = test::kInfinity;
+        const Bvh bvh = build_bvh(triangles, {}, kMaxLeaf, 1);
+        const std::size_t stored = kCount - bvh.dropped,
+                          casters = stored - std::min(shadowless, stored);
+        expect_sound(bvh, stored);
+        EXPECT_TRUE(same(bvh.nodes, build_bvh(triangles, {}, kMaxLeaf, 3).nodes));
+        const bool is_apart = shadowless > 0 && shadowless <= kMaxShadowlessApart;
+        const std::uint32_t first = float_to_bits(bvh.nodes[3].x),
+                            second = float_to_bits(bvh.nodes[3].y);
+        EXPECT_EQ(first, is_apart ? float_to_bits(bvh.nodes[4].w) : f32::kBvhRoot);
+        EXPECT_EQ(second, is_apart ? float_to_bits(bvh.nodes[5].w) : f32::kBvhNothing);
+        EXPECT_EQ(count_casters_before(bvh, stored), casters);
+        EXPECT_EQ(count_casters_before(bvh, casters) == casters,
+                  is_apart || shadowless % kCount == 0)
+            << "casters come first";
     }
 }
 
@@ -225,6 +260,30 @@ TEST(ClosestHit, TreeHitsEqualBruteForceHitsBitForBit) {
     expect_equal_to_brute_force<float>(soup(500, 6), 10000, 7);
     expect_equal_to_brute_force<double>(soup(500, 6), 5000, 8);
     expect_equal_to_brute_force<float>(bvh_ball(3), 10000, 9);
+}
+
+/// Triangles without shadows are out of the way of shadow rays. No other hit changes.
+TEST(ClosestHit, ShadowRaysDoNotWalkTrianglesWithoutShadows) {
+    std::vector<Triangle> triangles = soup(500, 6);
+    for (std::size_t i = 0; i < 90; ++i) triangles[5 * i].flags = kShadowless;
+    std::vector<Triangle> casters = triangles;
+    std::erase_if(casters, [](const Triangle& t) { return t.flags != 0; });
+    const Bvh bvh = build_bvh(triangles), only_casters = build_bvh(casters);
+    test::Numbers random(17);
+    std::size_t blocked = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const Ray<float> ray{2.0f * random.in_cube(), random.direction()};
+        TraversalCounters steps, steps_of_casters;
+        const bool is_blocked = has_any_hit<float>(bvh, ray, 2, kShadowless, &steps);
+        ASSERT_EQ(is_blocked,
+                  has_any_hit<float>(only_casters, ray, 2, kShadowless, &steps_of_casters));
+        ASSERT_TRUE(is_blocked || steps.total() == steps_of_casters.total()) << "the same tree";
+        for (const std::uint32_t skipped : {0u, kShadowless})
+            ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity, skipped),
+                      find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity, skipped));
+        blocked += is_blocked ? 1 : 0;
+    }
+    EXPECT_GT(blocked, 100u);
 }
 
 /// Rays pass close to a very long edge. There, rounding errors of the triangle test exceed those of
