@@ -70,6 +70,15 @@ const scene::Scene& check_scene_fits(const gpu::Device& device, const scene::Sce
     return scene;
 }
 
+/// Returns the objects that are in all lists. `lists`: by object, 1 for an object in the list.
+std::vector<std::uint8_t> objects_in_all(const std::vector<std::vector<std::uint8_t>>& lists) {
+    if (lists.empty()) return {};
+    std::vector<std::uint8_t> result = lists.front();
+    for (const std::vector<std::uint8_t>& list : lists)
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] &= list[i];
+    return result;
+}
+
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
@@ -106,6 +115,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         backdrops_.clear();
         for (const shared::Light& light : lights_)
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
+        tracing_->set_backdrops(objects_in_all(backdrops_));
     }
     sky_.set(now.environment);
     if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);

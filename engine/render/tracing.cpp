@@ -24,7 +24,7 @@ std::uint32_t ray_mask_of_range(const DrawRange& range) {
 
 /// Reads an object's triangles, as rays see them. Also reads the normal and the attribute number of
 /// each corner.
-void read_object_triangles(const Geometry& geometry, std::size_t object,
+void read_object_triangles(const Geometry& geometry, std::size_t object, std::uint32_t added_flags,
                            std::vector<bvh::Triangle>& triangles, std::vector<vec4>& normals) {
     const DrawRange& range = geometry.ranges[object];
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
@@ -32,7 +32,8 @@ void read_object_triangles(const Geometry& geometry, std::size_t object,
             return geometry.vertices[geometry.indices[k + j]];
         };
         triangles[k / 3] = {vertex(0).position, vertex(1).position, vertex(2).position,
-                            static_cast<std::uint32_t>(object), ray_mask_of_range(range)};
+                            static_cast<std::uint32_t>(object),
+                            ray_mask_of_range(range) | added_flags};
         for (std::uint32_t j = 0; j < 3; ++j) {
             const std::uint32_t local = geometry.indices[k + j] - range.first_vertex;
             normals[k + j] = vec4(vertex(j).normal,
@@ -125,6 +126,12 @@ RayTracingTrees::RayTracingTrees(std::size_t slots)
     : hierarchies_{Hierarchy(slots), Hierarchy(slots)},
       normals_buffer_("normals", gpu::BufferUsage::texels, slots) {}
 
+void RayTracingTrees::set_backdrops(std::vector<std::uint8_t> backdrops) {
+    if (backdrops == backdrops_) return;
+    backdrops_ = std::move(backdrops);
+    lay_out();
+}
+
 void RayTracingTrees::lay_out() {
     is_read_ = false;
     moved_.clear();
@@ -168,7 +175,7 @@ void RayTracingTrees::read_moved_objects(const Geometry& geometry) {
         const DrawRange& range = geometry.ranges[object];
         const bool own = range.own.has_value();
         if (vertices) {
-            read_object_triangles(geometry, object, triangles_, normals_);
+            read_object_triangles(geometry, object, backdrop_flag(object), triangles_, normals_);
             changed = {std::min<std::size_t>(changed.first, range.first_index),
                        std::max<std::size_t>(changed.end, range.first_index + range.index_count)};
         }
@@ -195,7 +202,7 @@ void RayTracingTrees::read_geometry_changes(const Geometry& geometry) {
         own_trees_.clear();
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
             if (geometry.ranges[i].storage == i)
-                read_object_triangles(geometry, i, triangles_, normals_);
+                read_object_triangles(geometry, i, backdrop_flag(i), triangles_, normals_);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
             if (has_object_space(geometry, i)) build_own(geometry, i);
         normals_buffer_.set(normals_);

@@ -35,6 +35,9 @@ public:
 
     /// Records that the layout of objects changed.
     void lay_out();
+    /// Records which objects cast a shadow on nothing for any light, by object (see backdrop.hpp).
+    /// Shadow rays pass through such objects. Another set needs new hierarchies.
+    void set_backdrops(std::vector<std::uint8_t> backdrops);
     /// Records that an object moved. `vertices`: its vertices changed, not only the placement of
     /// its object space.
     void move(std::size_t object, bool vertices) { moved_.push_back({object, vertices}); }
@@ -91,6 +94,9 @@ private:
     Hierarchy& hierarchy_of(SphereMode spheres) {
         return hierarchies_[static_cast<std::size_t>(spheres)];
     }
+    std::uint32_t backdrop_flag(std::size_t object) const {
+        return object < backdrops_.size() && backdrops_[object] != 0 ? bvh::kShadowless : 0;
+    }
     void read_geometry_changes(const Geometry& geometry);
     void bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
                           std::span<const bvh::Triangle> flat, bool first_hits);
@@ -102,6 +108,7 @@ private:
     void assemble_trees(Hierarchy& hierarchy, const Geometry& geometry, bool first_hits) const;
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
+    std::vector<std::uint8_t> backdrops_;  ///< see set_backdrops
     std::vector<vec4> normals_;
     /// Trees of meshes in object space, by the object that owns the vertices.
     std::map<std::size_t, bvh::Bvh> own_trees_;

@@ -98,6 +98,24 @@ TEST(Resident, HierarchiesAreBuiltOnlyForTracingTechniques) {
     EXPECT_GT(live.resident.hierarchy_ms(), 0);
 }
 
+/// Shadow rays pass through walls that cast a shadow on nothing (render/backdrop.hpp). A light
+/// outside the room makes the walls cast shadows, so it needs another hierarchy.
+TEST(Resident, HierarchiesAreRebuiltWhenWallsBeginToCastShadows) {
+    Live live;
+    live.update();
+    resident_picture(live.resident, "raytrace");
+    live.now.punctual.push_back({.kind = scene::PunctualLight::Kind::point, .intensity = vec3(1)});
+    live.update();
+    resident_picture(live.resident, "raytrace");
+    EXPECT_EQ(live.resident.hierarchies_built(), 1u) << "the light is in the room";
+    live.now.punctual.back().world_from_light[3] = dvec4(0, 5, 0, 1);
+    live.update();
+    render::GpuScene fresh(device(), live.now);
+    fresh.update(live.now, live.camera, kResidentSize, live.ambient);
+    EXPECT_EQ(resident_picture(live.resident, "raytrace"), resident_picture(fresh, "raytrace"));
+    EXPECT_EQ(live.resident.hierarchies_built(), 2u);
+}
+
 /// Makes one random change of the kinds that a program may make.
 void change(Live& live, test::Numbers& numbers) {
     const std::size_t object = numbers.below(live.now.objects.size());
