@@ -14,7 +14,7 @@ namespace {
 /// new pages each time, which took 40 % of a frame with 64 captures.
 void return_freed_memory() {
 #ifdef __GLIBC__
-    constexpr int kLargeBlock = 128 * 1024, kKept = 32 * 1024 * 1024;
+    constexpr int kLargeBlock = 128 * 1024, kKept = 8 * 1024 * 1024;
     mallopt(M_MMAP_THRESHOLD, kLargeBlock);
     mallopt(M_TRIM_THRESHOLD, kLargeBlock);
     mallopt(M_TOP_PAD, kKept);
