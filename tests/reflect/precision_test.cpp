@@ -143,6 +143,11 @@ TEST(Precision, ShadowRaysWithoutAnEndGapHitTheCeilingAtTheLamp) {
     for (const scene::Object& object : room.objects)
         if (room.materials[object.material].emission != vec3(0))
             for (dvec3& position : room.meshes[object.mesh].positions) position.y = ceiling;
+    // A faint light above the ceiling. Without it, the ceiling's shadow falls on nothing, and
+    // shadow rays pass through it.
+    scene::PunctualLight above{.name = "above", .intensity = vec3(1e-6f)};
+    above.world_from_light[3] = dvec4(0, ceiling + 1, 0, 1);
+    room.punctual.push_back(above);
     const app::TechniqueResult with = test::render(room, "raytrace", {96, 96}),
                                without = test::render(room, "raytrace:without=shadow_end",
                                                       {96, 96});
