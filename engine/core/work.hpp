@@ -103,6 +103,11 @@ struct PassWork {
 };
 
 /// Returns the sum over all passes whose name begins with `prefix`.
-WorkCounts sum_work(const std::vector<PassWork>& passes, std::string_view prefix = {});
+inline WorkCounts sum_work(const std::vector<PassWork>& passes, std::string_view prefix = {}) {
+    WorkCounts sum;
+    for (const PassWork& pass : passes)
+        if (pass.name.starts_with(prefix)) sum += pass.counts;
+    return sum;
+}
 
 } // namespace catoptric

@@ -133,9 +133,9 @@ void Device::begin_one_shot(const std::string& doing) {
 
 /// Submits the copies and waits. Their writes become visible to the host and to all later commands.
 void Device::end_one_shot(const std::string& doing) {
-    record_barrier_after_copies(one_shot_,
-                                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
-                                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
+    record_memory_barrier(one_shot_, kCopyWrites,
+                          {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+                           VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT});
     check_vk(vkEndCommandBuffer(one_shot_), doing + " (end a command buffer)");
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = one_shot_;

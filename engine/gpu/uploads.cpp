@@ -83,8 +83,7 @@ void StagedUploads::order_overlapping_writes(StagingBlock& block, const WriteRan
                target.first < other.end;
     });
     if (overlaps) {
-        record_barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                    VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        record_memory_barrier(block.commands, kCopyWrites, kCopyWrites);
         block.targets.clear();
     }
     block.targets.push_back(target);
@@ -110,8 +109,9 @@ StagedUploads::WriteNumber StagedUploads::write(VkBuffer to, std::uint64_t offse
 void StagedUploads::submit() {
     if (!is_recording_) return;
     StagingBlock& block = blocks_[current_];
-    record_barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    record_memory_barrier(block.commands, kCopyWrites,
+                          {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                           VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
     is_recording_ = false;
     check_vk(vkEndCommandBuffer(block.commands), kDoing);
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};

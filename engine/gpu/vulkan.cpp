@@ -66,16 +66,23 @@ VkFormat to_vk_format(Format format) {
     return VK_FORMAT_UNDEFINED;
 }
 
-void record_barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
-                                 VkAccessFlags2 access) {
+void record_memory_barrier(VkCommandBuffer commands, const MemoryUse& earlier,
+                           const MemoryUse& later) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    barrier.dstStageMask = stages;
-    barrier.dstAccessMask = access;
+    barrier.srcStageMask = earlier.stages;
+    barrier.srcAccessMask = earlier.access;
+    barrier.dstStageMask = later.stages;
+    barrier.dstAccessMask = later.access;
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void record_image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier) {
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 

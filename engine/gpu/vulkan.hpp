@@ -19,10 +19,19 @@ const char* name_of(VkResult result);
 
 VkFormat to_vk_format(Format format);
 
-/// Records a barrier that makes the writes of earlier copies visible to `stages` and `access` after
-/// it.
-void record_barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
-                                 VkAccessFlags2 access);
+/// Stages and kinds of access of the work on one side of a barrier.
+struct MemoryUse {
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+};
+/// The writes of copies.
+inline constexpr MemoryUse kCopyWrites{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                       VK_ACCESS_2_TRANSFER_WRITE_BIT};
+/// Records a barrier that makes the writes of earlier work visible to later work, in all memory.
+void record_memory_barrier(VkCommandBuffer commands, const MemoryUse& earlier,
+                           const MemoryUse& later);
+/// Records one barrier of a single image.
+void record_image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier);
 
 /// Returns the surface for the number that window libraries pass for it.
 inline VkSurfaceKHR surface_from_number(std::uint64_t number) {

@@ -17,10 +17,7 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.imageMemoryBarrierCount = 1;
-    dependency.pImageMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &dependency);
+    gpu::record_image_barrier(commands, barrier);
     if (is_depth(desc.format)) {
         const VkClearDepthStencilValue nothing{};
         vkCmdClearDepthStencilImage(commands, image.image, barrier.newLayout, &nothing, 1, &range);
@@ -33,7 +30,7 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
     barrier.oldLayout = barrier.newLayout,
     barrier.newLayout = image_layout_of_use(ResourceUse::sampled);
-    vkCmdPipelineBarrier2(commands, &dependency);
+    gpu::record_image_barrier(commands, barrier);
 }
 
 } // namespace

@@ -40,10 +40,10 @@ WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes) :
 void WorkCounter::begin_pass(VkCommandBuffer commands) {
     if (pass_ == 0) {
         vkCmdFillBuffer(commands, buffer_.handle(), 0, VK_WHOLE_SIZE, 0);
-        gpu::record_barrier_after_copies(
-            commands,
-            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+        gpu::record_memory_barrier(
+            commands, gpu::kCopyWrites,
+            {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
     }
     for (const WorkKind kind : {WorkKind::draws, WorkKind::dispatches, WorkKind::bytes})
         add(kind, 0);
@@ -55,17 +55,12 @@ void WorkCounter::begin_pass(VkCommandBuffer commands) {
 void WorkCounter::end_pass(VkCommandBuffer commands) {
     if (statistics_) vkCmdEndQuery(commands, statistics_, static_cast<std::uint32_t>(pass_));
     if (++pass_ < passes_.size()) return;
-    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-                           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                           VK_PIPELINE_STAGE_2_TRANSFER_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &dependency);
+    gpu::record_memory_barrier(
+        commands,
+        {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+             VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+         VK_ACCESS_2_MEMORY_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
 }
 
 VkDescriptorBufferInfo WorkCounter::shader_counts() const {

@@ -55,16 +55,6 @@ scene::Scene void_scene(std::shared_ptr<const scene::Environment> environment,
     return scene;
 }
 
-/// Returns the unit direction through the centre of pixel (x, y) of a square picture.
-dvec3 pixel_direction(const scene::Camera& camera, int x, int y, int edge) {
-    const dvec3 forward = glm::normalize(camera.target - camera.eye),
-                right = glm::normalize(glm::cross(forward, camera.up)),
-                down = glm::cross(forward, right);
-    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees / 2));
-    return glm::normalize(forward + tangent * (2 * (x + .5) / edge - 1) * right +
-                          tangent * (2 * (y + .5) / edge - 1) * down);
-}
-
 TEST(Environment, RadianceFollowsTheMapAndItsRotation) {
     scene::Environment map = *patches();
     const auto texel = [&](int column, int row) {
@@ -113,7 +103,7 @@ TEST(Environment, BackgroundEqualsTheEnvironmentInRasterAndRays) {
                                 glm::length(dvec3(picture.at(x, y)) -
                                             scene::environment_radiance(
                                                 *environment,
-                                                pixel_direction(scene.cameras[0], x, y, kEdge))));
+                                                test::pixel_direction(scene.cameras[0], x, y, kEdge))));
                     EXPECT_LE(worst, 1e-3)
                         << technique << (studio ? ", studio, " : ", map, ") << rotation
                         << " degrees, ahead " << ahead.x << ' ' << ahead.y << ' ' << ahead.z;

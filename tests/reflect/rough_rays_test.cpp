@@ -46,18 +46,9 @@ scene::Scene make_rough_floor(float roughness, std::shared_ptr<const scene::Envi
     return scene;
 }
 
-dvec3 direction_of_pixel(const scene::Camera& camera, int x, int y) {
-    const dvec3 forward = glm::normalize(camera.target - camera.eye),
-                right = glm::normalize(glm::cross(forward, camera.up)),
-                down = glm::cross(forward, right);
-    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees / 2));
-    return glm::normalize(forward + tangent * (2 * (x + .5) / kRoughEdge - 1) * right +
-                          tangent * (2 * (y + .5) / kRoughEdge - 1) * down);
-}
-
 /// Returns the radiance of a pixel of the floor by quadrature. The floor's frame has z upwards.
 dvec3 wanted_radiance(const scene::Scene& scene, double roughness, int x, int y) {
-    const dvec3 direction = direction_of_pixel(scene.cameras.front(), x, y);
+    const dvec3 direction = test::pixel_direction(scene.cameras.front(), x, y, kRoughEdge);
     const dvec3 to_eye(-direction.x, direction.z, -direction.y), f0(.9, .6, .3);
     dvec3 sum(0);
     for (int channel = 0; channel < 3; ++channel)

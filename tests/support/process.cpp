@@ -93,6 +93,8 @@ Ended run_process(const Start& start) {
     ::wait4(child, &status, 0, &usage);
     ended.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     ended.seconds = seconds_since(begin);
+    for (const timeval& used : {usage.ru_utime, usage.ru_stime})
+        ended.processor_seconds += double(used.tv_sec) + 1e-6 * double(used.tv_usec);
     if (signalled != begin) ended.seconds_after_signal = seconds_since(signalled);
     ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return ended;

@@ -14,6 +14,7 @@ struct Ended {
     int exit_code = -1; ///< 128 + n if signal n ended the process
     std::string out, err;
     double seconds = 0;              ///< seconds from the start of the process to its end
+    double processor_seconds = 0;    ///< processor time of all its threads
     std::uint64_t peak_bytes = 0;    ///< largest resident memory
     double seconds_after_signal = 0; ///< seconds from the signal to the end; 0: no signal sent
 };

@@ -7,6 +7,7 @@
 #include "support/scenes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <ostream>
 #include <string>
@@ -34,6 +35,17 @@ inline app::Request request(const scene::Scene& scene, const std::vector<std::st
     asked.size = size;
     asked.frames = 1, asked.warmup = 0;
     return asked;
+}
+
+/// Returns the unit direction from the camera through the centre of pixel (x, y) of a square
+/// picture of `edge` pixels.
+inline dvec3 pixel_direction(const scene::Camera& camera, int x, int y, int edge) {
+    const dvec3 forward = glm::normalize(camera.target - camera.eye),
+                right = glm::normalize(glm::cross(forward, camera.up)),
+                down = glm::cross(forward, right);
+    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees / 2));
+    return glm::normalize(forward + tangent * (2 * (x + .5) / edge - 1) * right +
+                          tangent * (2 * (y + .5) / edge - 1) * down);
 }
 
 inline app::TechniqueResult render(const scene::Scene& scene, const std::string& technique,

@@ -31,6 +31,11 @@ struct CapturedScene {
         test::add_ball(scene, "ball", 0, centre, radius, halvings);
         return scene.objects.size() - 1;
     }
+    /// Adds three balls in a row on the x axis, the first at the origin, and finishes.
+    void add_row_of_balls() {
+        for (const double x : {0., 2., 4.}) add(.3, {x, 0, 0}, 3);
+        finish();
+    }
     void finish() {
         geometry = render::make_geometry(scene, render::make_scene_units(scene));
         render::NearestTriangleQuery nearest;
@@ -149,10 +154,7 @@ TEST(ShownFaces, AnObjectBetweenTexelCentresIsNotDrawn) {
 
 TEST(ShownFaces, AnObjectThatIsNotDrawnHidesNothing) {
     CapturedScene scene;
-    scene.add(.3, {0, 0, 0}, 3);
-    scene.add(.3, {2, 0, 0}, 3);
-    scene.add(.3, {4, 0, 0}, 3);
-    scene.finish();
+    scene.add_row_of_balls();
     const std::vector<std::uint8_t> shown = render::find_shown_faces(
         scene.views(0), {64}, scene.geometry.ranges, scene.balls,
         [](std::size_t object) { return object == 2; });
@@ -161,10 +163,7 @@ TEST(ShownFaces, AnObjectThatIsNotDrawnHidesNothing) {
 
 TEST(ShownFaces, AnObjectThatTheNearPlaneCutsHidesNothing) {
     CapturedScene scene;
-    scene.add(.3, {0, 0, 0}, 3);
-    scene.add(.3, {2, 0, 0}, 3);
-    scene.add(.3, {4, 0, 0}, 3);
-    scene.finish();
+    scene.add_row_of_balls();
     std::vector<shared::View> views = scene.views(0);
     for (shared::View& view : views)
         view.near = length(scene.geometry.ranges[1].bounds.centre() - view.eye);

@@ -3,7 +3,9 @@
 // reflectance, single scattering. Directions are unit vectors in tangent space, whose z axis is the normal, and point
 // away from the surface. `to_eye` is the direction to the viewer and has z > 0, `to_light` the direction of the light.
 
-const real kLeastAlpha = real(1e-7); // a smaller alpha would overflow the distribution of a float
+// The density of normals is at most 1 / (pi alpha^2). A float holds numbers up to 3.4e38, so an alpha under 3.1e-20
+// overflows it. 1e-7 also keeps the product of two such densities finite.
+const real kLeastAlpha = real(1e-7);
 
 // Returns the lobe's width `alpha` for a roughness from 0 to 1, as glTF defines it.
 INLINE real alpha_of_roughness(real roughness) { return max(roughness * roughness, kLeastAlpha); }
