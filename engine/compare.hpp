@@ -21,13 +21,12 @@ struct StudyChoice {
 };
 
 struct CompareRequest {
-    /// The compared scene and settings. Its `techniques` are the rows; empty: those that each
-    /// technique of the table proposes, and `auto`.
+    /// Scene and settings. Its `techniques` are the rows; empty: those that techniques propose.
     Request base;
-    std::string reference = kReference;
+    std::string reference; ///< empty: kReference, or rays from lobes if a mirror is rough
+    double reference_seconds = 60; ///< most time to reduce the noise of a reference of rough mirrors
     bool together = false; ///< render all rows in one frame
-    /// Number of rounds, at least 6. Each round measures some frames of every row, one row after
-    /// another. If there are fewer frames than rounds, each round has one frame.
+    /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
     int rounds = kRounds;
     /// Whether each row is measured twice, with the model `everything` and with `required`. False:
     /// each row is measured once, with `base.model`.

@@ -21,6 +21,7 @@ using catoptric::AutoFace;
 using catoptric::CulledWork;
 struct Causes; // internal: report.json has their data
 struct LagResults;
+struct ReferenceNoise;
 struct Studied;
 
 /// Closed interval from `low` to `high`. Both are NaN if the interval is not known.
@@ -43,9 +44,8 @@ struct SampleSummary {
     Interval ci95;               ///< interval of the median, from the rounds
 };
 
-/// Error of a row over the mirrors in two parts. One part is the pixels that looked within a texel
-/// of a light's outline, whose few large errors dominate an rmse. The other part is all other
-/// mirror pixels. The squares of `rmse` and `rest_rmse` add up to the square of the row's rmse.
+/// Error of a row over the mirrors in two parts: pixels that looked within a texel of a light's
+/// outline, whose few large errors dominate an rmse, and the rest. Their squares add up.
 struct LightEdgeErrors {
     /// Share of the finite mirror pixels that looked at a light's edge, 0..1.
     double pixels = Difference::kNone;
@@ -254,10 +254,10 @@ struct Comparison {
     std::vector<Setting> reference_settings;
     SampleSummary reference_gpu_ms;
     Picture reference_display;
+    std::shared_ptr<ReferenceNoise> noise; ///< see measure/halves.hpp; null: no noise
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
     std::optional<SampleSummary> clear_ms;
-    /// Drawn views in which the errors of each row were measured, in addition to the comparison's
-    /// own camera.
+    /// Drawn views in which errors were measured, in addition to the comparison's own camera.
     std::vector<View> views;
     std::vector<Row> rows;
     /// Indices of the rows on the front of time against FLIP over the mirrors, from

@@ -61,7 +61,7 @@ const RegisteredMetric kMae{
 const RegisteredMetric kRmse{
     {.name = "rmse",
      .help = "root of the mean square difference, linear RGB times 2^exposure, "
-             "clamped to [0,1]",
+             "clamped to [0,1]; negative: below the noise of the reference",
      .better = BetterDirection::less,
      .order = 104,
      .each_mask_in_table = true,

@@ -1,5 +1,6 @@
 #include "measure/judge.hpp"
 
+#include "measure/halves.hpp"
 #include "measure/interval.hpp"
 #include "measure/metric.hpp"
 #include "measure/rows.hpp"
@@ -115,6 +116,18 @@ const Row* find_closest_row(const Comparison& comparison) {
         if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
     }
     return closest;
+}
+
+std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison) {
+    std::vector<const Row*> ties;
+    const Row* closest = find_closest_row(comparison);
+    for (const Row& row : comparison.rows) {
+        if (closest == nullptr || &row == closest || row.is_reference || !is_ranking_candidate(row))
+            continue;
+        if (row.error.flip - closest->error.flip < find_flip_floor(row.error, closest->error))
+            ties.push_back(&row);
+    }
+    return ties;
 }
 
 Ranking rank_rows(const Comparison& comparison) {

@@ -25,7 +25,8 @@ bool is_faster(const Row& a, const Row& b);
 /// Returns whether neither row is faster than the other.
 bool is_tie(const Row& a, const Row& b);
 /// Returns whether a has less FLIP over the mirrors than b. If errors over drawn views are known,
-/// the confidence interval of the difference decides.
+/// the confidence interval of the difference decides. A difference below the noise of the reference
+/// (find_flip_floor) is a tie.
 bool has_less_flip(const Row& a, const Row& b);
 /// Returns whether a is the better choice: faster and not farther from the reference, or closer and
 /// not slower. A row that is no candidate or took no time neither beats a row nor is beaten.
@@ -54,6 +55,9 @@ std::vector<const Row*> find_fastest_rows(const Comparison& comparison);
 /// Returns the candidate with the least FLIP over the mirrors, other than the reference itself.
 /// Returns null if there is none.
 const Row* find_closest_row(const Comparison& comparison);
+/// Returns the other rows that find_closest_row could name as well, because their FLIP differs from
+/// its FLIP by less than the noise of the reference. Empty for a reference without noise.
+std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison);
 
 /// Ranking of the rows: which row beats which.
 struct Ranking {

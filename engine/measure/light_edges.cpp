@@ -2,6 +2,7 @@
 
 #include "measure/metric.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace catoptric::measure {
@@ -47,13 +48,19 @@ const RegisteredMetric kPixels{
      .get = light_edge_metric_value<&LightEdgeErrors::pixels>}};
 
 struct ErrorSum {
-    /// Finite pixels, and the mean square of a channel times their number.
+    /// Finite pixels, and the mean square of a channel times their number. An estimate against a
+    /// reference with noise may be negative.
     double pixels = 0, squares = 0;
 };
 
 ErrorSum make_error_sum(const Difference& error) {
     const auto judged = static_cast<double>(error.pixels - error.nonfinite);
-    return {judged, judged > 0 ? error.rmse * error.rmse * judged : 0};
+    return {judged, judged > 0 ? error.rmse * std::abs(error.rmse) * judged : 0};
+}
+
+/// Returns the root with the sign of the square, as Difference::rmse has it.
+double root_with_sign(double square) {
+    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
 }
 
 } // namespace
@@ -62,8 +69,9 @@ LightEdgeErrors split_error_by_light_edges(const Difference& there, const Differ
     const ErrorSum edges = make_error_sum(there), rest = make_error_sum(elsewhere);
     const double pixels = edges.pixels + rest.pixels, squares = edges.squares + rest.squares;
     if (!(pixels > 0)) return {};
-    return {edges.pixels / pixels, squares > 0 ? edges.squares / squares : 0,
-            std::sqrt(edges.squares / pixels), std::sqrt(rest.squares / pixels)};
+    return {edges.pixels / pixels,
+            squares > 0 ? std::clamp(edges.squares / squares, 0.0, 1.0) : 0,
+            root_with_sign(edges.squares / pixels), root_with_sign(rest.squares / pixels)};
 }
 
 } // namespace catoptric::measure

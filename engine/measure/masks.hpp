@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 // Masks of pixels, made from the first hits of the reference's camera rays. A hit is one word a
 // pixel, row-major. The low 16 bits hold the number of the mirror that was hit first, from 1, or 0
@@ -32,6 +33,9 @@ Mask mask_one_mirror(std::span<const std::uint32_t> hits, MirrorId mirror);
 Mask mask_non_mirror_pixels(std::span<const std::uint32_t> hits);
 /// Returns the pixels whose first hit is a smooth dielectric.
 Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits);
+
+/// Returns the masks of list_row_masks(), in the same order.
+std::vector<Mask> list_masks_of_rows(std::span<const std::uint32_t> hits);
 
 /// Returns how many pixels of a mask count.
 std::size_t count_mask_pixels(const Mask& mask);

@@ -37,8 +37,7 @@ private:
     }
 };
 
-/// Mask with one byte a pixel, row-major. A pixel counts if its byte is not 0. An empty mask means
-/// "all pixels".
+/// Mask with one byte a pixel, row-major; not 0: the pixel counts. Empty: all pixels count.
 using Mask = std::vector<std::uint8_t>;
 
 /// Returns the picture as displayed: multiplied by 2^exposure_stops, clamped to [0,1], through the
@@ -98,6 +97,7 @@ struct Difference {
     double rmse = kNone;        ///< root of the mean square over pixels and channels, 0..1
     double mae = kNone;         ///< mean absolute difference over pixels and channels, 0..1
     double flip = kNone;        ///< mean of the FLIP map, 0..1
+    double flip_floor = 0; ///< FLIP of the reference's noise (measure/halves.hpp); 0 without noise
     std::optional<double> psnr; ///< -20 log10 rmse in dB; empty if rmse is 0 or NaN
     double p99 = kNone;         ///< 99th percentile of the pixels' largest channel difference, 0..1
     double max = kNone;         ///< the largest channel difference of all, 0..1

@@ -1,6 +1,7 @@
 #include "measure/views.hpp"
 
 #include "core/error.hpp"
+#include "measure/halves.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/statistics.hpp"
@@ -28,6 +29,11 @@ double metric_number(const Metric& figure, const Difference& error) {
     const MetricValue value = metric_value(figure, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
+}
+
+/// Returns the difference of two errors below which they cannot be told apart.
+double find_noise_floor(const Metric& figure, const Difference& a, const Difference& b) {
+    return figure.name == "flip" ? find_flip_floor(a, b) : 0;
 }
 
 double compute_median(std::vector<double> values) {
@@ -83,7 +89,9 @@ Interval metric_difference_over_views(const Row& a, const Row& b, std::string_vi
         const double in_a = metric_number(quantity, a.views[i].error),
                      in_b = metric_number(quantity, b.views[i].error);
         if (!std::isfinite(in_a) || !std::isfinite(in_b)) continue;
-        of_a.push_back(in_a);
+        const bool is_noise = std::abs(in_a - in_b) <
+                              find_noise_floor(quantity, a.views[i].error, b.views[i].error);
+        of_a.push_back(is_noise ? in_b : in_a);
         of_b.push_back(in_b);
     }
     return difference_interval(of_a, of_b);
@@ -94,7 +102,8 @@ bool is_metric_less(const Row& a, const Row& b, std::string_view figure) {
         // False if the interval is not known.
         return metric_difference_over_views(a, b, figure).high < 0;
     const Metric& quantity = find_metric_by_name(figure);
-    return metric_number(quantity, a.error) < metric_number(quantity, b.error);
+    return metric_number(quantity, a.error) + find_noise_floor(quantity, a.error, b.error) <
+           metric_number(quantity, b.error);
 }
 
 bool differ_over_views(const Row& a, const Row& b, std::string_view figure) {

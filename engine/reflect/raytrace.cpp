@@ -33,6 +33,13 @@ constexpr Knob kRays{
     .low = 0,
     .high = 65536,
     .value = 0};
+constexpr Knob kLobeSeed{
+    .name = "seed",
+    .help = "seed of the directions drawn for rays=N, in addition to --seed; pictures of two seeds "
+            "are independent draws",
+    .low = 0,
+    .high = 999'999'999,
+    .value = 0};
 constexpr std::int64_t kMostPaths = 65536; // of a pixel: samples times rays
 constexpr Knob kSphere{.name = "sphere",
                        .help = "shape of balls: triangles or exact spheres",
@@ -51,7 +58,7 @@ constexpr Knob kWithout{.name = "without",
                         .help = "rule of robustness to leave out, to measure its cost",
                         .high = 5,
                         .choices = kRules};
-constexpr Knob kKnobs[] = {kDepth, kSamples, kRays,    kTracedShadow,  kSphere,
+constexpr Knob kKnobs[] = {kDepth, kSamples, kRays,    kLobeSeed,      kTracedShadow, kSphere,
                            kFirst, kHit,     kWithout, kShadowMapEdge, kCapture};
 
 bool is_first_raster(const KnobSettings& settings) {
@@ -63,6 +70,7 @@ TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting&
     return {.depth = static_cast<std::uint32_t>(settings.integer(kDepth)),
             .samples = settings.integer(kSamples),
             .rays = static_cast<std::uint32_t>(settings.integer(kRays)),
+            .seed = static_cast<std::uint32_t>(settings.integer(kLobeSeed)),
             // A scene without lights has no shadow map, and no light needs a shadow test.
             .shadow = shadow == SharedKnobs::Shadow::none ? TracerSettings::TracedShadow::none
                       : shadow == SharedKnobs::Shadow::map && lighting.shadow_map

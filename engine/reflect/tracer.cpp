@@ -78,8 +78,10 @@ void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene
 /// Returns the seed of the lobes' directions. It depends on the number of rays, so that a row with
 /// few rays shares no ray with a reference of many.
 std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
-    const std::uint64_t mixed =
-        ContentHash().add(seed).add(tracer.rays).add(tracer.samples).value();
+    ContentHash hash;
+    hash.add(seed).add(tracer.rays).add(tracer.samples);
+    if (tracer.seed != 0) hash.add(tracer.seed);
+    const std::uint64_t mixed = hash.value();
     return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
 }
 

@@ -13,6 +13,8 @@ struct TracerSettings {
     /// Rays from each rough surface, in directions drawn from its lobe; each starts with a camera
     /// ray of its own. 0: rough surfaces reflect sharply.
     std::uint32_t rays = 0;
+    /// Seed of these directions, in addition to FrameInputs::seed.
+    std::uint32_t seed = 0;
     TracedShadow shadow = TracedShadow::ray;
     /// Has a shadow map if `shadow` is `map`. With `first_raster` and `ray`, a shadow map here
     /// spares the shadow rays where it can tell alone.

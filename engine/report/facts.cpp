@@ -1,9 +1,12 @@
 // Facts about the run, and cautions for the reader.
+#include "measure/halves.hpp"
 #include "measure/judge.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace catoptric::report {
 
@@ -42,6 +45,21 @@ std::string describe_pipeline_cache(const std::string& cache) {
     return cache == "made" ? "the cache on disk was empty" : "no cache on disk";
 }
 
+/// Returns the reference, its time, and how much noise it has.
+std::string describe_reference(const Comparison& comparison) {
+    std::string text = comparison.reference_label + ", " +
+                       format_ms(comparison.reference_gpu_ms.median) + " ms";
+    if (!comparison.noise) return text;
+    const measure::ReferenceNoise& noise = *comparison.noise;
+    text += fmt::format(" a frame, two halves of {} frames with {} seeds in {} s; between the halves "
+                        "FLIP {}, rmse {}",
+                        noise.frames, 2 * noise.frames, format_fixed(noise.seconds, 1),
+                        format_error(noise.flip_floor), format_error(noise.halves_rmse));
+    if (std::isfinite(noise.predicted_rmse))
+        text += fmt::format(" (their variance predicts {})", format_error(noise.predicted_rmse));
+    return text;
+}
+
 } // namespace
 
 std::string describe_setup_times(const SetupFacts& setup) {
@@ -74,8 +92,7 @@ std::vector<ReportFact> list_report_facts(const Comparison& comparison) {
         {"Load",
          fmt::format("{} runnable threads at the start, {} at the end",
                      format_fixed(comparison.load_start, 2), format_fixed(comparison.load_end, 2))},
-        {"Reference",
-         comparison.reference_label + ", " + format_ms(comparison.reference_gpu_ms.median) + " ms"},
+        {"Reference", describe_reference(comparison)},
         {"Program", fmt::format("catoptric {}, commit {}", comparison.version, comparison.commit)},
         {"Date", comparison.date},
         {"Command", join_texts(comparison.command, " ")},
@@ -95,6 +112,11 @@ std::vector<std::string> list_cautions(const Comparison& comparison) {
             fmt::format("Noisy: {} of {} rows had to wait for a processor, others were at work "
                         "beside, and these times are not to be trusted: {}.",
                         noisy.size(), comparison.rows.size(), join_row_labels(noisy)));
+    if (comparison.noise && !comparison.noise->is_reached())
+        list.push_back(fmt::format(
+            "The reference is noisy: FLIP between its halves is {}, more than a fifth of the least "
+            "FLIP of a row. More --reference-seconds than {:g} reduce it.",
+            format_error(comparison.noise->flip_floor), comparison.noise->most_seconds));
     if (comparison.together)
         list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
     for (const Row& row : comparison.rows)

@@ -1,6 +1,7 @@
 #include "report/tables.hpp"
 
 #include "measure/findings.hpp"
+#include "measure/halves.hpp"
 #include "measure/judge.hpp"
 #include "measure/lag.hpp"
 #include "measure/seed_report.hpp"
@@ -163,7 +164,7 @@ OptionalSentence describe_ray_tracing_time(const Comparison& comparison) {
 
 std::string format_row_metrics(const Row& row) {
     return fmt::format("{} ({} ms, FLIP {})", row.label, format_ms(row.time_ms().median),
-                       format_error(row.error.flip));
+                       format_flip(row.error));
 }
 
 std::string format_metrics_of_rows(const std::vector<const Row*>& rows) {
@@ -191,6 +192,9 @@ std::string describe_fastest_and_closest(const Comparison& comparison) {
     std::string text = "fastest is " + join_row_labels(fastest, " or ");
     if (const Row* closest = measure::find_closest_row(comparison))
         text += ", closest is " + format_row_metrics(*closest);
+    if (const std::vector<const Row*> ties = measure::find_ties_with_closest_row(comparison);
+        !ties.empty())
+        text += ", with which tie within the noise of the reference: " + join_row_labels(ties);
     return text;
 }
 
@@ -235,6 +239,10 @@ std::vector<std::string> describe_front(const Comparison& comparison) {
         ". A row beats another where it is faster (the ratio of their times, round by round, is "
         "below 1 with 95 % confidence) and no farther off, or closer and not slower. Where that "
         "interval holds 1, or is not known, times are a tie."};
+    if (comparison.noise)
+        words.push_back("The reference has noise. A difference in FLIP below " +
+                        format_error(comparison.noise->flip_floor) +
+                        ", the FLIP between its halves, is a tie as well.");
     for (const auto& [winner, losers] : standing.wins)
         words.push_back(winner->label + " beats " + format_metrics_of_rows(losers) + ".");
     if (!standing.beaten_by_beaten.empty())

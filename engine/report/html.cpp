@@ -81,7 +81,7 @@ std::string html_headlines(const Comparison& comparison) {
         html += html_headline("Fastest", std::to_string(fastest.size()) + " rows",
                               "not told apart");
     if (const Row* closest = measure::find_closest_row(comparison); closest != nullptr)
-        html += html_headline("Closest", "FLIP " + format_error(closest->error.flip),
+        html += html_headline("Closest", "FLIP " + format_flip(closest->error),
                               closest->label);
     html += html_headline("On the front", std::to_string(comparison.pareto.size()),
                           fmt::format("of {} rows", comparison.rows.size()));
@@ -95,11 +95,11 @@ std::string html_row_numbers(const Row& row) {
     std::string html = "<dl class=\"numbers\">";
     for (const auto& [name, value] :
          {std::pair("ms", format_ms(ms)), std::pair("FPS", format_fps(ms)),
-          std::pair("FLIP", format_error(row.error.flip)),
+          std::pair("FLIP", format_flip(row.error)),
           std::pair("off, %", format_fixed(100 * row.error.off, 2)),
           std::pair("MAE", format_error(row.error.mae)),
           std::pair("rmse", format_error(row.error.rmse)),
-          std::pair("FLIP, 1st order", format_error(row.error_first_order.flip)),
+          std::pair("FLIP, 1st order", format_flip(row.error_first_order)),
           std::pair("PSNR dB", format_fixed(row.error.psnr.value_or(NAN), 1)),
           std::pair("Scene passes", std::to_string(row.scene_passes)),
           std::pair("MiB", format_mebibytes(row.memory_bytes))})
@@ -140,7 +140,7 @@ std::string html_row_article(const Comparison& comparison, const EncodedPictures
                         "Picture by " + row.label, "Picture") +
             html_figure(row.display.width, row.display.height, encoded.rows[index].error,
                         "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
-                            format_error(row.error.flip),
+                            format_flip(row.error),
                         "FLIP error") +
             html_figure(row.display.width, row.display.height, encoded.rows[index].causes,
                         "Pixels of " + row.label + " that are off, painted by their largest cause",

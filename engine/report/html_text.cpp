@@ -117,6 +117,8 @@ svg .label { fill: var(--ink); stroke: var(--card); stroke-width: 3; stroke-line
 svg .grid { stroke: var(--line); }
 svg .lane { fill: var(--tint); }
 svg .step { fill: none; stroke: var(--accent); stroke-width: 1.5; stroke-dasharray: 5 4; }
+svg .noise { fill: none; stroke: var(--other); stroke-width: 1; stroke-dasharray: 2 4; }
+svg .mark.hidden { fill-opacity: .25; }
 svg .interval { fill: none; stroke: var(--other); stroke-width: 1.5; }
 svg .line { fill: none; stroke: var(--accent); stroke-width: 1.5; stroke-linejoin: round; }
 svg .mark { fill: var(--card); stroke: var(--other); stroke-width: 1.5; }

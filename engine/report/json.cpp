@@ -4,6 +4,7 @@
 #include "core/mirror_id.hpp"
 #include "core/text.hpp"
 #include "measure/flip.hpp"
+#include "measure/halves.hpp"
 #include "measure/lag.hpp"
 #include "report/text.hpp"
 #include "report/writer.hpp"
@@ -194,6 +195,17 @@ void add_circumstances_json(Json& json, const Comparison& comparison) {
     json["warnings"] = comparison.warnings;
 }
 
+/// Returns the noise of a reference.
+Json to_json(const measure::ReferenceNoise& noise) {
+    return {{"frames", noise.frames},
+            {"seconds", number_json(noise.seconds)},
+            {"most_seconds", number_json(noise.most_seconds)},
+            {"flip_floor", number_json(noise.flip_floor)},
+            {"wanted_floor", number_json(noise.wanted_floor)},
+            {"halves_rmse", number_json(noise.halves_rmse)},
+            {"predicted_rmse", number_json(noise.predicted_rmse)}};
+}
+
 } // namespace
 
 Json point_json(const dvec3& point) {
@@ -232,6 +244,7 @@ Json make_report_json(const Comparison& comparison) {
                          {"settings", to_json(comparison.reference_settings)},
                          {"label", comparison.reference_label},
                          {"gpu_ms", to_json(comparison.reference_gpu_ms)}};
+    if (comparison.noise) json["reference"]["noise"] = to_json(*comparison.noise);
     if (comparison.clear_ms) json["clear_ms"] = to_json(*comparison.clear_ms);
     json["model"] = comparison.model;
     json["views"] = views_json(comparison);

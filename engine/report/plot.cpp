@@ -1,5 +1,6 @@
 #include "report/plot.hpp"
 
+#include "measure/halves.hpp"
 #include "measure/judge.hpp"
 #include "measure/rows.hpp"
 #include "report/html.hpp"
@@ -194,10 +195,11 @@ std::string svg_time_interval(const PlotPoint& point) {
 /// Returns a row's mark: a square for ray tracing, otherwise a disc. Hovering shows the row's
 /// values.
 std::string svg_row_mark(const PlotPoint& point) {
-    const char* kind = point.front ? "mark front" : "mark";
+    std::string kind = point.front ? "mark front" : "mark";
+    if (measure::is_below_noise(point.row->error)) kind += " hidden";
     const std::string title = fmt::format(
         "<title>{}: {} ms, FLIP {}</title>", escape_html(point.row->label),
-        format_ms(point.row->time_ms().median), format_error(point.row->error.flip));
+        format_ms(point.row->time_ms().median), format_flip(point.row->error));
     if (measure::is_ray_traced_row(*point.row))
         return fmt::format(
             R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
@@ -223,6 +225,16 @@ LabelBox place_label(const PlotPoint& point, const std::vector<LabelBox>& taken)
                 return box;
         }
     return box;
+}
+
+/// Returns a line at the FLIP between the halves of a reference with noise, with its name. Errors
+/// up to this line are below the noise.
+std::string svg_noise_floor(const Comparison& comparison, const LogScale& y) {
+    if (!comparison.noise || !(comparison.noise->flip_floor > 0)) return "";
+    const double at = y(comparison.noise->flip_floor);
+    return fmt::format(R"(<path class="noise" d="M{:.1f} {:.1f}H{:.1f}"/>)", kFrame.left, at,
+                       kFrame.right) +
+           svg_text(kFrame.right - 4, at - 4, "end", kBelowNoise);
 }
 
 std::string svg_labels(const std::vector<PlotPoint>& points) {
@@ -271,6 +283,8 @@ std::string make_comparison_plot(const Comparison& comparison) {
         if (row.error.flip > 0) errors.push_back(row.error.flip);
     }
     if (times.empty()) return "";
+    if (comparison.noise && comparison.noise->flip_floor > 0)
+        errors.push_back(comparison.noise->flip_floor);
     const LogScale x = make_log_scale(times, kFrame.left, kFrame.right);
     const LogScale y = make_log_scale(errors, kFrame.lane - 8, kFrame.top);
     std::vector<PlotPoint> points;
@@ -291,7 +305,7 @@ std::string make_comparison_plot(const Comparison& comparison) {
                        points.front().row->moves ? "Time of a frame, host and GPU, median, ms"
                                                  : "GPU time of a frame, median, ms",
                        "FLIP over the mirrors") +
-           svg_front_staircase(points);
+           svg_noise_floor(comparison, y) + svg_front_staircase(points);
     for (const PlotPoint& point : points) svg += svg_time_interval(point);
     for (const PlotPoint& point : points) svg += svg_row_mark(point);
     return svg + svg_labels(points) + "</svg>";

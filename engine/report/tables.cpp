@@ -11,6 +11,7 @@
 #include "report/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace catoptric::report {
@@ -56,11 +57,11 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             format_median_interval(row.time_ms(), decimals),
             format_places(measure::find_time_places(comparison, row)),
             format_fps(row.time_ms().median),
-            format_error(row.error.flip),
+            format_flip(row.error),
             format_fixed(100 * row.error.off, 2),
             format_error(row.error.mae),
             format_error(row.error.rmse),
-            format_error(row.error_first_order.flip)};
+            format_flip(row.error_first_order)};
 }
 
 std::string seed_table_note(const Comparison& comparison) {
@@ -104,6 +105,11 @@ std::string format_metric_cell(const measure::MetricColumn& column,
     const auto* number = std::get_if<double>(&value);
     if (number == nullptr) return empty_cell(); // the value is more than one number
     return format_metric_number(*number, column, decimals);
+}
+
+/// Returns a cell of FLIP, which says whether the noise of the reference hides it.
+std::string format_flip_cell(const measure::Difference& error) {
+    return std::isfinite(error.flip) ? format_flip(error) : empty_cell();
 }
 
 /// Column of a metric. For metrics of a difference, `mask` is the mask of the column.
@@ -158,7 +164,9 @@ std::vector<std::string>
 format_row_cells(const Row& row, const std::vector<MetricTableColumn>& columns, int decimals) {
     std::vector<std::string> cells{row.label};
     for (const MetricTableColumn& column : columns)
-        cells.push_back(format_metric_cell(column.column, column.value(row), decimals));
+        cells.push_back(column.mask != nullptr && column.quantity->name == "flip"
+                            ? format_flip_cell(row.*column.mask->error)
+                            : format_metric_cell(column.column, column.value(row), decimals));
     return cells;
 }
 
@@ -284,7 +292,7 @@ ReportTable make_mirror_table(const Comparison& comparison) {
     for (const Row& row : comparison.rows) {
         std::vector<std::string>& cells = table.rows.emplace_back(1, row.label);
         for (const measure::Difference& error : row.error_per_mirror)
-            cells.push_back(format_error(error.flip));
+            cells.push_back(format_flip(error));
         cells.resize(mirrors + 1, empty_cell());
     }
     return table;

@@ -1,4 +1,5 @@
 #include "report/text.hpp"
+#include "measure/halves.hpp"
 #include "measure/lag.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +29,14 @@ std::string format_fixed(double value, int decimals) {
 
 std::string format_error(double error) {
     if (error == 0) return "0";
+    if (error < 0) return std::string(kBelowNoise);
     const bool tiny = std::abs(error) < 5e-5; // four decimals would read 0.0000
     return tiny ? fmt::format("{:.0e}", error) : format_fixed(error, 4);
+}
+
+std::string format_flip(const measure::Difference& error) {
+    const std::string text = format_error(error.flip);
+    return measure::is_below_noise(error) ? text + ", " + std::string(kBelowNoise) : text;
 }
 
 std::string format_ms(double ms) { return format_fixed(ms, decimals_for(ms)); }

@@ -10,11 +10,16 @@
 namespace catoptric::report {
 
 inline constexpr std::string_view kNothing = "–";
+/// Words for an error that the noise of the reference hides (measure/halves.hpp).
+inline constexpr std::string_view kBelowNoise = "below the noise";
 
 /// Returns the value with this many decimals, or "–" for NaN and infinities.
 std::string format_fixed(double value, int decimals);
 /// Returns an error in 0..1 with four decimals, "0" for exactly 0, or a power of ten below 0.0001.
+/// Returns kBelowNoise for a negative estimate.
 std::string format_error(double error);
+/// Returns the FLIP of a difference, with kBelowNoise if it is no larger than that of the noise.
+std::string format_flip(const measure::Difference& error);
 /// Returns milliseconds with three significant digits.
 std::string format_ms(double ms);
 /// Returns the decimals with which the fastest row still has three significant digits. A table uses

@@ -138,7 +138,7 @@ ReportTable make_views_table(const Comparison& comparison) {
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
         for (const ViewMetric& figure : columns) cells.push_back(format_view_cell(row, figure));
-        cells.push_back(row.worst ? format_error(row.views[row.worst->view].error.flip)
+        cells.push_back(row.worst ? format_flip(row.views[row.worst->view].error)
                                   : std::string(kNothing));
         cells.push_back(row.worst ? describe_worst_view(comparison, *row.worst)
                                   : std::string(kNothing));

@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "measure/halves.hpp"
 #include "measure/heat.hpp"
 #include "measure/picture_file.hpp"
 #include "report/html.hpp"
@@ -61,13 +62,15 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
         if (!images.empty() && !bytes.empty()) write_file(images / file, bytes);
         png = std::move(bytes); // a picture that could not be written stays new
     };
-    if (pictures.reference.empty())
+    const int noise_frames = comparison.noise ? comparison.noise->frames : 0;
+    if (pictures.reference.empty() || pictures.noise_frames != noise_frames)
         encode(pictures.reference, comparison.reference_display, "reference.png");
+    pictures.noise_frames = noise_frames;
     pictures.rows.resize(comparison.rows.size());
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
         EncodedPictures::RowPictures& encoded = pictures.rows[i];
-        if (encoded.pictured != row.pictured) {
+        if (encoded.pictured != row.pictured || encoded.noise_frames != noise_frames) {
             if (!images.empty() && !row.hdr.pixels.empty())
                 measure::write_exr(row.hdr, images / (row.image + ".exr"));
             encode(encoded.picture, row.display, row.image + ".png");
@@ -78,6 +81,7 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
                        : measure::Picture(),
                    row.image + "-error.png");
             encoded.pictured = row.pictured;
+            encoded.noise_frames = noise_frames;
         }
         if (row.causes && encoded.causes.empty())
             encode(encoded.causes, make_cause_picture(row), "causes-" + row.image + ".png");

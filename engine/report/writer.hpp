@@ -20,6 +20,7 @@ enum class CsvColumns : std::uint8_t {
 struct EncodedPictures {
     struct RowPictures {
         int pictured = -1;   ///< Row::pictured at the time of encoding
+        int noise_frames = 0; ///< ReferenceNoise::frames of the reference at that time
         std::string picture; ///< picture as displayed
         /// Heat map of the row's FLIP error; empty if the row has no such picture.
         std::string error;
@@ -30,6 +31,7 @@ struct EncodedPictures {
         std::optional<std::size_t> worst_view;
     };
     std::string reference; ///< empty if the reference was not rendered
+    int noise_frames = 0;  ///< ReferenceNoise::frames of that picture
     std::vector<RowPictures> rows;
 };
 
@@ -52,8 +54,8 @@ class ReportWriter {
 public:
     explicit ReportWriter(std::filesystem::path folder, CsvColumns csv = CsvColumns::table)
         : folder_(std::move(folder)), csv_(csv) {}
-    /// Writes the comparison. Rows that an earlier call wrote must be unchanged. Throws
-    /// `cannot_create`, `io`.
+    /// Writes the comparison. Rows that an earlier call wrote must be unchanged, unless they show
+    /// another frame or the noise of the reference was reduced. Throws `cannot_create`, `io`.
     void write(const Comparison& comparison);
 
 private:

@@ -1,6 +1,7 @@
 #include "compare.hpp"
 
 #include "core/error.hpp"
+#include "measure/halves.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/statistics.hpp"
@@ -23,6 +24,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <map>
 #include <memory>
 #include <new>
 #include <span>
@@ -51,13 +53,19 @@ std::string format_current_utc_time() {
     return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
 }
 
+/// Returns the request with its reference chosen.
+CompareRequest with_reference(CompareRequest request) {
+    request.reference = choose_reference(request.reference, request.base.scene);
+    return request;
+}
+
 /// Measures rows in rounds, one by one or together in each frame. Judges each against the reference
 /// at its sample count.
 class RowComparer {
 public:
     RowComparer(Engine& engine, const CompareRequest& request)
-        : engine_(engine), request_(request), compiled_before_(Access::compiled(engine)),
-          session_(engine, request.base.scene),
+        : engine_(engine), request_(with_reference(request)), compiled_before_(Access::compiled(engine)),
+          session_(engine, request_.base.scene),
           truths_(session_, request_.base, request_.reference, request_.watcher),
           judge_(session_, truths_, request_.base, request_.watcher) {
         if (request_.base.techniques.empty())
@@ -75,6 +83,7 @@ public:
         try {
             fill_reference();
             measure_rounds();
+            reduce_reference_noise();
             for (const StudyChoice& choice : asked_studies())
                 find_study(choice.name)
                     .run({.session = session_,
@@ -135,6 +144,7 @@ private:
         comparison_.together = request_.together;
         for (const StudyChoice& choice : asked_studies())
             comparison_.studies.push_back(choice.name);
+        if (truths_.is_noisy()) comparison_.studies.emplace_back(measure::kNoise);
     }
 
     /// Returns the studies that were asked for, in the order of the table.
@@ -187,10 +197,52 @@ private:
         comparison_.reference_technique = choice.technique;
         comparison_.reference_label = choice.label;
         comparison_.reference_settings = choice.settings;
+        describe_reference();
+    }
+
+    /// Fills the figures of the reference that change while its noise is reduced.
+    void describe_reference() {
         comparison_.reference_gpu_ms = measure::summarise_samples(
             truths_.find_reference("1").gpu_ms);
         comparison_.reference_display = truths_.find_reference("1").part.display;
+        if (!truths_.is_noisy()) return;
+        comparison_.noise = std::make_shared<measure::ReferenceNoise>(truths_.measure_noise("1"));
+        comparison_.noise->most_seconds = request_.reference_seconds;
+        std::vector<const report::Row*> rows;
+        for (const report::Row& row : comparison_.rows) rows.push_back(&row);
+        comparison_.noise->wanted_floor = measure::choose_wanted_floor(rows);
     }
+
+    /// Adds frames to a reference with noise, and judges the rows again. Rows that are judged at
+    /// other sample counts have references of their own, which share the time.
+    void reduce_reference_noise() {
+        if (!truths_.is_noisy()) return;
+        std::map<std::string, std::vector<std::size_t>> groups; // rows by sample count
+        for (std::size_t i = 0; i < comparison_.rows.size(); ++i)
+            groups[find_sample_count(parse_technique(request_.base.techniques[i]))].push_back(i);
+        for (const auto& [samples, rows] : groups)
+            while (truths_.grow_reference(samples,
+                                          request_.reference_seconds /
+                                              static_cast<double>(groups.size()),
+                                          choose_wanted_floor(rows))) {
+                for (const std::size_t row : rows) judge_row(row, judged_[row].part, judged_[row].number);
+                describe_reference();
+                report_progress();
+            }
+        judged_.clear();
+    }
+
+    double choose_wanted_floor(const std::vector<std::size_t>& indices) const {
+        std::vector<const report::Row*> rows;
+        for (const std::size_t index : indices) rows.push_back(&comparison_.rows[index]);
+        return measure::choose_wanted_floor(rows);
+    }
+
+    /// The last frame of a row, kept to judge it again.
+    struct JudgedFrame {
+        TechniqueResult part;
+        int number = 0; ///< from 1
+    };
 
     void judge_row(std::size_t index, const TechniqueResult& part, int number) {
         row_warnings_[index] = judge_.judge_row(comparison_.rows[index],
@@ -212,6 +264,7 @@ private:
         }
         comparison_.rows.push_back(std::move(row));
         row_warnings_.emplace_back();
+        judged_.emplace_back();
         prefixes_.push_back(part.prefix);
     }
 
@@ -281,7 +334,10 @@ private:
             const bool changed = last && !first &&
                                  (request_.base.animate ||
                                   !have_equal_pixels(row.hdr, parts[i].hdr));
-            if (first || changed) judge_row(index, parts[i], run.number());
+            if (first || changed) {
+                judge_row(index, parts[i], run.number());
+                if (truths_.is_noisy()) judged_[index] = {parts[i], run.number()};
+            }
             if (first) report_progress();
         }
     }
@@ -298,6 +354,7 @@ private:
     std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
     std::vector<std::vector<double>> clear_ms_; ///< by round
     std::vector<std::vector<std::string>> row_warnings_;
+    std::vector<JudgedFrame> judged_; ///< of each row; empty frames if the reference has no noise
     report::Comparison comparison_;
 };
 

@@ -4,6 +4,7 @@
 #include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
+#include "measure/metric.hpp"
 #include "measure/picture.hpp"
 #include "measure/statistics.hpp"
 #include "report/comparison.hpp"
@@ -79,42 +80,61 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
            static_cast<double>(wanted_black) < kMost * static_cast<double>(pixels);
 }
 
+/// Sets the row's estimates against the halves of a reference with noise, over all masks.
+void estimate_row_noise(report::Row& row, const measure::ReferenceHalves& halves,
+                        const std::vector<std::uint32_t>& hits, double exposure) {
+    const measure::Picture found = measure::apply_exposure(row.hdr, exposure);
+    std::vector<measure::HalvesEstimate> estimates;
+    for (const measure::Mask& mask : measure::list_masks_of_rows(hits))
+        estimates.push_back(measure::estimate_by_halves(found, halves, mask, row.flip_map));
+    measure::set_noise(row, estimates);
+}
+
 } // namespace
 
-std::vector<float> compute_flip_map(const TechniqueResult& part, const TechniqueResult& truth,
+std::vector<float> compute_flip_map(const measure::Picture& picture, const ComparedTruth& truth,
                                     double exposure) {
-    return measure::flip(measure::to_unrounded_display(part.hdr, exposure),
+    if (truth.halves != nullptr)
+        return measure::flip_against_halves(picture, *truth.halves, exposure);
+    return measure::flip(measure::to_unrounded_display(picture, exposure),
                          measure::to_unrounded_display(truth.hdr, exposure));
 }
 
-measure::Errors compute_masked_errors(const TechniqueResult& part, const TechniqueResult& truth,
+measure::Difference compute_masked_error(const measure::Picture& picture,
+                                         const ComparedTruth& truth, const measure::Mask& mask,
+                                         std::span<const float> flip_map, double exposure) {
+    const measure::Picture found = measure::apply_exposure(picture, exposure);
+    if (truth.halves != nullptr)
+        return measure::difference_from_halves(found, *truth.halves, mask, flip_map);
+    return measure::difference(found, measure::apply_exposure(truth.hdr, exposure), mask, flip_map);
+}
+
+measure::Errors compute_masked_errors(const measure::Picture& picture, const ComparedTruth& truth,
                                       std::span<const float> flip_map,
                                       const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                                       double exposure) {
-    const measure::Picture found = measure::apply_exposure(part.hdr, exposure),
+    const measure::Picture found = measure::apply_exposure(picture, exposure),
                            wanted = measure::apply_exposure(truth.hdr, exposure);
     const auto against = [&](const measure::Mask& mask) {
-        return measure::difference(found, wanted, mask, flip_map);
+        return compute_masked_error(found, {wanted, truth.halves}, mask, flip_map, 0);
     };
-    measure::Errors errors{against(measure::mask_mirror_pixels(hits)),
-                           against(measure::mask_first_order_pixels(hits)),
-                           against(measure::mask_mirror_in_mirror(hits)),
-                           against(measure::mask_non_mirror_pixels(hits)),
-                           against(measure::mask_all_pixels(hits)),
-                           against(measure::mask_smooth_dielectrics(hits)),
-                           {}};
+    measure::Errors errors;
+    const std::vector<measure::Mask> masks = measure::list_masks_of_rows(hits);
+    for (std::size_t i = 0; i < masks.size(); ++i)
+        errors.*measure::list_row_masks()[i].error = against(masks[i]);
     for (std::size_t i = 0; i < mirrors; ++i)
         errors.error_per_mirror.push_back(against(measure::mask_one_mirror(hits, MirrorId::at(i))));
     return errors;
 }
 
-void fill_row_errors(report::Row& row, const TechniqueResult& part, const TechniqueResult& truth,
+void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedTruth& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
     row.hdr = part.hdr;
     row.display = part.display;
-    row.flip_map = compute_flip_map(part, truth, exposure);
-    static_cast<measure::Errors&>(row) = compute_masked_errors(part, truth, row.flip_map, hits,
+    row.flip_map = compute_flip_map(part.hdr, truth, exposure);
+    static_cast<measure::Errors&>(row) = compute_masked_errors(part.hdr, truth, row.flip_map, hits,
                                                                mirrors, exposure);
+    if (truth.halves != nullptr) estimate_row_noise(row, *truth.halves, hits, exposure);
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
     row.mean = measure::mean_of(part.hdr, measure::ValueRange::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::ValueRange::clamped);

@@ -101,7 +101,7 @@ std::vector<ReportTable> make_cost_tables(const report::Comparison& comparison) 
         if (cells.empty()) continue;
         if (table.rows.empty())
             for (const CostCells& device : cells) table.columns.emplace_back(device.device);
-        table.rows.push_back({row.label, report::format_error(row.error.flip)});
+        table.rows.push_back({row.label, report::format_flip(row.error)});
         for (const CostCells& device : cells) table.rows.back().push_back(format_cost_cell(device));
     }
     return {table};

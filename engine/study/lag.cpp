@@ -11,6 +11,7 @@
 #include "scene/pose.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
+#include "study/reference_seeds.hpp"
 #include "study/study.hpp"
 
 #include <algorithm>
@@ -274,14 +275,22 @@ private:
     int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
 };
 
+/// Returns the reference, which draws other rays than the rows if it draws any.
+std::string separate_reference_from_rows(const std::string& reference,
+                                         const std::vector<std::string>& rows) {
+    if (!draws_rays_from_lobes(reference)) return reference;
+    return set_lobe_seed(reference, ReferenceSeeds(rows).next());
+}
+
 void add_lag(const StudyInput& input) {
     Request base = input.request.base;
     if (input.request.both_models)
         base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
                               base.techniques.end());
     measure_lag(input.session,
-                {.base = std::move(base),
-                 .reference = input.request.reference,
+                {.base = base,
+                 .reference = separate_reference_from_rows(input.request.reference,
+                                                           base.techniques),
                  .watcher = input.request.watcher,
                  .on_finished_row = input.tell},
                 *(input.comparison.lag = std::make_shared<report::LagResults>()));

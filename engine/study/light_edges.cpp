@@ -1,6 +1,5 @@
 #include "study/light_edges.hpp"
 
-#include "measure/display.hpp"
 #include "measure/light_edges.hpp"
 #include "measure/masks.hpp"
 #include "report/comparison.hpp"
@@ -29,7 +28,7 @@ std::vector<std::uint32_t> list_capture_edges(const report::Row& row) {
 } // namespace
 
 measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
-                                                    const TechniqueResult& truth,
+                                                    const ComparedTruth& truth,
                                                     const std::vector<std::uint32_t>& hits,
                                                     const std::vector<vec4>& lookup,
                                                     const LookupOracle& oracle, double exposure) {
@@ -39,10 +38,8 @@ measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
         there[i] = there[i] & elsewhere[i];
         elsewhere[i] = elsewhere[i] & static_cast<std::uint8_t>(~there[i]);
     }
-    const measure::Picture found = measure::apply_exposure(row.hdr, exposure),
-                           wanted = measure::apply_exposure(truth.hdr, exposure);
     const auto over = [&](const measure::Mask& mask) {
-        return measure::difference(found, wanted, mask, row.flip_map);
+        return compute_masked_error(row.hdr, truth, mask, row.flip_map, exposure);
     };
     return measure::split_error_by_light_edges(over(there), over(elsewhere));
 }

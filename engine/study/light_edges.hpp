@@ -2,6 +2,7 @@
 
 #include "report/comparison.hpp"
 #include "session/session.hpp"
+#include "study/compare_row.hpp"
 #include "study/oracle.hpp"
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace catoptric::app {
 /// `hits`: of the same picture (measure/masks.hpp). `lookup`: see TechniqueResult::lookup, at the
 /// oracle's instant. `exposure`: stops. Costs nine rays per mirror pixel.
 measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
-                                                    const TechniqueResult& truth,
+                                                    const ComparedTruth& truth,
                                                     const std::vector<std::uint32_t>& hits,
                                                     const std::vector<vec4>& lookup,
                                                     const LookupOracle& oracle, double exposure);

@@ -1,10 +1,38 @@
 #include "study/reference_cache.hpp"
+
+#include "compare.hpp"
+#include "core/error.hpp"
+#include "measure/masks.hpp"
+#include "scene/rough_reflectors.hpp"
 #include "session/technique_choice.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace catoptric::app {
+
+namespace {
+
+/// Returns the rmse between two halves that the variance of their frames predicts, not clamped.
+double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mask, double exposure) {
+    const measure::Picture a = noisy.a.variance(), b = noisy.b.variance();
+    double sum = 0, pixels = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        if (mask[i] == 0) continue;
+        const dvec3 both = dvec3(a.pixels[i]) + dvec3(b.pixels[i]);
+        sum += (both.x + both.y + both.z) / 3, ++pixels;
+    }
+    return std::exp2(exposure) * std::sqrt(sum / pixels);
+}
+
+} // namespace
+
+std::string choose_reference(const std::string& asked, const scene::Scene& scene) {
+    if (!asked.empty()) return asked;
+    return scene::has_rough_mirror(scene) ? kRoughReference : kReference;
+}
 
 std::string find_sample_count(const TechniqueChoice& choice) {
     for (const auto& setting : choice.settings)
@@ -27,20 +55,101 @@ RunResult ReferenceCache::render_reference(const std::string& technique, int num
     return run(session_, request, watcher_);
 }
 
-const ReferencePicture& ReferenceCache::find_reference(const std::string& samples, int number) {
+bool ReferenceCache::is_noisy() const {
+    if (!noisy_)
+        noisy_ = draws_rays_from_lobes(reference_) && scene::has_rough_reflector(base_.scene);
+    return *noisy_;
+}
+
+void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& technique,
+                                int number) {
+    NoisyReference& noisy = *reference.noisy;
+    const auto start = std::chrono::steady_clock::now();
+    Request request = base_;
+    request.model = RenderedWork::everything;
+    request.time = base_.instant(number); // the rays of a frame do not depend on frames before
+    request.animate = false;
+    request.warmup = 0, request.frames = 1;
+    for (measure::PictureMean* half : {&noisy.a, &noisy.b}) {
+        request.techniques = {set_lobe_seed(technique, noisy.seeds.next())};
+        RunResult result = run(session_, request, watcher_);
+        half->add(result.parts.front().hdr);
+        reference.gpu_ms.push_back(result.frames.front().gpu_ms);
+        if (reference.part.hdr.pixels.empty()) reference.part = std::move(result.parts.front());
+    }
+    noisy.halves = measure::make_halves(noisy.a.mean(), noisy.b.mean(), base_.exposure);
+    // The mean of both halves, before exposure.
+    measure::PictureMean both;
+    both.add(noisy.a.mean());
+    both.add(noisy.b.mean());
+    reference.part.hdr = both.mean();
+    reference.part.display = measure::to_display(reference.part.hdr, base_.exposure);
+    noisy.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+                         .count();
+}
+
+ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& samples, int number) {
     const std::pair key(samples, choose_frame_to_render(number));
     const auto found = truths_.find(key);
     if (found != truths_.end()) return found->second;
-    RunResult result = render_reference(set_reference_samples(reference_, samples), key.second);
-    ReferencePicture made{std::move(result.parts.front()), {}};
-    for (const FrameTimes& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
+    const std::string technique = set_reference_samples(reference_, samples);
+    ReferencePicture made;
+    if (is_noisy()) {
+        std::vector<std::string> rows = base_.techniques;
+        rows.push_back(reference_);
+        made.noisy = std::make_shared<NoisyReference>(ReferenceSeeds(rows));
+        add_frames(made, technique, key.second);
+        made.part.hits.clear(); // the second mirror of a drawn ray is a draw as well
+    } else {
+        RunResult result = render_reference(technique, key.second);
+        made.part = std::move(result.parts.front());
+        for (const FrameTimes& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
+    }
     return truths_.emplace(key, std::move(made)).first->second;
+}
+
+const ReferencePicture& ReferenceCache::find_reference(const std::string& samples, int number) {
+    return find_reference_to_change(samples, number);
+}
+
+bool ReferenceCache::grow_reference(const std::string& samples, double seconds, double wanted) {
+    if (!is_noisy()) return false;
+    ReferencePicture& reference = find_reference_to_change(samples, base_.total());
+    const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
+    const auto is_done = [&] {
+        return measure::flip_mean(reference.noisy->halves.floor_map, mirrors) <= wanted ||
+               reference.noisy->seconds >= seconds;
+    };
+    bool has_grown = false;
+    const auto whole = static_cast<std::size_t>(std::max(std::ceil(seconds), 1.0));
+    for (; !is_done(); has_grown = true) {
+        tell_row(watcher_,
+                 "reference " + reference_ + ", " + std::to_string(reference.noisy->a.count()) +
+                     " frames a half",
+                 has_grown ? static_cast<std::size_t>(reference.noisy->seconds) : 0, whole);
+        add_frames(reference, set_reference_samples(reference_, samples), base_.total());
+    }
+    return has_grown;
+}
+
+measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples) {
+    const ReferencePicture& reference = find_reference(samples);
+    check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
+    const NoisyReference& noisy = *reference.noisy;
+    const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
+    const measure::HalvesEstimate between = measure::estimate_by_halves(
+        noisy.halves.a, noisy.halves, mirrors, noisy.halves.floor_map);
+    return {.frames = noisy.a.count(),
+            .seconds = noisy.seconds,
+            .flip_floor = between.flip_floor,
+            .halves_rmse = between.halves_rmse,
+            .predicted_rmse = predict_halves_rmse(noisy, mirrors, base_.exposure)};
 }
 
 const std::vector<std::uint32_t>& ReferenceCache::find_mirror_hits(int number) {
     const std::vector<std::uint32_t>& known = find_reference("1", number).part.hits;
     if (!known.empty()) return known;
-    // A reference that traces no rays has no hits, so a ray-traced picture provides them.
+    // A reference that traces no rays, or draws them, has no hits. Then a ray-traced picture provides them.
     std::vector<std::uint32_t>& traced = hits_[choose_frame_to_render(number)];
     if (traced.empty())
         traced = std::move(render_reference("raytrace:depth=1", choose_frame_to_render(number))

@@ -1,20 +1,46 @@
 #pragma once
 
+#include "measure/halves.hpp"
+#include "measure/picture_mean.hpp"
 #include "session/run.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
+#include "study/compare_row.hpp"
+#include "study/reference_seeds.hpp"
 
+#include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace catoptric::app {
 
+/// Rays from each rough surface in a frame of the default reference of scenes with rough mirrors.
+inline constexpr const char* kRoughReference = "raytrace:depth=16,rays=64";
+/// Returns the reference of a comparison: the one that was asked for, kRoughReference if the scene
+/// has a rough mirror, or kReference.
+std::string choose_reference(const std::string& asked, const scene::Scene& scene);
+
+/// Two means of frames of a reference with noise. The frames of both have different seeds.
+struct NoisyReference {
+    explicit NoisyReference(ReferenceSeeds free_seeds) : seeds(std::move(free_seeds)) {}
+
+    ReferenceSeeds seeds;
+    measure::PictureMean a, b;
+    measure::ReferenceHalves halves; ///< of these means, after exposure
+    double seconds = 0;              ///< time in which the frames were rendered
+};
+
 /// Picture that a row is judged against: the reference at the row's own sample count.
 struct ReferencePicture {
-    TechniqueResult part;
+    TechniqueResult part; ///< of a reference with noise, the picture is the mean of its halves
     std::vector<double> gpu_ms;
+    std::shared_ptr<NoisyReference> noisy; ///< null: the reference has no noise
+
+    ComparedTruth truth() const { return {part.hdr, noisy ? &noisy->halves : nullptr}; }
 };
 
 /// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
@@ -23,11 +49,13 @@ std::string find_sample_count(const TechniqueChoice& choice);
 /// knob.
 std::string set_reference_samples(const std::string& reference, const std::string& samples);
 
-/// The reference of a comparison, rendered once for each sample count and instant on demand.
+/// The reference of a comparison, rendered once for each sample count and instant on demand. A
+/// reference that draws rays from lobes has noise if the scene has a rough reflector. Such a
+/// reference is kept as two halves (measure/halves.hpp), which begin with a frame each and may grow.
 class ReferenceCache {
 public:
     /// All objects passed by reference must outlive the cache. `base` describes the scene that the
-    /// session shows.
+    /// session shows, and its techniques are the rows.
     ReferenceCache(Session& session, const Request& base, const std::string& reference,
                    const Watcher& watcher)
         : session_(session), base_(base), reference_(reference), watcher_(watcher) {}
@@ -44,11 +72,24 @@ public:
     const std::vector<std::uint32_t>& find_mirror_hits() { return find_mirror_hits(base_.total()); }
     const std::vector<std::uint32_t>& find_mirror_hits(int number);
 
+    /// Returns whether the reference has noise.
+    bool is_noisy() const;
+    /// Adds frames to both halves of the reference of a row's last frame, until the FLIP between
+    /// the halves over the mirrors is at most `wanted` or the reference took `seconds` in all.
+    /// Reports progress to the watcher. Returns whether any frame was added. Does nothing for a
+    /// reference without noise.
+    bool grow_reference(const std::string& samples, double seconds, double wanted);
+    /// Returns the noise of that reference over the mirrors. Only for references with noise.
+    measure::ReferenceNoise measure_noise(const std::string& samples);
+
 private:
     /// Returns the frame that is rendered for frame `number`. All frames of a still scene are
     /// equal, so the last frame is rendered for each of them.
     int choose_frame_to_render(int number) const { return base_.animate ? number : base_.total(); }
     RunResult render_reference(const std::string& technique, int number) const;
+    /// Adds a frame of each half, and updates the picture.
+    void add_frames(ReferencePicture& reference, const std::string& technique, int number);
+    ReferencePicture& find_reference_to_change(const std::string& samples, int number);
 
     Session& session_;
     const Request& base_;
@@ -57,6 +98,7 @@ private:
     std::map<std::pair<std::string, int>, ReferencePicture> truths_; ///< by sample count and frame
     /// First hits of the reference's camera rays, by frame number.
     std::map<int, std::vector<std::uint32_t>> hits_;
+    mutable std::optional<bool> noisy_;
 };
 
 } // namespace catoptric::app

@@ -53,8 +53,8 @@ const LookupOracle& RowJudge::find_oracle(int number) {
 
 std::vector<std::string> RowJudge::judge_row(report::Row& row, const std::string& text,
                                              const TechniqueResult& part, int number) {
-    const TechniqueResult& truth =
-        truths_.find_reference(find_sample_count(parse_technique(text)), number).part;
+    const ComparedTruth truth =
+        truths_.find_reference(find_sample_count(parse_technique(text)), number).truth();
     const std::vector<std::uint32_t>& hits = truths_.find_mirror_hits(number);
     row.pictured = number;
     fill_row_errors(row, part, truth, hits, scene::mirrors(base_.scene).size(), base_.exposure);

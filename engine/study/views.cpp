@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
 namespace catoptric::app {
 
@@ -61,14 +62,15 @@ measure::Picture place_side_by_side(const measure::Picture& left, const measure:
     return both;
 }
 
-void add_view_errors(report::Row& row, const TechniqueResult& part, const TechniqueResult& truth,
+void add_view_errors(report::Row& row, const TechniqueResult& part, const ReferencePicture& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
-    const std::vector<float> flip_map = compute_flip_map(part, truth, exposure);
-    row.views.push_back(compute_masked_errors(part, truth, flip_map, hits, mirrors, exposure));
+    const std::vector<float> flip_map = compute_flip_map(part.hdr, truth.truth(), exposure);
+    row.views.push_back(
+        compute_masked_errors(part.hdr, truth.truth(), flip_map, hits, mirrors, exposure));
     const double flip = row.views.back().error.flip;
     // A view without judged pixels is never the worst.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
-        row.worst = {row.views.size() - 1, place_side_by_side(part.display, truth.display)};
+        row.worst = {row.views.size() - 1, place_side_by_side(part.display, truth.part.display)};
 }
 
 void check_view_count(std::string_view option, int count) {
@@ -82,6 +84,7 @@ void add_views(const StudyInput& input) {
         measure_views(input.session,
                       {.base = input.request.base,
                        .reference = input.request.reference,
+                       .reference_seconds = input.request.reference_seconds,
                        .watcher = input.request.watcher,
                        .on_finished_view = input.tell},
                       input.comparison);
@@ -130,12 +133,22 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
           " techniques: wanted as many rows, found ", comparison.rows.size());
     const std::size_t count = comparison.views.size(), pictures = texts.size() + 1;
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
+    std::vector<const report::Row*> rows;
+    for (const report::Row& row : comparison.rows) rows.push_back(&row);
     for (std::size_t i = 0; i < count; ++i) {
         const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
         Request at_view = make_view_request(request.base, comparison.views[i]);
         ReferenceCache truths(session, at_view, request.reference, request.watcher);
         tell_row(request.watcher, label + ": reference", i * pictures, count * pictures);
         const std::vector<std::uint32_t> hits = truths.find_mirror_hits();
+        std::set<std::string> sample_counts;
+        for (const std::string& text : texts)
+            sample_counts.insert(find_sample_count(parse_technique(text)));
+        for (const std::string& samples : sample_counts)
+            truths.grow_reference(
+                samples,
+                request.reference_seconds / static_cast<double>(count * sample_counts.size()),
+                measure::choose_wanted_floor(rows));
         for (std::size_t k = 0; k < texts.size(); ++k) {
             tell_row(request.watcher, label + ": " + comparison.rows[k].label, i * pictures + k + 1,
                      count * pictures);
@@ -147,7 +160,7 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
             const RunResult result = run(session, one, request.watcher);
             add_view_errors(
                 comparison.rows[k], result.parts.front(),
-                truths.find_reference(find_sample_count(parse_technique(texts[k]))).part, hits,
+                truths.find_reference(find_sample_count(parse_technique(texts[k]))), hits,
                 mirrors, request.base.exposure);
         }
         if (request.on_finished_view) request.on_finished_view();

@@ -18,6 +18,8 @@ struct ViewsRequest {
     const Request&
         base; ///< the compared scene, with the techniques in the order of the comparison's rows
     std::string reference = "raytrace:depth=16";
+    /// Most time to reduce the noise of the reference, seconds for all views together.
+    double reference_seconds = 0;
     Watcher watcher;
     /// Called after each view, as soon as every row has its errors in that view. The function may
     /// be empty.

@@ -16,6 +16,7 @@
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "study/asked.hpp"
+#include "study/reference_cache.hpp"
 #include "study/study.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
@@ -45,6 +46,7 @@ struct CompareOptions {
     std::string folder;
     std::vector<std::string> techniques;
     bool together = false;
+    double reference_seconds = app::CompareRequest().reference_seconds;
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumns csv = report::CsvColumns::table;
     std::vector<app::StudyChoice> studies;
@@ -74,7 +76,8 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     if (keeps && !common.animate && !common.warmup) request.base.warmup = app::Request().total();
     request.base.techniques = options.techniques;
     request.both_models = options.common.both_models;
-    request.reference = options.common.reference;
+    request.reference = app::choose_reference(options.common.reference, request.base.scene);
+    request.reference_seconds = options.reference_seconds;
     request.together = options.together;
     request.rounds = options.rounds.value_or(request.rounds);
     request.studies = options.studies;
@@ -88,8 +91,9 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     check_rounds(options);
     check_techniques_hold_no_scene(options.techniques);
     app::check_rows(options.techniques);
+    const std::string& reference = options.common.reference;
     for (const app::StudyChoice& choice : options.studies)
-        app::check_study(choice, options.common.reference);
+        app::check_study(choice, reference.empty() ? app::kReference : reference);
     std::vector<app::CompareRequest> requests;
     const std::vector<std::string> scenes = list_scenes_to_compare(options);
     for (const std::string& scene : scenes) {
@@ -305,6 +309,12 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                 [options](const std::string& text) {
                     options->rounds = static_cast<int>(
                         parse_integer("--rounds", text, app::kRounds, 10000));
+                });
+    verb.option("--reference-seconds", "S",
+                "most seconds to reduce the noise of a reference with rays=N, if a surface is rough "
+                "(60)",
+                [options](const std::string& text) {
+                    options->reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
                 });
     add_studies(verb, *options, StudyOption::words);
     add_studies(verb, *options, StudyOption::flag);

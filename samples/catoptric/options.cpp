@@ -55,7 +55,8 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
                 "requires (default of render); both: compare shows both (everything)",
                 [&](const std::string& text) { parse_model_option(text, common); });
     verb.option("--reference", "T",
-                "technique of the reference picture of compare (raytrace:depth=16)",
+                "technique of the reference picture of compare (raytrace:depth=16; rays=64 more if a "
+                "mirror is rough)",
                 [&](const std::string& text) {
                     const app::TechniqueChoice choice = app::parse_technique(text);
                     check(choice.technique != "plan", Failure::usage,

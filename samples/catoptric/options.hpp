@@ -40,7 +40,7 @@ struct CommonOptions {
     scene::SceneOverrides
         overrides; ///< scene overrides: mirrors, lights, environment, camera, exposure ...
     bool use_scene_file = true;
-    std::string reference = "raytrace:depth=16";
+    std::string reference; ///< empty: app::choose_reference chooses
     DeviceOptions device;
     std::optional<app::RenderedWork> model; ///< none: default of the verb
     bool both_models = false;               ///< `compare` only: measures each row with both models

@@ -1,6 +1,7 @@
 #include "table.hpp"
 
 #include "core/text.hpp"
+#include "measure/halves.hpp"
 #include "measure/judge.hpp"
 #include "measure/row_notes.hpp"
 #include "report/comparison.hpp"
@@ -19,6 +20,25 @@ std::string format_milliseconds(double ms) { return fmt::format("{:.3f}", ms); }
 /// Returns a number with five decimals, or a dash if it is not finite.
 std::string format_five_decimals(double value) {
     return std::isfinite(value) ? fmt::format("{:.5f}", value) : "-";
+}
+
+/// Returns an rmse, or words if its estimate is negative.
+std::string format_rmse(double rmse) {
+    return rmse < 0 ? "below the noise" : format_five_decimals(rmse);
+}
+
+std::string format_flip(const measure::Difference& error) {
+    return format_five_decimals(error.flip) +
+           (measure::is_below_noise(error) ? " below the noise" : "");
+}
+
+/// Returns a line on the reference's noise, or nothing.
+std::string describe_noise(const report::Comparison& comparison) {
+    if (!comparison.noise) return "";
+    return fmt::format("noise: two halves of {} frames, FLIP {} between them; smaller differences "
+                       "tie\n",
+                       comparison.noise->frames,
+                       format_five_decimals(comparison.noise->flip_floor));
 }
 
 std::string format_percent(double share) {
@@ -67,8 +87,8 @@ std::string make_compare_table(const report::Comparison& comparison) {
                         places.first == places.last
                             ? std::to_string(places.first)
                             : fmt::format("{}-{}", places.first, places.last),
-                        format_five_decimals(row.error.flip), format_percent(row.error.off),
-                        format_five_decimals(row.error.mae), format_five_decimals(row.error.rmse),
+                        format_flip(row.error), format_percent(row.error.off),
+                        format_five_decimals(row.error.mae), format_rmse(row.error.rmse),
                         format_five_decimals(row.mean_clamped.all)});
         if (has_notes)
             rows.back().push_back(
@@ -86,7 +106,7 @@ std::string make_compare_table(const report::Comparison& comparison) {
                        escape_control_characters(comparison.scene.name), comparison.width,
                        comparison.height, comparison.frames, comparison.rounds, comparison.warmup,
                        comparison.device.name, comparison.reference_label) +
-           align_columns(rows, notes_at);
+           describe_noise(comparison) + align_columns(rows, notes_at);
 }
 
 } // namespace catoptric::cli

@@ -1,0 +1,202 @@
+#include "measure/halves.hpp"
+
+#include "core/error.hpp"
+#include "measure/display.hpp"
+#include "measure/metric.hpp"
+#include "measure/pixel_error.hpp"
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace catoptric::measure {
+
+namespace {
+
+constexpr int kResamples = 1000;
+constexpr std::uint64_t kResamplingSeed = 1;
+
+/// Sum over the finite pixels of one tile.
+struct TileSum {
+    double products = 0, pixels = 0;
+};
+
+/// Returns the product of both differences, summed over the channels.
+double product_of_differences(const dvec3& x, const dvec3& a, const dvec3& b) {
+    return glm::dot(x - a, x - b);
+}
+
+bool crosses_one(const vec3& a, const vec3& b) {
+    for (int channel = 0; channel < 3; ++channel)
+        if ((a[channel] > 1) != (b[channel] > 1)) return true;
+    return false;
+}
+
+/// Returns the interval of the mean product over tiles that are drawn with replacement.
+Interval bootstrap_interval(std::vector<TileSum> tiles) {
+    std::erase_if(tiles, [](const TileSum& tile) { return tile.pixels == 0; });
+    if (tiles.size() < kFewestTiles) return {};
+    std::mt19937_64 random(kResamplingSeed);
+    std::vector<double> means;
+    means.reserve(kResamples);
+    for (int k = 0; k < kResamples; ++k) {
+        TileSum sum;
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const TileSum& drawn = tiles[(random() >> 32) * tiles.size() >> 32];
+            sum.products += drawn.products, sum.pixels += drawn.pixels;
+        }
+        means.push_back(sum.products / (3 * sum.pixels));
+    }
+    return {compute_percentile(means, .025), compute_percentile(std::move(means), .975)};
+}
+
+double signed_root(double square) {
+    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
+}
+
+/// Sums of one mask.
+struct HalvesSum {
+    std::vector<TileSum> tiles;
+    double pixels = 0, products = 0, unclamped = 0, between = 0, crossing = 0, flip = 0, floor = 0;
+};
+
+HalvesSum sum_over_mask(const Picture& picture, const ReferenceHalves& halves, const Mask& mask,
+                        std::span<const float> flip_map) {
+    const auto width = static_cast<std::size_t>(picture.width);
+    const std::size_t across = (width + kTileEdge - 1) / kTileEdge;
+    HalvesSum sum;
+    sum.tiles.resize(across * ((picture.pixels.size() / width + kTileEdge - 1) / kTileEdge));
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const vec3 &x = picture.pixels[i], &a = halves.a.pixels[i], &b = halves.b.pixels[i];
+        if (!mask.empty() && mask[i] == 0) continue;
+        if (!is_finite(x) || !is_finite(a) || !is_finite(b)) continue;
+        const dvec3 low_a = clamp_pixel(a), low_b = clamp_pixel(b);
+        const double product = product_of_differences(clamp_pixel(x), low_a, low_b);
+        TileSum& tile = sum.tiles[i / width / kTileEdge * across + i % width / kTileEdge];
+        tile.products += product, ++tile.pixels;
+        sum.products += product, ++sum.pixels;
+        sum.unclamped += product_of_differences(dvec3(x), dvec3(a), dvec3(b));
+        sum.between += glm::dot(low_a - low_b, low_a - low_b);
+        sum.crossing += crosses_one(a, b);
+        sum.flip += static_cast<double>(flip_map[i]);
+        sum.floor += static_cast<double>(halves.floor_map[i]);
+    }
+    return sum;
+}
+
+void check_halves_match(const Picture& picture, const ReferenceHalves& halves, const Mask& mask,
+                        std::size_t flip_size) {
+    for (const Picture* half : {&halves.a, &halves.b})
+        check(half->width == picture.width && half->height == picture.height, Failure::bad_data,
+              "halves of a reference: wanted the size of the picture, ", picture.width, "x",
+              picture.height, ", found ", half->width, "x", half->height);
+    check((mask.empty() || mask.size() == picture.pixels.size()) &&
+              flip_size == picture.pixels.size() &&
+              halves.floor_map.size() == picture.pixels.size(),
+          Failure::bad_data, "halves of a reference: wanted a mask and FLIP maps of ",
+          picture.pixels.size(), " pixels, found ", mask.size(), ", ", flip_size, " and ",
+          halves.floor_map.size());
+}
+
+MetricValue interval_value(const Interval& interval) {
+    return interval.is_known() ? MetricValue(std::vector{interval.low, interval.high})
+                               : MetricValue();
+}
+
+const RegisteredMetric kNoiseMetric{
+    {.name = kNoise,
+     .help = "errors against a reference with noise, for each mask: the unbiased squared error, its "
+             "95 % interval, the same without clamping, the share of pixels in which one half of "
+             "the reference crosses 1, and FLIP with its floor",
+     .order = 290,
+     .study = kNoise}};
+
+} // namespace
+
+ReferenceHalves make_halves(const Picture& a, const Picture& b, double exposure) {
+    ReferenceHalves halves{apply_exposure(a, exposure), apply_exposure(b, exposure), {}, {}};
+    halves.mean = Picture(a.width, a.height);
+    for (std::size_t i = 0; i < halves.mean.pixels.size(); ++i)
+        halves.mean.pixels[i] = vec3((dvec3(halves.a.pixels[i]) + dvec3(halves.b.pixels[i])) / 2.);
+    halves.floor_map = flip(to_unrounded_display(a, exposure), to_unrounded_display(b, exposure));
+    return halves;
+}
+
+std::vector<float> flip_against_halves(const Picture& picture, const ReferenceHalves& halves,
+                                       double exposure) {
+    const Picture shown = to_unrounded_display(picture, exposure);
+    std::vector<float> map = flip(shown, to_unrounded_display(halves.a));
+    const std::vector<float> second = flip(shown, to_unrounded_display(halves.b));
+    for (std::size_t i = 0; i < map.size(); ++i) map[i] = (map[i] + second[i]) / 2;
+    return map;
+}
+
+Difference difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
+                                  const Mask& mask, std::span<const float> flip_map) {
+    check_halves_match(picture, halves, mask, flip_map.size());
+    Difference result = difference(picture, halves.mean, mask, flip_map);
+    const HalvesSum sum = sum_over_mask(picture, halves, mask, flip_map);
+    if (sum.pixels == 0) return result;
+    result.rmse = signed_root(sum.products / (3 * sum.pixels));
+    result.psnr.reset();
+    if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
+    result.flip_floor = sum.floor / sum.pixels;
+    return result;
+}
+
+HalvesEstimate estimate_by_halves(const Picture& picture, const ReferenceHalves& halves,
+                                  const Mask& mask, std::span<const float> flip_map) {
+    check_halves_match(picture, halves, mask, flip_map.size());
+    HalvesSum sum = sum_over_mask(picture, halves, mask, flip_map);
+    if (sum.pixels == 0) return {};
+    const double values = 3 * sum.pixels;
+    return {.squared_error = sum.products / values,
+            .ci95 = bootstrap_interval(std::move(sum.tiles)),
+            .unclamped = sum.unclamped / values,
+            .crossing = sum.crossing / sum.pixels,
+            .halves_rmse = std::sqrt(sum.between / values),
+            .flip = sum.flip / sum.pixels,
+            .flip_floor = sum.floor / sum.pixels};
+}
+
+bool is_below_noise(const Difference& error) {
+    return error.flip_floor > 0 && error.flip <= error.flip_floor;
+}
+
+double find_flip_floor(const Difference& a, const Difference& b) {
+    return std::max(a.flip_floor, b.flip_floor);
+}
+
+double choose_wanted_floor(const std::vector<const Row*>& rows) {
+    constexpr double kShare = .2;
+    double captures = INFINITY, others = INFINITY;
+    for (const Row* row : rows) {
+        if (row->is_reference || !std::isfinite(row->error.flip)) continue;
+        const bool traces_all = row->rays && !row->traced_fraction;
+        double& least = traces_all ? others : captures;
+        least = std::min(least, row->error.flip);
+    }
+    const double least = std::isfinite(captures) ? captures : others;
+    return std::isfinite(least) ? kShare * least : 0;
+}
+
+void set_noise(Row& row, const std::vector<HalvesEstimate>& estimates) {
+    std::vector<ValueParts> list;
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+        const HalvesEstimate& estimate = estimates[i];
+        if (std::isnan(estimate.squared_error)) continue; // the mask has no pixel
+        list.push_back({"mask",
+                        std::string(list_row_masks()[i].name),
+                        {{"squared_error", estimate.squared_error},
+                         {"ci95", interval_value(estimate.ci95)},
+                         {"squared_error_unclamped", estimate.unclamped},
+                         {"crossing", estimate.crossing},
+                         {"halves_rmse", estimate.halves_rmse},
+                         {"flip", estimate.flip},
+                         {"flip_floor", estimate.flip_floor}}});
+    }
+    set_studied(row, std::string(kNoise), std::move(list));
+}
+
+} // namespace catoptric::measure

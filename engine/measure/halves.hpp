@@ -1,0 +1,98 @@
+#pragma once
+
+#include "measure/comparison.hpp"
+#include "measure/picture.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+// Errors against a reference with noise. The reference is kept as two halves A and B, whose noise
+// is independent. For a picture x, the mean of (x - A)(x - B) is an unbiased estimate of the squared
+// error of x against the reference without noise, because the noise of A and that of B have mean 0
+// and do not correlate. The estimate may be negative if the error is smaller than the noise.
+namespace catoptric::measure {
+
+/// Two halves of a reference, as linear RGB after exposure, and the FLIP between them.
+struct ReferenceHalves {
+    Picture a, b;
+    Picture mean;                 ///< of both
+    std::vector<float> floor_map; ///< FLIP map of `a` and `b`
+};
+/// Returns halves with these pictures. `exposure`: stops, by which the pictures are multiplied.
+ReferenceHalves make_halves(const Picture& a, const Picture& b, double exposure);
+
+/// Returns a picture's mean FLIP map against the two halves. `picture` is linear, before exposure.
+std::vector<float> flip_against_halves(const Picture& picture, const ReferenceHalves& halves,
+                                       double exposure);
+
+/// Returns the difference of a picture, after exposure, and the halves. `rmse` is the root of the
+/// unbiased squared error; if the estimate is negative, -sqrt(-estimate), and the error is below the
+/// noise. `psnr` follows `rmse`, and is empty below the noise. `flip` is the mean of `flip_map` (see
+/// flip_against_halves), and `flip_floor` the mean FLIP between the halves. All other figures are
+/// those against the mean of both halves, whose noise they include.
+Difference difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
+                                  const Mask& mask, std::span<const float> flip_map);
+
+/// Edge of the tiles that the bootstrap draws, pixels.
+inline constexpr int kTileEdge = 16;
+/// Fewest tiles with pixels of the mask for which there is an interval.
+inline constexpr std::size_t kFewestTiles = 10;
+
+/// The estimate of a picture's squared error over the pixels of a mask, and its noise. All squared
+/// errors are means over pixels and channels.
+struct HalvesEstimate {
+    /// Unbiased for the clamped pictures: linear RGB times 2^exposure, clamped to [0,1].
+    double squared_error = Difference::kNone;
+    /// 95 % interval of the squared error, by the percentile bootstrap over tiles of 16x16 pixels
+    /// (Efron and Tibshirani 1993, 13). Neighbouring pixels share errors, and tiles keep them
+    /// together. Unknown for fewer than kFewestTiles tiles.
+    Interval ci95;
+    /// The same estimate without clamping, which stays unbiased where a half crosses 1.
+    double unclamped = Difference::kNone;
+    /// Share of the pixels in which one half exceeds 1 in a channel and the other does not. Clamping
+    /// biases these pixels.
+    double crossing = Difference::kNone;
+    double halves_rmse = Difference::kNone; ///< rmse between the two halves, clamped
+    double flip = Difference::kNone;        ///< as in Difference
+    double flip_floor = Difference::kNone;  ///< as in Difference
+};
+HalvesEstimate estimate_by_halves(const Picture& picture, const ReferenceHalves& halves,
+                                  const Mask& mask, std::span<const float> flip_map);
+
+/// Returns whether a row's FLIP over these pixels is no larger than that between the halves of its
+/// reference. False for a reference without noise.
+bool is_below_noise(const Difference& error);
+/// Returns the difference of two rows' FLIP below which they tie: the larger floor of the two, or 0
+/// for references without noise.
+double find_flip_floor(const Difference& a, const Difference& b);
+
+/// Returns the FLIP between the halves at which a reference need not be refined further: a fifth of
+/// the least FLIP over the mirrors of a row that looks into captures. If there is no such row, all
+/// rows but the reference count; 0 without any.
+double choose_wanted_floor(const std::vector<const Row*>& rows);
+
+/// Name of the metric that lists a row's HalvesEstimate for each mask, and of the study that shows
+/// it.
+inline constexpr std::string_view kNoise = "noise";
+/// Sets the row's metric kNoise. `estimates` has one entry for each of list_row_masks().
+void set_noise(Row& row, const std::vector<HalvesEstimate>& estimates);
+
+/// The noise of a comparison's reference.
+struct ReferenceNoise {
+    int frames = 0;         ///< frames of each half, each with seeds of its own
+    double seconds = 0;     ///< time in which they were rendered
+    double most_seconds = 0; ///< CompareRequest::reference_seconds
+    double wanted_floor = Difference::kNone; ///< a fifth of the least FLIP of a row with captures
+    /// FLIP and rmse between the halves, over the mirrors.
+    double flip_floor = Difference::kNone, halves_rmse = Difference::kNone;
+    /// rmse between the halves that the variance of each half's frames predicts, over the mirrors
+    /// and not clamped; NaN for fewer than two frames a half.
+    double predicted_rmse = Difference::kNone;
+
+    bool is_reached() const { return flip_floor <= wanted_floor; }
+};
+
+} // namespace catoptric::measure

@@ -1,0 +1,56 @@
+#include "study/reference_seeds.hpp"
+
+#include "session/plan_file.hpp"
+#include "session/technique_choice.hpp"
+
+#include <algorithm>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr std::string_view kSeed = "seed";
+
+/// Returns the value of a knob that holds whole numbers, or 0 if the technique lacks the knob.
+double find_number(const TechniqueChoice& choice, std::string_view knob) {
+    const auto setting = std::ranges::find(choice.settings, knob, &Setting::name);
+    return setting == choice.settings.end() ? 0 : setting->number.value_or(0);
+}
+
+} // namespace
+
+std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
+    std::set<int> seeds{0};
+    for (const std::string& row : rows)
+        for (const reflect::PlanRule& rule : read_plan(row).rules)
+            for (const Knob& knob : rule.choice.settings.knobs())
+                if (knob.name == kSeed) seeds.insert(rule.choice.settings.integer(knob));
+    return seeds;
+}
+
+int ReferenceSeeds::next() {
+    do {
+        ++last_;
+    } while (taken_.contains(last_));
+    return last_;
+}
+
+bool draws_rays_from_lobes(const std::string& technique) {
+    const TechniqueChoice choice = parse_technique(technique);
+    return choice.technique == "raytrace" && find_number(choice, "rays") > 0;
+}
+
+std::string set_lobe_seed(const std::string& technique, int seed) {
+    const TechniqueChoice choice = parse_technique(technique);
+    std::string text = choice.technique;
+    char separator = ':';
+    for (const Setting& setting : choice.settings) {
+        const bool is_seed = setting.name == kSeed;
+        if (!is_seed && !setting.changed) continue;
+        text += separator + setting.name + "=" + (is_seed ? std::to_string(seed) : setting.text);
+        separator = ',';
+    }
+    return text;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace catoptric::app {
+
+/// Returns the values of the knob `seed` in these rows: techniques or plans. Rows without the knob
+/// have the seed 0, so 0 is always listed.
+std::set<int> list_row_seeds(const std::vector<std::string>& rows);
+
+/// Seeds of the frames of a reference with noise. No seed is given twice, and none is that of a row,
+/// because shared rays would make the row's error look small.
+class ReferenceSeeds {
+public:
+    /// `rows`: the judged rows.
+    explicit ReferenceSeeds(const std::vector<std::string>& rows) : taken_(list_row_seeds(rows)) {}
+    /// Returns the next seed, from 1.
+    int next();
+
+private:
+    std::set<int> taken_;
+    int last_ = 0;
+};
+
+/// Returns whether the technique draws rays from lobes: `raytrace` with rays above 0.
+bool draws_rays_from_lobes(const std::string& technique);
+/// Returns the text of a `raytrace` technique with another value of the knob `seed`.
+std::string set_lobe_seed(const std::string& technique, int seed);
+
+} // namespace catoptric::app
