@@ -24,7 +24,8 @@ struct CompareRequest {
     /// Scene and settings. Its `techniques` are the rows; empty: those that techniques propose.
     Request base;
     std::string reference; ///< empty: kReference, or rays from lobes if a mirror is rough
-    double reference_seconds = 60; ///< most time to reduce the noise of a reference of rough mirrors
+    double reference_seconds =
+        60;                ///< most time to reduce the noise of a reference of rough mirrors
     bool together = false; ///< render all rows in one frame
     /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
     int rounds = kRounds;

@@ -51,9 +51,7 @@ Interval bootstrap_interval(std::vector<TileSum> tiles) {
     return {compute_percentile(means, .025), compute_percentile(std::move(means), .975)};
 }
 
-double signed_root(double square) {
-    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
-}
+double signed_root(double square) { return square < 0 ? -std::sqrt(-square) : std::sqrt(square); }
 
 /// Sums of one mask.
 struct HalvesSum {
@@ -106,9 +104,10 @@ MetricValue interval_value(const Interval& interval) {
 
 const RegisteredMetric kNoiseMetric{
     {.name = kNoise,
-     .help = "errors against a reference with noise, for each mask: the unbiased squared error, its "
-             "95 % interval, the same without clamping, the share of pixels in which one half of "
-             "the reference crosses 1, and FLIP with its floor",
+     .help =
+         "errors against a reference with noise, for each mask: the unbiased squared error, its "
+         "95 % interval, the same without clamping, the share of pixels in which one half of "
+         "the reference crosses 1, and FLIP with its floor",
      .order = 290,
      .study = kNoise}};
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 // Errors against a reference with noise. The reference is kept as two halves A and B, whose noise
-// is independent. For a picture x, the mean of (x - A)(x - B) is an unbiased estimate of the squared
-// error of x against the reference without noise, because the noise of A and that of B have mean 0
-// and do not correlate. The estimate may be negative if the error is smaller than the noise.
+// is independent. For a picture x, the mean of (x - A)(x - B) is an unbiased estimate of the
+// squared error of x against the reference without noise, because the noise of A and that of B have
+// mean 0 and do not correlate. The estimate may be negative if the error is smaller than the noise.
 namespace catoptric::measure {
 
 /// Two halves of a reference, as linear RGB after exposure, and the FLIP between them.
@@ -29,10 +29,10 @@ std::vector<float> flip_against_halves(const Picture& picture, const ReferenceHa
                                        double exposure);
 
 /// Returns the difference of a picture, after exposure, and the halves. `rmse` is the root of the
-/// unbiased squared error; if the estimate is negative, -sqrt(-estimate), and the error is below the
-/// noise. `psnr` follows `rmse`, and is empty below the noise. `flip` is the mean of `flip_map` (see
-/// flip_against_halves), and `flip_floor` the mean FLIP between the halves. All other figures are
-/// those against the mean of both halves, whose noise they include.
+/// unbiased squared error; if the estimate is negative, -sqrt(-estimate), and the error is below
+/// the noise. `psnr` follows `rmse`, and is empty below the noise. `flip` is the mean of `flip_map`
+/// (see flip_against_halves), and `flip_floor` the mean FLIP between the halves. All other figures
+/// are those against the mean of both halves, whose noise they include.
 Difference difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
                                   const Mask& mask, std::span<const float> flip_map);
 
@@ -52,8 +52,8 @@ struct HalvesEstimate {
     Interval ci95;
     /// The same estimate without clamping, which stays unbiased where a half crosses 1.
     double unclamped = Difference::kNone;
-    /// Share of the pixels in which one half exceeds 1 in a channel and the other does not. Clamping
-    /// biases these pixels.
+    /// Share of the pixels in which one half exceeds 1 in a channel and the other does not.
+    /// Clamping biases these pixels.
     double crossing = Difference::kNone;
     double halves_rmse = Difference::kNone; ///< rmse between the two halves, clamped
     double flip = Difference::kNone;        ///< as in Difference
@@ -82,9 +82,9 @@ void set_noise(Row& row, const std::vector<HalvesEstimate>& estimates);
 
 /// The noise of a comparison's reference.
 struct ReferenceNoise {
-    int frames = 0;         ///< frames of each half, each with seeds of its own
-    double seconds = 0;     ///< time in which they were rendered
-    double most_seconds = 0; ///< CompareRequest::reference_seconds
+    int frames = 0;                          ///< frames of each half, each with seeds of its own
+    double seconds = 0;                      ///< time in which they were rendered
+    double most_seconds = 0;                 ///< CompareRequest::reference_seconds
     double wanted_floor = Difference::kNone; ///< a fifth of the least FLIP of a row with captures
     /// FLIP and rmse between the halves, over the mirrors.
     double flip_floor = Difference::kNone, halves_rmse = Difference::kNone;

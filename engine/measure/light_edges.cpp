@@ -69,8 +69,7 @@ LightEdgeErrors split_error_by_light_edges(const Difference& there, const Differ
     const ErrorSum edges = make_error_sum(there), rest = make_error_sum(elsewhere);
     const double pixels = edges.pixels + rest.pixels, squares = edges.squares + rest.squares;
     if (!(pixels > 0)) return {};
-    return {edges.pixels / pixels,
-            squares > 0 ? std::clamp(edges.squares / squares, 0.0, 1.0) : 0,
+    return {edges.pixels / pixels, squares > 0 ? std::clamp(edges.squares / squares, 0.0, 1.0) : 0,
             root_with_sign(edges.squares / pixels), root_with_sign(rest.squares / pixels)};
 }
 

@@ -53,9 +53,9 @@ Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits) {
 }
 
 std::vector<Mask> list_masks_of_rows(std::span<const std::uint32_t> hits) {
-    return {mask_mirror_pixels(hits),     mask_first_order_pixels(hits),
-            mask_mirror_in_mirror(hits),  mask_non_mirror_pixels(hits),
-            mask_all_pixels(hits),        mask_smooth_dielectrics(hits)};
+    return {mask_mirror_pixels(hits),    mask_first_order_pixels(hits),
+            mask_mirror_in_mirror(hits), mask_non_mirror_pixels(hits),
+            mask_all_pixels(hits),       mask_smooth_dielectrics(hits)};
 }
 
 std::size_t count_mask_pixels(const Mask& mask) {

@@ -94,9 +94,9 @@ struct Difference {
     /// Pixels with a NaN or infinity in either picture. The metrics leave these pixels out. If
     /// there are any, the row has failed, whatever its metrics are.
     std::size_t nonfinite = 0;
-    double rmse = kNone;        ///< root of the mean square over pixels and channels, 0..1
-    double mae = kNone;         ///< mean absolute difference over pixels and channels, 0..1
-    double flip = kNone;        ///< mean of the FLIP map, 0..1
+    double rmse = kNone;   ///< root of the mean square over pixels and channels, 0..1
+    double mae = kNone;    ///< mean absolute difference over pixels and channels, 0..1
+    double flip = kNone;   ///< mean of the FLIP map, 0..1
     double flip_floor = 0; ///< FLIP of the reference's noise (measure/halves.hpp); 0 without noise
     std::optional<double> psnr; ///< -20 log10 rmse in dB; empty if rmse is 0 or NaN
     double p99 = kNone;         ///< 99th percentile of the pixels' largest channel difference, 0..1

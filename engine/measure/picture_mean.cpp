@@ -34,8 +34,7 @@ Picture PictureMean::variance() const {
     Picture result(width_, height_);
     const double pictures = count_;
     for (std::size_t i = 0; i < mean_.size(); ++i)
-        result.pixels[i] = count_ < 2 ? vec3(NAN)
-                                      : vec3(squares_[i] / ((pictures - 1) * pictures));
+        result.pixels[i] = count_ < 2 ? vec3(NAN) : vec3(squares_[i] / ((pictures - 1) * pictures));
     return result;
 }
 

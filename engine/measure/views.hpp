@@ -22,8 +22,8 @@ bool is_single_number(const Metric& figure);
 
 /// Returns the 95 % interval of the median of a's metric minus b's, over the mirrors, view by view.
 /// `figure` is a name such as "flip", "off" or "mae". Views in which either is not finite are left
-/// out. FLIP differences below the noise of the reference count as 0. Throws `internal` if no metric
-/// of differences that is a number has this name.
+/// out. FLIP differences below the noise of the reference count as 0. Throws `internal` if no
+/// metric of differences that is a number has this name.
 Interval metric_difference_over_views(const Row& a, const Row& b, std::string_view figure);
 
 /// Returns whether a metric of `a` over the mirrors is less than that of `b`: the interval of their

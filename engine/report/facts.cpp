@@ -51,10 +51,11 @@ std::string describe_reference(const Comparison& comparison) {
                        format_ms(comparison.reference_gpu_ms.median) + " ms";
     if (!comparison.noise) return text;
     const measure::ReferenceNoise& noise = *comparison.noise;
-    text += fmt::format(" a frame, two halves of {} frames with {} seeds in {} s; between the halves "
-                        "FLIP {}, rmse {}",
-                        noise.frames, 2 * noise.frames, format_fixed(noise.seconds, 1),
-                        format_error(noise.flip_floor), format_error(noise.halves_rmse));
+    text += fmt::format(
+        " a frame, two halves of {} frames with {} seeds in {} s; between the halves "
+        "FLIP {}, rmse {}",
+        noise.frames, 2 * noise.frames, format_fixed(noise.seconds, 1),
+        format_error(noise.flip_floor), format_error(noise.halves_rmse));
     if (std::isfinite(noise.predicted_rmse))
         text += fmt::format(" (their variance predicts {})", format_error(noise.predicted_rmse));
     return text;

@@ -81,8 +81,7 @@ std::string html_headlines(const Comparison& comparison) {
         html += html_headline("Fastest", std::to_string(fastest.size()) + " rows",
                               "not told apart");
     if (const Row* closest = measure::find_closest_row(comparison); closest != nullptr)
-        html += html_headline("Closest", "FLIP " + format_flip(closest->error),
-                              closest->label);
+        html += html_headline("Closest", "FLIP " + format_flip(closest->error), closest->label);
     html += html_headline("On the front", std::to_string(comparison.pareto.size()),
                           fmt::format("of {} rows", comparison.rows.size()));
     html += html_headline("Reference", format_ms(comparison.reference_gpu_ms.median) + " ms",

@@ -19,9 +19,9 @@ enum class CsvColumns : std::uint8_t {
 /// Pictures of a comparison as PNG. Each is encoded once, however often the page is written.
 struct EncodedPictures {
     struct RowPictures {
-        int pictured = -1;   ///< Row::pictured at the time of encoding
+        int pictured = -1;    ///< Row::pictured at the time of encoding
         int noise_frames = 0; ///< ReferenceNoise::frames of the reference at that time
-        std::string picture; ///< picture as displayed
+        std::string picture;  ///< picture as displayed
         /// Heat map of the row's FLIP error; empty if the row has no such picture.
         std::string error;
         std::string causes; ///< picture by cause; empty if causes are not known

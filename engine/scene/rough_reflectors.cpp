@@ -35,9 +35,8 @@ bool reflects_by_lobe(const Scene& scene, const Object& object) {
 }
 
 bool has_rough_reflector(const Scene& scene) {
-    return std::ranges::any_of(scene.objects, [&](const Object& object) {
-        return reflects_by_lobe(scene, object);
-    });
+    return std::ranges::any_of(
+        scene.objects, [&](const Object& object) { return reflects_by_lobe(scene, object); });
 }
 
 bool has_rough_mirror(const Scene& scene) {

@@ -64,8 +64,8 @@ CompareRequest with_reference(CompareRequest request) {
 class RowComparer {
 public:
     RowComparer(Engine& engine, const CompareRequest& request)
-        : engine_(engine), request_(with_reference(request)), compiled_before_(Access::compiled(engine)),
-          session_(engine, request_.base.scene),
+        : engine_(engine), request_(with_reference(request)),
+          compiled_before_(Access::compiled(engine)), session_(engine, request_.base.scene),
           truths_(session_, request_.base, request_.reference, request_.watcher),
           judge_(session_, truths_, request_.base, request_.watcher) {
         if (request_.base.techniques.empty())
@@ -221,11 +221,11 @@ private:
         for (std::size_t i = 0; i < comparison_.rows.size(); ++i)
             groups[find_sample_count(parse_technique(request_.base.techniques[i]))].push_back(i);
         for (const auto& [samples, rows] : groups)
-            while (truths_.grow_reference(samples,
-                                          request_.reference_seconds /
-                                              static_cast<double>(groups.size()),
-                                          choose_wanted_floor(rows))) {
-                for (const std::size_t row : rows) judge_row(row, judged_[row].part, judged_[row].number);
+            while (truths_.grow_reference(
+                samples, request_.reference_seconds / static_cast<double>(groups.size()),
+                choose_wanted_floor(rows))) {
+                for (const std::size_t row : rows)
+                    judge_row(row, judged_[row].part, judged_[row].number);
                 describe_reference();
                 report_progress();
             }

@@ -287,13 +287,13 @@ void add_lag(const StudyInput& input) {
     if (input.request.both_models)
         base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
                               base.techniques.end());
-    measure_lag(input.session,
-                {.base = base,
-                 .reference = separate_reference_from_rows(input.request.reference,
-                                                           base.techniques),
-                 .watcher = input.request.watcher,
-                 .on_finished_row = input.tell},
-                *(input.comparison.lag = std::make_shared<report::LagResults>()));
+    measure_lag(
+        input.session,
+        {.base = base,
+         .reference = separate_reference_from_rows(input.request.reference, base.techniques),
+         .watcher = input.request.watcher,
+         .on_finished_row = input.tell},
+        *(input.comparison.lag = std::make_shared<report::LagResults>()));
 }
 
 const RegisteredStudy kLagStudy{

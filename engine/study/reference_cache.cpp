@@ -16,7 +16,8 @@ namespace catoptric::app {
 namespace {
 
 /// Returns the rmse between two halves that the variance of their frames predicts, not clamped.
-double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mask, double exposure) {
+double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mask,
+                           double exposure) {
     const measure::Picture a = noisy.a.variance(), b = noisy.b.variance();
     double sum = 0, pixels = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -84,8 +85,8 @@ void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& 
     both.add(noisy.b.mean());
     reference.part.hdr = both.mean();
     reference.part.display = measure::to_display(reference.part.hdr, base_.exposure);
-    noisy.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-                         .count();
+    noisy.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& samples, int number) {
@@ -149,7 +150,8 @@ measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples
 const std::vector<std::uint32_t>& ReferenceCache::find_mirror_hits(int number) {
     const std::vector<std::uint32_t>& known = find_reference("1", number).part.hits;
     if (!known.empty()) return known;
-    // A reference that traces no rays, or draws them, has no hits. Then a ray-traced picture provides them.
+    // A reference that traces no rays, or draws them, has no hits. Then a ray-traced picture
+    // provides them.
     std::vector<std::uint32_t>& traced = hits_[choose_frame_to_render(number)];
     if (traced.empty())
         traced = std::move(render_reference("raytrace:depth=1", choose_frame_to_render(number))

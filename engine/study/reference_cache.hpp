@@ -51,7 +51,8 @@ std::string set_reference_samples(const std::string& reference, const std::strin
 
 /// The reference of a comparison, rendered once for each sample count and instant on demand. A
 /// reference that draws rays from lobes has noise if the scene has a rough reflector. Such a
-/// reference is kept as two halves (measure/halves.hpp), which begin with a frame each and may grow.
+/// reference is kept as two halves (measure/halves.hpp), which begin with a frame each and may
+/// grow.
 class ReferenceCache {
 public:
     /// All objects passed by reference must outlive the cache. `base` describes the scene that the

@@ -10,8 +10,8 @@ namespace catoptric::app {
 /// have the seed 0, so 0 is always listed.
 std::set<int> list_row_seeds(const std::vector<std::string>& rows);
 
-/// Seeds of the frames of a reference with noise. No seed is given twice, and none is that of a row,
-/// because shared rays would make the row's error look small.
+/// Seeds of the frames of a reference with noise. No seed is given twice, and none is that of a
+/// row, because shared rays would make the row's error look small.
 class ReferenceSeeds {
 public:
     /// `rows`: the judged rows.

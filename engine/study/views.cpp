@@ -145,10 +145,10 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
         for (const std::string& text : texts)
             sample_counts.insert(find_sample_count(parse_technique(text)));
         for (const std::string& samples : sample_counts)
-            truths.grow_reference(
-                samples,
-                request.reference_seconds / static_cast<double>(count * sample_counts.size()),
-                measure::choose_wanted_floor(rows));
+            truths.grow_reference(samples,
+                                  request.reference_seconds /
+                                      static_cast<double>(count * sample_counts.size()),
+                                  measure::choose_wanted_floor(rows));
         for (std::size_t k = 0; k < texts.size(); ++k) {
             tell_row(request.watcher, label + ": " + comparison.rows[k].label, i * pictures + k + 1,
                      count * pictures);
@@ -158,10 +158,9 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                             ? RenderedWork::required
                             : RenderedWork::everything;
             const RunResult result = run(session, one, request.watcher);
-            add_view_errors(
-                comparison.rows[k], result.parts.front(),
-                truths.find_reference(find_sample_count(parse_technique(texts[k]))), hits,
-                mirrors, request.base.exposure);
+            add_view_errors(comparison.rows[k], result.parts.front(),
+                            truths.find_reference(find_sample_count(parse_technique(texts[k]))),
+                            hits, mirrors, request.base.exposure);
         }
         if (request.on_finished_view) request.on_finished_view();
     }

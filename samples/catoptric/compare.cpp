@@ -310,12 +310,13 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                     options->rounds = static_cast<int>(
                         parse_integer("--rounds", text, app::kRounds, 10000));
                 });
-    verb.option("--reference-seconds", "S",
-                "most seconds to reduce the noise of a reference with rays=N, if a surface is rough "
-                "(60)",
-                [options](const std::string& text) {
-                    options->reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
-                });
+    verb.option(
+        "--reference-seconds", "S",
+        "most seconds to reduce the noise of a reference with rays=N, if a surface is rough "
+        "(60)",
+        [options](const std::string& text) {
+            options->reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
+        });
     add_studies(verb, *options, StudyOption::words);
     add_studies(verb, *options, StudyOption::flag);
     add_common_options_without_scene(verb, options->common);

@@ -54,15 +54,16 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
                 "everything: draw all captures in each frame; required: draw only what the picture "
                 "requires (default of render); both: compare shows both (everything)",
                 [&](const std::string& text) { parse_model_option(text, common); });
-    verb.option("--reference", "T",
-                "technique of the reference picture of compare (raytrace:depth=16; rays=64 more if a "
-                "mirror is rough)",
-                [&](const std::string& text) {
-                    const app::TechniqueChoice choice = app::parse_technique(text);
-                    check(choice.technique != "plan", Failure::usage,
-                          "--reference: wanted one technique for all mirrors, found '", text, "'");
-                    common.reference = choice.label;
-                });
+    verb.option(
+        "--reference", "T",
+        "technique of the reference picture of compare (raytrace:depth=16; rays=64 more if a "
+        "mirror is rough)",
+        [&](const std::string& text) {
+            const app::TechniqueChoice choice = app::parse_technique(text);
+            check(choice.technique != "plan", Failure::usage,
+                  "--reference: wanted one technique for all mirrors, found '", text, "'");
+            common.reference = choice.label;
+        });
     verb.option(
         "--timing", "T",
         "isolated: passes run one after the other, so their times add up; pipelined: passes may "

@@ -1,0 +1,206 @@
+// Tests of comparisons with a reference that draws rays from lobes: its noise, and the error bars
+// of the rows.
+#include "compare.hpp"
+#include "measure/halves.hpp"
+#include "measure/metric.hpp"
+#include "report/comparison.hpp"
+#include "report/writer.hpp"
+#include "scene/classify.hpp"
+#include "study/reference_cache.hpp"
+#include "support/rendering.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+/// Returns an environment of patches, whose edges make the noise of drawn rays large.
+std::shared_ptr<scene::Environment> make_patched_environment() {
+    auto map = std::make_shared<scene::Environment>();
+    map->size = {32, 16};
+    for (std::uint32_t row = 0; row < map->size.y; ++row)
+        for (std::uint32_t column = 0; column < map->size.x; ++column)
+            map->texels.push_back((row / 2 + column / 3) % 2 == 0 ? vec3(.7f, .5f, .6f)
+                                                                  : vec3(.1f, .2f, .15f));
+    return map;
+}
+
+/// Returns a metal floor of this roughness below patches, which fills the picture.
+scene::Scene make_patched_floor(float roughness) {
+    scene::Scene scene{.name = "patched floor"};
+    scene.mirror_max_roughness = 1;
+    const std::size_t metal = test::add_material(
+        scene, {.name = "metal", .albedo = vec3(.9f), .metallic = 1, .roughness = roughness});
+    test::add_quad(scene, "floor", metal, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50});
+    scene.environment = make_patched_environment();
+    scene.cameras.push_back(
+        {.eye = {0, 3, 4}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov_degrees = 40});
+    scene::find_mirrors(scene);
+    return scene;
+}
+
+/// Traces pictures of one scene with different seeds.
+class SeededTracer {
+public:
+    SeededTracer(const scene::Scene& scene, uvec2 size)
+        : session_(test::engine(), scene), spec_(test::request(scene, {}, size)) {}
+    measure::Picture trace(int rays, int seed) {
+        spec_.techniques = {"raytrace:depth=2,rays=" + std::to_string(rays) +
+                            ",seed=" + std::to_string(seed)};
+        return session_.frame(spec_).hdr();
+    }
+
+private:
+    app::Session session_;
+    app::FrameSpec spec_;
+};
+
+TEST(NoisyReference, SeedsGiveIndependentPicturesOfTheSameMean) {
+    SeededTracer tracer(make_patched_floor(.4f), {32, 32});
+    const measure::Picture one = tracer.trace(4, 1), again = tracer.trace(4, 1),
+                           two = tracer.trace(4, 2), none = tracer.trace(4, 0);
+    EXPECT_TRUE(test::same_bytes(one, again));
+    EXPECT_FALSE(test::same_bytes(one, two));
+    EXPECT_FALSE(test::same_bytes(one, none));
+    EXPECT_NEAR(measure::mean_of(one, measure::ValueRange::unclamped).all,
+                measure::mean_of(two, measure::ValueRange::unclamped).all, .01);
+}
+
+TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
+    SeededTracer tracer(make_patched_floor(.4f), {48, 48});
+    measure::PictureMean a, b;
+    std::vector<double> rmse, predicted;
+    int seed = 0;
+    for (int frames = 1; frames <= 16; ++frames) {
+        a.add(tracer.trace(64, ++seed));
+        b.add(tracer.trace(64, ++seed));
+        if (frames != 1 && frames != 4 && frames != 16) continue;
+        rmse.push_back(test::rmse(a.mean(), b.mean()));
+        double sum = 0;
+        for (std::size_t i = 0; i < a.mean().pixels.size(); ++i) {
+            const vec3 both = a.variance().pixels[i] + b.variance().pixels[i];
+            sum += double(both.x + both.y + both.z) / 3;
+            if (frames == 1) break; // no variance yet
+        }
+        predicted.push_back(std::sqrt(sum / double(a.mean().pixels.size())));
+    }
+    std::cout << "[ MEASURED ] rmse between halves of 64, 256 and 1024 rays: " << rmse[0] << ", "
+              << rmse[1] << ", " << rmse[2] << "; predicted by the variance: " << predicted[1]
+              << ", " << predicted[2] << '\n';
+    EXPECT_NEAR(rmse[0] / rmse[1], 2, .15);
+    EXPECT_NEAR(rmse[1] / rmse[2], 2, .15);
+    EXPECT_NEAR(predicted[2] / rmse[2], 1, .05);
+}
+
+/// The true error is that against 16 times the rays, with other seeds.
+TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
+    constexpr int kRays = 16;
+    SeededTracer tracer(make_patched_floor(.4f), {64, 64});
+    const measure::Picture row = tracer.trace(1, 1000);
+    const auto estimate = [&](int rays, int seed) {
+        return measure::estimate_by_halves(
+            row, measure::make_halves(tracer.trace(rays, seed), tracer.trace(rays, seed + 1), 0),
+            {}, std::vector<float>(row.pixels.size(), 0.f));
+    };
+    const double truth = estimate(16 * kRays, 2000).squared_error;
+    int held = 0;
+    double width = 0;
+    for (int k = 0; k < 20; ++k) {
+        const measure::HalvesEstimate found = estimate(kRays, 1 + 2 * k);
+        held += found.ci95.low <= truth && truth <= found.ci95.high;
+        width += (found.ci95.high - found.ci95.low) / 20;
+    }
+    std::cout << "[ MEASURED ] " << held << " of 20 intervals hold the squared error " << truth
+              << ", mean width " << width << '\n';
+    EXPECT_GE(held, 17);
+    EXPECT_LT(width, truth) << "an interval that wide says nothing";
+}
+
+app::CompareRequest ask_for_rough_floor(const std::vector<std::string>& rows, double seconds) {
+    app::CompareRequest request;
+    request.base = test::request(make_patched_floor(.3f), rows, {64, 64});
+    request.reference_seconds = seconds;
+    return request;
+}
+
+/// The row would be the first half itself if the reference took the same seed. Its error would then
+/// be 0.
+TEST(NoisyReference, SharesNoSeedWithARow) {
+    app::CompareRequest request = ask_for_rough_floor(
+        {"raytrace:depth=2,rays=4,seed=1", "raytrace:depth=2,rays=4,seed=2"}, 0);
+    request.reference = "raytrace:depth=2,rays=4";
+    const report::Comparison found = app::compare(test::engine(), request);
+    ASSERT_TRUE(found.noise);
+    EXPECT_EQ(found.noise->frames, 1);
+    for (const report::Row& row : found.rows) {
+        // The noise of a picture of 4 rays; a half has the same.
+        const double noise = found.noise->halves_rmse / std::sqrt(2.);
+        EXPECT_NEAR(row.error.rmse, noise, .25 * noise) << row.label;
+    }
+}
+
+TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
+    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 60);
+    request.reference = "raytrace:depth=2,rays=1";
+    std::vector<std::string> told;
+    request.watcher.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
+        EXPECT_LE(index, count);
+        told.push_back(label);
+    };
+    const report::Comparison found = app::compare(test::engine(), request);
+    ASSERT_TRUE(found.noise);
+    ASSERT_FALSE(found.stopped);
+    EXPECT_GT(found.noise->frames, 1);
+    EXPECT_LT(found.noise->seconds, 60);
+    EXPECT_TRUE(found.noise->is_reached());
+    EXPECT_DOUBLE_EQ(found.noise->wanted_floor, .2 * found.rows[0].error.flip);
+    EXPECT_EQ(found.rows[0].error.flip_floor, found.noise->flip_floor);
+    EXPECT_NEAR(found.noise->predicted_rmse / found.noise->halves_rmse, 1, .2);
+    EXPECT_THAT(told, testing::Contains(testing::HasSubstr("frames a half")));
+    EXPECT_GT(measure::studied(found.rows[0], measure::kNoise).index(), 0u);
+
+    request.reference_seconds = 0;
+    const report::Comparison brief = app::compare(test::engine(), request);
+    EXPECT_EQ(brief.noise->frames, 1);
+    EXPECT_FALSE(brief.noise->is_reached());
+    EXPECT_GT(brief.noise->flip_floor, found.noise->flip_floor);
+}
+
+TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
+    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 0);
+    request.base.size = {32, 32};
+    const report::Comparison rough = app::compare(test::engine(), request);
+    EXPECT_EQ(rough.reference_label, app::kRoughReference);
+    EXPECT_TRUE(rough.noise);
+    request.reference = "raytrace:depth=16";
+    EXPECT_FALSE(app::compare(test::engine(), request).noise);
+    request.base.scene = make_patched_floor(.04f);
+    request.reference = "";
+    const report::Comparison sharp = app::compare(test::engine(), request);
+    EXPECT_EQ(sharp.reference_label, app::kReference);
+    // A perfect mirror has no noise, even if rays are drawn from lobes.
+    request.reference = "raytrace:depth=16,rays=2";
+    const report::Comparison drawn = app::compare(test::engine(), request);
+    for (const report::Comparison* without : {&sharp, &drawn}) {
+        EXPECT_FALSE(without->noise);
+        EXPECT_THAT(report::to_json(*without), testing::Not(testing::HasSubstr("noise")));
+        EXPECT_EQ(without->rows[0].error.rmse, sharp.rows[0].error.rmse);
+        EXPECT_EQ(without->rows[0].error.flip, sharp.rows[0].error.flip);
+    }
+}
+
+TEST(NoisyReference, ViewsAreJudgedByHalvesAsWell) {
+    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 0);
+    request.base.size = {32, 32};
+    request.reference = "raytrace:depth=2,rays=2";
+    request.studies = {{"views", 6}};
+    const report::Comparison found = app::compare(test::engine(), request);
+    ASSERT_EQ(found.rows[0].views.size(), 6u);
+    for (const measure::Errors& view : found.rows[0].views) EXPECT_GT(view.error.flip_floor, 0);
+}
+
+} // namespace

@@ -1,0 +1,249 @@
+// Tests of errors against a reference with noise, on pictures whose true error is known.
+#include "measure/halves.hpp"
+#include "measure/judge.hpp"
+#include "measure/picture_mean.hpp"
+#include "measure/views.hpp"
+#include "report/text.hpp"
+#include "support/numbers.hpp"
+#include "unit/report_sample.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+using measure::Picture;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kEdge = 128;
+
+/// The picture without noise: a slope in [.3, .7].
+vec3 true_pixel(int x, int y) { return vec3(.3f) + vec3(.2f, .1f, .2f) * (float(x + y) / kEdge); }
+
+Picture make_true_picture() {
+    Picture picture(kEdge, kEdge);
+    for (int y = 0; y < kEdge; ++y)
+        for (int x = 0; x < kEdge; ++x) picture.at(x, y) = true_pixel(x, y);
+    return picture;
+}
+
+/// Returns the picture plus uniform noise of this standard deviation.
+Picture add_noise(Picture picture, double deviation, test::Numbers& numbers) {
+    const auto range = static_cast<float>(deviation * std::sqrt(3.));
+    for (vec3& pixel : picture.pixels) pixel += range * numbers.in_cube();
+    return picture;
+}
+
+/// Returns the true picture with an error of +-.05, in alternating columns. Its squared error is
+/// .0025.
+Picture make_wrong_picture() {
+    Picture picture = make_true_picture();
+    for (int y = 0; y < kEdge; ++y)
+        for (int x = 0; x < kEdge; ++x) picture.at(x, y) += vec3(x % 2 == 0 ? .05f : -.05f);
+    return picture;
+}
+constexpr double kTrueSquare = .0025, kNoiseDeviation = .08;
+
+measure::HalvesEstimate estimate(const Picture& picture, const Picture& a, const Picture& b,
+                                 const measure::Mask& mask = {}) {
+    measure::ReferenceHalves halves{a, b, a, std::vector<float>(a.pixels.size(), .01f)};
+    return measure::estimate_by_halves(picture, halves, mask,
+                                       std::vector<float>(a.pixels.size(), .02f));
+}
+
+double mean_square(const Picture& a, const Picture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const dvec3 difference = dvec3(a.pixels[i]) - dvec3(b.pixels[i]);
+        sum += glm::dot(difference, difference) / 3;
+    }
+    return sum / double(a.pixels.size());
+}
+
+TEST(Halves, MeanAndVarianceAreThoseOfTheSamples) {
+    measure::PictureMean mean;
+    const float values[] = {1, 4, 2, 5};
+    for (const float value : values) {
+        Picture picture(2, 1);
+        picture.pixels = {vec3(value, 2 * value, 0), vec3(7)};
+        mean.add(picture);
+    }
+    EXPECT_EQ(mean.count(), 4);
+    EXPECT_EQ(mean.mean().pixels[0], vec3(3, 6, 0));
+    // Squared deviations 4 + 1 + 1 + 4 = 10, divided by 3 and by 4.
+    EXPECT_FLOAT_EQ(mean.variance().pixels[0].x, 10.f / 12);
+    EXPECT_FLOAT_EQ(mean.variance().pixels[0].y, 40.f / 12);
+    EXPECT_EQ(mean.variance().pixels[1], vec3(0));
+    measure::PictureMean one;
+    one.add(Picture(1, 1));
+    EXPECT_TRUE(std::isnan(one.variance().pixels[0].x));
+    EXPECT_THROW(one.add(Picture(2, 1)), Error);
+}
+
+/// The interval holds the true error, which is known here, and the biased estimate from one half
+/// does not.
+TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
+    const Picture truth = make_true_picture(), wrong = make_wrong_picture();
+    int held = 0, biased_held = 0;
+    double mean = 0, width = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        test::Numbers numbers(seed);
+        const Picture a = add_noise(truth, kNoiseDeviation, numbers),
+                      b = add_noise(truth, kNoiseDeviation, numbers);
+        const measure::HalvesEstimate found = estimate(wrong, a, b);
+        ASSERT_TRUE(found.ci95.is_known());
+        const auto holds = [&](double square) {
+            return found.ci95.low <= square && square <= found.ci95.high;
+        };
+        held += holds(kTrueSquare);
+        biased_held += holds(mean_square(wrong, a));
+        mean += found.squared_error / 20;
+        width += (found.ci95.high - found.ci95.low) / 20;
+        EXPECT_NEAR(found.unclamped, found.squared_error, 1e-4);
+        EXPECT_NEAR(found.halves_rmse, std::sqrt(2.) * kNoiseDeviation, .002);
+    }
+    std::cout << "[ MEASURED ] " << held << " of 20 intervals hold the true error, " << biased_held
+              << " that of one half; mean estimate " << mean << " of " << kTrueSquare
+              << ", mean width " << width << '\n';
+    EXPECT_GE(held, 17);
+    EXPECT_EQ(biased_held, 0);
+    EXPECT_NEAR(mean, kTrueSquare, 5e-5);
+    // 4 standard errors of the mean of 49152 products, whose variance is that of
+    // (e - n)(e - m) = e^2 - e(n + m) + nm: 2 e^2 s^2 + s^4.
+    const double e = kTrueSquare, s = kNoiseDeviation * kNoiseDeviation;
+    const double wanted = 4 * std::sqrt((2 * e * s + s * s) / (3. * kEdge * kEdge));
+    EXPECT_NEAR(width, wanted, .25 * wanted);
+}
+
+TEST(Halves, IntervalIsUnknownForFewTiles) {
+    const Picture picture = make_true_picture();
+    measure::Mask mask(picture.pixels.size(), 0);
+    for (int k = 0; k < 9; ++k)
+        mask[std::size_t(k) * measure::kTileEdge % kEdge +
+             std::size_t(k / 8) * measure::kTileEdge * kEdge] = 255;
+    EXPECT_FALSE(estimate(picture, picture, picture, mask).ci95.is_known());
+    mask.back() = 255;
+    EXPECT_TRUE(estimate(picture, picture, picture, mask).ci95.is_known());
+    const measure::Mask none(picture.pixels.size(), 0);
+    EXPECT_TRUE(std::isnan(estimate(picture, picture, picture, none).squared_error));
+}
+
+TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
+    Picture a(4, 1), b(4, 1), x(4, 1);
+    a.pixels = {vec3(.5f), vec3(1.5f, .5f, .5f), vec3(2), vec3(3)};
+    b.pixels = {vec3(.5f), vec3(.5f), vec3(3), vec3(.5f)};
+    x.pixels = {vec3(.5f), vec3(.5f), vec3(1), vec3(1)};
+    const measure::HalvesEstimate found = estimate(x, a, b);
+    EXPECT_DOUBLE_EQ(found.crossing, .5);
+    EXPECT_DOUBLE_EQ(found.squared_error, 0); // clamped: (1-1)(1-1) and (1-1)(1-.5)
+    // Pixel 3: (1-2)(1-3) = 2 in three channels. Pixel 4: (1-3)(1-.5) = -1.
+    EXPECT_DOUBLE_EQ(found.unclamped, (3 * 2 - 3 * 1) / 12.);
+}
+
+/// A perfect picture with halves that lie on both sides of it.
+measure::Difference make_hidden_difference() {
+    Picture x(kEdge, kEdge), a = x, b = x;
+    for (std::size_t i = 0; i < x.pixels.size(); ++i)
+        x.pixels[i] = vec3(.5f), a.pixels[i] = vec3(.6f), b.pixels[i] = vec3(.4f);
+    const measure::ReferenceHalves halves = measure::make_halves(a, b, 0);
+    return measure::difference_from_halves(x, halves, {},
+                                           measure::flip_against_halves(x, halves, 0));
+}
+
+TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
+    const measure::Difference hidden = make_hidden_difference();
+    EXPECT_NEAR(hidden.rmse, -.1, 1e-6);
+    EXPECT_FALSE(hidden.psnr);
+    EXPECT_GT(hidden.flip_floor, hidden.flip);
+    EXPECT_TRUE(measure::is_below_noise(hidden));
+    EXPECT_EQ(report::format_error(hidden.rmse), "below the noise");
+    EXPECT_THAT(report::format_flip(hidden), HasSubstr(", below the noise"));
+
+    report::Row row = report::sample::row("parallax", 5, .1, .1);
+    row.error = hidden;
+    measure::set_noise(row, {{.squared_error = -.01, .flip = .1, .flip_floor = .2}});
+    report::Comparison made = report::sample::comparison({row});
+    made.studies = {std::string(measure::kNoise)};
+    made.noise = std::make_shared<measure::ReferenceNoise>();
+    made.noise->flip_floor = hidden.flip_floor;
+    made.pareto = {0};
+    const std::string text = report::sample::said(made);
+    EXPECT_THAT(text, HasSubstr("| below the noise |")); // rmse in the table of rows
+    EXPECT_THAT(text, HasSubstr("Errors against a reference with noise"));
+    const std::string page = report::to_html(made);
+    EXPECT_THAT(page, HasSubstr("class=\"noise\"")); // the floor of the plot
+    EXPECT_THAT(page, HasSubstr("hidden"));
+    const auto json = nlohmann::json::parse(report::to_json(made));
+    EXPECT_EQ(json["rows"][0]["noise"][0]["mask"], "mirrors");
+    EXPECT_EQ(json["rows"][0]["noise"][0]["squared_error"], -.01);
+    EXPECT_EQ(json["reference"]["noise"]["flip_floor"], hidden.flip_floor);
+}
+
+TEST(Halves, ReportWithoutNoiseSaysNothingOfIt) {
+    const report::Comparison usual = report::sample::usual();
+    EXPECT_THAT(report::to_json(usual), Not(HasSubstr("noise")));
+    EXPECT_THAT(report::to_markdown(usual), Not(HasSubstr("noise")));
+    EXPECT_THAT(report::to_csv(usual), Not(HasSubstr("noise")));
+}
+
+TEST(Halves, EqualHalvesGiveTheFiguresWithoutNoise) {
+    const Picture truth = make_true_picture(), wrong = make_wrong_picture();
+    const measure::ReferenceHalves halves = measure::make_halves(truth, truth, 1);
+    const std::vector<float> map = measure::flip_against_halves(wrong, halves, 1);
+    Picture shown = wrong;
+    for (vec3& pixel : shown.pixels) pixel *= 2;
+    const measure::Difference found = measure::difference_from_halves(shown, halves, {}, map),
+                              plain = measure::difference(shown, halves.mean, {}, map);
+    EXPECT_EQ(map, measure::flip(measure::to_unrounded_display(wrong, 1),
+                                 measure::to_unrounded_display(truth, 1)));
+    EXPECT_NEAR(found.rmse, plain.rmse, 1e-12);
+    EXPECT_NEAR(found.psnr.value_or(0), plain.psnr.value_or(1), 1e-9);
+    EXPECT_EQ(found.mae, plain.mae);
+    EXPECT_EQ(found.flip, plain.flip);
+    EXPECT_EQ(found.flip_floor, 0);
+    EXPECT_FALSE(measure::is_below_noise(found));
+}
+
+TEST(Halves, DifferencesBelowTheFloorTie) {
+    using report::sample::row;
+    report::Row near = row("near", 2, .1, .20), far = row("far", 1, .1, .21);
+    EXPECT_TRUE(measure::has_less_flip(near, far));
+    near.error.flip_floor = far.error.flip_floor = .005;
+    EXPECT_TRUE(measure::has_less_flip(near, far));
+    near.error.flip_floor = far.error.flip_floor = .02;
+    EXPECT_FALSE(measure::has_less_flip(near, far));
+    EXPECT_FALSE(measure::has_less_flip(far, near));
+    EXPECT_TRUE(measure::is_better_choice(far, near)) << "it is faster and ties in FLIP";
+    report::Comparison made = report::sample::comparison({near, far});
+    made.pareto = measure::find_front(made.rows);
+    EXPECT_EQ(made.pareto, std::vector<std::size_t>{1});
+    EXPECT_EQ(measure::find_closest_row(made), &made.rows[0]);
+    EXPECT_EQ(measure::find_ties_with_closest_row(made),
+              std::vector<const measure::Row*>{&made.rows[1]});
+    // Over views, a difference below the floor of each view counts as none.
+    for (int k = 0; k < 6; ++k) {
+        made.rows[0].views.push_back(made.rows[0]);
+        made.rows[1].views.push_back(made.rows[1]);
+    }
+    EXPECT_FALSE(measure::differ_over_views(made.rows[0], made.rows[1], "flip"));
+    for (report::Row& each : made.rows)
+        for (measure::Errors& view : each.views) view.error.flip_floor = 0;
+    EXPECT_TRUE(measure::differ_over_views(made.rows[0], made.rows[1], "flip"));
+}
+
+TEST(Halves, WantedFloorIsAFifthOfTheLeastFlipOfARowWithCaptures) {
+    report::Row traced = report::sample::row("raytrace", 1, .1, .01);
+    traced.rays = RayCounts{1, 1, 1};
+    const report::Row reuse = report::sample::row("reuse", 1, .1, .3),
+                      parallax = report::sample::row("parallax", 1, .1, .2);
+    EXPECT_DOUBLE_EQ(measure::choose_wanted_floor({&traced, &reuse, &parallax}), .04);
+    EXPECT_DOUBLE_EQ(measure::choose_wanted_floor({&traced}), .002);
+    EXPECT_EQ(measure::choose_wanted_floor({}), 0);
+}
+
+} // namespace

@@ -1,0 +1,99 @@
+// Tests of the seeds of a reference with noise, and of when a comparison has such a reference.
+#include "study/reference_seeds.hpp"
+
+#include "compare.hpp"
+#include "scene/load.hpp"
+#include "scene/rough_reflectors.hpp"
+#include "session/technique_choice.hpp"
+#include "study/reference_cache.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+
+TEST(ReferenceSeeds, DifferFromEachOtherAndFromTheRows) {
+    const std::vector<std::string> rows{
+        "raytrace:rays=4,seed=1",   "reuse", "raytrace:rays=4",
+        "*=raytrace:rays=2,seed=3", "auto",  "raytrace:rays=8,seed=17"};
+    const std::set<int> taken = app::list_row_seeds(rows);
+    EXPECT_EQ(taken, (std::set<int>{0, 1, 3, 17}));
+    app::ReferenceSeeds seeds(rows);
+    std::set<int> given;
+    for (int i = 0; i < 100; ++i) {
+        const int seed = seeds.next();
+        EXPECT_FALSE(taken.contains(seed)) << seed;
+        EXPECT_TRUE(given.insert(seed).second) << seed;
+    }
+}
+
+TEST(ReferenceSeeds, SeedIsSetWithoutOtherChanges) {
+    EXPECT_EQ(app::set_lobe_seed("raytrace:depth=16,rays=64", 7),
+              "raytrace:depth=16,rays=64,seed=7");
+    const app::TechniqueChoice before = app::parse_technique("raytrace:rays=4,seed=3,samples=2"),
+                               after = app::parse_technique(
+                                   app::set_lobe_seed("raytrace:rays=4,seed=3,samples=2", 9));
+    ASSERT_EQ(before.settings.size(), after.settings.size());
+    for (std::size_t i = 0; i < before.settings.size(); ++i)
+        EXPECT_EQ(after.settings[i].text,
+                  before.settings[i].name == "seed" ? "9" : before.settings[i].text);
+    EXPECT_TRUE(app::draws_rays_from_lobes("raytrace:rays=1"));
+    EXPECT_FALSE(app::draws_rays_from_lobes("raytrace:depth=16"));
+    EXPECT_FALSE(app::draws_rays_from_lobes("reuse"));
+}
+
+/// Returns a triangle of a metal of this roughness, found to be a mirror if it is sharp.
+scene::Scene make_metal(float roughness, float limit) {
+    scene::Scene scene{.name = "metal"};
+    scene.mirror_max_roughness = limit;
+    scene.materials.push_back(
+        {.name = "metal", .albedo = vec3(.9f), .metallic = 1, .roughness = roughness});
+    scene::Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.normals.assign(3, {0, 0, 1});
+    mesh.triangles = {{0, 1, 2}};
+    scene.meshes.push_back(mesh);
+    scene.objects.push_back({.name = "triangle"});
+    scene.objects.back().mirror = roughness <= limit;
+    return scene;
+}
+
+TEST(RoughReflectors, ReflectByALobeBetweenTheTwoLimits) {
+    for (const auto& [roughness, is_rough] :
+         {std::pair(.0f, false), {.04f, false}, {.05f, true}, {.3f, true}, {.31f, false}}) {
+        const scene::Scene scene = make_metal(roughness, .3f);
+        EXPECT_EQ(scene::has_rough_reflector(scene), is_rough) << roughness;
+        EXPECT_EQ(scene::has_rough_mirror(scene), is_rough) << roughness;
+        EXPECT_EQ(app::choose_reference("", scene),
+                  is_rough ? app::kRoughReference : app::kReference);
+        EXPECT_EQ(app::choose_reference("raytrace:depth=2", scene), "raytrace:depth=2");
+    }
+    scene::Scene perfect = make_metal(.3f, .3f);
+    perfect.materials[0].mirror = true;
+    EXPECT_FALSE(scene::has_rough_reflector(perfect));
+    scene::Scene unlit = make_metal(.3f, .3f);
+    unlit.materials[0].unlit = true;
+    EXPECT_FALSE(scene::has_rough_reflector(unlit));
+}
+
+/// The texture multiplies the roughness by its green channel.
+TEST(RoughReflectors, TextureCountsByItsWholeRange) {
+    scene::Scene scene = make_metal(1, .3f);
+    auto image = std::make_shared<scene::Image>();
+    image->size = {2, 1};
+    image->texels = {0xFF00FF00u, 0xFF00F000u}; // 255 and 240: too rough
+    scene.materials[0].roughness_texture = scene::Texture{.image = image};
+    EXPECT_FALSE(scene::has_rough_reflector(scene));
+    image->texels = {0xFF00FF00u, 0xFF004000u}; // 64 / 255 = .25
+    EXPECT_TRUE(scene::has_rough_reflector(scene));
+    image->texels = {0xFF000800u, 0xFF000100u}; // 8 / 255 = .03
+    EXPECT_FALSE(scene::has_rough_reflector(scene));
+}
+
+TEST(RoughReflectors, BuiltInScenesOfPerfectMirrorsKeepTheirReference) {
+    for (const char* name : {"cornell-mirrors", "gallery", "room", "courtyard"})
+        EXPECT_EQ(app::choose_reference("", scene::load(name)), app::kReference) << name;
+}
+
+} // namespace
