@@ -23,10 +23,10 @@ struct StudyChoice {
 struct CompareRequest {
     /// Scene and settings. Its `techniques` are the rows; empty: those that techniques propose.
     Request base;
-    std::string reference; ///< empty: kReference, or rays from lobes if a mirror is rough
-    double reference_seconds =
-        60;                ///< most time to reduce the noise of a reference of rough mirrors
-    bool together = false; ///< render all rows in one frame
+    std::string reference;      ///< empty: kReference, or rays from lobes if a mirror is rough
+    std::string reference_file; ///< .exr of its halves, read if it exists and written; empty: none
+    double reference_seconds = 60; ///< most time to reduce the noise of a reference
+    bool together = false;         ///< render all rows in one frame
     /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
     int rounds = kRounds;
     /// Whether each row is measured twice, with the model `everything` and with `required`. False:

@@ -84,7 +84,8 @@ public:
               name_, ": wanted a flat picture of 1 to ", ImageReader::kLargestSide,
               " pixels a side, found ", header_.is_deep ? "a deep one of " : "", header_.size.x,
               "x", header_.size.y);
-        return {uvec2(header_.size), std::size_t(header_.channel_count), header_.channels};
+        return {uvec2(header_.size), std::size_t(header_.channel_count), header_.channels,
+                header_.description};
     }
     void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values) {
         check_codec_result(codecs_.read(*picture_, first, row_count, type, values), name_, format_);
@@ -167,7 +168,9 @@ std::string encode_openexr(const ImageShape& shape, std::span<const float> value
                                                          {.size = shape.size,
                                                           .channel_count = shape.channel_count,
                                                           .type = CodecValue::float32,
-                                                          .values = values.data()},
+                                                          .values = values.data(),
+                                                          .channels = shape.channels,
+                                                          .description = shape.description},
                                                          bytes);
     check(answer != CodecStatus::no_codec, Failure::internal,
           "this OpenImageIO cannot write openexr");

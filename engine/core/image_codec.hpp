@@ -27,6 +27,7 @@ struct ImageShape {
     uvec2 size{0};
     std::size_t channel_count = 0;
     std::vector<std::string> channels; ///< channel names: "R", "G", "B", "A", "Y" ...
+    std::string description;           ///< text in the header of an OpenEXR file; may be empty
 };
 
 /// Reads a picture. At first only the header is read. `bytes` must outlive the reader.
@@ -60,8 +61,9 @@ private:
     std::unique_ptr<ImageReadState> open_;
 };
 
-/// Returns the bytes of an OpenEXR file of floats, or of a PNG file of 8 bits in sRGB, with 1 to 4
-/// channels. Equal values give equal bytes. Values are as ImageReader returns them.
+/// Returns the bytes of an OpenEXR file of floats, or of a PNG file of 8 bits in sRGB. A PNG has 1
+/// to 4 channels. Without names, an OpenEXR file has 1 to 4 channels as well. Equal values give
+/// equal bytes. Values are as ImageReader returns them.
 std::string encode_openexr(const ImageShape& shape, std::span<const float> values);
 std::string encode_png(const ImageShape& shape, std::span<const std::uint8_t> values);
 

@@ -36,12 +36,15 @@ struct ImageCodecs {
         int channel_count = 0;
         bool is_deep = false;
         std::vector<std::string> channels;
+        std::string description; ///< see ImageShape
     };
     struct PixelValueBuffer {
         uvec2 size{0};
         std::size_t channel_count = 0;
         CodecValue type = CodecValue::uint8;
         const void* values = nullptr;
+        std::vector<std::string> channels; ///< empty: named by the format
+        std::string description;           ///< see ImageShape
     };
 
     /// Opens a picture. If the answer is `done`, the caller must close `picture`; otherwise it is
@@ -60,7 +63,7 @@ struct ImageCodecs {
 /// The only symbol that the module exports: a function that returns its `ImageCodecs`. Its number
 /// rises with every change of the interface above, so that a library never uses a module of another
 /// version.
-constexpr const char* kImageCodecs = "catoptric_image_codecs_2";
+constexpr const char* kImageCodecs = "catoptric_image_codecs_3";
 using ImageCodecsFunction = const ImageCodecs* (*)();
 
 /// Returns the module's functions. The first call loads the module, which takes a fifth of a

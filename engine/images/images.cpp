@@ -81,6 +81,8 @@ CodecResult catch_codec_exceptions(const Work& work) noexcept {
     }
 }
 
+constexpr const char* kDescription = "ImageDescription";
+
 CodecResult open_picture(const ByteSource& bytes, const std::string& format,
                          const std::string& name, ImageCodecs::Picture*& picture,
                          ImageCodecs::PictureHeader& header) noexcept {
@@ -93,7 +95,11 @@ CodecResult open_picture(const ByteSource& bytes, const std::string& format,
         hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
         opened->input->set_ioproxy(&opened->proxy);
         if (!opened->input->open(name, spec, hints)) return last_oiio_error(*opened->input);
-        header = {{spec.width, spec.height}, spec.nchannels, spec.deep, spec.channelnames};
+        header = {{spec.width, spec.height},
+                  spec.nchannels,
+                  spec.deep,
+                  spec.channelnames,
+                  std::string(opened->input->spec().get_string_attribute(kDescription))};
         opened->channel_count = spec.nchannels;
         picture = opened.release();
         return {};
@@ -148,6 +154,8 @@ CodecResult encode_picture(const std::string& format, const ImageCodecs::PixelVa
                        "2000:01:01 00:00:00"); // constant, so that equal pictures have equal bytes
         spec.attribute("oiio:ColorSpace", format == "png" ? "sRGB" : "Linear");
         spec.attribute("oiio:UnassociatedAlpha", 1);
+        if (!picture.channels.empty()) spec.channelnames = picture.channels;
+        if (!picture.description.empty()) spec.attribute(kDescription, picture.description);
         OIIO::Filesystem::IOVecOutput memory;
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
         if (!output) return {CodecStatus::no_codec};
@@ -170,6 +178,6 @@ constexpr ImageCodecs kCodecs{.open = open_picture,
 } // namespace catoptric
 
 extern "C" __attribute__((visibility("default"))) const catoptric::ImageCodecs*
-catoptric_image_codecs_2() {
+catoptric_image_codecs_3() {
     return &catoptric::kCodecs;
 }

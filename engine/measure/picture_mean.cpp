@@ -6,6 +6,16 @@
 
 namespace catoptric::measure {
 
+PictureMean::PictureMean(int count, const Picture& mean, const Picture& variance)
+    : count_(count), width_(mean.width), height_(mean.height) {
+    const double pictures = count;
+    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+        mean_.emplace_back(mean.pixels[i]);
+        squares_.push_back(count < 2 ? dvec3(0)
+                                     : dvec3(variance.pixels[i]) * ((pictures - 1) * pictures));
+    }
+}
+
 void PictureMean::add(const Picture& picture) {
     if (count_ == 0) {
         width_ = picture.width, height_ = picture.height;

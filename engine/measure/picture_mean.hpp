@@ -10,6 +10,9 @@ namespace catoptric::measure {
 /// in double by Welford's method (1962). Takes 48 bytes a pixel.
 class PictureMean {
 public:
+    PictureMean() = default;
+    /// Restores a mean of `count` pictures from `mean` and `variance`.
+    PictureMean(int count, const Picture& mean, const Picture& variance);
     /// Adds a picture. Throws `bad_data` for another size than that of the first.
     void add(const Picture& picture);
     /// Returns the number of pictures.

@@ -81,9 +81,11 @@ public:
         list_rows();
         prepare_comparison();
         try {
+            if (!request_.reference_file.empty()) truths_.keep_in_file(request_.reference_file);
             fill_reference();
             measure_rounds();
             reduce_reference_noise();
+            truths_.write_file();
             for (const StudyChoice& choice : asked_studies())
                 find_study(choice.name)
                     .run({.session = session_,

@@ -5,6 +5,7 @@
 #include "measure/masks.hpp"
 #include "scene/rough_reflectors.hpp"
 #include "session/technique_choice.hpp"
+#include "study/reference_file.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -72,12 +73,20 @@ void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& 
     request.animate = false;
     request.warmup = 0, request.frames = 1;
     for (measure::PictureMean* half : {&noisy.a, &noisy.b}) {
-        request.techniques = {set_lobe_seed(technique, noisy.seeds.next())};
+        noisy.used.push_back(noisy.seeds.next());
+        request.techniques = {set_lobe_seed(technique, noisy.used.back())};
         RunResult result = run(session_, request, watcher_);
         half->add(result.parts.front().hdr);
         reference.gpu_ms.push_back(result.frames.front().gpu_ms);
         if (reference.part.hdr.pixels.empty()) reference.part = std::move(result.parts.front());
     }
+    update_picture(reference);
+    noisy.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void ReferenceCache::update_picture(ReferencePicture& reference) const {
+    NoisyReference& noisy = *reference.noisy;
     noisy.halves = measure::make_halves(noisy.a.mean(), noisy.b.mean(), base_.exposure);
     // The mean of both halves, before exposure.
     measure::PictureMean both;
@@ -85,8 +94,34 @@ void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& 
     both.add(noisy.b.mean());
     reference.part.hdr = both.mean();
     reference.part.display = measure::to_display(reference.part.hdr, base_.exposure);
-    noisy.seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void ReferenceCache::read_frames(ReferencePicture& reference) const {
+    StoredReference stored = read_reference(make_reference_key(base_, reference_), file_);
+    NoisyReference& noisy = *reference.noisy;
+    for (const int seed : stored.seeds)
+        check(noisy.seeds.take(seed), Failure::usage, file_.string(), ": a frame has the seed ",
+              seed, ", which a row has as well; choose another seed for the row");
+    noisy.used = std::move(stored.seeds);
+    noisy.a = std::move(stored.a), noisy.b = std::move(stored.b);
+    reference.gpu_ms = std::move(stored.gpu_ms);
+    reference.part.label = reference_;
+    update_picture(reference);
+}
+
+void ReferenceCache::keep_in_file(const std::filesystem::path& file) {
+    check(is_noisy(), Failure::usage, "--reference ", file.string(),
+          ": wanted a reference with noise, which draws rays from the lobes of rough surfaces; "
+          "found one without");
+    file_ = file;
+}
+
+void ReferenceCache::write_file() {
+    if (file_.empty()) return;
+    const ReferencePicture& reference = find_reference("1");
+    const NoisyReference& noisy = *reference.noisy;
+    write_reference({noisy.a, noisy.b, noisy.used, reference.gpu_ms},
+                    make_reference_key(base_, reference_), file_);
 }
 
 ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& samples, int number) {
@@ -99,7 +134,11 @@ ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& sa
         std::vector<std::string> rows = base_.techniques;
         rows.push_back(reference_);
         made.noisy = std::make_shared<NoisyReference>(ReferenceSeeds(rows));
-        add_frames(made, technique, key.second);
+        const bool is_kept = !file_.empty() && samples == "1" && key.second == base_.total();
+        if (is_kept && std::filesystem::exists(file_))
+            read_frames(made);
+        else
+            add_frames(made, technique, key.second);
         made.part.hits.clear(); // the second mirror of a drawn ray is a draw as well
     } else {
         RunResult result = render_reference(technique, key.second);

@@ -8,7 +8,7 @@
 #include "study/compare_row.hpp"
 #include "study/reference_seeds.hpp"
 
-#include <functional>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,6 +29,7 @@ struct NoisyReference {
     explicit NoisyReference(ReferenceSeeds free_seeds) : seeds(std::move(free_seeds)) {}
 
     ReferenceSeeds seeds;
+    std::vector<int> used; ///< seeds of all frames
     measure::PictureMean a, b;
     measure::ReferenceHalves halves; ///< of these means, after exposure
     double seconds = 0;              ///< time in which the frames were rendered
@@ -80,6 +81,12 @@ public:
     /// Reports progress to the watcher. Returns whether any frame was added. Does nothing for a
     /// reference without noise.
     bool grow_reference(const std::string& samples, double seconds, double wanted);
+    /// Keeps the reference of a row's last frame at one sample a pixel in a file, and begins with
+    /// the content of the file if it exists. Call it before the reference is needed. Throws `usage`
+    /// for a reference without noise.
+    void keep_in_file(const std::filesystem::path& file);
+    /// Writes the file, if the reference is kept in one.
+    void write_file();
     /// Returns the noise of that reference over the mirrors. Only for references with noise.
     measure::ReferenceNoise measure_noise(const std::string& samples);
 
@@ -90,6 +97,9 @@ private:
     RunResult render_reference(const std::string& technique, int number) const;
     /// Adds a frame of each half, and updates the picture.
     void add_frames(ReferencePicture& reference, const std::string& technique, int number);
+    /// Sets the picture to the mean of the halves.
+    void update_picture(ReferencePicture& reference) const;
+    void read_frames(ReferencePicture& reference) const;
     ReferencePicture& find_reference_to_change(const std::string& samples, int number);
 
     Session& session_;
@@ -100,6 +110,7 @@ private:
     /// First hits of the reference's camera rays, by frame number.
     std::map<int, std::vector<std::uint32_t>> hits_;
     mutable std::optional<bool> noisy_;
+    std::filesystem::path file_; ///< see keep_in_file; empty: none
 };
 
 } // namespace catoptric::app

@@ -18,6 +18,8 @@ public:
     explicit ReferenceSeeds(const std::vector<std::string>& rows) : taken_(list_row_seeds(rows)) {}
     /// Returns the next seed, from 1.
     int next();
+    /// Marks a seed as given. Returns false if a row has it, or if it was given before.
+    bool take(int seed) { return taken_.insert(seed).second; }
 
 private:
     std::set<int> taken_;

@@ -21,6 +21,7 @@
 #include "table.hpp"
 #include "verbs.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -78,6 +79,7 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     request.both_models = options.common.both_models;
     request.reference = app::choose_reference(options.common.reference, request.base.scene);
     request.reference_seconds = options.reference_seconds;
+    request.reference_file = options.common.reference_file;
     request.together = options.together;
     request.rounds = options.rounds.value_or(request.rounds);
     request.studies = options.studies;
@@ -96,6 +98,9 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
         app::check_study(choice, reference.empty() ? app::kReference : reference);
     std::vector<app::CompareRequest> requests;
     const std::vector<std::string> scenes = list_scenes_to_compare(options);
+    check(options.common.reference_file.empty() || scenes.size() == 1, Failure::usage,
+          "--reference ", options.common.reference_file, ": wanted one scene, found ",
+          scenes.size());
     for (const std::string& scene : scenes) {
         app::CompareRequest request = make_compare_request(options, scene);
         if (scenes.size() > 1)

@@ -57,8 +57,12 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
     verb.option(
         "--reference", "T",
         "technique of the reference picture of compare (raytrace:depth=16; rays=64 more if a "
-        "mirror is rough)",
+        "mirror is rough), or FILE.exr that keeps the latter",
         [&](const std::string& text) {
+            if (text.ends_with(".exr")) {
+                common.reference_file = text;
+                return;
+            }
             const app::TechniqueChoice choice = app::parse_technique(text);
             check(choice.technique != "plan", Failure::usage,
                   "--reference: wanted one technique for all mirrors, found '", text, "'");

@@ -40,7 +40,8 @@ struct CommonOptions {
     scene::SceneOverrides
         overrides; ///< scene overrides: mirrors, lights, environment, camera, exposure ...
     bool use_scene_file = true;
-    std::string reference; ///< empty: app::choose_reference chooses
+    std::string reference_file; ///< file of the reference's halves; empty: none
+    std::string reference;      ///< empty: app::choose_reference chooses
     DeviceOptions device;
     std::optional<app::RenderedWork> model; ///< none: default of the verb
     bool both_models = false;               ///< `compare` only: measures each row with both models

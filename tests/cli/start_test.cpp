@@ -111,7 +111,7 @@ TEST_F(Installed, ErrorSaysWhyTheImageModuleCannotBeLoaded) {
     fs::remove(module);
     fs::create_symlink(CATOPTRIC_LIBRARY, module);
     expect_ended(installed(diff), 70,
-                 {module.string() + " is of another version: wanted catoptric_image_codecs_2"});
+                 {module.string() + " is of another version: wanted catoptric_image_codecs_3"});
 }
 
 } // namespace

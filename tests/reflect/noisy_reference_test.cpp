@@ -7,6 +7,8 @@
 #include "report/writer.hpp"
 #include "scene/classify.hpp"
 #include "study/reference_cache.hpp"
+#include "support/folder.hpp"
+#include "support/refusal.hpp"
 #include "support/rendering.hpp"
 
 #include <gmock/gmock.h>
@@ -191,6 +193,33 @@ TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
         EXPECT_EQ(without->rows[0].error.rmse, sharp.rows[0].error.rmse);
         EXPECT_EQ(without->rows[0].error.flip, sharp.rows[0].error.flip);
     }
+}
+
+using NoisyReferenceInFolder = test::InFolder;
+
+TEST_F(NoisyReferenceInFolder, FileContinuesTheHalves) {
+    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 0);
+    request.base.size = {32, 32};
+    request.reference = "raytrace:depth=2,rays=2";
+    request.reference_file = (folder / "halves.exr").string();
+    const report::Comparison first = app::compare(test::engine(), request),
+                             again = app::compare(test::engine(), request);
+    EXPECT_EQ(again.noise->frames, 1);
+    EXPECT_EQ(again.rows[0].error.rmse, first.rows[0].error.rmse);
+    request.reference_seconds = .2; // one frame a half more, at least
+    const report::Comparison longer = app::compare(test::engine(), request);
+    EXPECT_GT(longer.noise->frames, 1);
+    EXPECT_LT(longer.noise->halves_rmse, first.noise->halves_rmse);
+    request.base.size = {16, 32};
+    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { app::compare(test::engine(), request); }),
+                testing::HasSubstr("the size 16x32"));
+    request.base.size = {32, 32};
+    request.base.techniques = {"raytrace:depth=2,rays=2,seed=1"};
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { app::compare(test::engine(), request); }),
+                testing::HasSubstr("the seed 1"));
+    request.reference = "raytrace:depth=2";
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { app::compare(test::engine(), request); }),
+                testing::HasSubstr("wanted a reference with noise"));
 }
 
 TEST(NoisyReference, ViewsAreJudgedByHalvesAsWell) {

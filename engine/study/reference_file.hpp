@@ -1,0 +1,36 @@
+#pragma once
+
+#include "measure/picture_mean.hpp"
+#include "session/run.hpp"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Files that keep the halves of a reference with noise, so that a later comparison continues them.
+namespace catoptric::app {
+
+/// Statements that a reference depends on: name and value.
+using ReferenceKey = std::vector<std::pair<std::string, std::string>>;
+/// Returns the key of a reference at the instant of `base`: scene hash, camera, time, size, ambient
+/// light, technique and seed.
+ReferenceKey make_reference_key(const Request& base, const std::string& technique);
+
+/// The content of a file.
+struct StoredReference {
+    measure::PictureMean a, b;
+    std::vector<int> seeds;     ///< values of the knob `seed` of all frames
+    std::vector<double> gpu_ms; ///< times of the frames
+};
+
+/// Writes the halves as OpenEXR, with the layers A, B, variance_A and variance_B. The variances are
+/// those of the means. The key, the seeds and the times stand in the file's ImageDescription as
+/// JSON.
+void write_reference(const StoredReference& reference, const ReferenceKey& key,
+                     const std::filesystem::path& path);
+/// Reads such a file. Throws `missing_input`, and `bad_data` for another file or for a file whose
+/// key differs, with the part that differs.
+StoredReference read_reference(const ReferenceKey& key, const std::filesystem::path& path);
+
+} // namespace catoptric::app
