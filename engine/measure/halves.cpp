@@ -57,6 +57,7 @@ double signed_root(double square) { return square < 0 ? -std::sqrt(-square) : st
 struct HalvesSum {
     std::vector<TileSum> tiles;
     double pixels = 0, products = 0, unclamped = 0, between = 0, crossing = 0, flip = 0, floor = 0;
+    double variance = 0; ///< of `products`
 };
 
 HalvesSum sum_over_mask(const Picture& picture, const ReferenceHalves& halves, const Mask& mask,
@@ -74,6 +75,8 @@ HalvesSum sum_over_mask(const Picture& picture, const ReferenceHalves& halves, c
         TileSum& tile = sum.tiles[i / width / kTileEdge * across + i % width / kTileEdge];
         tile.products += product, ++tile.pixels;
         sum.products += product, ++sum.pixels;
+        const double swapped = glm::dot(clamp_pixel(x) - (low_a + low_b) / 2., low_a - low_b);
+        sum.variance += swapped * swapped;
         sum.unclamped += product_of_differences(dvec3(x), dvec3(a), dvec3(b));
         sum.between += glm::dot(low_a - low_b, low_a - low_b);
         sum.crossing += crosses_one(a, b);
@@ -152,6 +155,7 @@ HalvesEstimate estimate_by_halves(const Picture& picture, const ReferenceHalves&
     const double values = 3 * sum.pixels;
     return {.squared_error = sum.products / values,
             .ci95 = bootstrap_interval(std::move(sum.tiles)),
+            .deviation = std::sqrt(sum.variance) / values,
             .unclamped = sum.unclamped / values,
             .crossing = sum.crossing / sum.pixels,
             .halves_rmse = std::sqrt(sum.between / values),
@@ -189,6 +193,7 @@ void set_noise(Row& row, const std::vector<HalvesEstimate>& estimates) {
                         std::string(list_row_masks()[i].name),
                         {{"squared_error", estimate.squared_error},
                          {"ci95", interval_value(estimate.ci95)},
+                         {"deviation", estimate.deviation},
                          {"squared_error_unclamped", estimate.unclamped},
                          {"crossing", estimate.crossing},
                          {"halves_rmse", estimate.halves_rmse},

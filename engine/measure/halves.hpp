@@ -50,6 +50,11 @@ struct HalvesEstimate {
     /// (Efron and Tibshirani 1993, 13). Neighbouring pixels share errors, and tiles keep them
     /// together. Unknown for fewer than kFewestTiles tiles.
     Interval ci95;
+    /// Standard deviation of the estimate by the noise of this picture's halves alone. With M =
+    /// (A + B) / 2, the product (x - M)(A - B) has the variance of (x - A)(x - B) if the noise of
+    /// both halves has one normal distribution, because M and A - B are then independent. Noise is
+    /// independent from pixel to pixel.
+    double deviation = Difference::kNone;
     /// The same estimate without clamping, which stays unbiased where a half crosses 1.
     double unclamped = Difference::kNone;
     /// Share of the pixels in which one half exceeds 1 in a channel and the other does not.

@@ -46,11 +46,12 @@ std::string format_interval(const measure::ValueParts& parts) {
 ReportTable make_noise_table(const Comparison& comparison) {
     ReportTable table{
         "Errors against a reference with noise",
-        {make_text_column("Row"), "Squared error", make_text_column("95 %"), "Not clamped",
-         "Crossing, %", "FLIP", "Floor", make_text_column("Verdict")},
+        {make_text_column("Row"), "Squared error", "Deviation", make_text_column("95 %"),
+         "Not clamped", "Crossing, %", "FLIP", "Floor", make_text_column("Verdict")},
         "Over the mirrors. Squared error: the mean of (x - A)(x - B) over pixels and channels, where "
         "x is the row and A and B are the independent halves of the reference; unbiased, and "
-        "negative where the error is below the noise. 95 %: by bootstrap over tiles of 16x16 "
+        "negative where the error is below the noise. Deviation: standard deviation of this "
+        "estimate by the noise alone. 95 %: by bootstrap over tiles of 16x16 "
         "pixels. Not clamped: the same without clamping to [0,1]. Crossing: pixels in which one "
         "half exceeds 1 and the other does not, which clamping biases. FLIP: the mean of FLIP "
         "against A and against B. Floor: FLIP between A and B."};
@@ -60,7 +61,9 @@ ReportTable make_noise_table(const Comparison& comparison) {
         if (noise == nullptr) continue;
         const double square = find_number(*noise, "squared_error");
         const bool hidden = measure::is_below_noise(row.error) || square < 0;
-        table.rows.push_back({row.label, format_squared_error(square), format_interval(*noise),
+        table.rows.push_back({row.label, format_squared_error(square),
+                              format_squared_error(find_number(*noise, "deviation")),
+                              format_interval(*noise),
                               format_squared_error(find_number(*noise, "squared_error_unclamped")),
                               format_fixed(100 * find_number(*noise, "crossing"), 2),
                               format_error(row.error.flip), format_error(row.error.flip_floor),

@@ -109,16 +109,20 @@ TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
             {}, std::vector<float>(row.pixels.size(), 0.f));
     };
     const double truth = estimate(16 * kRays, 2000).squared_error;
-    int held = 0;
-    double width = 0;
+    int held = 0, held_by_deviation = 0;
+    double width = 0, deviation = 0;
     for (int k = 0; k < 20; ++k) {
         const measure::HalvesEstimate found = estimate(kRays, 1 + 2 * k);
         held += found.ci95.low <= truth && truth <= found.ci95.high;
         width += (found.ci95.high - found.ci95.low) / 20;
+        held_by_deviation += std::abs(found.squared_error - truth) <= 1.96 * found.deviation;
+        deviation += found.deviation / 20;
     }
     std::cout << "[ MEASURED ] " << held << " of 20 intervals hold the squared error " << truth
-              << ", mean width " << width << '\n';
+              << ", mean width " << width << "; held by the deviation " << held_by_deviation
+              << ", mean " << deviation << '\n';
     EXPECT_GE(held, 17);
+    EXPECT_GE(held_by_deviation, 17);
     EXPECT_LT(width, truth) << "an interval that wide says nothing";
 }
 
