@@ -34,6 +34,9 @@ struct Surface {
     float radius;     // radius of the exact sphere; 0: the mesh approximates no sphere
 };
 
+// Smoother surfaces reflect as perfect mirrors, rougher ones in lobes.
+const float kMostSharpRoughness = 0.04f;
+
 // A texture as a material uses it: texels, wrap mode and transform (lib/material.glsl, lib/math/surface.glsl).
 struct TextureUse {
     uint first; // index of the texture's first texel in the list of all texels
@@ -42,6 +45,9 @@ struct TextureUse {
     vec3 u_row; // row of the texture transform: texture u = dot(u_row, (u, v, 1)) of the mesh
     vec3 v_row; // row of the texture transform: texture v = dot(v_row, (u, v, 1)) of the mesh
 };
+// The list of texture words begins with two tables (lib/material.glsl): linear light of each sRGB byte, and the albedo of
+// rough lobes by cosine (columns, 0 to 1) and roughness (rows, 0 to 1).
+const uint kSrgbTableWords = 256u, kLobeTableEdge = 32u;
 const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
 
 // The factors of a material: numbers that members of scene::Material hold under the same names. A new factor needs its

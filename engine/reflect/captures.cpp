@@ -37,6 +37,12 @@ SharedKnobs shared_knobs(const KnobSettings& settings) {
     knobs.by_object = has_second(settings, kLookup);
     knobs.asks_all = has_second(settings, kCaptures);
     knobs.leaves_out_spheres = has_second(settings, kMirrors);
+    if (settings.has(kRough)) {
+        knobs.rough = settings.as<SharedKnobs::Rough>(kRough);
+        knobs.taps = static_cast<std::uint32_t>(settings.integer(kTaps));
+        knobs.lobe_rays = static_cast<std::uint32_t>(settings.integer(kLobeRays));
+    }
+    if (settings.has(kLaw)) knobs.law = settings.as<SharedKnobs::Law>(kLaw);
     knobs.capture = number_of(settings, kCapture);
     knobs.is_black_in_others = settings.has(kCapture) && !knobs.capture;
     return knobs;
@@ -62,9 +68,13 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
     if (options.distance == Format::r8_unorm)
         options.stored_unit = inputs.scene.space().length(knobs.range);
     const bool continues = knobs.continues > 0;
-    options.surfaces = knobs.by_object || knobs.asks_all ||
+    const bool wants_normals = knobs.looks_up_levels() && knobs.law == SharedKnobs::Law::exact &&
+                               inputs.scene.has_rough_mirrors();
+    options.surfaces = knobs.by_object || knobs.asks_all || wants_normals ||
                        (continues && inputs.scene.has_other_mirrors());
-    options.leaves_out_spheres = continues && knobs.leaves_out_spheres;
+    // A blurred look-up shows mirrors only by the capture.
+    options.leaves_out_spheres = continues && knobs.leaves_out_spheres &&
+                                 !(knobs.looks_up_levels() && inputs.scene.has_rough_mirrors());
     return options;
 }
 

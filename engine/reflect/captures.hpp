@@ -96,10 +96,41 @@ inline constexpr Knob kShow{
     .high = 2,
     .choices = kShowChoices};
 
+/// In the order of SharedKnobs::Rough and of SharedKnobs::Law.
+inline constexpr std::array<std::string_view, 4> kRoughChoices{"none", "mips", "prefilter", "rays"};
+inline constexpr std::array<std::string_view, 5> kLawChoices{"none", "frostbite", "square", "cone",
+                                                             "exact"};
+inline constexpr Knob kRough{
+    .name = "rough",
+    .help = "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
+            "prefilter (level filtered by the GGX lobe), rays (searches in directions of the lobe)",
+    .high = 3,
+    .value = 2,
+    .choices = kRoughChoices};
+inline constexpr Knob kTaps{.name = "taps",
+                            .help = "samples of each texel for rough=prefilter",
+                            .low = 1,
+                            .high = 2048,
+                            .value = 32};
+inline constexpr Knob kLobeRays{
+    .name = "rays",
+    .help = "directions of each rough pixel: searches for rough=rays, rays where a tracer completes "
+            "the search",
+    .low = 1,
+    .high = 4096,
+    .value = 16};
+inline constexpr Knob kLaw{
+    .name = "law",
+    .help = "how the blur of rough=mips and rough=prefilter depends on the distance of the reflected "
+            "surface: none, frostbite, square, cone, or exact (the lobe's solid angle)",
+    .high = 4,
+    .value = 4,
+    .choices = kLawChoices};
+
 /// Knobs that every search has, in lists after the search's own knobs.
-inline constexpr std::array kSearchKnobs{kFace,     kColour, kDistance,     kRange,
-                                         kContinue, kLookup, kCaptures,     kMirrors,
-                                         kShow,     kShadow, kShadowMapEdge};
+inline constexpr std::array kSearchKnobs{
+    kFace, kColour, kDistance, kRange, kContinue, kLookup, kCaptures,     kMirrors,
+    kShow, kRough,  kLaw,      kTaps,  kLobeRays, kShadow, kShadowMapEdge};
 
 template <std::size_t N>
 constexpr std::array<Knob, N + kSearchKnobs.size()>
@@ -133,6 +164,34 @@ render::MirrorShader make_capture_shader(const MirrorInputs& around, std::string
 /// become shader constants of the same names.
 render::MirrorShader make_search_shader(const Technique& technique, const MirrorInputs& around,
                                         const KnobSettings& settings);
+
+/// Consecutive layers of an array of cubes.
+struct LayerRange {
+    std::uint32_t first = 0, count = 0;
+};
+/// Returns the cubes of captures in array `array` for which `derived`, an image that passes compute
+/// from captures, is out of date, as runs of layers. Sets their content hash to `hash` of the
+/// mirror. If captures are not kept from frame to frame, all cubes are out of date.
+template <typename Hash>
+std::vector<LayerRange>
+find_outdated_cubes(graph::Graph& graph, const render::Captures& captures, std::uint32_t array,
+                    graph::ImageHandle derived, Hash&& hash) {
+    std::vector<LayerRange> runs;
+    for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
+        const render::CapturePlace& place = captures.places[mirror];
+        if (place.array != array) continue;
+        const std::uint32_t first = 6 * place.cube;
+        if (!captures.drawings.empty()) {
+            const std::uint64_t content_hash = hash(mirror);
+            if (graph.holds_content(derived.layers(first, 6), content_hash)) continue;
+            graph.set_content_hash(derived.layers(first, 6), content_hash);
+        }
+        if (runs.empty() || runs.back().first + runs.back().count != first)
+            runs.push_back({first, 0});
+        runs.back().count += 6;
+    }
+    return runs;
+}
 
 /// Returns the scene passes R of techniques with one capture per mirror: N + 2 with one light.
 inline int count_feedback_passes(int mirrors, int lights, const KnobSettings& settings) {

@@ -2,6 +2,7 @@
 
 #include "reflect/captures.hpp"
 #include "reflect/mirrored.hpp"
+#include "reflect/rough.hpp"
 #include "require/model.hpp"
 
 #include <algorithm>
@@ -95,11 +96,14 @@ std::vector<render::CaptureOptions> choose_capture_options(const render::FrameIn
 
 /// Returns the mirror shading of all mirrors inside captures: lookups in the captures of the last
 /// frame.
-render::MirrorShaders choose_shaders_in_captures(const render::CaptureUpdate& feeding,
-                                                 const MirrorAssignment& assignment) {
+render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
+                                                 const render::CaptureUpdate& feeding,
+                                                 const MirrorAssignment& assignment,
+                                                 const RoughLevels& levels) {
     render::MirrorShaders looks;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
-        const Technique& technique = *assignment.choices[assignment.of_mirror[i]].technique;
+        const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
+        const Technique& technique = *choice.technique;
         render::MirrorShader look; // no fragment shader: black
         const bool is_kept = feeding.kept != nullptr;
         if (feeding.last && feeding.last->places[i].exists() &&
@@ -107,9 +111,14 @@ render::MirrorShaders choose_shaders_in_captures(const render::CaptureUpdate& fe
             look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
             look.captures = feeding.last;
             look.blank = !feeding.was_there[i];
+            const auto mirror = static_cast<std::uint32_t>(i);
+            if (!look.blank)
+                levels.add_lookups(graph, std::span(&mirror, 1), choice.shared, look, true);
         }
-        const auto found = std::ranges::find(looks.looks, look.fragment,
-                                             &render::MirrorShader::fragment);
+        const auto found = std::ranges::find_if(
+            looks.looks, [&](const render::MirrorShader& other) {
+                return other.fragment == look.fragment && other.constants == look.constants;
+            });
         looks.of_mirror.push_back(static_cast<std::uint32_t>(found - looks.looks.begin()));
         if (found == looks.looks.end()) looks.looks.push_back(std::move(look));
     }
@@ -120,12 +129,18 @@ bool uses_mirrored_views(const TechniqueChoice& choice) {
     return choice.technique->mirrored_bounces != nullptr;
 }
 
+/// Captures that mirrors of this frame look into, and their filtered levels.
+struct FeedbackCaptures {
+    render::CaptureUpdate update;
+    RoughLevels levels;
+};
+
 /// Declares the captures of parts two and later of the report, which show mirrors by the captures
 /// of the frame before. Returns an empty update if no technique needs captures.
-render::CaptureUpdate add_feedback_passes(graph::Graph& graph, const render::FrameInputs& inputs,
-                                          const MirrorAssignment& assignment,
-                                          const CaptureHistory& keeping, ShadowMaps& maps,
-                                          const render::Lighting& view_lighting) {
+FeedbackCaptures add_feedback_passes(graph::Graph& graph, const render::FrameInputs& inputs,
+                                     const MirrorAssignment& assignment,
+                                     const CaptureHistory& keeping, ShadowMaps& maps,
+                                     const render::Lighting& view_lighting) {
     // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, uses_mirrored_views);
@@ -134,18 +149,24 @@ render::CaptureUpdate add_feedback_passes(graph::Graph& graph, const render::Fra
     };
     if (assignment.of_mirror.empty() ||
         !(has_views || std::ranges::any_of(assignment.choices, captures_any)))
-        return {};
+        return {{}, RoughLevels(graph, inputs, nullptr, {})};
     std::vector<render::CaptureOptions> options = choose_capture_options(inputs, assignment, maps,
                                                                          view_lighting);
-    const render::CaptureUpdate feeding =
+    render::CaptureUpdate feeding =
         keeping.model.is_everything
             ? render::update_all_captures(graph, inputs, "capture", std::move(options))
             : render::update_required_captures(graph, inputs, "capture", options, keeping.model,
                                                {keeping.before, keeping.comparisons, keeping.most});
+    std::vector<SharedKnobs> knobs;
+    for (const std::uint32_t choice : assignment.of_mirror)
+        knobs.push_back(assignment.choices[choice].shared);
+    RoughLevels levels(graph, inputs, feeding.captures, knobs);
     render::add_capture_passes(graph, inputs, *feeding.captures,
-                               choose_shaders_in_captures(feeding, assignment), feeding.work);
+                               choose_shaders_in_captures(graph, feeding, assignment, levels),
+                               feeding.work);
     render::add_capture_comparison(graph, inputs, feeding);
-    return feeding;
+    levels.add_passes(graph);
+    return {std::move(feeding), std::move(levels)};
 }
 
 std::vector<std::uint32_t> list_mirrors_of_choice(std::size_t choice,
@@ -191,10 +212,10 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
                                                   lighting);
     TechniqueOutputs outputs;
-    const render::CaptureUpdate feeding = add_feedback_passes(graph, inputs, assignment, keeping,
-                                                              maps, lighting);
-    outputs.captures = feeding.captures;
-    outputs.kept = feeding.kept;
+    const FeedbackCaptures feedback = add_feedback_passes(graph, inputs, assignment, keeping, maps,
+                                                          lighting);
+    outputs.captures = feedback.update.captures;
+    outputs.kept = feedback.update.kept;
     render::MirrorShaders looks{{}, assignment.of_mirror};
     std::vector<TracerSettings> tracers;
     const bool needs_looks = completes || !assignment.of_mirror.empty();
@@ -210,6 +231,8 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
                                  ? MirrorShading{make_search_shader(technique, around, settings),
                                                  {}}
                                  : technique.look(graph, own, settings, around);
+        if (look.mirror.captures == feedback.update.captures)
+            feedback.levels.add_lookups(graph, around.mirrors, choices[i].shared, look.mirror);
         if (look.tracer) {
             tracers.push_back(*look.tracer);
             look.mirror.constants.emplace_back("tracer",

@@ -23,12 +23,17 @@ MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs
     const bool traces_all = settings.as<Force>(kForce) == Force::unknown;
     if (traces_all) look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
+    const bool is_rough = std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
+        return inputs.scene.is_rough_mirror(mirror);
+    });
+    const SharedKnobs knobs = shared_knobs(settings);
+    if (is_rough && knobs.rough != SharedKnobs::Rough::none) look.tracer->rays = knobs.lobe_rays;
     // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
-    if (traces_all && inputs.scene.device().numbers_triangles()) {
+    if (traces_all && look.tracer->rays <= 1 && inputs.scene.device().numbers_triangles()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }
-    if (shared_knobs(settings).shadow == SharedKnobs::Shadow::none)
+    if (knobs.shadow == SharedKnobs::Shadow::none)
         look.tracer->shadow = TracerSettings::TracedShadow::none;
     return look;
 }

@@ -14,7 +14,8 @@ constexpr Knob kWithout{.name = "without",
                         .help = "rule of robustness to leave out, to measure its cost",
                         .high = 2,
                         .choices = kRules};
-constexpr Knob kKnobs[] = {kFace, kColour, kDistance, kRange, kShadow, kShadowMapEdge, kWithout};
+constexpr Knob kKnobs[] = {kFace, kColour,   kDistance, kRange,         kRough,  kLaw,
+                           kTaps, kLobeRays, kShadow,   kShadowMapEdge, kWithout};
 
 render::CaptureOptions capture(const render::FrameInputs& inputs, const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);

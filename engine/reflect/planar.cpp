@@ -25,6 +25,7 @@ constexpr Knob kRest{.name = "rest",
 constexpr Knob kKnobs[] = {kBounces, kRest, kShadow, kShadowMapEdge, kCapture};
 
 std::string describe_planar_misfit(const scene::FlatFaces& flats, double tolerance) {
+    if (flats.is_rough) return "rough";
     if (flats.share(tolerance) >= scene::kFlatEnough) return {};
     char text[96] = "not flat";
     if (flats.share(scene::kFarFromFlat) >= scene::kFlatEnough)

@@ -50,22 +50,13 @@ std::vector<CubeRange> find_outdated_pyramids(graph::Graph& graph, const render:
     // read.
     const graph::ImageHandle distances = cubes.distance.value_or(cubes.colour);
     std::vector<CubeRange> runs;
-    std::uint32_t end = 0; // first layer after the last run
-    for (std::size_t mirror = 0; mirror < captures.places.size(); ++mirror) {
-        const render::CapturePlace& place = captures.places[mirror];
-        if (place.array != array) continue;
-        const std::uint32_t first = 6 * place.cube;
-        if (!captures.drawings.empty()) {
-            const std::uint64_t content_hash = distance_bounds_hash(captures, mirror);
-            if (graph.holds_content(bounds.layers(first, 6), content_hash)) continue;
-            graph.set_content_hash(bounds.layers(first, 6), content_hash);
-        }
-        if (runs.empty() || end != first)
-            runs.push_back({distances.layers(first, 0), bounds.layers(first, 0), cubes.face});
-        runs.back().distances.layer_count += 6;
-        runs.back().bounds.layer_count += 6;
-        end = first + 6;
-    }
+    for (const LayerRange& run : find_outdated_cubes(graph, captures, array, bounds,
+                                                     [&](std::uint32_t mirror) {
+                                                         return distance_bounds_hash(captures,
+                                                                                     mirror);
+                                                     }))
+        runs.push_back({distances.layers(run.first, run.count),
+                        bounds.layers(run.first, run.count), cubes.face});
     return runs;
 }
 

@@ -7,7 +7,8 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kFragment = "reflect/naive.frag";
-constexpr Knob kKnobs[] = {kFace, kColour, kShadow, kShadowMapEdge};
+constexpr Knob kKnobs[] = {kFace,     kColour, kRough,        kTaps,
+                           kLobeRays, kShadow, kShadowMapEdge};
 
 constexpr std::string_view kCompared[] = {"reuse"};
 

@@ -70,6 +70,7 @@ void bind_capture_images(PassCommands& commands, const Captures& captures) {
     commands.bind("distance_cubes", distances);
     commands.bind("linear_texels", TextureFilter::linear);
     commands.bind("nearest_texels", TextureFilter::nearest);
+    commands.bind("mipmapped_texels", TextureFilter::mipmapped);
     if (captures.table) commands.bind("Captures", *captures.table);
 }
 

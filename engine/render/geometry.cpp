@@ -1,6 +1,7 @@
 #include "render/geometry.hpp"
 
 #include "scene/material_facts.hpp"
+#include "scene/rough_reflectors.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -138,6 +139,7 @@ DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) 
     range.turns = (material.two_sided || range.mirror) &&
                   (material.albedo != vec3(0) || range.varies);
     range.masked = scene::has_alpha_mask(material);
+    range.rough = range.mirror && scene::reflects_by_lobe(now, object);
     range.lit = range.mirror && !shows_only_reflections(mesh, material);
     return range;
 }

@@ -37,9 +37,7 @@ shared::Surface make_surface_entry(const scene::Object& object, const scene::Mat
 /// Returns the flat faces of a mirror, in scene units.
 scene::FlatFaces flat_faces_in_scene_units(const SceneUnits& space, const scene::Scene& now,
                                            std::size_t object) {
-    const scene::Object& mirror = now.objects[object];
-    scene::FlatFaces flats = scene::find_flat_faces(now.meshes[mirror.mesh],
-                                                    mirror.world_from_object);
+    scene::FlatFaces flats = scene::find_flat_faces(now, now.objects[object]);
     for (scene::FlatFace& face : flats.faces) {
         face.point = space.to_scene_units(face.point);
         for (dvec3& corner : face.corners) corner = space.to_scene_units(corner);

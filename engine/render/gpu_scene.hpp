@@ -14,6 +14,7 @@
 #include "render/vertices.hpp"
 #include "scene/light.hpp"
 
+#include <algorithm>
 #include <memory>
 
 namespace catoptric::render {
@@ -40,6 +41,14 @@ public:
     bool uses_mirror_bvh() const { return probes_.size() > kFewMirrors; }
     /// Returns whether some mirror is not an exact sphere or has light of its own.
     bool has_other_mirrors() const;
+    /// Returns whether some mirror reflects in lobes.
+    bool has_rough_mirrors() const {
+        return std::ranges::any_of(ranges(), &DrawRange::rough);
+    }
+    /// Returns whether the mirror reflects in lobes. Mirrors count from 0 here.
+    bool is_rough_mirror(std::uint32_t mirror) const {
+        return ranges()[mirror_object(mirror)].rough;
+    }
     std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
     /// Returns the layers of each light in shadow maps, and how many of them are drawn.
     std::uint32_t shadow_faces() const { return shadow_faces_; }

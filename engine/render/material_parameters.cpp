@@ -1,6 +1,7 @@
 #include "render/material_parameters.hpp"
 
 #include "core/error.hpp"
+#include "core/shader_math.hpp"
 #include "core/text.hpp"
 #include "render/facets.hpp"
 #include "scene/texel.hpp"
@@ -17,7 +18,33 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::size_t kTableTexels = 256; // a table before the images: sRGB bytes in linear light
+constexpr std::size_t kTableTexels = shared::kSrgbTableWords +
+                                     shared::kLobeTableEdge * shared::kLobeTableEdge;
+
+/// Returns the albedo of rough lobes by roughness (rows) and cosine (columns), each entry two
+/// 16-bit fractions of 1: f64::lobe_albedo_terms. The first call takes about 0.1 s.
+const std::vector<std::uint32_t>& lobe_albedo_table() {
+    static const std::vector<std::uint32_t> table = [] {
+        constexpr std::uint32_t kEdge = shared::kLobeTableEdge;
+        constexpr int kSampleEdge = 32;
+        constexpr float kLeastCosine = 1e-3f; // at a cosine of 0 no direction is sampled
+        std::vector<std::uint32_t> words;
+        for (std::uint32_t y = 0; y < kEdge; ++y)
+            for (std::uint32_t x = 0; x < kEdge; ++x) {
+                float head_on, grazing;
+                f32::lobe_albedo_terms(
+                    f32::alpha_of_roughness(static_cast<float>(y) / (kEdge - 1)),
+                    std::max(static_cast<float>(x) / (kEdge - 1), kLeastCosine), kSampleEdge,
+                    head_on, grazing);
+                const auto fraction = [](float value) {
+                    return static_cast<std::uint32_t>(std::clamp(value, 0.f, 1.f) * 65535 + .5f);
+                };
+                words.push_back(fraction(head_on) | fraction(grazing) << 16);
+            }
+        return words;
+    }();
+    return table;
+}
 
 std::uint32_t flag_if(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
@@ -60,7 +87,8 @@ MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) con
     return use;
 }
 
-void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t most) {
+void MaterialParameterLists::fill_texels(const scene::Scene& now, bool is_rough,
+                                         std::uint64_t most) {
     std::vector<std::shared_ptr<const scene::Image>> images;
     std::uint64_t count = kTableTexels;
     for (const scene::Object& object : now.objects) {
@@ -75,11 +103,16 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
                   " texels, the device allows ", most);
         }
     }
-    if (images == images_ && !first_texels_.empty()) return;
+    if (images == images_ && is_rough == is_rough_ && texels_filled_) return;
+    is_rough_ = is_rough, texels_filled_ = true;
     std::vector<std::uint32_t> texels;
     texels.reserve(count);
-    for (std::uint32_t byte = 0; byte < kTableTexels; ++byte)
+    for (std::uint32_t byte = 0; byte < shared::kSrgbTableWords; ++byte)
         texels.push_back(std::bit_cast<std::uint32_t>(scene::linear_from_srgb(byte)));
+    if (is_rough)
+        texels.insert(texels.end(), lobe_albedo_table().begin(), lobe_albedo_table().end());
+    else
+        texels.resize(kTableTexels);
     first_texels_ = {};
     for (const auto& image : images) {
         first_texels_.push_back(static_cast<std::uint32_t>(texels.size()));
@@ -91,7 +124,7 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
 
 void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geometry,
                                   const DeviceVertices& vertices, std::uint64_t most) {
-    fill_texels(now, most);
+    fill_texels(now, std::ranges::any_of(geometry.ranges, &DrawRange::rough), most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.clear();

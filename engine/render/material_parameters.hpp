@@ -14,7 +14,7 @@ public:
     explicit MaterialParameterLists(std::size_t slots);
 
     /// Fills the lists for a new geometry layout. Costs O(n) in attributes, and in texels if the
-    /// images changed. Throws `exhausted` if the images and a table of 256 texels take more than
+    /// images changed. Throws `exhausted` if the images and the tables before them take more than
     /// `most` texels.
     void fill(const scene::Scene& now, const Geometry& geometry, const DeviceVertices& vertices,
               std::uint64_t most);
@@ -30,12 +30,14 @@ public:
 
 private:
     shared::TextureUse use_of(const std::optional<scene::Texture>& texture) const;
-    void fill_texels(const scene::Scene& now, std::uint64_t most);
+    void fill_texels(const scene::Scene& now, bool is_rough, std::uint64_t most);
 
     std::vector<std::shared_ptr<const scene::Image>> images_; ///< in the order of the texel buffer
     std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
     std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
     bool any_ = false, masks_ = false;
+    bool is_rough_ = false;      ///< the texels hold the albedo of rough lobes
+    bool texels_filled_ = false; ///< `fill_texels` was called
     DeviceList details_, attributes_, texels_;
 };
 

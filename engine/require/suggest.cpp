@@ -2,6 +2,7 @@
 
 #include "scene/flat_mirror.hpp"
 #include "scene/mirror_shape.hpp"
+#include "scene/rough_reflectors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +39,7 @@ struct MirrorFacts {
 };
 
 bool is_flat_mirror(const ModelInput& question, const scene::Object& object) {
-    const scene::FlatFaces flats = scene::find_flat_faces(question.now.meshes[object.mesh],
-                                                          object.world_from_object);
+    const scene::FlatFaces flats = scene::find_flat_faces(question.now, object);
     return flats.share(scene::compute_flat_tolerance(question.camera, question.size)) >=
            1 - kMostBent;
 }
@@ -224,7 +224,8 @@ std::string explain_choice(const ModelInput& question, const MirrorFacts& known,
                                           " with what other mirrors show of it";
     if (reached == first && first > 0) seen = share(first) + " of the picture";
     const scene::MirrorShape::Kind kind = scene::classify_mirror_shape(question.now, object).kind;
-    const char* shape = known.is_flat[mirror]
+    const char* shape = scene::reflects_by_lobe(question.now, object) ? "rough"
+                        : known.is_flat[mirror]
                             ? kind == scene::MirrorShape::Kind::flat ? "flat" : "flat faces"
                         : kind == scene::MirrorShape::Kind::flat   ? "not quite flat"
                         : kind == scene::MirrorShape::Kind::sphere ? "a sphere"

@@ -28,6 +28,10 @@ const std::vector<BuiltInScene>& built_in_scenes();
 Scene make_cornell_mirrors();
 /// Builds the same box with a white front wall that camera rays ignore.
 Scene make_closed_cornell_mirrors();
+/// Builds the Cornell box with metal balls of roughness .05, .15, .3 and .5 instead of mirrors.
+Scene make_rough_cornell();
+/// Builds a room with six balls and six slanted slabs of metal, of roughness .05 to .6.
+Scene make_roughness_room();
 /// Builds a closed room with one flat mirror.
 Scene make_flat_mirror_room();
 /// Builds a furnished room: textures, shared meshes, a wall mirror, a smooth floor, two lamps, a

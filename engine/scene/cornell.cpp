@@ -77,6 +77,23 @@ Scene make_closed_cornell_mirrors() {
     return scene;
 }
 
+Scene make_rough_cornell() {
+    Scene scene = make_cornell_mirrors();
+    scene.name = "cornell-rough";
+    scene.mirror_max_roughness = .6f;
+    const std::pair<float, const char*> balls[] = {
+        {.05f, "0.05"}, {.15f, "0.15"}, {.3f, "0.3"}, {.5f, "0.5"}};
+    for (std::size_t i = 0; i < std::size(balls); ++i) {
+        const auto& [roughness, text] = balls[i];
+        scene.objects[scene.objects.size() - std::size(balls) + i].material = add_material(
+            scene, {.name = std::string("metal of roughness ") + text,
+                    .albedo = vec3(.95f),
+                    .metallic = 1,
+                    .roughness = roughness});
+    }
+    return scene;
+}
+
 namespace {
 
 const RegisteredScene kOpen{{"cornell-mirrors",
@@ -86,6 +103,9 @@ const RegisteredScene kClosed{
     {"cornell-mirrors-closed",
      "Cornell box with four mirror balls, and a white front wall that camera rays ignore",
      make_closed_cornell_mirrors, 1}};
+const RegisteredScene kRough{{"cornell-rough",
+                              "Cornell box with four metal balls of roughness 0.05 to 0.5",
+                              make_rough_cornell, 7}};
 
 } // namespace
 

@@ -1,6 +1,7 @@
 #include "scene/flat_mirror.hpp"
 
 #include "scene/material_facts.hpp"
+#include "scene/rough_reflectors.hpp"
 #include "scene/topology.hpp"
 #include "scene/transform.hpp"
 
@@ -175,6 +176,15 @@ double FlatFaces::share(double tolerance) const {
     for (const FlatFace& face : faces)
         if (face.off <= tolerance) sum += face.share;
     return sum;
+}
+
+FlatFaces find_flat_faces(const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    if (!reflects_by_lobe(scene, object)) return find_flat_faces(mesh, object.world_from_object);
+    FlatFaces none{.is_rough = true};
+    if (!mesh.triangles.empty())
+        none.bent = {{0, static_cast<std::uint32_t>(mesh.triangles.size())}};
+    return none;
 }
 
 FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {

@@ -34,6 +34,8 @@ struct FlatFace {
 struct FlatFaces {
     std::vector<FlatFace> faces;   ///< largest first, at most kMostFaces
     std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
+    /// Whether the surface reflects by a lobe, which no mirrored view shows. It then has no faces.
+    bool is_rough = false;
     /// Returns the share of the area in faces whose `off` is at most `tolerance`.
     double share(double tolerance) const;
     /// Returns whether the whole surface lies in one plane.
@@ -62,6 +64,8 @@ std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& wor
 /// for more than 64 such planes or 65,536 triangles, because so many planes are never drawn one by
 /// one. O(triangles), plus O(n log n) for a surface that has faces.
 FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object);
+/// Returns the flat faces of an object that is a mirror; none for a rough mirror.
+FlatFaces find_flat_faces(const Scene& scene, const Object& object);
 
 /// Returns the largest `FlatFace::off` at which a mirror shows what a plane would, in a picture of
 /// `size` pixels. It is a sixteenth of the angle of a pixel in the picture's middle. A normal that

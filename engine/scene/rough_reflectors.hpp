@@ -5,11 +5,8 @@
 // Finds surfaces whose reflections are blurred.
 namespace catoptric::scene {
 
-/// Roughness up to which a surface reflects as a perfect mirror even if rays are drawn from lobes.
-/// The same number as kMostSharpRoughness of shaders/lib/whitted.glsl.
-inline constexpr float kMostSharpRoughness = .04f;
-
-/// Returns whether some part of the object may reflect by a lobe: rougher than kMostSharpRoughness,
+/// Returns whether some part of the object may reflect by a lobe: rougher than
+/// shared::kMostSharpRoughness,
 /// and not above Scene::mirror_max_roughness, from which on surfaces are Lambertian. Of a textured
 /// material, the whole range of the texture counts. A Material::mirror is never rough.
 bool reflects_by_lobe(const Scene& scene, const Object& object);

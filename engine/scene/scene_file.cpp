@@ -71,7 +71,8 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
     const vec3& r = wish.reflectance;
     const auto text = [](float share) { return Json(float_to_typed_double(share)).dump(); };
     return wish.pattern + "=" +
-           (r.x == r.y && r.y == r.z ? text(r.x) : text(r.x) + "," + text(r.y) + "," + text(r.z));
+           (r.x == r.y && r.y == r.z ? text(r.x) : text(r.x) + "," + text(r.y) + "," + text(r.z)) +
+           (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
 const std::array<SceneFileKey, 12> kKeys{

@@ -84,7 +84,13 @@ void change_object_materials(Scene& scene, const std::vector<std::size_t>& objec
 void apply_mirror_override(Scene& scene, const MirrorOverride& wish) {
     change_object_materials(
         scene, find_objects_by_pattern(scene, {"--mirror"}, wish.pattern), [&](Material& material) {
-            material = {.name = material.name, .mirror = true, .reflectance = wish.reflectance};
+            if (wish.roughness == 0)
+                material = {.name = material.name, .mirror = true, .reflectance = wish.reflectance};
+            else
+                material = {.name = material.name,
+                            .albedo = wish.reflectance,
+                            .metallic = 1,
+                            .roughness = wish.roughness};
         });
 }
 
@@ -136,8 +142,19 @@ bool matches_pattern(const std::string& pattern, const std::string& name) {
     return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-MirrorOverride read_mirror_override(const std::string& option, const std::string& text) {
-    MirrorOverride wish{.pattern = text};
+MirrorOverride read_mirror_override(const std::string& option, const std::string& whole) {
+    constexpr std::string_view kRoughness = ",roughness=";
+    MirrorOverride wish;
+    std::string text = whole;
+    if (const std::size_t at = text.rfind(kRoughness); at != text.npos) {
+        const std::optional<double> number = parse_number(
+            std::string_view(text).substr(at + kRoughness.size()));
+        check(number && *number >= 0 && *number <= 1, Failure::usage, option,
+              ": wanted a number from 0 to 1 after ',roughness=', found ", quote_printable(whole));
+        wish.roughness = static_cast<float>(*number);
+        text.resize(at);
+    }
+    wish.pattern = text;
     const std::size_t at = text.rfind('=');
     if (at != text.npos) {
         std::vector<double> numbers;
@@ -156,7 +173,8 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
             check(is_colour &&
                       std::ranges::all_of(numbers, [](double n) { return n >= 0 && n <= 1; }),
                   Failure::usage, option,
-                  ": wanted PATTERN or PATTERN=REFLECTANCE, a number or r,g,b from 0 to 1, found ",
+                  ": wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], REFLECTANCE a number or "
+                  "r,g,b, all from 0 to 1, found ",
                   quote_printable(text));
             wish.pattern = text.substr(0, at);
             for (int i = 0; i < 3; ++i)
@@ -204,6 +222,12 @@ void apply_edit(Scene& scene, const SceneOverrides& overrides) {
     for (const std::string& pattern : overrides.lights) keep_matching_lights(scene, pattern);
     if (overrides.mirror_max_roughness)
         scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
+    for (const MirrorOverride& wish : overrides.mirrors)
+        check(wish.roughness <= scene.mirror_max_roughness, Failure::usage, "--mirror ",
+              quote_printable(wish.pattern), ": wanted a roughness of at most ",
+              format_shortest_number(scene.mirror_max_roughness),
+              ", above which no surface is a mirror, found ",
+              format_shortest_number(wish.roughness), "; raise --mirror-max-roughness");
     find_mirrors(scene, overrides.dielectric_mirrors.value_or(false));
 }
 

@@ -16,7 +16,8 @@ namespace catoptric::scene {
 /// dropped.
 struct MirrorOverride {
     std::string pattern; ///< as `matches_pattern` takes it
-    vec3 reflectance{1}; ///< in [0,1]
+    vec3 reflectance{1};  ///< in [0,1]; of a rough mirror, seen head-on
+    float roughness = 0;  ///< in [0,1]; 0: a perfect mirror at every angle, else a metal's lobe
     bool operator==(const MirrorOverride&) const = default;
 };
 
@@ -54,9 +55,9 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
 /// Returns whether a whole name equals the pattern or matches it (fnmatch: * ? [...]); case counts.
 bool matches_pattern(const std::string& pattern, const std::string& name);
 
-/// Reads "PATTERN" or "PATTERN=REFLECTANCE", where REFLECTANCE is a number or r,g,b in [0,1]. A
-/// name may contain '=' as long as no number follows it. `option` begins the error message. Throws
-/// `usage`.
+/// Reads "PATTERN[=REFLECTANCE][,roughness=NUMBER]", where REFLECTANCE is a number or r,g,b in
+/// [0,1] and NUMBER is in [0,1]. A name may contain '=' as long as no number follows it. `option`
+/// begins the error message. Throws `usage`.
 MirrorOverride read_mirror_override(const std::string& option, const std::string& text);
 
 /// Returns the value of --mirror that selects this name. Pattern characters are escaped. Bytes that
@@ -70,7 +71,7 @@ void check_patterns(const Scene& scene, const SceneOverrides& overrides, const s
 /// Applies the overrides of mirrors, lights, roughness and dielectrics, turns the scene if +z is
 /// up, and finds its mirrors again (classify.hpp). Overrides that name a picture are left to
 /// session/resolved_scene.hpp. Throws `usage`, with the nearest names, for a pattern without a
-/// match.
+/// match, or a mirror rougher than the scene's mirrors may be.
 void apply_edit(Scene& scene, const SceneOverrides& overrides);
 
 /// Turns a scene from +z up to +y up: (x, y, z) becomes (x, z, -y), exactly.

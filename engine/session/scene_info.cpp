@@ -6,6 +6,7 @@
 #include "scene/pose.hpp"
 #include "session/candidates.hpp"
 #include "session/scene_facts.hpp"
+#include "shared.h"
 
 #include <algorithm>
 #include <map>
@@ -25,7 +26,8 @@ std::string classify_material(const scene::Material& material,
                               const scene::SurfaceShares& surface) {
     if (material.mirror) return "mirror";
     if (material.unlit) return "unlit";
-    if (surface.mirror >= scene::kLeastMirrorShare) return "sharp";
+    if (surface.mirror >= scene::kLeastMirrorShare)
+        return surface.smoothest > shared::kMostSharpRoughness ? "rough mirror" : "sharp";
     if (surface.smooth_dielectric >= scene::kLeastMirrorShare) return "smooth dielectric";
     return surface.rough_metal > 0 ? "rough metal" : "diffuse";
 }

@@ -1,6 +1,7 @@
 #include "study/causes.hpp"
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "measure/causes.hpp"
 #include "measure/display.hpp"
 #include "measure/lines.hpp"
@@ -8,6 +9,7 @@
 #include "measure/pixel_error.hpp"
 #include "measure/shapley.hpp"
 #include "report/comparison.hpp"
+#include "scene/rough_reflectors.hpp"
 #include "session/access.hpp"
 #include "session/frames.hpp"
 #include "session/plan_file.hpp"
@@ -181,6 +183,16 @@ void check_reference_is_default(const std::string& reference) {
           ", whose rays tell causes apart, found '", reference, "'");
 }
 
+/// Ablation knows perfect mirrors alone.
+void check_mirrors_are_sharp(const CompareRequest& request, int, report::Comparison&) {
+    const scene::Scene& scene = request.base.scene;
+    for (const std::size_t i : scene::mirrors(scene))
+        check(!scene::reflects_by_lobe(scene, scene.objects[i]), Failure::usage,
+              "--causes: wanted mirrors that reflect sharply, found rough mirror ",
+              quote_printable(scene.objects[i].name),
+              "; causes of error in rough reflections are not known");
+}
+
 void add_causes(const StudyInput& input) {
     const CompareRequest& request = input.request;
     std::vector<report::Row>& rows = input.comparison.rows;
@@ -206,6 +218,7 @@ const RegisteredStudy kCauses{
      .help = "also split each row's error by cause; draws at least 32 more pictures per row",
      .order = 20,
      .check_reference = check_reference_is_default,
+     .prepare = check_mirrors_are_sharp,
      .run = add_causes}};
 
 } // namespace

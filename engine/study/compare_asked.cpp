@@ -20,8 +20,7 @@ std::vector<std::string> list_default_techniques(const Request& base) {
     const scene::Scene& now = *at_time;
     std::vector<scene::FlatFaces> flats;
     for (const std::size_t object : scene::mirrors(now))
-        flats.push_back(scene::find_flat_faces(now.meshes[now.objects[object].mesh],
-                                               now.objects[object].world_from_object));
+        flats.push_back(scene::find_flat_faces(now, now.objects[object]));
     const double tolerance = scene::compute_flat_tolerance(base.camera, base.size);
     std::vector<std::string> rows;
     for (const reflect::Technique* technique : reflect::list_techniques())

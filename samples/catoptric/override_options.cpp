@@ -14,9 +14,9 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
         overrides.mirrors.push_back(scene::read_mirror_override("--mirror", text));
     };
     verb.repeated(
-        "--mirror", "PATTERN[=R]",
+        "--mirror", "PATTERN[=R][,roughness=A]",
         "make mirrors of objects or materials with this name (* ? [...]); R is the reflectance, a "
-        "number or r,g,b from 0 to 1 (1); may be repeated",
+        "number or r,g,b from 0 to 1 (1); a roughness A above 0 makes them metals; may be repeated",
         mirror);
     verb.repeated(
         "--light", "PATTERN",

@@ -11,7 +11,8 @@ layout(constant_id = DETAILS_CONSTANT) const uint details = 0u; // 1: some mater
 layout(constant_id = MASKS_CONSTANT) const uint masks = 0u;     // 1: some material has an alpha test
 TEXEL_LIST(DETAILS_BINDING, detail_quads, uvec4, usamplerBuffer, false) // list of MaterialParameters
 TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // two texels for each attribute
-// List of words: first a table that maps an sRGB byte to linear light as a float, then all texels, red in the low byte.
+// List of words: first a table that maps an sRGB byte to linear light as a float, then the table of lobe_albedo_terms,
+// then all texels, red in the low byte.
 TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
 // Returns four words of a MaterialParameters.
@@ -98,8 +99,50 @@ struct SpecularLobe {
 };
 SpecularLobe specular_lobe = SpecularLobe(0.0, vec3(0), vec3(1));
 
-// Evaluates the material at a point. Sets specular_lobe, and sets the surface's albedo to the diffuse part, and its reflectance to the weight
-// of a mirrored ray. `cosine` is the cosine between the normal and the direction to the viewer.
+// Returns whether the surface that was evaluated last reflects in a lobe instead of a single direction.
+bool has_rough_lobe() { return details != 0u && specular_lobe.roughness > kMostSharpRoughness; }
+
+// Draws the direction in which light leaves the rough surface that was evaluated last. `direction` is that of the
+// arriving ray, and `leaving` at first that of the perfect mirror. Multiplies the weight by the lobe's weight. Returns
+// false without a change if the ray arrives from behind. `u` and `v` are uniform in [0, 1). The lobe's normal is
+// half-way between both directions, because mirror_direction keeps the mirrored ray above the facet at the outlines of
+// smooth bodies.
+bool sample_specular_lobe(vec3 direction, vec3 facet, float u, float v, inout vec3 weight, inout vec3 leaving) {
+    vec3 tangent, bitangent;
+    vec3 normal = normalize(leaving - direction);
+    tangent_frame(normal, tangent, bitangent);
+    vec3 to_eye = -vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
+    if (!(to_eye.z > 0.0)) return false;
+    float alpha = alpha_of_roughness(specular_lobe.roughness);
+    vec3 drawn = sample_lobe(alpha, to_eye, u, v);
+    weight *= sampled_lobe_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
+    leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
+    // Light from below the facet's plane cannot reach the surface.
+    if (!(dot(leaving, facet_side(normal, facet)) > 0.0)) weight = vec3(0);
+    return true;
+}
+
+// Returns entry (x, y) of the table of lobe_albedo_terms.
+vec2 read_lobe_albedo(int x, int y) {
+    return unpackUnorm2x16(texture_words_at(kSrgbTableWords + uint(y) * kLobeTableEdge + uint(x)));
+}
+
+// Returns the share of light that the rough lobe evaluated last reflects to a viewer at the angle `cosine` to the
+// normal, if equal light arrives from everywhere: f0 times the first term of the table plus f90 times the second (Karis,
+// "Real Shading in Unreal Engine 4", 2013).
+vec3 specular_lobe_albedo(float cosine) {
+    float x = clamp(cosine, 0.0, 1.0) * float(kLobeTableEdge - 1u);
+    float y = clamp(specular_lobe.roughness, 0.0, 1.0) * float(kLobeTableEdge - 1u);
+    int left = min(int(x), int(kLobeTableEdge) - 2), top = min(int(y), int(kLobeTableEdge) - 2);
+    vec2 terms = mix(mix(read_lobe_albedo(left, top), read_lobe_albedo(left + 1, top), x - float(left)),
+                     mix(read_lobe_albedo(left, top + 1), read_lobe_albedo(left + 1, top + 1), x - float(left)),
+                     y - float(top));
+    return specular_lobe.f0 * terms.x + specular_lobe.f90 * terms.y;
+}
+
+// Evaluates the material at a point. Sets specular_lobe, and sets the surface's albedo to the diffuse part and its
+// reflectance to the weight of a mirrored ray. `cosine` is the cosine between the normal and the direction to the
+// viewer.
 void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
     count_once(kWorkMaterials);
     MaterialParameters detail = read_material_parameters(surface.detail);

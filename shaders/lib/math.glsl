@@ -38,6 +38,7 @@ INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 #include "lib/math/surface.glsl"
 #include "lib/math/lobe.glsl"
 #include "lib/math/random.glsl"
+#include "lib/math/rough.glsl"
 #include "lib/math/ray.glsl"
 #include "lib/math/leaving.glsl"
 #include "lib/math/object_space.glsl"

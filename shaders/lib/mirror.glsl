@@ -13,6 +13,7 @@
 #include "lib/surface.glsl"
 #ifndef ABLATE
 #include "lib/lit.glsl"
+#include "lib/rough.glsl"
 #endif
 
 // The number of further mirrors through which the reflected ray is followed. Exact spheres are intersected before the
@@ -133,17 +134,18 @@ void fall_back_to_other_captures(inout MirrorPath path, inout Lookup lookup) {
 }
 
 // Follows the path through further mirrors to its end. Returns the place of the path's end in a capture.
-Lookup follow_path(inout MirrorPath path) {
+// `most_hops`: the number of further mirrors through which the path is followed.
+Lookup follow_path(inout MirrorPath path, uint most_hops) {
     Lookup lookup;
     bool goes_on;
     do {
 #ifdef CONTINUE
-        while (path.hops < hops && reflect_at_exact_sphere(path)) {}
+        while (path.hops < most_hops && reflect_at_exact_sphere(path)) {}
 #endif
         lookup = search(path.mirror, path.at - path.centre, path.direction);
         goes_on = false;
 #ifdef CONTINUE
-        if (has_surfaces != 0u && path.hops < hops) goes_on = reflect_at_captured_mirror(path, lookup);
+        if (has_surfaces != 0u && path.hops < most_hops) goes_on = reflect_at_captured_mirror(path, lookup);
 #endif
     } while (goes_on);
 #ifdef CONTINUE
@@ -161,6 +163,33 @@ vec3 apply_show_mode(vec3 colour, Lookup lookup) {
 
 #ifdef ABLATE
 #include "lib/ablate.glsl"
+#else
+
+// Returns the width alpha of the look-up that shows what the rough surface at the start of the path reflects.
+float rough_alpha(MirrorPath path, Lookup lookup) {
+    float ratio = 1.0, foreshortening = 1.0;
+    float from_centre = last_hit_distance();
+    if (distance_law != kLawNone && !(from_centre > 0.0)) from_centre = captured_distance(path.mirror, lookup.direction);
+    // What leaves the scene is so far away that the mirror and the capture's centre see it alike.
+    if (distance_law != kLawNone && lookup.state != kMiss && is_finite(from_centre) && from_centre > 0.0) {
+        vec3 end = path.centre + lookup.direction * from_centre;
+        ratio = distance(end, path.at) / from_centre;
+        if (distance_law == kLawExact && has_surfaces != 0u) {
+            vec3 n = normalize(read_captured_surface(path.mirror, lookup.direction).yzw);
+            float to_centre = abs(dot(n, lookup.direction)), to_surface = abs(dot(n, path.direction));
+            // At grazing angles the surface ends before the lobe's cross section does.
+            foreshortening = max(to_centre, 0.1) / max(to_surface, 0.1);
+        }
+    }
+    return alpha_by_distance_law(distance_law, specular_lobe.roughness, ratio, foreshortening);
+}
+
+// Returns the radiance that the path brings from its end to the rough surface at its start.
+vec3 rough_radiance(MirrorPath path, Lookup lookup) {
+    float level = rough_level(path.mirror, rough_alpha(path, lookup));
+    vec3 blurred = rough_level_colour(path.mirror, lookup.direction, max(level, 1.0));
+    return level < 1.0 ? mix(lookup_colour(path.mirror, lookup), blurred, level) : blurred;
+}
 #endif
 
 void main() {
@@ -171,11 +200,38 @@ void main() {
     Surface surface = surface_at_fragment(n, facet);
     MirrorPath path = MirrorPath(drawn_mirror() - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
                      probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
-    Lookup lookup = follow_path(path);
 #ifdef ABLATE
+    Lookup lookup = follow_path(path, hops);
     vec3 colour = ablated_radiance(path, lookup);
 #else
-    vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
+    bool is_rough = rough != kRoughNone && has_rough_lobe();
+    if (is_rough && rough != kRoughRays) path.weight = specular_lobe_albedo(-dot(n, normalize(seen_along())));
+    MirrorPath first = path;
+    // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
+    Lookup lookup = follow_path(path, is_rough && rough != kRoughRays ? 0u : hops);
+    vec3 colour;
+    if (rough == kRoughNone || !is_rough)
+        colour = path.weight * lookup_colour(path.mirror, lookup);
+    else if (rough != kRoughRays)
+        colour = path.weight * rough_radiance(path, lookup);
+    else {
+        // The search along the perfect mirror's direction says how the search ends, and is no sample of the lobe.
+        colour = vec3(0);
+        uint pixel = uint(gl_FragCoord.y) << 16u | uint(gl_FragCoord.x), i = 0u;
+        do {
+            float u, v;
+            sample_point(pixel, i, 0u, kSearchSeed, u, v);
+            MirrorPath drawn = first;
+            drawn.weight = vec3(1);
+            if (sample_specular_lobe(normalize(seen_along()), facet, u, v, drawn.weight, drawn.direction) &&
+                drawn.weight != vec3(0)) {
+                Lookup found = follow_path(drawn, hops);
+                colour += drawn.weight * lookup_colour(drawn.mirror, found);
+            }
+            ++i;
+        } while (i < lobe_rays);
+        colour /= float(lobe_rays);
+    }
     if (lights_mirrors != 0u) colour += shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
 #endif
     write_surface(apply_show_mode(colour, lookup));

@@ -55,7 +55,6 @@ layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 
 // 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: all surfaces reflect sharply.
 layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u;
-const float kMostSharpRoughness = 0.04; // smoother surfaces reflect as perfect mirrors
 // The arguments of sample_point for the traced path.
 uint path_pixel = 0u, path_sample = 0u, path_seed = 0u;
 
@@ -258,24 +257,13 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
 
 // Draws the direction in which a ray leaves a rough surface at the path's `bounce`th reflection. `direction` is that of
 // the arriving ray. Multiplies the weight by the lobe's weight. Returns false, with the perfect mirror's direction, if
-// the surface is smooth. The lobe's normal is half-way between the arriving ray and the perfect mirror's direction,
-// which mirror_direction keeps above the facet at the outlines of smooth bodies.
+// the surface is smooth.
 bool draw_lobe_direction(SurfacePoint p, vec3 direction, uint bounce, inout vec3 weight, out vec3 leaving) {
     leaving = mirror_direction(direction, p.normal, p.facet);
-    if (traces_lobes == 0u || details == 0u || !(specular_lobe.roughness > kMostSharpRoughness)) return false;
-    vec3 tangent, bitangent;
-    vec3 normal = normalize(leaving - direction);
-    tangent_frame(normal, tangent, bitangent);
-    vec3 to_eye = -vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
-    if (!(to_eye.z > 0.0)) return false;
-    float alpha = alpha_of_roughness(specular_lobe.roughness), u, v;
+    if (traces_lobes == 0u || !has_rough_lobe()) return false;
+    float u, v;
     sample_point(path_pixel, path_sample, bounce, path_seed, u, v);
-    vec3 drawn = sample_lobe(alpha, to_eye, u, v);
-    weight *= sampled_lobe_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
-    leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
-    // Light from below the facet's plane cannot reach the surface.
-    if (!(dot(leaving, facet_side(normal, p.facet)) > 0.0)) weight = vec3(0);
-    return true;
+    return sample_specular_lobe(direction, p.facet, u, v, weight, leaving);
 }
 
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {

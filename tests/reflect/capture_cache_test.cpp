@@ -25,7 +25,7 @@ protected:
         graph::Graph graph(runner_.history());
         const reflect::MirrorAssignment assignment = reflect::assign_mirrors(
             reflect::parse_plan(technique), std::vector<std::string>(3, "ball"));
-        outputs_ = reflect::add_frame_passes(graph, {scene_, kSize, ""}, assignment,
+        outputs_ = reflect::add_frame_passes(graph, {*shown_, kSize, ""}, assignment,
                                              {model_, kept_, &comparisons_, most_});
         graph.mark_output(outputs_.hdr);
         runner_.run(graph, graph::PassTiming::isolated);
@@ -54,6 +54,7 @@ protected:
     test::Bench& bench_ = test::bench();
     scene::Scene room_ = test::room(3, 2);
     render::GpuScene scene_{bench_.device, room_};
+    render::GpuScene* shown_ = &scene_; ///< the scene that the frames show
     render::ComparisonBuffers comparisons_{
         bench_.device, [this](std::uint64_t frame) { return runner_.has_ended({frame}); }};
     graph::GraphRunner runner_{bench_.device, bench_.pipelines};
@@ -144,6 +145,36 @@ TEST_F(KeptFrames, PyramidIsMadeAgainWhenAFaceIsDrawn) {
         EXPECT_EQ(frame(pyramid), (Names{drawn, "pyramid"})) << "the other set has the rest";
         EXPECT_EQ(frame(pyramid), Names());
     }
+}
+
+// Tests the filtered levels of captures: a frame filters the levels of redrawn captures alone, and
+// nothing is filtered at rest.
+TEST_F(KeptFrames, LevelsAreFilteredAgainWhenAFaceIsDrawn) {
+    for (scene::Material& material : room_.materials)
+        if (material.mirror) {
+            material.mirror = false;
+            material.albedo = vec3(.9f), material.metallic = 1, material.roughness = .3f;
+        }
+    room_.mirror_max_roughness = .5f;
+    for (scene::Object& object : room_.objects)
+        object.mirror = room_.materials[object.material].metallic == 1;
+    render::GpuScene rough(bench_.device, room_);
+    rough.update(room_, room_.cameras.front(), kSize, .05);
+    shown_ = &rough;
+    for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
+    const std::string levels = "parallax:face=8,taps=16";
+    const Names first = frame(levels);
+    ASSERT_GE(first.size(), 2u);
+    EXPECT_EQ(first[first.size() - 2], "rough/prefilter16/boxes");
+    EXPECT_EQ(first.back(), "rough/prefilter16");
+    settle(levels);
+    EXPECT_EQ(frame(levels), Names());
+    model_.mirrors[1].content_hashes[5] += 1;
+    EXPECT_EQ(frame(levels), (Names{"capture.keep", "capture/2.6-6", "rough/prefilter16/boxes",
+                                    "rough/prefilter16"}));
+    settle(levels);
+    EXPECT_EQ(frame(levels), Names());
+    EXPECT_EQ(frame("parallax:face=8,rough=mips").back(), "rough/mips/boxes");
 }
 
 TEST_F(KeptFrames, FacesThatNobodyReadsAreCleared) {

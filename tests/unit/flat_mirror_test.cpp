@@ -23,6 +23,23 @@ const dmat4 kTurned = glm::rotate(glm::translate(dmat4(1), dvec3(30, -7, 2)), .7
                                   glm::normalize(dvec3(1, 2, -1))) *
                       glm::scale(dmat4(1), dvec3(3, .5, 2));
 
+TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
+    scene::Scene scene;
+    scene.mirror_max_roughness = .6f;
+    const std::size_t metal = scene::add_material(
+        scene, {.name = "metal", .albedo = vec3(.9f), .metallic = 1, .roughness = .3f});
+    scene::add_mesh(scene, board(), metal);
+    scene.objects.front().mirror = true;
+    const scene::FlatFaces rough = scene::find_flat_faces(scene, scene.objects.front());
+    EXPECT_TRUE(rough.is_rough);
+    EXPECT_TRUE(rough.faces.empty());
+    EXPECT_EQ(rough.bent, (std::vector<scene::TriangleRun>{{0, 2}}));
+    scene.materials.front().roughness = .03f;
+    const scene::FlatFaces sharp = scene::find_flat_faces(scene, scene.objects.front());
+    EXPECT_FALSE(sharp.is_rough);
+    EXPECT_TRUE(sharp.is_one());
+}
+
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
     const auto flat = scene::make_flat_mirror_room(board(), kTurned);
     ASSERT_TRUE(flat);

@@ -51,10 +51,37 @@ TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
     EXPECT_EQ(read("x=3=1"), (MirrorOverride{"x=3", vec3(1)}));
     for (const char* text : {"a=2", "a=-1", "a=.5,.5", "a=1,1,1,1"})
         EXPECT_THAT(test::refusal(Failure::usage, [&] { read(text); }),
-                    HasSubstr("--mirror: wanted PATTERN or PATTERN=REFLECTANCE, a number or r,g,b "
-                              "from 0 to 1, found '" +
+                    HasSubstr("--mirror: wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], "
+                              "REFLECTANCE a number or r,g,b, all from 0 to 1, found '" +
+                              std::string(text) + "'"));
+    EXPECT_EQ(read("a=.5,roughness=.25"), (MirrorOverride{"a", vec3(.5f), .25f}));
+    EXPECT_EQ(read("a,roughness=.25"), (MirrorOverride{"a", vec3(1), .25f}));
+    EXPECT_EQ(read("a=1,.5,0,roughness=1"), (MirrorOverride{"a", {1, .5f, 0}, 1}));
+    for (const char* text : {"a,roughness=2", "a,roughness=", "a=1,roughness=-.1"})
+        EXPECT_THAT(test::refusal(Failure::usage, [&] { read(text); }),
+                    HasSubstr("--mirror: wanted a number from 0 to 1 after ',roughness=', found '" +
                               std::string(text) + "'"));
     EXPECT_THAT(test::refusal(Failure::usage, [&] { read("=1"); }), HasSubstr("wanted a name"));
+}
+
+TEST(MirrorOverride, RoughMirrorIsAMetal) {
+    Scene scene = wishes_room();
+    apply_edit(scene, {.mirrors = {{"table top", vec3(.9f, .8f, .7f), .3f}},
+                       .mirror_max_roughness = .6});
+    EXPECT_THAT(mirrors(scene), ElementsAre(0u));
+    const Material& material = scene.materials[scene.objects[0].material];
+    EXPECT_FALSE(material.mirror);
+    EXPECT_EQ(material.metallic, 1);
+    EXPECT_EQ(material.roughness, .3f);
+    EXPECT_EQ(material.albedo, vec3(.9f, .8f, .7f));
+    Scene other = wishes_room();
+    EXPECT_THAT(test::refusal(Failure::usage,
+                              [&] {
+                                  apply_edit(other, {.mirrors = {{"table top", vec3(1), .7f}},
+                                                     .mirror_max_roughness = .6});
+                              }),
+                HasSubstr("--mirror 'table top': wanted a roughness of at most 0.6, above which no "
+                          "surface is a mirror, found 0.7; raise --mirror-max-roughness"));
 }
 
 TEST(MirrorOverride, MirrorOverrideChangesOnlyTheNamedObject) {

@@ -95,3 +95,18 @@ INLINE vec3 sampled_lobe_weight(real alpha, vec3 f0, vec3 f90, vec3 to_eye, vec3
                   smith_visibility(alpha, to_eye, to_light) * to_light.z;
     return schlick(f0, f90, dot(to_eye, half_way_between(to_eye, to_light))) * weight;
 }
+
+// Computes the albedo of the lobe as f0 * `head_on` + f90 * `grazing`, for a viewer at the angle `cosine` to the normal,
+// from the mean weight of edge x edge samples.
+INLINE void lobe_albedo_terms(real alpha, real cosine, int edge, OUT(real) head_on, OUT(real) grazing) {
+    vec3 to_eye = vec3(sqrt(max(real(0), real(1) - cosine * cosine)), real(0), cosine);
+    head_on = grazing = real(0);
+    for (int i = 0; i < edge * edge; ++i) {
+        vec3 to_light = sample_lobe(alpha, to_eye, (real(i % edge) + real(0.5)) / real(edge),
+                                    (real(i / edge) + real(0.5)) / real(edge));
+        head_on += sampled_lobe_weight(alpha, vec3(real(1)), vec3(real(0)), to_eye, to_light).x;
+        grazing += sampled_lobe_weight(alpha, vec3(real(0)), vec3(real(1)), to_eye, to_light).x;
+    }
+    head_on /= real(edge * edge);
+    grazing /= real(edge * edge);
+}

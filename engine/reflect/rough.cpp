@@ -1,0 +1,208 @@
+// Filtered levels of captures. Level m has faces of edge / 2^m texels. `mips` takes the mean of each
+// square of texels. `prefilter` filters the capture by the GGX lobe of each level's width
+// (shaders/lib/math/rough.glsl), with samples that read the box-filtered chain.
+#include "reflect/rough.hpp"
+
+#include "core/content_hash.hpp"
+#include "core/shader_math.hpp"
+#include "reflect/captures.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace catoptric::reflect {
+
+namespace {
+
+using graph::ImageHandle;
+using graph::ResourceUse;
+using Rough = SharedKnobs::Rough;
+
+/// Returns the number of levels above the capture: the box-filtered chain ends with one texel a
+/// face, and the prefiltered levels with the first whose lobe has a width alpha of at least 1.
+std::uint32_t count_levels(Rough rough, std::uint32_t face) {
+    const auto most = std::max(1u, static_cast<std::uint32_t>(std::bit_width(face)) - 1);
+    if (rough == Rough::mips) return most;
+    std::uint32_t level = 1;
+    while (level < most && f32::alpha_of_capture_level(static_cast<float>(level),
+                                                       static_cast<float>(face)) < 1)
+        ++level;
+    return level;
+}
+
+/// Consecutive cubes of one array, and the levels that are computed from them.
+struct FilteredCubes {
+    ImageHandle captured, boxes, levels;
+    std::uint32_t face = 0;
+};
+
+/// Returns an image for the levels of an array of captures.
+graph::ImageDesc describe_levels(std::string name, const render::CubeArray& cubes,
+                                 std::uint32_t levels) {
+    const std::uint32_t edge = graph::size_at_mip(cubes.face, 1);
+    return {std::move(name), Format::rgba16f, edge, edge, cubes.colour.layer_count, true, levels};
+}
+
+std::uint32_t count_groups(std::uint32_t face, std::uint32_t level) {
+    return (graph::size_at_mip(face, level) + 7) / 8;
+}
+
+/// Declares that the pass writes all levels. A storage image has one mip.
+void declare_level_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
+    for (std::uint32_t mip = 0; mip < levels.mip_count; ++mip)
+        pass.writes(levels.mip(mip), ResourceUse::storage_write);
+}
+
+void add_box_pass(graph::Graph& graph, const std::string& name,
+                  const std::vector<FilteredCubes>& runs) {
+    graph::PassBuilder pass = graph.pass(name);
+    for (const FilteredCubes& run : runs) {
+        pass.reads(run.captured, ResourceUse::sampled);
+        declare_level_writes(pass, run.boxes);
+    }
+    pass.record([runs](graph::PassCommands& commands) {
+        const auto deepest = std::ranges::max(runs, {}, [](const FilteredCubes& run) {
+            return run.boxes.mip_count;
+        });
+        for (std::uint32_t level = 1; level <= deepest.boxes.mip_count; ++level) {
+            if (level > 1) commands.barrier();
+            commands.use(
+                gpu::ComputeState{"rough/box.comp", {{"from_level", level > 1 ? 1u : 0u}}});
+            for (const FilteredCubes& run : runs) {
+                if (level > run.boxes.mip_count) continue;
+                commands.bind("captured", run.captured);
+                commands.bind("below", run.boxes.mip(std::max(level, 2u) - 2));
+                commands.bind("level", run.boxes.mip(level - 1));
+                const std::uint32_t groups = count_groups(run.face, level);
+                commands.dispatch(groups, groups, run.boxes.layer_count);
+            }
+        }
+    });
+}
+
+/// Push constants of rough/prefilter.comp.
+struct PrefilterParameters {
+    float alpha;
+    std::uint32_t taps;
+};
+
+void add_prefilter_pass(graph::Graph& graph, const std::string& name,
+                        const std::vector<FilteredCubes>& runs, std::uint32_t taps) {
+    graph::PassBuilder pass = graph.pass(name);
+    for (const FilteredCubes& run : runs) {
+        pass.reads(run.captured, ResourceUse::sampled).reads(run.boxes, ResourceUse::sampled);
+        declare_level_writes(pass, run.levels);
+    }
+    pass.record([runs, taps](graph::PassCommands& commands) {
+        commands.use(gpu::ComputeState{"rough/prefilter.comp", {}});
+        for (const FilteredCubes& run : runs) {
+            commands.bind("captured", run.captured, graph::TextureFilter::linear);
+            commands.bind("boxes", run.boxes, graph::TextureFilter::mipmapped);
+            for (std::uint32_t level = 1; level <= run.levels.mip_count; ++level) {
+                commands.bind("level", run.levels.mip(level - 1));
+                commands.push(PrefilterParameters{
+                    f32::alpha_of_capture_level(static_cast<float>(level),
+                                                static_cast<float>(run.face)),
+                    taps});
+                const std::uint32_t groups = count_groups(run.face, level);
+                commands.dispatch(groups, groups, run.levels.layer_count);
+            }
+        }
+    });
+}
+
+/// Returns the name of the levels and passes of a way of filtering.
+std::string name_levels(const render::FrameInputs& inputs, Rough rough, std::uint32_t taps) {
+    return inputs.prefix + "rough/" +
+           (rough == Rough::mips ? std::string("mips") : "prefilter" + std::to_string(taps));
+}
+
+std::string number_of_array(std::size_t array) {
+    return array ? "." + std::to_string(array + 1) : "";
+}
+
+} // namespace
+
+RoughLevels::Filter RoughLevels::filter_of(const SharedKnobs& knobs) {
+    return {knobs.rough, knobs.rough == Rough::prefilter ? knobs.taps : 0};
+}
+
+RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
+                         std::shared_ptr<const render::Captures> captures,
+                         const std::vector<SharedKnobs>& knobs)
+    : inputs_(inputs), captures_(std::move(captures)) {
+    for (std::uint32_t mirror = 0; captures_ && mirror < knobs.size(); ++mirror) {
+        if (!knobs[mirror].looks_up_levels() || !inputs.scene.is_rough_mirror(mirror)) continue;
+        FilteredCaptures& filtered = filtered_[filter_of(knobs[mirror])];
+        filtered.is_read.resize(knobs.size());
+        filtered.is_read[mirror] = true;
+        if (knobs[mirror].asks_all) filtered.is_read.assign(knobs.size(), true);
+    }
+    for (auto& [filter, filtered] : filtered_)
+        for (std::size_t array = 0; array < captures_->arrays.size(); ++array) {
+            const render::CubeArray& cubes = captures_->arrays[array];
+            graph::ImageDesc desc = describe_levels(
+                name_levels(inputs, filter.rough, filter.taps) + number_of_array(array), cubes,
+                count_levels(filter.rough, cubes.face));
+            filtered.levels.push_back(captures_->drawings.empty()
+                                          ? graph.image(std::move(desc))
+                                          : graph.persistent(std::move(desc)));
+        }
+}
+
+void RoughLevels::add_lookups(graph::Graph& graph, std::span<const std::uint32_t> mirrors,
+                              const SharedKnobs& knobs, render::MirrorShader& look,
+                              bool before) const {
+    const auto is_rough = [&](std::uint32_t mirror) {
+        return inputs_.scene.is_rough_mirror(mirror);
+    };
+    if (knobs.rough == Rough::none || !look.captures || !std::ranges::any_of(mirrors, is_rough))
+        return;
+    look.constants.emplace_back("rough", static_cast<std::uint32_t>(knobs.rough));
+    if (knobs.rough == Rough::rays) {
+        look.constants.emplace_back("lobe_rays", knobs.lobe_rays);
+        return;
+    }
+    look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(knobs.law));
+    std::vector<ImageHandle> levels = filtered_.at(filter_of(knobs)).levels;
+    if (before && captures_->drawings.empty())
+        for (ImageHandle& image : levels) image = graph.previous(image);
+    look.images.emplace_back("rough_cubes", std::move(levels));
+}
+
+void RoughLevels::add_passes(graph::Graph& graph) const {
+    for (const auto& [filter, filtered] : filtered_) add_passes_of(graph, filter, filtered);
+}
+
+void RoughLevels::add_passes_of(graph::Graph& graph, const Filter& filter,
+                                const FilteredCaptures& filtered) const {
+    const auto hash_of = [&](std::uint32_t mirror) {
+        if (!filtered.is_read[mirror]) return ContentHash().add(std::uint64_t{0}).value();
+        return ContentHash()
+            .add(captures_->drawings[mirror])
+            .add(captures_->options[mirror].colour)
+            .value();
+    };
+    const std::string name = name_levels(inputs_, filter.rough, filter.taps);
+    std::vector<FilteredCubes> runs;
+    for (std::uint32_t array = 0; array < captures_->arrays.size(); ++array) {
+        const render::CubeArray& cubes = captures_->arrays[array];
+        const ImageHandle levels = filtered.levels[array];
+        const std::vector<LayerRange> outdated = find_outdated_cubes(graph, *captures_, array,
+                                                                     levels, hash_of);
+        if (outdated.empty()) continue;
+        ImageHandle boxes = levels;
+        if (filter.rough == Rough::prefilter)
+            boxes = graph.image(describe_levels(name + "/boxes" + number_of_array(array), cubes,
+                                                count_levels(Rough::mips, cubes.face)));
+        for (const LayerRange& run : outdated)
+            runs.push_back({cubes.colour.layers(run.first, run.count),
+                            boxes.layers(run.first, run.count),
+                            levels.layers(run.first, run.count), cubes.face});
+    }
+    if (runs.empty()) return;
+    add_box_pass(graph, name + "/boxes", runs);
+    if (filter.rough == Rough::prefilter) add_prefilter_pass(graph, name, runs, filter.taps);
+}
+
+} // namespace catoptric::reflect

@@ -1,0 +1,50 @@
+// Computes one level of captures for rough reflections: the captured colour, filtered by a GGX lobe that is seen along
+// its normal (Karis, "Real Shading in Unreal Engine 4", 2013). Each sample reads a level of the box-filtered chain whose
+// texels are as large as the part of the lobe for which the sample stands: filtered importance sampling (Krivanek and
+// Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bindings.glsl"
+#include "lib/constants.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 20) uniform samplerCubeArray captured; // one array of captures, linear
+layout(set = 0, binding = 21) uniform samplerCubeArray boxes; // levels from 1 on of its box-filtered chain, mipmapped
+layout(set = 0, binding = 22, rgba16f) writeonly uniform image2DArray level;
+layout(push_constant, scalar) uniform Push {
+    float alpha; // width of the lobe
+    uint taps;   // samples of a texel
+};
+
+const float kOverlap = 2.0; // area of a sample's box in areas for which the sample stands
+
+void main() {
+    int edge = imageSize(level).x, layer = int(gl_WorkGroupID.z);
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= edge || texel.y >= edge) return;
+    vec2 place = (2.0 * vec2(texel) + 1.0) / float(edge) - 1.0;
+    vec3 normal = normalize(cube_direction(layer % 6, vec3(place, 1))), tangent, bitangent;
+    tangent_frame(normal, tangent, bitangent);
+    float captured_edge = float(textureSize(captured, 0).x), texel_area = 4.0 * kPi / (6.0 * captured_edge * captured_edge);
+    vec3 sum = vec3(0);
+    float weights = 0.0;
+    for (uint i = 0u; i < taps; ++i) {
+        float u, v;
+        hammersley_point(i, taps, u, v);
+        vec3 drawn = sample_lobe_seen_head_on(alpha, u, v);
+        if (!(drawn.z > 0.0)) continue;
+        float density = ggx_density(alpha, half_way_between(vec3(0, 0, 1), drawn)) / 4.0;
+        float from = 0.5 * log2(kOverlap / (float(taps) * density * texel_area));
+        vec3 direction = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
+        vec4 place = vec4(direction, layer / 6);
+        vec3 colour = textureLod(boxes, place, max(from - 1.0, 0.0)).rgb;
+        count_once(kWorkColourLookups);
+        if (from < 1.0) {
+            colour = mix(textureLod(captured, place, 0).rgb, colour, max(from, 0.0));
+            count_once(kWorkColourLookups);
+        }
+        sum += drawn.z * colour;
+        weights += drawn.z;
+    }
+    imageStore(level, ivec3(texel, layer), vec4(min(sum / weights, vec3(kLargestHalf)), 1));
+}

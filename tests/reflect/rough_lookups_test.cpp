@@ -1,0 +1,213 @@
+// Tests of rough surfaces that are looked up in captures (knobs `rough` and `law`). Witnesses are
+// quadrature in double precision, and the ray tracer.
+#include "core/shader_math.hpp"
+#include "scene/build.hpp"
+#include "scene/surroundings.hpp"
+#include "support/lobe_witness.hpp"
+#include "support/numbers.hpp"
+#include "support/rendering.hpp"
+#include "support/special_values.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr int kBallEdge = 48;
+constexpr uvec2 kBallSize{kBallEdge, kBallEdge};
+
+/// Returns a metal ball below a sky with a bright spot that reaches over edges of cube faces.
+scene::Scene make_ball_below_sky(float roughness, bool is_white = false) {
+    scene::Scene scene{.name = "ball"};
+    scene.mirror_max_roughness = 1;
+    const std::size_t metal = test::add_material(
+        scene, {.name = "metal", .albedo = vec3(1), .metallic = 1, .roughness = roughness});
+    test::add_ball(scene, "ball", metal, {0, 0, 0}, 1, 5);
+    scene.objects.back().mirror = true;
+    auto map = std::make_shared<scene::Environment>();
+    map->size = {128, 64};
+    for (std::uint32_t row = 0; row < map->size.y; ++row)
+        for (std::uint32_t column = 0; column < map->size.x; ++column) {
+            const double azimuth = 2 * test::kPi * (column + .5) / map->size.x,
+                         polar = test::kPi * (row + .5) / map->size.y;
+            const dvec3 direction(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                  std::sin(polar) * std::sin(azimuth));
+            const double spot = std::exp(
+                12 * (glm::dot(direction, glm::normalize(dvec3(.7, .7, .5))) - 1));
+            map->texels.push_back(is_white ? vec3(1)
+                                           : vec3(.2 + 3 * spot, .4 + spot,
+                                                  .5 + .4 * std::sin(3 * azimuth)));
+        }
+    scene.environment = std::move(map);
+    scene.cameras.push_back(
+        {.eye = {.6, .5, 4}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov_degrees = 30});
+    return scene;
+}
+
+/// A pixel whose ray meets the ball.
+struct BallPixel {
+    int x = 0, y = 0;
+    dvec3 normal, to_eye;
+};
+std::vector<BallPixel> list_ball_pixels(const scene::Scene& scene, double least_cosine) {
+    std::vector<BallPixel> pixels;
+    for (int y = 0; y < kBallEdge; ++y)
+        for (int x = 0; x < kBallEdge; ++x) {
+            const dvec3 eye = scene.cameras.front().eye,
+                        along = test::pixel_direction(scene.cameras.front(), x, y, kBallEdge);
+            const double b = glm::dot(eye, along), discriminant = b * b - glm::dot(eye, eye) + 1;
+            if (discriminant < 0) continue;
+            const dvec3 normal = eye + along * (-b - std::sqrt(discriminant));
+            if (glm::dot(normal, -along) > least_cosine) pixels.push_back({x, y, normal, -along});
+        }
+    return pixels;
+}
+
+/// Returns the light that a captured level is to show: the environment, filtered by the lobe that
+/// is seen along its normal, in the mirror's direction.
+dvec3 filtered_environment(const scene::Environment& environment, double roughness,
+                           const dvec3& normal) {
+    dvec3 tangent, bitangent;
+    f64::tangent_frame(normal, tangent, bitangent);
+    dvec3 sum(0);
+    double weights = 0;
+    constexpr int kOut = 160, kAround = 96;
+    const double alpha = roughness * roughness;
+    for (int k = 0; k < kOut; ++k)
+        for (int j = 0; j < kAround; ++j) {
+            // Half vectors with equal shares of the distribution (Walter et al. 2007, equation 35).
+            const double share = (k + .5) / kOut,
+                         tangent_of = alpha * std::sqrt(share / (1 - share)),
+                         polar = 2 * std::atan(tangent_of),
+                         azimuth = 2 * test::kPi * (j + .5) / kAround;
+            if (std::cos(polar) <= 0) continue;
+            const dvec3 light = std::sin(polar) * std::cos(azimuth) * tangent +
+                                std::sin(polar) * std::sin(azimuth) * bitangent +
+                                std::cos(polar) * normal;
+            sum += std::cos(polar) * dvec3(scene::environment_radiance(environment, light));
+            weights += std::cos(polar);
+        }
+    return sum / weights;
+}
+
+double albedo_of_white_lobe(double roughness, const dvec3& normal, const dvec3& to_eye) {
+    const double cosine = glm::dot(normal, to_eye);
+    const dvec3 o(std::sqrt(1 - cosine * cosine), 0, cosine);
+    return test::integrate_over_half_vectors(
+        roughness, o, [&](const dvec3& i) { return test::textbook_lobe(roughness, o, i); });
+}
+
+TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
+    for (const float roughness : {.1f, .3f, .6f, 1.f}) {
+        const scene::Scene scene = make_ball_below_sky(roughness, true);
+        for (const char* technique : {"reuse:face=32,rough=prefilter", "parallax:face=32,rough=mips",
+                                      "secant:face=32,rough=prefilter,law=cone",
+                                      "pyramid:face=32,rough=rays,rays=256"}) {
+            const measure::Picture picture = test::render(scene, technique, kBallSize, 3).hdr;
+            test::Numbers numbers(2);
+            const std::vector<BallPixel> pixels = list_ball_pixels(scene, .1);
+            for (int k = 0; k < 6; ++k) {
+                const BallPixel& pixel = pixels[numbers.below(pixels.size())];
+                EXPECT_NEAR(picture.at(pixel.x, pixel.y).x,
+                            albedo_of_white_lobe(roughness, pixel.normal, pixel.to_eye), .01)
+                    << technique << ", roughness " << roughness << " at " << pixel.x << ", "
+                    << pixel.y;
+            }
+        }
+    }
+}
+
+/// Kills a wrong level, roughness where alpha is meant, and faces that do not meet.
+TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
+    constexpr double kFace = 64;
+    for (const int level : {1, 2, 3}) {
+        const double alpha = f64::alpha_of_capture_level(double(level), kFace),
+                     roughness = std::sqrt(alpha);
+        const scene::Scene scene = make_ball_below_sky(float(roughness));
+        const measure::Picture picture =
+            test::render(scene, "reuse:face=64,taps=256", kBallSize, 3).hdr;
+        double largest = 0;
+        test::Numbers numbers(7);
+        const std::vector<BallPixel> pixels = list_ball_pixels(scene, .3);
+        for (int k = 0; k < 40; ++k) {
+            const BallPixel& pixel = pixels[numbers.below(pixels.size())];
+            const dvec3 mirrored = glm::reflect(-pixel.to_eye, pixel.normal);
+            const dvec3 wanted = filtered_environment(*scene.environment, roughness, mirrored) *
+                                 albedo_of_white_lobe(roughness, pixel.normal, pixel.to_eye);
+            const vec3 found(picture.at(pixel.x, pixel.y));
+            for (int channel = 0; channel < 3; ++channel)
+                largest = std::max(largest, std::abs(found[channel] - wanted[channel]) /
+                                                std::max(wanted[channel], .1));
+        }
+        std::cout << "[ MEASURED ] level " << level << ", roughness " << roughness
+                  << ": largest relative difference " << largest << '\n';
+        EXPECT_LT(largest, .06) << level;
+    }
+}
+
+/// Searches in many directions of the lobe find what rays find, where the capture shows all.
+TEST(RoughLookups, SearchesAlongTheLobeFindWhatRaysFind) {
+    const scene::Scene scene = make_ball_below_sky(.35f);
+    const measure::Picture searched =
+        test::render(scene, "reuse:face=256,rough=rays,rays=512", kBallSize, 3).hdr;
+    const measure::Picture traced = test::render(scene, "raytrace:rays=512", kBallSize).hdr;
+    double largest = 0;
+    for (const BallPixel& pixel : list_ball_pixels(scene, .2))
+        largest = std::max(largest, double(std::abs(searched.at(pixel.x, pixel.y).x -
+                                                    traced.at(pixel.x, pixel.y).x)));
+    std::cout << "[ MEASURED ] searches beside rays: largest difference " << largest << '\n';
+    EXPECT_LT(largest, .08);
+    EXPECT_LT(test::rmse(searched, traced), .01);
+}
+
+/// The filtered look-up is nearer to the rays than a sharp one, the more the rougher.
+TEST(RoughLookups, FilteredLookupsAreNearerToRaysThanSharpOnes) {
+    const scene::Scene scene = scene::load("cornell-rough");
+    const measure::Picture traced = test::render(scene, "raytrace:rays=512,depth=4", kBallSize).hdr;
+    const auto error = [&](const std::string& knobs) {
+        return test::rmse(test::render(scene, "pyramid:face=128" + knobs, kBallSize, 8).hdr,
+                          traced);
+    };
+    const double sharp = error(",rough=none"), boxes = error(",rough=mips"),
+                 filtered = error(",rough=prefilter"), drawn = error(",rough=rays,rays=64");
+    std::cout << "[ MEASURED ] rmse: sharp " << sharp << ", boxes " << boxes << ", prefiltered "
+              << filtered << ", 64 searches " << drawn << '\n';
+    EXPECT_LT(filtered, .6 * sharp);
+    EXPECT_LT(drawn, .6 * sharp);
+    EXPECT_LT(boxes, sharp);
+}
+
+TEST(RoughLookups, PerfectMirrorsAreTheSameInEveryMode) {
+    const scene::Scene scene = scene::load("cornell-mirrors");
+    for (const std::string technique : {"parallax:face=32", "hybrid:face=32"}) {
+        const auto pixels = test::render(scene, technique + ",rough=none", kBallSize, 3).hdr.pixels;
+        for (const char* rough : {"mips", "prefilter", "rays"})
+            EXPECT_EQ(test::render(scene, technique + ",rough=" + rough, kBallSize, 3).hdr.pixels,
+                      pixels)
+                << technique << ", " << rough;
+    }
+}
+
+/// A mirrored view is sharp, so flat rough mirrors are drawn by another technique, and `auto` does
+/// not choose `planar` for them.
+TEST(RoughLookups, FlatRoughMirrorsAreNotDrawnByMirroredViews) {
+    scene::Scene scene = scene::load("flat");
+    for (scene::Material& material : scene.materials)
+        if (material.mirror) {
+            material.mirror = false;
+            material.albedo = vec3(.9f), material.metallic = 1, material.roughness = .3f;
+        }
+    scene.mirror_max_roughness = .6f;
+    for (scene::Object& object : scene.objects)
+        object.mirror = scene.materials[object.material].metallic == 1;
+    const app::TechniqueResult planar = test::render(scene, "planar:rest=secant", {32, 32}, 2);
+    ASSERT_EQ(planar.plan.size(), 1u);
+    EXPECT_EQ(planar.plan.front().why, "planar draws flat mirrors, and this is rough: rest=secant");
+    const app::TechniqueResult chosen = test::render(scene, "auto", {32, 32}, 2);
+    ASSERT_EQ(chosen.plan.size(), 1u);
+    EXPECT_NE(chosen.plan.front().technique, "planar");
+    EXPECT_EQ(chosen.plan.front().why.substr(0, 7), "rough, ");
+}
+
+} // namespace
