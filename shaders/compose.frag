@@ -9,5 +9,5 @@ layout(location = 0) out vec4 picture;
 
 void main() {
     vec3 c = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0).rgb * gain;
-    picture = vec4(srgb_encoded(c.r), srgb_encoded(c.g), srgb_encoded(c.b), 1);
+    picture = vec4(srgb_from_linear_channel(c.r), srgb_from_linear_channel(c.g), srgb_from_linear_channel(c.b), 1);
 }

@@ -12,14 +12,15 @@ layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 
 void main() {
     vec3 facet = details != 0u ? cross(dFdx(from_eye), dFdy(from_eye)) : vec3(0);
-    if (peels != 0u && is_peeled()) discard;
+    if (peels != 0u && is_peeled_from_second_layer()) discard;
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
     Surface surface = surface_at_fragment(n, facet);
     vec3 shown = shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
     // A smooth surface that is no mirror reflects the environment only, no objects of the scene.
     if (details != 0u && surface.reflectance != vec3(0))
-        shown += surface.reflectance * environment_radiance(mirror_direction(normalize(seen_along()), n, normalize(facet)));
+        shown += surface.reflectance * environment_radiance(mirror_direction(normalize(direction_from_viewer()), n,
+            normalize(facet)));
     write_surface(shown);
 #ifdef FIRST_HIT
     bool reflects = details != 0u && surface.reflectance != vec3(0);

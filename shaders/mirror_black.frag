@@ -6,7 +6,7 @@
 void main() {
     vec3 shown = vec3(0), facet = vec3(0);
     if (lights_mirrors != 0u) facet = cross(dFdx(from_eye), dFdy(from_eye));
-    if (peels != 0u && is_peeled()) discard;
+    if (peels != 0u && is_peeled_from_second_layer()) discard;
     discard_cut_out_fragments();
     if (lights_mirrors != 0u) {
         vec3 n = normalize(normal);

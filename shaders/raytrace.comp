@@ -13,11 +13,11 @@ layout(push_constant, scalar) uniform Push { TraceParameters trace; };
 
 #ifdef LISTED
 
-layout(local_size_x = 64) in; // 64 invocations: kListGroup
+layout(local_size_x = 64) in; // 64 invocations: kPixelsPerListGroup
 layout(set = 0, binding = LIST_BINDING, scalar) readonly buffer List { uint list[]; };
 
 bool find_pixel_to_trace(out uvec2 pixel) {
-    uint place = assigned_work_group() * kListGroup + gl_LocalInvocationIndex;
+    uint place = assigned_work_group() * kPixelsPerListGroup + gl_LocalInvocationIndex;
     if (place >= counters.value.listed) return false;
     pixel = uvec2(list[place] % trace.size.x, list[place] / trace.size.x);
     return true;
@@ -56,7 +56,7 @@ void main() {
         if (first_raster != 0u) first_words = imageLoad(picture, ivec2(pixel));
         vec3 sum = trace_radiance(make_camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
         // The picture's alpha holds the numbers of the mirrors that the ray of the first sample meets.
-        vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhTag));
+        vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhNormalFloatBit));
         if (asked.sample_index > 0u) before = imageLoad(picture, ivec2(pixel));
         sum += before.rgb;
         if (asked.sample_index + 1u == asked.sample_count) sum /= float(asked.sample_count);

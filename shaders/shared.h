@@ -35,7 +35,7 @@ struct Surface {
 };
 
 // Smoother surfaces reflect as perfect mirrors, rougher ones in lobes.
-const float kMostSharpRoughness = 0.04f;
+const float kMaxSharpRoughness = 0.04f;
 
 // A texture as a material uses it: texels, wrap mode and transform (lib/material.glsl, lib/math/surface.glsl).
 struct TextureUse {
@@ -48,7 +48,7 @@ struct TextureUse {
 // The list of texture words begins with two tables (lib/material.glsl): linear light of each sRGB byte, and the albedo of
 // rough lobes by cosine (columns, 0 to 1) and roughness (rows, 0 to 1).
 const uint kSrgbTableWords = 256u, kLobeTableEdge = 32u;
-const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
+const uint kTextureNearestFlag = 16u, kTextureSrgbFlag = 32u, kTextureSecondUvFlag = 64u;
 
 // The factors of a material: numbers that members of scene::Material hold under the same names. A new factor needs its
 // name here, and its row in engine/scene/material_facts.hpp.
@@ -72,18 +72,19 @@ struct IN_QUADS MaterialParameters {
     MATERIAL_FACTORS(DECLARE_FACTOR)
 #undef DECLARE_FACTOR
 };
-#define COUNT_FACTOR(name) +1u
-const uint kMaterialFixedWords = 38u; // words of a MaterialParameters before its factors
-const uint kMaterialWords = kMaterialFixedWords MATERIAL_FACTORS(COUNT_FACTOR);
-#undef COUNT_FACTOR
-const uint kMaterialVaries = 1u;     // material flag: several colours, or sharp reflection without being a mirror
-const uint kMaterialAttributes = 2u; // material flag: the vertices have attributes
-const uint kMaterialConstant = 4u;   // material flag: the surface reflects Surface::reflectance at any angle
-const uint kMaterialUnlit = 8u;
-const uint kMaterialTurns = 16u;     // material flag: two-sided, the normal turns to the viewer's side
+#define ADD_ONE_PER_FACTOR(name) +1u
+const uint kMaterialWordsBeforeFactors = 38u; // words of a MaterialParameters before its factors
+const uint kWordsPerMaterial = kMaterialWordsBeforeFactors MATERIAL_FACTORS(ADD_ONE_PER_FACTOR);
+#undef ADD_ONE_PER_FACTOR
+const uint kMaterialVariesFlag = 1u; // material flag: several colours, or sharp reflection without being a mirror
+const uint kMaterialHasAttributesFlag = 2u; // material flag: the vertices have attributes
+// material flag: the surface reflects Surface::reflectance at any angle
+const uint kMaterialConstantReflectanceFlag = 4u;
+const uint kMaterialUnlitFlag = 8u;
+const uint kMaterialTwoSidedFlag = 16u; // material flag: two-sided, the normal turns to the viewer's side
 // Material flag: some vertex normals differ from their facets' normals, so shading also asks on which side of the facet
 // a light is.
-const uint kMaterialFacets = 32u;
+const uint kMaterialTestsFacetSideFlag = 32u;
 
 // The data of a vertex other than position and normal.
 struct VertexAttribute {
@@ -96,8 +97,8 @@ struct VertexAttribute {
 // directional light shines along `forward`.
 struct Light {
     vec3 position;
-    // Normal of the lamp. Zero: the light has no cosine factor. For kLightOfTwoSides: the mean |cosine| between the
-    // lamp's facets and the axes `right`, `down` and `forward`.
+    // Normal of the lamp. Zero: the light has no cosine factor. For kLightKindTwoSidedLamp: the mean |cosine| between
+    // the lamp's facets and the axes `right`, `down` and `forward`.
     vec3 normal;
     vec3 intensity;   // emission times the effective area of the lamp
     vec3 right;
@@ -110,7 +111,7 @@ struct Light {
     uint kind;        // kind of light, kLight...
 };
 // Kinds of light: a point or spot light or one-sided lamp; a directional light; an open lamp that emits on both sides.
-const uint kLightAtPoint = 0u, kLightDirectional = 1u, kLightOfTwoSides = 2u;
+const uint kLightKindPoint = 0u, kLightKindDirectional = 1u, kLightKindTwoSidedLamp = 2u;
 const uint kMaxLights = 128u; // most lights of a scene: 178 fit into 16 KiB, the uniform buffer that every device has
 
 // The data of a mirror's capture. Mirror n, counted from 0, has the layers [6 n, 6 n + 6) of the cube arrays.
@@ -125,20 +126,20 @@ struct Probe {
 };
 // Kinds of mirror: constant, with the same reflectance at any angle; metal, by Schlick's approximation; lit, which also
 // has diffuse or emitted light that only captures show.
-const uint kProbeConstant = 0u, kProbeMetal = 1u, kProbeLit = 2u;
+const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorLit = 2u;
 
 // One cube array with captures of one size and format, and the encoding of its distances.
 struct CaptureArray {
     float stored_unit; // stored distance 1 in scene units
     uint range_ends;   // 1: the stored distance 1 means either the end of the range or no surface
 };
-const uint kMostArrays = 8u;
-const uint kMostCaptured = 2048u; // most mirrors with captures: a 16-bit float holds their numbers exactly
+const uint kMaxCubeArrays = 8u;
+const uint kMaxCapturedMirrors = 2048u; // most mirrors with captures: a 16-bit float holds their numbers exactly
 // The place of each mirror's capture, for mirrors counted from 0: array << 16 | cube, both from 0. The array number
-// kMostArrays means that the mirror has no capture.
+// kMaxCubeArrays means that the mirror has no capture.
 struct CaptureTable {
-    CaptureArray arrays[kMostArrays];
-    uint places[kMostCaptured];
+    CaptureArray arrays[kMaxCubeArrays];
+    uint places[kMaxCapturedMirrors];
 };
 
 // A projection of the vector v = position - eye.
@@ -179,8 +180,8 @@ struct DrawParameters {
     uint first_view; // index of the view that layer 0 shows
     uint ablated;     // causes of error to remove, kAblate...; used by variants with ABLATE (lib/ablate.glsl)
 };
-// gl_InstanceIndex of a draw of an object is (index of the object) << kLayerBits | layer.
-const uint kLayerBits = 3u;
+// gl_InstanceIndex of a draw of an object is (index of the object) << kInstanceLayerBits | layer.
+const uint kInstanceLayerBits = 3u;
 
 // The placement of an object whose vertices are in object space.
 struct Placement {
@@ -191,13 +192,15 @@ struct Placement {
 
 // Causes of error that an ablation removes: each flag replaces an approximation by its exact value
 // (engine/study/causes.cpp).
-const uint kAblateDistance = 1u;   // ablation: the captured distance becomes the exact distance
-const uint kAblateDirection = 2u;  // ablation: the looked-up direction becomes that of the point which the ray meets
-const uint kAblateHidden = 4u;     // ablation: points hidden from the capture's centre get their true colour
-const uint kAblateTexels = 8u;     // ablation: the texels' colour becomes the surface's colour at the exact point
-const uint kAblateMirrors = 16u;   // ablation: a captured picture of a mirror becomes the mirror's true reflection
-const uint kAblateOwn = 32u;       // ablation: a mirror shows its reflection in itself, which its capture leaves out
-const uint kAblateShadows = 64u;   // ablation: the shadow map becomes a shadow ray
+const uint kAblateDistance = 1u; // ablation: the captured distance becomes the exact distance
+const uint kAblateDirection = 2u; // ablation: the looked-up direction becomes that of the point which the ray meets
+const uint kAblateHiddenPoints = 4u; // ablation: points hidden from the capture's centre get their true colour
+const uint kAblateTexelColour = 8u; // ablation: the texels' colour becomes the surface's colour at the exact point
+// ablation: a captured picture of a mirror becomes the mirror's true reflection
+const uint kAblateMirrorReflections = 16u;
+// ablation: a mirror shows its reflection in itself, which its capture leaves out
+const uint kAblateSelfReflection = 32u;
+const uint kAblateShadows = 64u; // ablation: the shadow map becomes a shadow ray
 
 // Push constants of one dispatch of the ray tracer.
 struct TraceParameters {
@@ -209,8 +212,8 @@ struct TraceParameters {
 };
 
 // A traced picture's alpha is a word of engine/bvh/words.hpp: the number, from 1, of the mirror that the pixel's first
-// ray meets, and the number of the next mirror << kMetBits. 0 means no mirror.
-const uint kMetBits = 15u, kMostMirrors = 32767u;
+// ray meets, and the number of the next mirror << kHitMirrorBits. 0 means no mirror.
+const uint kHitMirrorBits = 15u, kMaxMirrors = 32767u;
 
 // Counters of ray tracing, summed over all dispatches of the frame.
 struct Counters {
@@ -227,17 +230,17 @@ struct Counters {
 const uint kWorkCameraRays = 0u, kWorkMirrorRays = 1u, kWorkShadowRays = 2u, kWorkNodes = 3u, kWorkTriangles = 4u,
            kWorkNodeLanes = 5u, kWorkTriangleLanes = 6u, kWorkShadowLookups = 7u, kWorkColourLookups = 8u,
            kWorkDistanceLookups = 9u, kWorkTextureLookups = 10u, kWorkMaterials = 11u, kWorkLights = 12u;
-const uint kShaderWorkKinds = 13u;
+const uint kShaderWorkKindCount = 13u;
 
 // Push constants of the pass that shows pictures in a window (engine/session/screen.cpp).
 struct ScreenParameters {
     uvec2 size;      // size of the pictures, pixels
-    uint kind;       // kind of display, kShow...
+    uint kind;       // kind of display, kDisplay...
     uint from_canvas; // 1: the first picture is the canvas; 2: the second picture is the canvas; 3: both are
     float divider;   // column that divides a split display: the first picture is left of this pixel
     float gain;      // factor that a difference of two pictures is multiplied by
 };
-const uint kShowFirst = 0u, kShowSplit = 1u, kShowDifference = 2u;
+const uint kDisplayFirst = 0u, kDisplaySplit = 1u, kDisplayDifference = 2u;
 
 // A vertex of the triangles that draw controls and text over the window's picture.
 struct OverlayVertex {
@@ -253,14 +256,14 @@ struct OverlayParameters {
 
 // Number of four-component texels that one element takes in the lists of shaders/lib/bindings.glsl. Texels hold floats,
 // those of materials hold unsigned integers.
-const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kMaterialQuads = (kMaterialWords + 3u) / 4u;
+const uint kTexelsPerSurface = 4u, kTexelsPerProbe = 5u, kQuadsPerMaterial = (kWordsPerMaterial + 3u) / 4u;
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 60);
 static_assert(sizeof(Light) == 92);
 static_assert(sizeof(TextureUse) == 36);
-static_assert(sizeof(MaterialParameters) == 16 * kMaterialQuads);
+static_assert(sizeof(MaterialParameters) == 16 * kQuadsPerMaterial);
 static_assert(sizeof(VertexAttribute) == 32);
 static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows

@@ -14,11 +14,11 @@ layout(location = 2) out vec3 out_from_eye;
 layout(location = 3) out vec4 out_uv;
 layout(location = 4) out vec4 out_colour;
 
-const float kBehindAll = 1e-36; // reversed depth behind all surfaces, but in front of the clear value 0
+const float kSkyDepth = 1e-36; // reversed depth behind all surfaces, but in front of the clear value 0
 
 void main() {
     View view = views[draw.first_view + drawn_layer()];
-    gl_Position = vec4(corner.xy, kBehindAll, 1);
+    gl_Position = vec4(corner.xy, kSkyDepth, 1);
 #ifdef LAYERED
     gl_Layer = int(drawn_layer());
 #endif

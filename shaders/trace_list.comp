@@ -25,8 +25,8 @@ layout(push_constant, scalar) uniform Push { uvec2 size; };
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 
 uvec2 count_work_groups(uint pixels) {
-    uint groups = (pixels + kListGroup - 1u) / kListGroup;
-    return uvec2(min(groups, kListGroups), (groups + kListGroups - 1u) / kListGroups);
+    uint groups = (pixels + kPixelsPerListGroup - 1u) / kPixelsPerListGroup;
+    return uvec2(min(groups, kMaxListGroupsPerRow), (groups + kMaxListGroupsPerRow - 1u) / kMaxListGroupsPerRow);
 }
 
 // Lists the pixels of one 8x8 block that the tracer takes.
@@ -35,8 +35,8 @@ void list_pixels(uvec2 pixel) {
     ivec2 place = ivec2(min(pixel, size - 1u));
 #ifdef FIRST_HIT
     vec4 words = imageLoad(picture, place);
-    uint is_mirror = uint(inside) & uint(is_of_mirror(words));
-    uint is_listed = uint(inside) & uint(is_for(words, tracer));
+    uint is_mirror = uint(inside) & uint(is_first_hit_on_mirror(words));
+    uint is_listed = uint(inside) & uint(is_first_hit_for_tracer(words, tracer));
 #else
     // `mark` is the number of the tracer that takes the pixel, or 0. `ablated_lookup_colour` is 0 where no mirror
     // looked its reflection up in a capture (lib/surface.glsl).

@@ -49,7 +49,7 @@ void CapturePrototype::add_scene(const app::Request& request) {
     const scene::Scene now = scene::scene_at_time(request.scene, request.time);
     geometry_ = render::make_geometry(now, space);
     const scene::PointLight light = scene::list_lights(now).at(0);
-    const vec3 at = space.point(light.position);
+    const vec3 at = space.to_scene_point(light.position);
     views_ = {render::make_camera_view(request.camera, space, request.size, 1)};
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const scene::Material& material = now.materials[now.objects[i].material];
@@ -126,7 +126,8 @@ void CapturePrototype::make_programs(gpu::Pipelines& pipelines) {
             {"distances", {nullptr, cubes_[i].distance.view(cubes, 0, layers), linear_}}};
         const auto bind = [&](const char* fragment, gpu::Winding hidden,
                               const gpu::Attachments& to) {
-            return sets_.bind(pipelines.raster(state(fragment, hidden), to), resources);
+            return sets_.bind(pipelines.find_or_make_raster(state(fragment, hidden), to),
+                              resources);
         };
         capture_[i] = {bind("peers/diffuse.frag", gpu::Winding::none, faces),
                        bind("peers/mirror.frag", kAwayInFaces, faces)};

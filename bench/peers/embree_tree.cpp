@@ -28,7 +28,7 @@ double cost_of(const Node& node) {
         const Node& child = *node.children[side];
         const bool is_leaf = child.triangles > 0;
         sum += bvh::box_area(node.boxes[side]) *
-                   (is_leaf ? static_cast<double>(child.triangles) : bvh::kTraversalCost) +
+                   (is_leaf ? static_cast<double>(child.triangles) : bvh::kNodeVisitCost) +
                (is_leaf ? 0 : cost_of(child));
     }
     return sum;
@@ -72,8 +72,8 @@ void split(const RTCBuildPrimitive* primitive, unsigned axis_number, float place
 
 void say_how(RTCBuildArguments& arguments) {
     arguments.maxDepth = kDeepest;
-    arguments.maxLeafSize = bvh::kMaxLeaf;
-    arguments.traversalCost = static_cast<float>(bvh::kTraversalCost);
+    arguments.maxLeafSize = bvh::kMaxLeafTriangles;
+    arguments.traversalCost = static_cast<float>(bvh::kNodeVisitCost);
     arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) -> void* {
         return new_node(allocator);
     };

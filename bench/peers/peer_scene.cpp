@@ -70,7 +70,7 @@ PeerScene::PeerScene(const EmbreeDevice& device, const app::Request& request, in
     whitted_.tree = tree_.get();
     whitted_.depth = depth;
     whitted_.shadow_end = f32::kShadowRayEnd;
-    whitted_.facet_fade = f32::kFacetFade;
+    whitted_.facet_fade = f32::kFacetFadeSine;
     whitted_.lift = 0x1p-20F; // scene units; a scene is about 1 in size
 }
 
@@ -88,8 +88,8 @@ void PeerScene::add_objects(const EmbreeDevice& device, const app::Request& requ
         const render::DrawRange& range = geometry.ranges[i];
         whitted_.surfaces.push_back(surface_of(scene, object, range));
         if (exact && object.sphere) {
-            whitted_.spheres.push_back(
-                {plain(space.point(object.sphere->centre)), space.length(object.sphere->radius)});
+            whitted_.spheres.push_back({plain(space.to_scene_point(object.sphere->centre)),
+                                        space.to_scene_length(object.sphere->radius)});
             whitted_.sphere_objects.push_back(static_cast<std::uint32_t>(i));
         } else if (!range.casts_shadow && !range.one_sided) {
             lamps.push_back(i);
@@ -138,7 +138,7 @@ void PeerScene::add_view(const app::Request& request) {
         const bool has_cosine = light.normal != dvec3(0);
         const double share = has_cosine ? 1 : scene::light_share_towards(light, {0, 0, 1});
         const double area = share * light.area * space.scale * space.scale;
-        added.position = plain(space.point(light.position));
+        added.position = plain(space.to_scene_point(light.position));
         added.normal = plain(vec3(light.normal));
         added.intensity = plain(light.emission * static_cast<float>(area));
         added.is_spot = light.axis != dvec3(0);

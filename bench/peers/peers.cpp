@@ -77,7 +77,7 @@ int main(int argc, char** argv) try {
     const app::UsageMeter meter(
         app::UsageMeter::CountedThreads::process); // created before other threads start
     std::vector<std::string> words(argv + 1, argv + argc);
-    const int rounds = std::max(static_cast<int>(measure::kFewest), take_rounds(words));
+    const int rounds = std::max(static_cast<int>(measure::kMinIntervalSamples), take_rounds(words));
     const std::vector<Case> cases = cases_of(words);
     if (!meter.uncounted().empty())
         std::printf("cycles are not counted: %s\n", meter.uncounted().c_str());

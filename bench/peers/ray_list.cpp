@@ -21,7 +21,7 @@ RayList::RayList(gpu::Device& device, gpu::Pipelines& pipelines,
     gpu::upload_to_buffer(device_, triangles_, "triangles", tree.triangles, BufferUsage::texels);
     gpu::upload_to_buffer(device_, rays_, "rays", texels, BufferUsage::texels);
     met_.write(std::span<const Met>(std::vector<Met>(rays.size())));
-    bound_ = sets_.bind(pipelines.compute({"peers/rays.comp", {}}),
+    bound_ = sets_.bind(pipelines.find_or_make_compute({"peers/rays.comp", {}}),
                         {{"bvh_nodes", {&nodes_}},
                          {"bvh_triangles", {&triangles_}},
                          {"rays", {&rays_}},

@@ -19,7 +19,8 @@ vec4 texel(const Vector& v, float w = 0) { return {v.x, v.y, v.z, w}; }
 std::vector<vec4> plain_nodes(const bvh::Bvh& tree) {
     std::vector<vec4> nodes = tree.nodes;
     for (vec4& node : nodes)
-        node.w = std::bit_cast<float>(std::bit_cast<std::uint32_t>(node.w) & ~f32::kBvhTag);
+        node.w = std::bit_cast<float>(std::bit_cast<std::uint32_t>(node.w) &
+                                      ~f32::kBvhNormalFloatBit);
     return nodes;
 }
 
@@ -47,7 +48,7 @@ TracePrototype::TracePrototype(gpu::Device& device, gpu::Pipelines& pipelines,
     upload(scene, triangles, tree);
     const char* const shader = tree == Tree::stack ? "peers/trace.comp"
                                                    : "peers/trace.comp#skip_links";
-    bound_ = sets_.bind(pipelines.compute({shader, {}}),
+    bound_ = sets_.bind(pipelines.find_or_make_compute({shader, {}}),
                         {{"nodes", {&nodes_}},
                          {"triangles", {&triangles_}},
                          {"normals", {&normals_}},

@@ -24,7 +24,9 @@ void compare_builds(const Bench& bench, const std::vector<bvh::Triangle>& triang
         tree.commit();
     };
     const auto ours = [&](unsigned threads) {
-        return [&triangles, threads] { bvh::build_bvh(triangles, {}, bvh::kMaxLeaf, threads); };
+        return [&triangles, threads] {
+            bvh::build_bvh(triangles, {}, bvh::kMaxLeafTriangles, threads);
+        };
     };
     const std::vector<Benchmark> list = app::measure_in_rounds(
         {app::make_subject("ours/build", ours(0)), app::make_subject("ours/build/1", ours(1)),
@@ -64,7 +66,7 @@ void compare_trees(const Bench& bench) {
     compare_builds(bench, million);
     std::printf("\n");
     compare_costs(bench.device, "torus", million);
-    for (const scene::BuiltInScene& scene : scene::built_in_scenes())
+    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
         compare_costs(bench.device, scene.name, triangles_of(scene.make()));
 }
 

@@ -156,7 +156,7 @@ private:
                 w * a.z + u * b.z + v * c.z};
     }
     /// Returns how far above its facet a smooth surface with these corner normals lies, as
-    /// smooth_lift of shaders/lib/math/leaving.glsl.
+    /// smooth_surface_offset of shaders/lib/math/leaving.glsl.
     float lift_of(std::size_t triangle, float u, float v) const {
         const auto& corners = scene_.corners[triangle];
         const auto& normals = scene_.normals[triangle];
@@ -241,7 +241,7 @@ private:
         colour_ = colour_ + select(lit, factor * (weight_ * albedo_ * same<Real>(light.intensity)),
                                    same<Real>({}));
     }
-    /// Returns the share of a light that a facet receives, as facet_share of
+    /// Returns the share of a light that a facet receives, as facet_light_share of
     /// shaders/lib/math/light.glsl.
     Real facet_share(const V& direction, const V& normal) const {
         const V unit = normalize(facet_);

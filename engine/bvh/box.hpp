@@ -7,7 +7,7 @@ namespace catoptric::bvh {
 
 using BoundingBox = Bounds<float>;
 
-inline constexpr double kTraversalCost = 2; // cost of visiting a node, in triangle tests
+inline constexpr double kNodeVisitCost = 2; // cost of visiting a node, in triangle tests
 
 /// Returns the surface area of a box. Computes in double, where the extents of finite floats cannot
 /// overflow.
@@ -31,15 +31,16 @@ inline float compute_box_padding(const BoundingBox& box, const BoundingBox& core
 
 /// Returns the box, grown by `pad` on each side and clamped to the range of finite floats.
 inline BoundingBox pad_box(const BoundingBox& box, float pad) {
-    return {max(box.lo - pad, vec3(-f32::kLargest)), min(box.hi + pad, vec3(f32::kLargest))};
+    return {max(box.lo - pad, vec3(-f32::kLargestFloat)),
+            min(box.hi + pad, vec3(f32::kLargestFloat))};
 }
 
-/// Returns the bounds of a triangle. If `flags` has kBall, returns the bounds of a sphere, grown by
-/// the rounding errors of the sphere test.
+/// Returns the bounds of a triangle. If `flags` has kSpherePrimitive, returns the bounds of a
+/// sphere, grown by the rounding errors of the sphere test.
 inline BoundingBox triangle_bounds(const vec3& a, const vec3& b, const vec3& c,
                                    std::uint32_t flags) {
     BoundingBox box;
-    if ((flags & kBall) != 0) {
+    if ((flags & kSpherePrimitive) != 0) {
         const float reach = b.x + f32::gamma_bound(16) * (b.x + f32::largest(abs(a)));
         box.add(a - reach), box.add(a + reach);
     } else {

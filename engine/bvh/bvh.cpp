@@ -16,7 +16,7 @@ namespace catoptric::bvh {
 namespace {
 
 constexpr std::uint32_t kMaxTriangles = f32::kBvhIndexMask;
-constexpr std::size_t kRunCount = 8192; // triangles that one task of a thread reads
+constexpr std::size_t kTrianglesPerTask = 8192; // triangles that one task of a thread reads
 
 /// The references that have been written for a list of triangles.
 struct WrittenReferences {
@@ -25,7 +25,7 @@ struct WrittenReferences {
     std::array<ReferenceRange, 2> parts;
     std::vector<std::size_t> shadowless; ///< places in the run of the second part, ascending
 
-    std::size_t count() const { return parts[0].count + parts[1].count; }
+    std::size_t reference_count() const { return parts[0].count + parts[1].count; }
 };
 
 /// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
@@ -38,10 +38,10 @@ WrittenReferences write_triangle_references(std::span<const Triangle> triangles,
         if (!is_finite(t)) continue;
         BoundingBox box = triangle_bounds(t.a, t.b, t.c, t.flags);
         if (!core.empty()) box = pad_box(box, compute_box_padding(box, core));
-        const TriangleReference r{load_lanes(box.lo, id_to_float_word(first + i)),
-                                  load_lanes(box.hi, 0)};
-        const bool is_shadowless = (t.flags & kShadowless) != 0;
-        if (is_shadowless) written.shadowless.push_back(written.count());
+        const TriangleReference r{load_simd(box.lo, id_to_float_word(first + i)),
+                                  load_simd(box.hi, 0)};
+        const bool is_shadowless = (t.flags & kCastsNoShadow) != 0;
+        if (is_shadowless) written.shadowless.push_back(written.reference_count());
         written.parts[is_shadowless ? 1 : 0].add(r);
         *into++ = r;
     }
@@ -52,18 +52,19 @@ WrittenReferences write_triangle_references(std::span<const Triangle> triangles,
 WrittenReferences write_references_in_parallel(std::span<const Triangle> triangles,
                                                const BoundingBox& core, TriangleReferences into,
                                                unsigned threads) {
-    std::vector<WrittenReferences> runs((triangles.size() + kRunCount - 1) / kRunCount);
+    std::vector<WrittenReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
+                                        kTrianglesPerTask);
     run_in_parallel(runs.size(), threads, [&](std::size_t i) {
-        const std::size_t first = i * kRunCount,
-                          count = std::min(kRunCount, triangles.size() - first);
+        const std::size_t first = i * kTrianglesPerTask,
+                          count = std::min(kTrianglesPerTask, triangles.size() - first);
         runs[i] = write_triangle_references(triangles.subspan(first, count), first, core,
                                             &into[first]);
     });
     WrittenReferences all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const std::size_t before = all.count();
-        if (before < i * kRunCount) // an earlier run had triangles that are not finite
-            std::copy_n(&into[i * kRunCount], runs[i].count(), &into[before]);
+        const std::size_t before = all.reference_count();
+        if (before < i * kTrianglesPerTask) // an earlier task had triangles that are not finite
+            std::copy_n(&into[i * kTrianglesPerTask], runs[i].reference_count(), &into[before]);
         for (const std::size_t place : runs[i].shadowless) all.shadowless.push_back(before + place);
         for (std::size_t k = 0; k < 2; ++k) {
             const ReferenceRange& part = runs[i].parts[k];
@@ -84,7 +85,7 @@ std::vector<ReferenceRange> separate_shadowless(const WrittenReferences& written
         all.box.add(others.box), all.centres.add(others.centres), all.count += others.count;
         return {all};
     }
-    std::size_t end = written.count();
+    std::size_t end = written.reference_count();
     for (auto place = written.shadowless.rbegin(); place != written.shadowless.rend(); ++place)
         std::swap(references[*place], references[--end]);
     std::vector<ReferenceRange> parts{casters, others};
@@ -96,10 +97,10 @@ std::vector<ReferenceRange> separate_shadowless(const WrittenReferences& written
 
 Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf,
               unsigned threads) {
-    return build_bvh(triangles, core, CopyHandling::of_object, leaf, threads);
+    return build_bvh(triangles, core, DuplicateScope::within_object, leaf, threads);
 }
 
-Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, CopyHandling copies,
+Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, DuplicateScope copies,
               std::uint32_t leaf, unsigned threads) {
     check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
@@ -117,24 +118,24 @@ Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, Co
                                                                    threads);
     const std::vector<ReferenceRange> parts = separate_shadowless(written, work.buffers[0]);
     Bvh bvh;
-    bvh.dropped = triangles.size() - written.count();
-    bvh.triangles.reserve(3 * written.count());
+    bvh.dropped = triangles.size() - written.reference_count();
+    bvh.triangles.reserve(3 * written.reference_count());
     advise_large_pages(bvh.triangles.data(), bvh.triangles.capacity() * sizeof(vec4));
-    bvh.triangles.resize(3 * written.count());
+    bvh.triangles.resize(3 * written.reference_count());
     work.triangles = bvh.triangles.data();
     bvh.nodes.resize(4, vec4(0));
     const std::size_t kept = build_tree_in_parallel(work, parts, threads, bvh.nodes);
-    bvh.copies = written.count() - kept;
+    bvh.copies = written.reference_count() - kept;
     bvh.triangles.resize(3 * kept);
-    BoxExtent bounds;
+    SimdBox bounds;
     for (const ReferenceRange& part : parts) bounds.add(part.box);
-    const BoundingBox slack = core.empty() ? bounds.box() : core;
+    const BoundingBox slack = core.empty() ? bounds.to_bounding_box() : core;
     bvh.nodes[0] = vec4(slack.lo, id_to_float_word(count_triangles(bvh)));
     bvh.nodes[1] = vec4(slack.hi, id_to_float_word(count_nodes(bvh)));
     if (parts.size() == 2)
         set_walk_start(bvh, float_to_bits(bvh.nodes[4].w), float_to_bits(bvh.nodes[5].w));
     else
-        set_walk_start(bvh, f32::kBvhRoot, f32::kBvhNothing);
+        set_walk_start(bvh, f32::kBvhRoot, f32::kBvhEmptyChild);
     bvh.cost = compute_sah_cost(bvh);
     return bvh;
 }

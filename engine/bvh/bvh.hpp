@@ -12,28 +12,32 @@ namespace catoptric::bvh {
 struct Triangle {
     vec3 a{0}, b{0}, c{0};
     std::uint32_t object = 0; ///< below 2^29; a hit returns it
-    std::uint32_t flags = 0;  ///< kHidden | kShadowless | kSphere | kOneSided | kMasked | kBall
+    std::uint32_t flags = 0;  ///< kHiddenFromCamera | kCastsNoShadow | kStandsForSphere | kOneSided
+                              ///< | kAlphaMasked | kSpherePrimitive
 };
 
-inline constexpr std::uint32_t kHidden = f32::kBvhHidden;         ///< camera rays pass through
-inline constexpr std::uint32_t kShadowless = f32::kBvhShadowless; ///< shadow rays pass through
-inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands for an exact sphere
+inline constexpr std::uint32_t kHiddenFromCamera =
+    f32::kBvhHiddenFromCamera; ///< camera rays pass through
+inline constexpr std::uint32_t kCastsNoShadow =
+    f32::kBvhCastsNoShadow; ///< shadow rays pass through
+inline constexpr std::uint32_t kStandsForSphere =
+    f32::kBvhStandsForSphere; ///< stands for an exact sphere
 /// Rays that skip this flag hit the triangle from the front only.
 inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided;
 /// Flag of triangles that alpha masks may cut out in part.
-inline constexpr std::uint32_t kMasked = f32::kBvhMasked;
+inline constexpr std::uint32_t kAlphaMasked = f32::kBvhAlphaMasked;
 /// A sphere in place of a triangle: see `make_sphere_primitive`.
-inline constexpr std::uint32_t kBall = f32::kBvhBall;
-inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
-inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
-/// The most kShadowless triangles that get a subtree of their own.
+inline constexpr std::uint32_t kSpherePrimitive = f32::kBvhSpherePrimitive;
+inline constexpr std::uint32_t kMaxTreeDepth = f32::kBvhMaxDepth;
+inline constexpr std::uint32_t kMaxLeafTriangles = 4; ///< triangles in a leaf
+/// The most kCastsNoShadow triangles that get a subtree of their own.
 inline constexpr std::size_t kMaxShadowlessApart = 256;
 
 /// Returns a sphere that takes the place of a triangle. Only walks with TRACE_BALLS set
 /// (shaders/lib/trace.glsl) can intersect spheres.
 inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uint32_t object,
                                       std::uint32_t flags) {
-    return {centre, vec3(radius, 0, 0), vec3(0), object, flags | kBall};
+    return {centre, vec3(radius, 0, 0), vec3(0), object, flags | kSpherePrimitive};
 }
 
 /// The two arrays of a hierarchy, in the layout that the device reads.
@@ -48,7 +52,7 @@ inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uin
 ///                        hi.xyz of child 0, word of child 1
 ///                        lo.xyz of child 1, 0
 ///                        hi.xyz of child 1, 0
-///   An absent child has the empty box (lo = +inf, hi = -inf) and the word kBvhNothing.
+///   An absent child has the empty box (lo = +inf, hi = -inf) and the word kBvhEmptyChild.
 ///
 /// `triangles` has three vec4 a triangle, in the order of the leaves:
 ///                        a.xyz, object index               (of a sphere: its centre)
@@ -65,36 +69,37 @@ inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uin
 /// most kMaxShadowlessApart, the first word is the root's first child, with all triangles that cast
 /// shadows, and the second word is the root's other child. Shadow rays walk the first child alone.
 /// Other rays walk it before the second child. Otherwise the first word is the root, and the second
-/// word is kBvhNothing.
+/// word is kBvhEmptyChild.
 struct Bvh {
     std::vector<vec4> nodes;
     std::vector<vec4> triangles;
     std::size_t dropped = 0; ///< triangles left out because a coordinate is not finite
     std::size_t copies = 0; ///< triangles left out as copies of one with a lower number (see build)
     /// Node of the first instance's record (bvh/tlas.hpp); 0: no instances. The record of instance
-    /// i begins kBvhRecordNodes * i nodes later.
+    /// i begins kBvhNodesPerInstance * i nodes later.
     std::uint32_t first_record = 0;
     double cost = 0; ///< result of the function `cost`; `refit_bvh` updates it incrementally
 };
 
 /// Builds a hierarchy with the binned surface area heuristic. Where a path would grow deeper than
-/// kMaxDepth, halves the triangles by number instead. The same input always gives the same tree.
+/// kMaxTreeDepth, halves the triangles by number instead. The same input always gives the same
+/// tree.
 ///
-/// Copies: if more than kMaxLeaf triangles share a centre, those with equal corners, object and
-/// flags count as one. The copy with the lowest number stays. Without this rule, walks past
-/// thousands of copies would take too long.
+/// Copies: if more than kMaxLeafTriangles triangles share a centre, those with equal corners,
+/// object and flags count as one. The copy with the lowest number stays. Without this rule, walks
+/// past thousands of copies would take too long.
 ///
 /// Costs O(n log^2 n) for any input: .4 s on one thread for a million triangles.
 ///
 /// `core`: the bounds of most of the scene; empty: of all of it. The walk widens all boxes by
 /// roundings of that size. The boxes of triangles farther out are wider themselves. A single
 /// distant triangle therefore does not slow down every ray.
-/// `leaf`: the most triangles in a leaf, 1 to kMaxLeaf.
+/// `leaf`: the most triangles in a leaf, 1 to kMaxLeafTriangles.
 /// `threads`: the most threads to use; 0: as many as the machine runs at once. The tree does not
 /// depend on it.
 /// Throws `Failure::exhausted` above 2^27 - 1 triangles.
 Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core = {},
-              std::uint32_t leaf = kMaxLeaf, unsigned threads = 0);
+              std::uint32_t leaf = kMaxLeafTriangles, unsigned threads = 0);
 
 /// A half-open range of indices: `first` is included, `end` is not.
 struct IndexRange {

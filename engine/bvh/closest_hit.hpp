@@ -35,12 +35,12 @@ struct RayHit {
 struct TraversalCounters {
     std::size_t nodes = 0;
     std::size_t triangles = 0;
-    std::size_t total() const { return nodes + triangles; }
+    std::size_t total_steps() const { return nodes + triangles; }
 };
 
 namespace detail {
 
-using f32::is_from_behind, f64::is_from_behind;
+using f32::hits_back_face, f64::hits_back_face;
 using f32::make_box_ray, f64::make_box_ray;
 using f32::make_ray_shear, f64::make_ray_shear;
 using f32::ray_in_object_space, f64::ray_in_object_space;
@@ -90,14 +90,14 @@ struct ClosestHitSearch {
         const std::uint32_t flags = float_word_to_integer(record ? of[3].w : texel[2].w);
         const std::uint32_t skips = flags & skipped_flags;
         if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
-        if (skips != 0 && is_from_behind(read_corner<Real>(texel[0]), read_corner<Real>(texel[1]),
+        if (skips != 0 && hits_back_face(read_corner<Real>(texel[0]), read_corner<Real>(texel[1]),
                                          read_corner<Real>(texel[2]), ray.direction))
             return;
         Real t;
         Vec3<Real> weights;
-        if ((flags & f32::kBvhBall) != 0) {
+        if ((flags & f32::kBvhSpherePrimitive) != 0) {
             if (!sphere_test(read_corner<Real>(texel[0]), Real{texel[1].x}, ray,
-                             Real{f32::kLargest}, t))
+                             Real{f32::kLargestFloat}, t))
                 return;
             weights = {1, 0, 0};
         } else if (!triangle_test(read_corner<Real>(texel[0]), read_corner<Real>(texel[1]),
@@ -141,8 +141,9 @@ std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const
     TraversalCounters count;
     std::uint32_t child = float_to_bits(bvh.nodes[3].x);
     const std::uint32_t others = float_to_bits(bvh.nodes[3].y);
-    if (others != f32::kBvhNothing && (skipped_flags & kShadowless) == 0) stack[waiting++] = others;
-    while (child != f32::kBvhNothing) {
+    if (others != f32::kBvhEmptyChild && (skipped_flags & kCastsNoShadow) == 0)
+        stack[waiting++] = others;
+    while (child != f32::kBvhEmptyChild) {
         if (f32::bvh_is_inner(child)) {
             ++count.nodes;
             const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
@@ -159,11 +160,11 @@ std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const
                 child = first;
                 continue;
             }
-        } else if (child == f32::kBvhReturns) {
+        } else if (child == f32::kBvhReturnFromInstance) {
             ++count.nodes;
             search.enter_tree(0, ray);
             boxes = make_box_rays_outside<Real>(bvh, ray);
-        } else if (f32::bvh_count(child) == f32::kBvhEnters) {
+        } else if (f32::bvh_count(child) == f32::kBvhInstanceMarker) {
             ++count.nodes;
             const std::uint32_t record = f32::bvh_index(child);
             const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
@@ -171,7 +172,7 @@ std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const
                 record, ray_in_object_space(read_instance_placement<Real>(bvh, record), ray, low));
             boxes = make_box_ray(search.ray, read_corner<Real>(texel[8]),
                                  read_corner<Real>(texel[9]), Real{1});
-            stack.at(waiting++) = f32::kBvhReturns;
+            stack.at(waiting++) = f32::kBvhReturnFromInstance;
             child = float_to_bits(texel[0].w);
             continue;
         } else {
@@ -182,7 +183,7 @@ std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const
             }
             if (any && search.best) break;
         }
-        child = waiting > 0 ? stack[--waiting] : f32::kBvhNothing;
+        child = waiting > 0 ? stack[--waiting] : f32::kBvhEmptyChild;
     }
     if (steps != nullptr) *steps = count;
     return search.best;

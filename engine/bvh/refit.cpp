@@ -34,7 +34,7 @@ BoundingBox compute_child_bounds(const Bvh& bvh, std::uint32_t child, const Boun
 /// Returns the cost of one child. The cost of a node is the sum over its two children.
 double compute_child_cost(std::uint32_t child, const BoundingBox& box) {
     return box_area(box) *
-           (f32::bvh_is_inner(child) ? kTraversalCost : static_cast<double>(f32::bvh_count(child)));
+           (f32::bvh_is_inner(child) ? kNodeVisitCost : static_cast<double>(f32::bvh_count(child)));
 }
 
 /// Compares bits, because 0 and -0 count as different here.

@@ -9,13 +9,13 @@ namespace catoptric::bvh {
 
 namespace {
 
-using IntegerLanes = std::int32_t __attribute__((vector_size(16)));
+using SimdInt4 = std::int32_t __attribute__((vector_size(16)));
 
 /// Distance of the prefetch, in references. Processors do not prefetch across pages by themselves.
-constexpr std::size_t kAhead = 24;
+constexpr std::size_t kPrefetchDistance = 24;
 
-double compute_split_cost(const BoxExtent& extent, std::size_t count) {
-    return extent.half_area() * static_cast<double>(count);
+double compute_split_cost(const SimdBox& extent, std::size_t count) {
+    return extent.half_surface_area() * static_cast<double>(count);
 }
 
 bool is_centre_before(const TriangleReference& a, const TriangleReference& b, std::size_t axis) {
@@ -26,18 +26,19 @@ bool is_centre_before(const TriangleReference& a, const TriangleReference& b, st
 
 } // namespace
 
-BinMapping::BinMapping(const BoxExtent& centres)
-    : lo(centres.lo), bins_per_unit(broadcast_lanes(kBinCount) / (centres.hi - centres.lo)) {
+BinMapping::BinMapping(const SimdBox& centres)
+    : lo(centres.lo), bins_per_unit(broadcast_simd(kSplitBinCount) / (centres.hi - centres.lo)) {
     lo[3] = bins_per_unit[3] = 0;
 }
 
-void SplitBins::add(std::span<const TriangleReference> references, const BinMapping& binning) {
+void SplitBins::add_references(std::span<const TriangleReference> references,
+                               const BinMapping& binning) {
     for (const TriangleReference& r : references) {
-        __builtin_prefetch(&r + kAhead);
+        __builtin_prefetch(&r + kPrefetchDistance);
         // The minimum also sends NaN to the last bin.
-        const IntegerLanes bin = __builtin_convertvector(
-            lanes_min(broadcast_lanes(kBinCount - 1), binning.bin_position(r.centre())),
-            IntegerLanes);
+        const SimdInt4 bin = __builtin_convertvector(
+            simd_min(broadcast_simd(kSplitBinCount - 1), binning.bin_position(r.centre())),
+            SimdInt4);
         for (int axis = 0; axis < 3; ++axis) {
             const auto k = static_cast<std::size_t>(bin[axis]);
             extents_[axis][k].add(r.extent());
@@ -46,9 +47,9 @@ void SplitBins::add(std::span<const TriangleReference> references, const BinMapp
     }
 }
 
-void SplitBins::add(const SplitBins& other) {
+void SplitBins::add_references(const SplitBins& other) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t k = 0; k < kBinCount; ++k) {
+        for (std::size_t k = 0; k < kSplitBinCount; ++k) {
             extents_[axis][k].add(other.extents_[axis][k]);
             counts_[axis][k] += other.counts_[axis][k];
         }
@@ -59,39 +60,39 @@ std::size_t SplitBins::left_count(const BinSplit& split) const {
     return std::accumulate(counts.begin(), counts.begin() + split.first_right, std::size_t{0});
 }
 
-std::array<BoxExtent, 2> SplitBins::extents(const BinSplit& split) const {
-    std::array<BoxExtent, 2> sides;
-    for (int k = 0; k < kBinCount; ++k)
+std::array<SimdBox, 2> SplitBins::extents(const BinSplit& split) const {
+    std::array<SimdBox, 2> sides;
+    for (int k = 0; k < kSplitBinCount; ++k)
         sides[k < split.first_right ? 0 : 1].add(extents_[split.axis][k]);
     return sides;
 }
 
 SplitRanges partition_ranges(const ReferenceRange& part, const SplitBins& bins,
-                             const BinSplit& split, const std::array<BoxExtent, 2>& centres) {
+                             const BinSplit& split, const std::array<SimdBox, 2>& centres) {
     const std::size_t left = bins.left_count(split);
-    const std::array<BoxExtent, 2> boxes = bins.extents(split);
+    const std::array<SimdBox, 2> boxes = bins.extents(split);
     return {ReferenceRange{part.first, left, !part.in_second, false, boxes[0], centres[0]},
             ReferenceRange{part.first + left, part.count - left, !part.in_second, false, boxes[1],
                            centres[1]}};
 }
 
-void BinSplit::scatter(std::span<const TriangleReference> references, const BinMapping& binning,
-                       std::array<TriangleReference*, 2> to,
-                       std::array<BoxExtent, 2>& centres) const {
+void BinSplit::scatter_references(std::span<const TriangleReference> references,
+                                  const BinMapping& binning, std::array<TriangleReference*, 2> to,
+                                  std::array<SimdBox, 2>& centres) const {
     const auto k = static_cast<std::size_t>(axis);
     const float lo = binning.lo[k], bins_per_unit = binning.bins_per_unit[k],
                 end = static_cast<float>(first_right);
     TriangleReference *left = to[0], *right = to[1];
     for (const TriangleReference& r : references) {
-        __builtin_prefetch(&r + kAhead);
-        const SimdLanes centre = r.centre();
+        __builtin_prefetch(&r + kPrefetchDistance);
+        const SimdFloat4 centre = r.centre();
         // Without a branch, because no predictor could foresee it. Without sums in memory, too.
         const bool is_right = !((centre[k] - lo) * bins_per_unit < end);
         *(is_right ? right : left) = r;
         right += is_right, left += !is_right;
-        const SimdLanes away[2] = {broadcast_lanes(0), broadcast_lanes(kInfinity)};
-        centres[0].add_moved(centre, away[is_right]);
-        centres[1].add_moved(centre, away[!is_right]);
+        const SimdFloat4 away[2] = {broadcast_simd(0), broadcast_simd(kInfinity)};
+        centres[0].add_point_unless_infinite(centre, away[is_right]);
+        centres[1].add_point_unless_infinite(centre, away[!is_right]);
     }
 }
 
@@ -101,18 +102,18 @@ std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most)
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& extents = bins.extents_[axis];
         const auto& counts = bins.counts_[axis];
-        std::array<double, kBinCount> right_cost; // of bins i to kBinCount - 1
-        std::array<std::size_t, kBinCount> right_count;
-        BoxExtent right;
+        std::array<double, kSplitBinCount> right_cost; // of bins i to kSplitBinCount - 1
+        std::array<std::size_t, kSplitBinCount> right_count;
+        SimdBox right;
         std::size_t count = 0;
-        for (std::size_t i = kBinCount; i-- > 1;) {
+        for (std::size_t i = kSplitBinCount; i-- > 1;) {
             right.add(extents[i]), count += counts[i];
             right_count[i] = count;
             right_cost[i] = compute_split_cost(right, count);
         }
-        BoxExtent left;
+        SimdBox left;
         count = 0;
-        for (std::size_t i = 1; i < kBinCount; ++i) {
+        for (std::size_t i = 1; i < kSplitBinCount; ++i) {
             left.add(extents[i - 1]), count += counts[i - 1];
             if (count == 0 || right_count[i] == 0) continue;
             if (count > most || right_count[i] > most) continue;
@@ -128,7 +129,7 @@ std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most)
 std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences references,
                                                          std::size_t most) {
     const std::size_t count = references.size();
-    std::array<TriangleReference, kSweepCount> sorted, best_order;
+    std::array<TriangleReference, kMaxSweepTriangles> sorted, best_order;
     std::optional<SweepDivision> best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < count; ++i) {
@@ -137,13 +138,13 @@ std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences refe
                 sorted[k] = sorted[k - 1];
             sorted[k] = references[i];
         }
-        std::array<double, kSweepCount> right_cost;
-        BoxExtent right;
+        std::array<double, kMaxSweepTriangles> right_cost;
+        SimdBox right;
         for (std::size_t i = count; i-- > 1;) {
             right.add(sorted[i].extent());
             right_cost[i] = compute_split_cost(right, count - i);
         }
-        BoxExtent left;
+        SimdBox left;
         bool is_best = false;
         for (std::size_t i = 1; i < count; ++i) {
             left.add(sorted[i - 1].extent());
@@ -159,8 +160,8 @@ std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences refe
     return best;
 }
 
-std::size_t partition_at_median(TriangleReferences references, const BoxExtent& centres) {
-    const vec3 size = centres.box().extent();
+std::size_t partition_at_median(TriangleReferences references, const SimdBox& centres) {
+    const vec3 size = centres.to_bounding_box().extent();
     const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t middle = references.size() / 2;
     std::nth_element(references.begin(), references.begin() + static_cast<std::ptrdiff_t>(middle),
@@ -173,15 +174,15 @@ std::size_t partition_at_median(TriangleReferences references, const BoxExtent& 
 
 TriangleReferences remove_duplicate_triangles(TriangleReferences references,
                                               std::span<const Triangle> triangles,
-                                              CopyHandling copies) {
+                                              DuplicateScope copies) {
     const auto what = [&](const TriangleReference& r) {
         const Triangle& t = triangles[r.triangle()];
         return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
     };
     const auto whose = [&](const TriangleReference& r) {
         const Triangle& t = triangles[r.triangle()];
-        const bool is_told_apart = copies == CopyHandling::of_object ||
-                                   (t.flags & (kMasked | kSphere)) != 0;
+        const bool is_told_apart = copies == DuplicateScope::within_object ||
+                                   (t.flags & (kAlphaMasked | kStandsForSphere)) != 0;
         return std::pair{is_told_apart ? t.object : 0, t.flags};
     };
     std::ranges::sort(references, [&](const TriangleReference& a, const TriangleReference& b) {

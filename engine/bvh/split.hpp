@@ -2,7 +2,7 @@
 
 #include "bvh/bvh.hpp"
 #include "bvh/copies.hpp"
-#include "bvh/lanes.hpp"
+#include "bvh/simd_box.hpp"
 #include "bvh/words.hpp"
 
 #include <array>
@@ -13,13 +13,13 @@ namespace catoptric::bvh {
 
 /// A triangle while the tree is being built.
 struct TriangleReference {
-    SimdLanes lo; ///< low corner of the box; the fourth element is the triangle's number as a word
-    SimdLanes hi;
+    SimdFloat4 lo; ///< low corner of the box; the fourth element is the triangle's number as a word
+    SimdFloat4 hi;
 
     std::uint32_t triangle() const { return float_word_to_integer(lo[3]); }
     /// Returns the centre of the box. Halves before adding, because the sum itself may overflow.
-    SimdLanes centre() const { return lo * .5f + hi * .5f; }
-    BoxExtent extent() const { return {lo, hi}; }
+    SimdFloat4 centre() const { return lo * .5f + hi * .5f; }
+    SimdBox extent() const { return {lo, hi}; }
 };
 
 using TriangleReferences = std::span<TriangleReference>;
@@ -29,22 +29,22 @@ struct ReferenceRange {
     std::size_t first = 0, count = 0; ///< place among all references
     bool in_second = false;           ///< lies in the second of the two buffers
     bool is_heap = false; ///< all centres are equal, copies are gone, and the order is by number
-    BoxExtent box, centres;
+    SimdBox box, centres;
 
     void add(const TriangleReference& r) { box.add(r.extent()), centres.add(r.centre()), ++count; }
 };
 
-inline constexpr int kBinCount = 16;
+inline constexpr int kSplitBinCount = 16;
 
 /// A map from centres to bins along each axis of the centres' bounds.
 struct BinMapping {
-    SimdLanes lo, bins_per_unit;
+    SimdFloat4 lo, bins_per_unit;
 
-    explicit BinMapping(const BoxExtent& centres);
-    /// Returns the position in units of bins, 0 to kBinCount inclusive. The result is not finite if
-    /// the bounds are too small or too large for a float quotient. In that case all references go
-    /// to one bin.
-    SimdLanes bin_position(SimdLanes centre) const { return (centre - lo) * bins_per_unit; }
+    explicit BinMapping(const SimdBox& centres);
+    /// Returns the position in units of bins, 0 to kSplitBinCount inclusive. The result is not
+    /// finite if the bounds are too small or too large for a float quotient. In that case all
+    /// references go to one bin.
+    SimdFloat4 bin_position(SimdFloat4 centre) const { return (centre - lo) * bins_per_unit; }
 };
 
 struct BinSplit;
@@ -52,16 +52,16 @@ struct BinSplit;
 /// The contents of the bins of each axis.
 class SplitBins {
 public:
-    void add(std::span<const TriangleReference> references, const BinMapping& binning);
-    void add(const SplitBins& other);
+    void add_references(std::span<const TriangleReference> references, const BinMapping& binning);
+    void add_references(const SplitBins& other);
     std::size_t left_count(const BinSplit& split) const;
     /// Returns the bounds of both sides.
-    std::array<BoxExtent, 2> extents(const BinSplit& split) const;
+    std::array<SimdBox, 2> extents(const BinSplit& split) const;
 
 private:
     friend std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most);
-    std::array<std::array<BoxExtent, kBinCount>, 3> extents_{};
-    std::array<std::array<std::uint32_t, kBinCount>, 3> counts_{};
+    std::array<std::array<SimdBox, kSplitBinCount>, 3> extents_{};
+    std::array<std::array<std::uint32_t, kSplitBinCount>, 3> counts_{};
 };
 
 /// A plane between two bins.
@@ -71,8 +71,9 @@ struct BinSplit {
 
     /// Copies the references of each side, in order, to the addresses in `to`. Adds their centres
     /// to `centres`.
-    void scatter(std::span<const TriangleReference> references, const BinMapping& binning,
-                 std::array<TriangleReference*, 2> to, std::array<BoxExtent, 2>& centres) const;
+    void scatter_references(std::span<const TriangleReference> references,
+                            const BinMapping& binning, std::array<TriangleReference*, 2> to,
+                            std::array<SimdBox, 2>& centres) const;
 };
 
 using SplitRanges = std::array<ReferenceRange, 2>;
@@ -80,14 +81,14 @@ using SplitRanges = std::array<ReferenceRange, 2>;
 /// Returns the two ranges of references into which a split divides a node, in the buffer that does
 /// not hold the node. `centres`: bounds of the centres on each side.
 SplitRanges partition_ranges(const ReferenceRange& part, const SplitBins& bins,
-                             const BinSplit& split, const std::array<BoxExtent, 2>& centres);
+                             const BinSplit& split, const std::array<SimdBox, 2>& centres);
 
 /// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
 /// Returns nothing if no plane does so, for example because one bin holds all references.
 std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most);
 
 /// The most references that `find_best_division_by_sweep` accepts.
-inline constexpr std::size_t kSweepCount = 8;
+inline constexpr std::size_t kMaxSweepTriangles = 8;
 
 /// The cheapest way to cut a list of references in two along an axis.
 struct SweepDivision {
@@ -97,19 +98,19 @@ struct SweepDivision {
 
 /// Sorts references by centre, then by number, along the axis with the cheapest division, and
 /// returns that division. Returns nothing if one side would always have more than `most`. Accepts
-/// at most kSweepCount references.
+/// at most kMaxSweepTriangles references.
 std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences references,
                                                          std::size_t most);
 
 /// Moves the half with the smaller centres, along the longest axis of their bounds, to the front.
 /// Breaks ties by number. Returns the index of the first reference of the other half.
-std::size_t partition_at_median(TriangleReferences references, const BoxExtent& centres);
+std::size_t partition_at_median(TriangleReferences references, const SimdBox& centres);
 
 /// Keeps one reference for each set of equal triangles, the one with the lowest number. Returns
 /// them in order of number. If more triangles share a centre than fit into a leaf, a ray would test
 /// every copy: all are at the same t and the lowest number wins.
 TriangleReferences remove_duplicate_triangles(TriangleReferences references,
                                               std::span<const Triangle> triangles,
-                                              CopyHandling copies);
+                                              DuplicateScope copies);
 
 } // namespace catoptric::bvh

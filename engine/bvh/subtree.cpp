@@ -7,7 +7,7 @@ namespace catoptric::bvh {
 namespace {
 
 std::uint32_t make_leaf_word(std::size_t count, std::size_t first) {
-    return f32::kBvhTag | static_cast<std::uint32_t>(count) << f32::kBvhCountShift |
+    return f32::kBvhNormalFloatBit | static_cast<std::uint32_t>(count) << f32::kBvhCountShift |
            static_cast<std::uint32_t>(first);
 }
 
@@ -17,21 +17,21 @@ public:
         : work_(work), first_(first), subtree_(subtree) {}
 
     std::uint32_t build_range(ReferenceRange part, std::uint32_t depth) {
-        if (part.count > kMaxLeaf && part.centres.is_point() && !part.is_heap) {
+        if (part.count > kMaxLeafTriangles && part.centres.is_point() && !part.is_heap) {
             part.count = remove_duplicate_triangles(work_.references_of(part), work_.input,
                                                     work_.copies)
                              .size();
             part.is_heap = true;
         }
         if (part.count <= work_.most &&
-            (static_cast<double>(part.count) <= kTraversalCost || depth == kMaxDepth))
+            (static_cast<double>(part.count) <= kNodeVisitCost || depth == kMaxTreeDepth))
             return append_leaf(part);
-        if (part.count > kSweepCount) return append_node(divide_range(part, depth), depth);
+        if (part.count > kMaxSweepTriangles) return append_node(divide_range(part, depth), depth);
         const std::optional<SweepDivision> best = find_best_division_by_sweep(
             work_.references_of(part), max_triangles_below(work_, depth + 1));
         // Written so that NaN and zero areas make a leaf.
-        const double whole = part.box.half_area();
-        const bool is_worth_it = best && kTraversalCost * whole + best->cost <
+        const double whole = part.box.half_surface_area();
+        const bool is_worth_it = best && kNodeVisitCost * whole + best->cost <
                                              whole * static_cast<double>(part.count);
         if (part.count <= work_.most && !is_worth_it) return append_leaf(part);
         return append_node(best ? cut_range(part, best->middle) : divide_in_halves(part), depth);
@@ -44,11 +44,11 @@ private:
         for (std::size_t i = 0; i < 2; ++i) {
             const std::uint32_t child = build_range(sides[i], depth + 1);
             vec4* texel = &subtree_.nodes[place]; // taken after `add`, which reallocates the nodes
-            texel[2 * i] = vec4(lanes_to_vec3(sides[i].box.lo), texel[2 * i].w);
-            texel[2 * i + 1] = vec4(lanes_to_vec3(sides[i].box.hi), texel[2 * i + 1].w);
+            texel[2 * i] = vec4(simd_to_vec3(sides[i].box.lo), texel[2 * i].w);
+            texel[2 * i + 1] = vec4(simd_to_vec3(sides[i].box.hi), texel[2 * i + 1].w);
             texel[i].w = integer_to_float_word(child);
         }
-        return f32::kBvhTag | static_cast<std::uint32_t>(place / 4 + 1);
+        return f32::kBvhNormalFloatBit | static_cast<std::uint32_t>(place / 4 + 1);
     }
 
     std::uint32_t append_leaf(const ReferenceRange& part) {
@@ -70,13 +70,14 @@ private:
         const TriangleReferences references = work_.references_of(part);
         const BinMapping binning(part.centres);
         SplitBins bins;
-        bins.add(references, binning);
+        bins.add_references(references, binning);
         const std::optional<BinSplit> best = find_best_split(bins,
                                                              max_triangles_below(work_, depth + 1));
         if (!best) return divide_in_halves(part);
         TriangleReference* into = work_.other_buffer_of(part).data();
-        std::array<BoxExtent, 2> centres;
-        best->scatter(references, binning, {into, into + bins.left_count(*best)}, centres);
+        std::array<SimdBox, 2> centres;
+        best->scatter_references(references, binning, {into, into + bins.left_count(*best)},
+                                 centres);
         return partition_ranges(part, bins, *best, centres);
     }
 

@@ -12,7 +12,7 @@ struct BuildWorkspace {
     std::array<TriangleReferences, 2> buffers;
     vec4* triangles;    ///< Bvh::triangles, with room for all triangles
     std::uint32_t most; ///< the most triangles in a leaf
-    CopyHandling copies;
+    DuplicateScope copies;
 
     TriangleReferences references_of(const ReferenceRange& part) const {
         return buffers[part.in_second ? 1 : 0].subspan(part.first, part.count);
@@ -25,14 +25,14 @@ struct BuildWorkspace {
 
 /// Returns how many triangles fit into a subtree with `depth` inner nodes above it.
 inline std::size_t max_triangles_below(const BuildWorkspace& work, std::uint32_t depth) {
-    return std::size_t{work.most} << (kMaxDepth - depth);
+    return std::size_t{work.most} << (kMaxTreeDepth - depth);
 }
 
 /// The subtree built from a part.
 struct Subtree {
     std::vector<vec4> nodes;   ///< words of inner nodes count nodes from 1
     std::size_t triangles = 0; ///< stored from the part's first place on
-    std::uint32_t root = f32::kBvhNothing;
+    std::uint32_t root = f32::kBvhEmptyChild;
 };
 
 /// Builds the subtree of a part with `depth` inner nodes above it. Costs O(n log^2 n).

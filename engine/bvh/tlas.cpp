@@ -14,7 +14,7 @@ namespace catoptric::bvh {
 
 namespace {
 
-constexpr double kRoundings = 0x1p-22; // relative error of a box that becomes float
+constexpr double kFloatBoxError = 0x1p-22; // relative error of a box that becomes float
 
 BoundingBox compute_object_space_bounds(const Bvh& tree) {
     return {vec3(tree.nodes[0]), vec3(tree.nodes[1])};
@@ -37,14 +37,14 @@ std::uint32_t append_tree(Bvh& into, const Bvh& part) {
         for (std::size_t k = 0; k < 4; ++k) {
             vec4 texel = part.nodes[4 * node + k];
             const std::uint32_t child = float_to_bits(texel.w);
-            if (k < 2 && child != f32::kBvhNothing)
+            if (k < 2 && child != f32::kBvhEmptyChild)
                 texel.w = std::bit_cast<float>(child +
                                                (f32::bvh_is_inner(child) ? nodes : triangles));
             into.nodes.push_back(texel);
         }
     into.triangles.insert(into.triangles.end(), part.triangles.begin(), part.triangles.end());
     into.dropped += part.dropped, into.copies += part.copies;
-    return f32::kBvhTag | (nodes + 1);
+    return f32::kBvhNormalFloatBit | (nodes + 1);
 }
 
 void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t root) {
@@ -54,7 +54,7 @@ void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t ro
         return vec3(own_from_scene[0][i], own_from_scene[1][i], own_from_scene[2][i]);
     };
     const BoundingBox own = compute_object_space_bounds(*instance.tree);
-    const std::array<vec4, 4 * f32::kBvhRecordNodes> texels{
+    const std::array<vec4, 4 * f32::kBvhNodesPerInstance> texels{
         vec4(row(0), std::bit_cast<float>(root)),
         vec4(row(1), integer_to_float_word(instance.object)),
         vec4(row(2), integer_to_float_word(instance.shift)),
@@ -79,7 +79,7 @@ BoundingBox compute_instance_bounds(const BvhInstance& instance) {
                 instance.scene_from_own * dvec3((corner & 1 ? own.lo : own.hi).x,
                                                 (corner & 2 ? own.lo : own.hi).y,
                                                 (corner & 4 ? own.lo : own.hi).z));
-    const dvec3 pad = kRoundings * glm::max(glm::abs(box.lo), glm::abs(box.hi));
+    const dvec3 pad = kFloatBoxError * glm::max(glm::abs(box.lo), glm::abs(box.hi));
     return {vec3(box.lo - pad), vec3(box.hi + pad)};
 }
 
@@ -105,11 +105,11 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
         for (std::size_t side = 0; side < 2; ++side) {
             float& child = top.nodes[4 * node + side].w;
             const std::uint32_t leaf = float_to_bits(child);
-            if (leaf == f32::kBvhNothing || f32::bvh_is_inner(leaf)) continue;
+            if (leaf == f32::kBvhEmptyChild || f32::bvh_is_inner(leaf)) continue;
             const std::uint32_t number = float_word_to_integer(
                 top.triangles[3 * f32::bvh_index(leaf) + 1].w);
-            child = integer_to_float_word(f32::kBvhEnters << f32::kBvhCountShift |
-                                          (first_record + f32::kBvhRecordNodes * number));
+            child = integer_to_float_word(f32::kBvhInstanceMarker << f32::kBvhCountShift |
+                                          (first_record + f32::kBvhNodesPerInstance * number));
         }
     top.triangles.clear();
     return top;
@@ -124,7 +124,7 @@ std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
             texel.w = std::bit_cast<float>(float_to_bits(texel.w) + nodes);
         into.nodes.push_back(texel);
     }
-    return f32::kBvhTag | (nodes + 1);
+    return f32::kBvhNormalFloatBit | (nodes + 1);
 }
 
 } // namespace
@@ -159,7 +159,7 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
     result.nodes.resize(8, vec4(0));
     const BoundingBox in_flat = compute_node_bounds(flat, 1);
     const std::uint32_t flat_root = count_triangles(flat) > 0 ? append_tree(result, flat)
-                                                              : f32::kBvhNothing;
+                                                              : f32::kBvhEmptyChild;
     std::map<const Bvh*, std::uint32_t> roots;
     double worst = 1;
     BoundingBox core = compute_object_space_bounds(flat);
@@ -184,7 +184,7 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
     result.nodes[0] = vec4(core.lo, id_to_float_word(count_triangles(result)));
     result.nodes[1] = vec4(core.hi, id_to_float_word(count_nodes(result)));
     result.nodes[2].x = static_cast<float>(times);
-    set_walk_start(result, f32::kBvhRoot, f32::kBvhNothing);
+    set_walk_start(result, f32::kBvhRoot, f32::kBvhEmptyChild);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));
     result.nodes[5] = vec4(in_flat.hi, std::bit_cast<float>(top_root));
     result.nodes[6] = vec4(in_top.lo, 0);

@@ -26,8 +26,8 @@ double bound_rounding_amplification(const dmat3& matrix);
 
 /// Builds the tree of a scene in which some objects have an object space. The root has two
 /// children: the flat tree, and a top-level tree with one instance in each leaf. A word with the
-/// count kBvhEnters stands for an instance. Its index is the first of kBvhRecordNodes nodes, the
-/// record of the instance (texels; w holds a word's bits, except for the radius):
+/// count kBvhInstanceMarker stands for an instance. Its index is the first of kBvhNodesPerInstance
+/// nodes, the record of the instance (texels; w holds a word's bits, except for the radius):
 ///   0..2  rows of own_from_scene; w: root of the instance's tree, object, shift
 ///   3     centre; w: flags          7  rounding error of the centre as floats
 ///   4..6  columns of scene_from_own

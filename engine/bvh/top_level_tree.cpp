@@ -11,8 +11,8 @@ namespace catoptric::bvh {
 namespace {
 
 // The most references in the subtree that one task builds.
-constexpr std::size_t kSubtreeCount = 8192;
-constexpr std::size_t kPieceCount = 4096; // the most references that one task bins or moves
+constexpr std::size_t kMaxSubtreeReferences = 8192;
+constexpr std::size_t kMaxTaskReferences = 4096; // the most references that one task bins or moves
 
 /// A node of the top-level tree, or a subtree below it.
 struct TreeBranch {
@@ -20,9 +20,9 @@ struct TreeBranch {
     std::uint32_t depth = 0;
     std::size_t sides = 0; ///< index of the first of two branches; 0: a subtree
     Subtree subtree{};
-    std::size_t first_node = 0;            ///< index in the whole tree
-    std::size_t copies = 0;                ///< copies left out before its first triangle
-    std::uint32_t word = f32::kBvhNothing; ///< its word in the whole tree
+    std::size_t first_node = 0;               ///< index in the whole tree
+    std::size_t copies = 0;                   ///< copies left out before its first triangle
+    std::uint32_t word = f32::kBvhEmptyChild; ///< its word in the whole tree
 };
 
 /// The division of a branch.
@@ -39,7 +39,7 @@ struct BranchChunk {
     TriangleReferences references;
     SplitBins bins{};
     std::array<TriangleReference*, 2> to{};
-    std::array<BoxExtent, 2> centres{};
+    std::array<SimdBox, 2> centres{};
 };
 
 class TopLevelTreeBuilder {
@@ -85,29 +85,29 @@ private:
         std::vector<BranchChunk> pieces;
         for (const std::size_t i : level) {
             const ReferenceRange& part = branches_[i].part;
-            if (part.count <= kSubtreeCount || part.centres.is_point()) continue;
+            if (part.count <= kMaxSubtreeReferences || part.centres.is_point()) continue;
             for (TriangleReferences rest = work_.references_of(part); !rest.empty();) {
-                const std::size_t count = std::min(kPieceCount, rest.size());
+                const std::size_t count = std::min(kMaxTaskReferences, rest.size());
                 pieces.push_back({cuts.size(), rest.first(count)});
                 rest = rest.subspan(count);
             }
             cuts.push_back({i, BinMapping(part.centres)});
         }
         run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
-            pieces[i].bins.add(pieces[i].references, cuts[pieces[i].cut].binning);
+            pieces[i].bins.add_references(pieces[i].references, cuts[pieces[i].cut].binning);
         });
         choose_cuts(cuts, pieces);
         run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
             const BranchCut& cut = cuts[pieces[i].cut];
             if (cut.split)
-                cut.split->scatter(pieces[i].references, cut.binning, pieces[i].to,
-                                   pieces[i].centres);
+                cut.split->scatter_references(pieces[i].references, cut.binning, pieces[i].to,
+                                              pieces[i].centres);
         });
         return create_child_branches(cuts, pieces);
     }
 
     void choose_cuts(std::vector<BranchCut>& cuts, std::vector<BranchChunk>& pieces) const {
-        for (const BranchChunk& piece : pieces) cuts[piece.cut].bins.add(piece.bins);
+        for (const BranchChunk& piece : pieces) cuts[piece.cut].bins.add_references(piece.bins);
         std::vector<std::array<TriangleReference*, 2>> to;
         for (BranchCut& cut : cuts) {
             const TreeBranch& branch = branches_[cut.branch];
@@ -126,7 +126,7 @@ private:
 
     std::vector<std::size_t> create_child_branches(const std::vector<BranchCut>& cuts,
                                                    const std::vector<BranchChunk>& pieces) {
-        std::vector<std::array<BoxExtent, 2>> centres(cuts.size());
+        std::vector<std::array<SimdBox, 2>> centres(cuts.size());
         for (const BranchChunk& piece : pieces)
             for (std::size_t side = 0; side < 2; ++side)
                 centres[piece.cut][side].add(piece.centres[side]);
@@ -163,7 +163,7 @@ private:
         TreeBranch& branch = branches_[i];
         branch.first_node = node_count_;
         if (branch.sides != 0) {
-            branch.word = f32::kBvhTag | static_cast<std::uint32_t>(node_count_++);
+            branch.word = f32::kBvhNormalFloatBit | static_cast<std::uint32_t>(node_count_++);
             number_nodes(branch.sides), number_nodes(branch.sides + 1);
             return;
         }
@@ -178,7 +178,7 @@ private:
 
     /// Converts a word of the branch's subtree to a word of the whole tree.
     static std::uint32_t to_whole_tree_word(const TreeBranch& branch, std::uint32_t word) {
-        if (word == f32::kBvhNothing) return word;
+        if (word == f32::kBvhEmptyChild) return word;
         return word + static_cast<std::uint32_t>(f32::bvh_is_inner(word) ? branch.first_node - 1
                                                                          : -branch.copies);
     }
@@ -186,7 +186,7 @@ private:
     static void write_node(vec4* texel, const TreeBranch& left, const TreeBranch& right) {
         const std::array sides{&left, &right};
         for (std::size_t i = 0; i < 2; ++i) {
-            const BoundingBox box = sides[i]->part.box.box();
+            const BoundingBox box = sides[i]->part.box.to_bounding_box();
             texel[i].w = std::bit_cast<float>(sides[i]->word);
             texel[2 * i] = vec4(box.lo, texel[2 * i].w);
             texel[2 * i + 1] = vec4(box.hi, texel[2 * i + 1].w);

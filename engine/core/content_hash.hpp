@@ -17,17 +17,17 @@ public:
     template <typename Value>
     ContentHash& add(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value>);
-        return bytes(&value, sizeof value);
+        return add_bytes(&value, sizeof value);
     }
     template <typename Value>
     ContentHash& add_all(std::span<const Value> values) {
         add(values.size());
-        return bytes(values.data(), values.size_bytes());
+        return add_bytes(values.data(), values.size_bytes());
     }
-    std::uint64_t value() const { return sum_; }
+    std::uint64_t hash_value() const { return sum_; }
 
 private:
-    ContentHash& bytes(const void* data, std::size_t size) {
+    ContentHash& add_bytes(const void* data, std::size_t size) {
         const auto* from = static_cast<const unsigned char*>(data);
         for (; size > 0;) {
             std::uint64_t next = 0;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kPartial = ".partial-";
+const std::string kTemporaryFileSuffix = ".partial-";
 
 struct FileCloser {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -60,7 +60,7 @@ FileHandle open_new_file(const fs::path& temporary, const fs::path& path) {
 /// Removes temporaries of this target whose processes have ended. A program that gets a second
 /// signal cannot remove its own.
 void remove_stale_temporaries(const fs::path& target) {
-    const std::string beginning = target.filename().string() + kPartial;
+    const std::string beginning = target.filename().string() + kTemporaryFileSuffix;
     std::error_code error;
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -79,7 +79,7 @@ void remove_stale_temporaries(const fs::path& target) {
 void replace_file(const fs::path& target, fs::file_status old, std::string_view content,
                   const fs::path& path) {
     fs::path temporary = target;
-    temporary += kPartial + std::to_string(::getpid());
+    temporary += kTemporaryFileSuffix + std::to_string(::getpid());
     std::error_code error;
     remove_stale_temporaries(target);
     fs::remove(temporary, error); // left by a dead process with our process id

@@ -17,16 +17,16 @@ struct FormatSignature {
     std::string_view bytes, format;
 };
 using namespace std::string_view_literals;
-constexpr FormatSignature kBeginnings[] = {{"\x89PNG\r\n\x1a\n", "png"},
-                                           {"\xff\xd8\xff", "jpeg"},
-                                           {"\x76\x2f\x31\x01", "openexr"},
-                                           {"#?", "hdr"},
-                                           {"BM", "bmp"},
-                                           {"GIF8", "gif"},
-                                           {"II*\0"sv, "tiff"},
-                                           {"MM\0*"sv, "tiff"},
-                                           {"DDS ", "dds"},
-                                           {"8BPS", "psd"}};
+constexpr FormatSignature kFormatSignatures[] = {{"\x89PNG\r\n\x1a\n", "png"},
+                                                 {"\xff\xd8\xff", "jpeg"},
+                                                 {"\x76\x2f\x31\x01", "openexr"},
+                                                 {"#?", "hdr"},
+                                                 {"BM", "bmp"},
+                                                 {"GIF8", "gif"},
+                                                 {"II*\0"sv, "tiff"},
+                                                 {"MM\0*"sv, "tiff"},
+                                                 {"DDS ", "dds"},
+                                                 {"8BPS", "psd"}};
 
 /// Throws unless the answer is `done`.
 void check_codec_result(const CodecResult& result, const std::string& name,
@@ -46,7 +46,7 @@ void check_codec_result(const CodecResult& result, const std::string& name,
 } // namespace
 
 std::string detect_image_format(std::string_view bytes) {
-    for (const auto& [beginning, format] : kBeginnings)
+    for (const auto& [beginning, format] : kFormatSignatures)
         if (bytes.starts_with(beginning)) return std::string(format);
     if (bytes.starts_with("RIFF") && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP")
         return "webp";
@@ -57,10 +57,10 @@ namespace {
 
 void check_image_sides(const ImageShape& shape, const std::string& name) {
     const auto fits = [](std::uint32_t side) {
-        return side > 0 && side <= ImageReader::kLargestSide;
+        return side > 0 && side <= ImageReader::kMaxImageSide;
     };
     check(fits(shape.size.x) && fits(shape.size.y) && shape.channel_count > 0, Failure::bad_data,
-          name, ": wanted a flat picture of 1 to ", ImageReader::kLargestSide,
+          name, ": wanted a flat picture of 1 to ", ImageReader::kMaxImageSide,
           " pixels a side, found ", shape.size.x, "x", shape.size.y, " with ", shape.channel_count,
           " channels");
 }
@@ -81,7 +81,7 @@ public:
     /// Returns the picture's shape. Throws `bad_data` for a deep picture or one without pixels.
     ImageShape shape() const {
         check(!header_.is_deep && header_.size.x > 0 && header_.size.y > 0, Failure::bad_data,
-              name_, ": wanted a flat picture of 1 to ", ImageReader::kLargestSide,
+              name_, ": wanted a flat picture of 1 to ", ImageReader::kMaxImageSide,
               " pixels a side, found ", header_.is_deep ? "a deep one of " : "", header_.size.x,
               "x", header_.size.y);
         return {uvec2(header_.size), std::size_t(header_.channel_count), header_.channels,

@@ -33,7 +33,7 @@ struct ImageShape {
 /// Reads a picture. At first only the header is read. `bytes` must outlive the reader.
 class ImageReader {
 public:
-    static constexpr std::uint32_t kLargestSide = 1 << 16;
+    static constexpr std::uint32_t kMaxImageSide = 1 << 16;
 
     /// Throws if the size or channels that a header claims are not acceptable.
     using ImageShapeCheck = std::function<void(const ImageShape&)>;

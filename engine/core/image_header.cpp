@@ -99,14 +99,14 @@ uvec2 parse_radiance_sides(std::string_view line) {
 }
 
 ImageShape read_radiance_header(const ByteSource& bytes, const std::string& name) {
-    constexpr std::size_t kLongest = 1 << 16;
-    std::string text(std::min<std::uint64_t>(kLongest, bytes.size()), '\0');
+    constexpr std::size_t kMaxHeaderBytes = 1 << 16;
+    std::string text(std::min<std::uint64_t>(kMaxHeaderBytes, bytes.size()), '\0');
     text.resize(bytes.read(0, text));
     const std::size_t blank = text.find("\n\n");
     const std::size_t end = blank == text.npos ? text.npos : text.find('\n', blank + 2);
     check(end != text.npos, Failure::bad_data, name,
-          ": cannot be decoded: wanted a blank line and the picture's size within ", kLongest,
-          " bytes, found none");
+          ": cannot be decoded: wanted a blank line and the picture's size within ",
+          kMaxHeaderBytes, " bytes, found none");
     const uvec2 size = parse_radiance_sides(
         std::string_view(text).substr(blank + 2, end - blank - 2));
     // Lines of 8 to 32767 pixels are stored as runs of at most 127 for each of 4 channels. Other
@@ -125,24 +125,24 @@ class TiffDirectory {
 public:
     explicit TiffDirectory(const ByteSource& bytes)
         : numbers_(bytes), is_big_endian_(numbers_.read_big_endian(0, 2) == 0x4d4d),
-          first_(number(4, 4)) {}
+          first_(entry_number(4, 4)) {}
 
     /// Returns the first value of a tag, of 16 or 32 bits; `otherwise` if the tag is missing.
-    std::uint32_t value(std::uint32_t tag, std::uint32_t otherwise) const {
-        constexpr std::uint32_t kShort = 3;
-        for (std::uint32_t i = 0; i < number(first_, 2); ++i) {
+    std::uint32_t entry_value(std::uint32_t tag, std::uint32_t otherwise) const {
+        constexpr std::uint32_t kTiffShortType = 3;
+        for (std::uint32_t i = 0; i < entry_number(first_, 2); ++i) {
             const std::uint64_t entry = first_ + 2 + std::uint64_t{12} * i;
-            if (number(entry, 2) != tag) continue;
-            const std::size_t size = number(entry + 2, 2) == kShort ? 2 : 4;
+            if (entry_number(entry, 2) != tag) continue;
+            const std::size_t size = entry_number(entry + 2, 2) == kTiffShortType ? 2 : 4;
             // Otherwise the entry holds the value's offset.
-            const bool is_inside = size * number(entry + 4, 4) <= 4;
-            return number(is_inside ? entry + 8 : number(entry + 8, 4), size);
+            const bool is_inside = size * entry_number(entry + 4, 4) <= 4;
+            return entry_number(is_inside ? entry + 8 : entry_number(entry + 8, 4), size);
         }
         return otherwise;
     }
 
 private:
-    std::uint32_t number(std::uint64_t at, std::size_t size) const {
+    std::uint32_t entry_number(std::uint64_t at, std::size_t size) const {
         return is_big_endian_ ? numbers_.read_big_endian(at, size)
                               : numbers_.read_little_endian(at, size);
     }
@@ -155,29 +155,32 @@ private:
 /// Returns the least bytes of a TIFF file with this many decoded bytes; 0 if no limit of its
 /// compression is known.
 std::uint64_t min_tiff_file_bytes(std::uint64_t decoded, std::uint64_t compression) {
-    constexpr std::uint64_t kNone = 1, kLzw = 5, kDeflate = 8, kOldDeflate = 32946,
-                            kPackBits = 32773;
-    constexpr std::uint64_t kMostLzw = 4096; // bytes per code, above deflate's limit of 1032
-    if (compression == kNone) return decoded;
+    constexpr std::uint64_t kNoCompression = 1, kLzwCompression = 5, kDeflateCompression = 8,
+                            kOldDeflate = 32946, kPackBits = 32773;
+    constexpr std::uint64_t kMaxLzwBytesPerCode =
+        4096; // bytes per code, above deflate's limit of 1032
+    if (compression == kNoCompression) return decoded;
     if (compression == kPackBits) return decoded / 64;
-    const bool is_known = compression == kLzw || compression == kDeflate ||
+    const bool is_known = compression == kLzwCompression || compression == kDeflateCompression ||
                           compression == kOldDeflate;
-    return is_known ? decoded / kMostLzw : 0;
+    return is_known ? decoded / kMaxLzwBytesPerCode : 0;
 }
 
 ImageShape read_tiff_header(const ByteSource& bytes, const std::string& name) {
-    constexpr std::uint32_t kWidth = 256, kHeight = 257, kBits = 258, kCompression = 259,
-                            kChannels = 277;
+    constexpr std::uint32_t kWidthTag = 256, kHeightTag = 257, kBitsTag = 258,
+                            kCompressionTag = 259, kChannelsTag = 277;
     const TiffDirectory directory(bytes);
-    const std::uint32_t width = directory.value(kWidth, 0), height = directory.value(kHeight, 0),
-                        channels = std::clamp(directory.value(kChannels, 1), 1u, 64u),
-                        bits = std::clamp(directory.value(kBits, 1), 1u, 64u);
+    const std::uint32_t width = directory.entry_value(kWidthTag, 0),
+                        height = directory.entry_value(kHeightTag, 0),
+                        channels = std::clamp(directory.entry_value(kChannelsTag, 1), 1u, 64u),
+                        bits = std::clamp(directory.entry_value(kBitsTag, 1), 1u, 64u);
     const std::uint64_t texels = std::uint64_t{width} * height;
     // Clamping the number of texels avoids overflow of the product below. Later checks refuse
     // pictures with sides that are so long.
-    constexpr std::uint64_t kAbsurd = std::uint64_t{1} << 40;
-    const std::uint64_t least = min_tiff_file_bytes(std::min(texels, kAbsurd) * channels * bits / 8,
-                                                    directory.value(kCompression, 1));
+    constexpr std::uint64_t kTexelCountClamp = std::uint64_t{1} << 40;
+    const std::uint64_t least = min_tiff_file_bytes(std::min(texels, kTexelCountClamp) * channels *
+                                                        bits / 8,
+                                                    directory.entry_value(kCompressionTag, 1));
     check(least <= bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
           " bytes for ", width, "x", height, " pixels, found ", bytes.size());
     return make_image_shape(width, height, channels);

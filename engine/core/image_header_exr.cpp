@@ -14,8 +14,8 @@ namespace catoptric {
 
 namespace {
 
-constexpr std::size_t kLongestName = 255;
-constexpr std::uint32_t kIsTiled = 0x200, kHasDeepParts = 0x800, kHasManyParts = 0x1000;
+constexpr std::size_t kMaxNameLength = 255;
+constexpr std::uint32_t kTiledFlag = 0x200, kDeepPartsFlag = 0x800, kMultiPartFlag = 0x1000;
 
 /// Reads a file from front to end.
 class ExrCursor {
@@ -43,10 +43,10 @@ public:
     }
     /// Returns the text up to a zero byte, and skips this byte.
     std::string read_string() {
-        std::array<char, kLongestName + 1> read{};
+        std::array<char, kMaxNameLength + 1> read{};
         const std::string_view text(read.data(), bytes_.read(at_, read));
         const std::size_t end = text.find('\0');
-        if (end == text.npos) refuse("wanted a name of at most ", kLongestName, " bytes");
+        if (end == text.npos) refuse("wanted a name of at most ", kMaxNameLength, " bytes");
         at_ += end + 1;
         return std::string(text.substr(0, end));
     }
@@ -157,16 +157,16 @@ ExrPart read_part_header(ExrCursor& file, bool is_tiled) {
 
 /// Returns the number of lines in one chunk.
 std::uint32_t lines_per_chunk(std::uint32_t compression) {
-    constexpr std::uint32_t kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
-    return compression < std::size(kLines) ? kLines[compression] : 256;
+    constexpr std::uint32_t kLinesPerChunk[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    return compression < std::size(kLinesPerChunk) ? kLinesPerChunk[compression] : 256;
 }
 
 /// Returns the most bytes of values that one byte of the file can stand for. RLE stores runs of 128
 /// in 2 bytes. Deflate stores at most 1032 bytes in 1. PXR24 drops a quarter of a float before
 /// deflate. B44A stores 32 bytes in 3. The limits of other compressions are not known.
 double max_expansion_factor(std::uint32_t compression) {
-    constexpr double kMost[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
-    const double most = compression < std::size(kMost) ? kMost[compression] : 0;
+    constexpr double kMaxExpansion[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
+    const double most = compression < std::size(kMaxExpansion) ? kMaxExpansion[compression] : 0;
     return most > 0 ? most : std::numeric_limits<double>::infinity();
 }
 
@@ -178,11 +178,11 @@ double min_chunk_bytes(const ExrCursor& file, const ExrPart& part) {
     double chunks = std::ceil(height / lines_per_chunk(part.compression));
     if (part.is_tiled) {
         // OpenEXR allocates a whole tile, however small the picture is.
-        constexpr double kLargest = 1024;
+        constexpr double kMaxTileSide = 1024;
         const auto [across, down] = part.tile;
-        if (across == 0 || down == 0 || across > std::max(kLargest, width) ||
-            down > std::max(kLargest, height))
-            file.refuse("wanted tiles of 1 to ", kLargest, " pixels a side or as large as the ",
+        if (across == 0 || down == 0 || across > std::max(kMaxTileSide, width) ||
+            down > std::max(kMaxTileSide, height))
+            file.refuse("wanted tiles of 1 to ", kMaxTileSide, " pixels a side or as large as the ",
                         "picture, found ", across, "x", down, " for ", width, "x", height);
         chunks = std::ceil(width / across) * std::ceil(height / down);
     }
@@ -197,10 +197,10 @@ ImageShape read_openexr_header(const ByteSource& bytes, const std::string& name)
     ExrCursor file(bytes, name);
     file.read_uint32(); // skips the magic number
     const std::uint32_t flags = file.read_uint32();
-    check((flags & kHasDeepParts) == 0, Failure::bad_data, name,
+    check((flags & kDeepPartsFlag) == 0, Failure::bad_data, name,
           ": wanted a flat picture, found a deep one");
-    std::vector<ExrPart> parts{read_part_header(file, (flags & kIsTiled) != 0)};
-    if ((flags & kHasManyParts) != 0)
+    std::vector<ExrPart> parts{read_part_header(file, (flags & kTiledFlag) != 0)};
+    if ((flags & kMultiPartFlag) != 0)
         while (!file.skip_zero_byte()) parts.push_back(read_part_header(file, false));
     double least = 0;
     for (const ExrPart& part : parts) least += min_chunk_bytes(file, part);
@@ -209,9 +209,9 @@ ImageShape read_openexr_header(const ByteSource& bytes, const std::string& name)
           static_cast<std::uint64_t>(std::min(least, 1e18)), " bytes behind its header for ",
           first.side(0), "x", first.side(1), " pixels of ", first.channels.size(),
           " channels, found ", file.bytes_left());
-    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
-    return {{static_cast<std::uint32_t>(std::min(first.side(0), kMost)),
-             static_cast<std::uint32_t>(std::min(first.side(1), kMost))},
+    constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
+    return {{static_cast<std::uint32_t>(std::min(first.side(0), kMaxUint32)),
+             static_cast<std::uint32_t>(std::min(first.side(1), kMaxUint32))},
             first.channels.size(),
             first.channels};
 }

@@ -14,19 +14,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "catoptric-images.so";
+constexpr const char* kModuleFileName = "catoptric-images.so";
 // Bytes of address space for all its libraries.
-constexpr std::size_t kRoom = std::size_t{512} << 20;
-constexpr const char* kModuleNeeds = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
-                                     "libopenimageio2.4)";
+constexpr std::size_t kModuleAddressSpace = std::size_t{512} << 20;
+constexpr const char* kModuleRequirementText =
+    "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
+    "libopenimageio2.4)";
 
 /// Returns the folder of the library or program that contains this function.
 fs::path find_own_folder() {
-    static const char kHere = 0;
+    static const char kOwnAddress = 0;
     Dl_info info{};
     link_map* own = nullptr;
-    const bool is_found = dladdr1(&kHere, &info, reinterpret_cast<void**>(&own), RTLD_DL_LINKMAP) !=
-                          0;
+    const bool is_found = dladdr1(&kOwnAddress, &info, reinterpret_cast<void**>(&own),
+                                  RTLD_DL_LINKMAP) != 0;
     check(is_found, Failure::internal, "this library's own file cannot be found");
     const bool is_program = own->l_name[0] == '\0';
     std::error_code error;
@@ -43,23 +44,23 @@ fs::path find_image_module_file() {
     const fs::path folders[] = {own, own / "catoptric",
                                 (own / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal()};
     for (const fs::path& folder : folders)
-        if (fs::exists(folder / kFile)) return folder / kFile;
-    fail(Failure::internal, "pictures cannot be read or written: ", kFile, " is in none of ",
-         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), ". ",
-         kModuleNeeds);
+        if (fs::exists(folder / kModuleFileName)) return folder / kModuleFileName;
+    fail(Failure::internal, "pictures cannot be read or written: ", kModuleFileName,
+         " is in none of ", folders[0].string(), ", ", folders[1].string(), ", ",
+         folders[2].string(), ". ", kModuleRequirementText);
 }
 
 const ImageCodecs* load_image_module() {
     const fs::path file = find_image_module_file();
-    check_address_space(kRoom, "OpenImageIO");
+    check_address_space(kModuleAddressSpace, "OpenImageIO");
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(module != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(),
-          " cannot be loaded: ", module ? "" : dlerror(), ". ", kModuleNeeds);
-    const auto codecs = reinterpret_cast<ImageCodecsFunction>(dlsym(module, kImageCodecs));
+          " cannot be loaded: ", module ? "" : dlerror(), ". ", kModuleRequirementText);
+    const auto codecs = reinterpret_cast<ImageCodecsFunction>(dlsym(module, kImageCodecsSymbol));
     check(codecs != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(), " is of another version: wanted ",
-          kImageCodecs, " in it, found none");
+          kImageCodecsSymbol, " in it, found none");
     return codecs();
 }
 

@@ -63,7 +63,7 @@ struct ImageCodecs {
 /// The only symbol that the module exports: a function that returns its `ImageCodecs`. Its number
 /// rises with every change of the interface above, so that a library never uses a module of another
 /// version.
-constexpr const char* kImageCodecs = "catoptric_image_codecs_3";
+constexpr const char* kImageCodecsSymbol = "catoptric_image_codecs_3";
 using ImageCodecsFunction = const ImageCodecs* (*)();
 
 /// Returns the module's functions. The first call loads the module, which takes a fifth of a

@@ -14,8 +14,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kDeepest = 64;
-constexpr int kOutOfRange = 406; // the parser's error number for a number too large for a double
+constexpr int kMaxNestingDepth = 64;
+constexpr int kNumberOutOfRangeError =
+    406; // the parser's error number for a number too large for a double
 
 /// Pairs of a part of the parser's message and the expected token. The first match counts.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kExpectedTokens{
@@ -55,10 +56,11 @@ std::size_t last_word_length(const std::string& token) {
 /// Returns the text at `at` for a message: the word of `length` characters, cut to 40, or one
 /// character.
 std::string quote_text_at(std::string_view text, std::size_t at, std::size_t length) {
-    constexpr std::size_t kLongest = 40;
+    constexpr std::size_t kMaxQuotedBytes = 40;
     if (at >= text.size()) return "the end";
-    const std::string_view word = text.substr(at, std::clamp<std::size_t>(length, 1, kLongest));
-    return "'" + escape_control_characters(word) + "'" + (length > kLongest ? "..." : "");
+    const std::string_view word = text.substr(at,
+                                              std::clamp<std::size_t>(length, 1, kMaxQuotedBytes));
+    return "'" + escape_control_characters(word) + "'" + (length > kMaxQuotedBytes ? "..." : "");
 }
 
 class JsonChecker : public nlohmann::json_sax<Json> {
@@ -84,7 +86,8 @@ public:
     bool parse_error(std::size_t read, const std::string& token,
                      const Json::exception& error) override {
         const std::string_view words = error.what();
-        const bool is_whole = words.find("unexpected") != words.npos || error.id == kOutOfRange;
+        const bool is_whole = words.find("unexpected") != words.npos ||
+                              error.id == kNumberOutOfRangeError;
         const bool is_end = words.find("unexpected end of input") != words.npos;
         const std::size_t length = is_whole ? last_word_length(token) : 1;
         const std::size_t at = is_end ? text_.size()
@@ -92,7 +95,8 @@ public:
         const auto* wanted = std::ranges::find_if(
             kExpectedTokens, [&](const auto& one) { return words.find(one.first) != words.npos; });
         fail(Failure::bad_data, describe_json_position(file_, text_, at), ": wanted ",
-             error.id == kOutOfRange ? "a number that a double can hold" : wanted->second,
+             error.id == kNumberOutOfRangeError ? "a number that a double can hold"
+                                                : wanted->second,
              ", found ", quote_text_at(text_, at, length));
     }
 
@@ -103,8 +107,8 @@ private:
         return true;
     }
     bool enter_nesting_level() {
-        check(++depth_ < kDeepest, Failure::bad_data, file_, ": JSON: wanted nesting below ",
-              kDeepest, ", found more");
+        check(++depth_ < kMaxNestingDepth, Failure::bad_data, file_,
+              ": JSON: wanted nesting below ", kMaxNestingDepth, ", found more");
         return count_value_memory(64);
     }
 

@@ -14,8 +14,8 @@ namespace {
 
 // These limits bound the time of a suggestion, which is only for typing errors: at most 64 x 96
 // steps for each name.
-constexpr std::size_t kLongestWord = 64;
-constexpr std::size_t kMostNames = 10'000;
+constexpr std::size_t kMaxSuggestedWordLength = 64;
+constexpr std::size_t kMaxSearchedNames = 10'000;
 
 std::string format_knob_value(double value) {
     char text[32];
@@ -54,26 +54,26 @@ std::size_t KnobSettings::index(const Knob& knob) const {
     return static_cast<std::size_t>(found - knobs_.begin());
 }
 
-bool KnobSettings::has(const Knob& knob) const {
+bool KnobSettings::has_knob(const Knob& knob) const {
     return std::ranges::any_of(knobs_, [&](const Knob& known) { return is_same(known, knob); });
 }
 
-double KnobSettings::number(const Knob& knob) const {
+double KnobSettings::number_value(const Knob& knob) const {
     const std::size_t i = index(knob);
     check(values_[i].has_value(), Failure::internal, "knob '", knob.name, "' is '",
           knobs_[i].special, "', no number");
     return *values_[i];
 }
 
-std::string_view KnobSettings::choice(const Knob& knob) const {
+std::string_view KnobSettings::choice_name(const Knob& knob) const {
     const std::size_t i = index(knob);
     check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob.name, "' is not a choice");
-    return knobs_[i].choices[static_cast<std::size_t>(number(knob))];
+    return knobs_[i].choices[static_cast<std::size_t>(number_value(knob))];
 }
 
 bool KnobSettings::is_special(const Knob& knob) const { return !values_[index(knob)].has_value(); }
 
-void KnobSettings::set(std::string_view owner, std::string_view name, std::string_view text) {
+void KnobSettings::set_knob(std::string_view owner, std::string_view name, std::string_view text) {
     std::vector<std::string> names;
     for (const Knob& knob : knobs_) names.emplace_back(knob.name);
     const auto named = std::ranges::find(knobs_, name, &Knob::name);
@@ -109,16 +109,17 @@ void KnobSettings::set(std::string_view owner, std::string_view name, std::strin
     target = value;
 }
 
-std::string KnobSettings::text(const Knob& knob) const {
+std::string KnobSettings::format_value(const Knob& knob) const {
     if (is_special(knob)) return std::string(knob.special);
-    return knob.choices.empty() ? format_knob_value(number(knob)) : std::string(choice(knob));
+    return knob.choices.empty() ? format_knob_value(number_value(knob))
+                                : std::string(choice_name(knob));
 }
 
 std::string find_nearest_name(std::string_view word, std::span<const std::string> names) {
-    if (word.size() > kLongestWord) return {};
+    if (word.size() > kMaxSuggestedWordLength) return {};
     std::size_t best = std::max<std::size_t>(2, word.size() / 2) + 1;
     std::string nearest;
-    for (const std::string& name : names.first(std::min(names.size(), kMostNames))) {
+    for (const std::string& name : names.first(std::min(names.size(), kMaxSearchedNames))) {
         // The difference in length is a lower bound of the distance.
         if (name.size() >= word.size() + best) continue;
         const std::size_t distance = compute_edit_distance(word, name);

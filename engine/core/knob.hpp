@@ -31,25 +31,25 @@ public:
 
     /// Returns the knob's number, or the index of its choice. Throws `internal` if there is no such
     /// knob, or if its special word is set.
-    double number(const Knob& knob) const;
-    int integer(const Knob& knob) const { return static_cast<int>(number(knob)); }
+    double number_value(const Knob& knob) const;
+    int integer_value(const Knob& knob) const { return static_cast<int>(number_value(knob)); }
     /// Returns the knob's choice as a value of an enumeration, which names the choices in order.
     template <typename Enum>
-    Enum as(const Knob& knob) const {
-        return static_cast<Enum>(integer(knob));
+    Enum enum_value(const Knob& knob) const {
+        return static_cast<Enum>(integer_value(knob));
     }
-    std::string_view choice(const Knob& knob) const;
+    std::string_view choice_name(const Knob& knob) const;
     /// Returns whether the knob's special word is set instead of a number.
     bool is_special(const Knob& knob) const;
     /// Returns whether the technique has this knob. Another knob of the same name, with other
     /// choices or another special word, does not count.
-    bool has(const Knob& knob) const;
+    bool has_knob(const Knob& knob) const;
 
     /// Sets a knob from text. Throws `Failure::usage`, naming the nearest knob or the range.
-    void set(std::string_view owner, std::string_view knob, std::string_view text);
+    void set_knob(std::string_view owner, std::string_view knob, std::string_view text);
     std::span<const Knob> knobs() const { return knobs_; }
     /// Returns the value as the user would type it.
-    std::string text(const Knob& knob) const;
+    std::string format_value(const Knob& knob) const;
 
     friend bool operator==(const KnobSettings& a, const KnobSettings& b) {
         return a.values_ == b.values_;

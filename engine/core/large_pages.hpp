@@ -11,10 +11,10 @@ namespace catoptric {
 /// fewer address translations. The request is only a hint, and the function does not find out
 /// whether the system follows it.
 inline void advise_large_pages(void* memory, std::size_t bytes) {
-    constexpr std::uintptr_t kLarge = std::uintptr_t{1} << 21;
+    constexpr std::uintptr_t kLargePageBytes = std::uintptr_t{1} << 21;
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t first = (start + kLarge - 1) & ~(kLarge - 1),
-                         end = (start + bytes) & ~(kLarge - 1);
+    const std::uintptr_t first = (start + kLargePageBytes - 1) & ~(kLargePageBytes - 1),
+                         end = (start + bytes) & ~(kLargePageBytes - 1);
     if (first < end)
         madvise(static_cast<std::byte*>(memory) + (first - start), end - first, MADV_HUGEPAGE);
 }

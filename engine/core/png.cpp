@@ -57,9 +57,9 @@ void write_png_metadata(png_structp png, png_infop info) {
 bool write_png_image(png_structp png, png_infop info, const ImageShape& shape,
                      const std::uint8_t* values) {
     if (setjmp(png_jmpbuf(png))) return false;
-    constexpr int kTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
-                              PNG_COLOR_TYPE_RGB_ALPHA};
-    png_set_IHDR(png, info, shape.size.x, shape.size.y, 8, kTypes[shape.channel_count - 1],
+    constexpr int kPngColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                       PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    png_set_IHDR(png, info, shape.size.x, shape.size.y, 8, kPngColourTypes[shape.channel_count - 1],
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(png, 6);
     png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);

@@ -74,9 +74,9 @@ bool read_png_rows(png_structp png, png_bytepp rows) {
 /// Converts a row of values of 8 bits, or of 16 bits with the high byte first.
 template <typename Value>
 void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
-    constexpr bool kToFloat = std::is_same_v<Value, float>;
+    constexpr bool kReadsFloats = std::is_same_v<Value, float>;
     if (!is_wide) {
-        if constexpr (kToFloat)
+        if constexpr (kReadsFloats)
             std::transform(row, row + count, values,
                            [](std::uint8_t value) { return float(value) * (1.0F / 255); });
         else
@@ -85,7 +85,7 @@ void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, V
     }
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t value = std::uint32_t(row[2 * i]) << 8 | row[2 * i + 1];
-        if constexpr (kToFloat)
+        if constexpr (kReadsFloats)
             values[i] = float(value) * (1.0F / 65535);
         else
             values[i] = static_cast<std::uint8_t>((value + 128) / 257);
@@ -105,7 +105,7 @@ struct PngReader::PngReadState {
             fail(Failure::exhausted, name, ": not enough memory to decode it");
         }
         png_set_read_fn(png, &origin, read_png_bytes);
-        png_set_user_limits(png, ImageReader::kLargestSide, ImageReader::kLargestSide);
+        png_set_user_limits(png, ImageReader::kMaxImageSide, ImageReader::kMaxImageSide);
     }
     ~PngReadState() { png_destroy_read_struct(&png, &info, nullptr); }
     PngReadState(const PngReadState&) = delete;
@@ -158,10 +158,10 @@ PngReader::~PngReader() = default;
 void PngReader::check_size() const { open_->check_size(); }
 
 ImageShape PngReader::shape() const {
-    constexpr const char* kGrey[] = {"Y", "A"};
-    constexpr const char* kColours[] = {"R", "G", "B", "A"};
+    constexpr const char* kGreyChannelNames[] = {"Y", "A"};
+    constexpr const char* kColourChannelNames[] = {"R", "G", "B", "A"};
     const bool is_grey = open_->channel_count < 3;
-    const char* const* const names = is_grey ? kGrey : kColours;
+    const char* const* const names = is_grey ? kGreyChannelNames : kColourChannelNames;
     return {open_->size, open_->channel_count, {names, names + open_->channel_count}};
 }
 

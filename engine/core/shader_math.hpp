@@ -17,9 +17,9 @@
     using real = scalar;                                                                           \
     using vec3 = glm::vec<3, real>;                                                                \
     using uint = std::uint32_t;                                                                    \
-    using glm::abs, glm::atan, glm::clamp, glm::cos, glm::exp2, glm::log2, glm::sin, glm::cross, glm::dot, glm::floor,   \
-        glm::length, glm::max, glm::min, glm::mix, glm::normalize, glm::pow, glm::smoothstep,      \
-        glm::sqrt;                                                                                 \
+    using glm::abs, glm::atan, glm::clamp, glm::cos, glm::exp2, glm::log2, glm::sin, glm::cross,   \
+        glm::dot, glm::floor, glm::length, glm::max, glm::min, glm::mix, glm::normalize, glm::pow, \
+        glm::smoothstep, glm::sqrt;                                                                \
     using std::isnan;                                                                              \
     const real kUnitRoundoff = std::numeric_limits<real>::epsilon() / 2;                           \
     const real kSplitter = splitter;                                                               \

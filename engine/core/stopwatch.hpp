@@ -10,12 +10,12 @@ using SteadyClock = std::chrono::steady_clock;
 class Stopwatch {
 public:
     explicit Stopwatch(double& sum_ms) : sum_ms_(sum_ms) {}
-    ~Stopwatch() { sum_ms_ += ms(); }
+    ~Stopwatch() { sum_ms_ += elapsed_ms(); }
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
     /// Returns the milliseconds since construction.
-    double ms() const {
+    double elapsed_ms() const {
         const std::chrono::duration<double, std::milli> life = SteadyClock::now() - begin_;
         return life.count();
     }

@@ -8,7 +8,7 @@ namespace catoptric {
 
 namespace {
 
-constexpr std::size_t kMostQuoted = 80; // bytes
+constexpr std::size_t kMaxQuotedBytes = 80; // bytes
 
 std::string format_hexadecimal(std::uint32_t value, std::size_t digits) {
     std::string text;
@@ -37,9 +37,9 @@ Utf8Character decode_utf8_character(std::string_view text) {
         code = code << 6 | (byte(i) & 0x3f);
     }
     // Smaller codes have a shorter form.
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+    constexpr std::uint32_t kMinCodePoints[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-    if (code < kLeast[size] || is_surrogate || code > 0x10ffff) return {};
+    if (code < kMinCodePoints[size] || is_surrogate || code > 0x10ffff) return {};
     return {size, code};
 }
 
@@ -68,8 +68,8 @@ std::string escape_control_characters(std::string_view text, std::string_view ke
 }
 
 std::string quote_printable(std::string_view text) {
-    if (text.size() <= kMostQuoted) return "'" + escape_control_characters(text) + "'";
-    std::size_t end = kMostQuoted;
+    if (text.size() <= kMaxQuotedBytes) return "'" + escape_control_characters(text) + "'";
+    std::size_t end = kMaxQuotedBytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
     return "'" + escape_control_characters(text.substr(0, end)) + "...' (" +
            std::to_string(text.size()) + " bytes)";

@@ -70,7 +70,7 @@ inline constexpr WorkKindFacts kWorkKinds[] = {
 };
 inline constexpr std::size_t kWorkKindCount = std::size(kWorkKinds);
 static_assert(static_cast<std::size_t>(WorkKind::bytes) + 1 == kWorkKindCount);
-static_assert(static_cast<std::size_t>(WorkKind::lights) + 1 == shared::kShaderWorkKinds);
+static_assert(static_cast<std::size_t>(WorkKind::lights) + 1 == shared::kShaderWorkKindCount);
 
 /// Counts by kind. A kind that the device cannot count has no value.
 struct WorkCounts {

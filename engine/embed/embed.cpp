@@ -30,12 +30,12 @@ void add_copy_to_target(app::FrameGraph& frame, const Target& target, uvec2 size
     frame.target = std::make_shared<graph::PhysicalImage>(
         graph::wrap_external_image(desc, target.image));
     const graph::ImageHandle display = frame.parts.front().display;
-    const graph::ImageHandle image = frame.graph.import(desc, frame.target.get(), std::nullopt,
-                                                        graph_use_of_layout(target.leaves));
-    frame.graph.pass("target")
+    const graph::ImageHandle image = frame.graph.import_external(
+        desc, frame.target.get(), std::nullopt, graph_use_of_layout(target.leaves));
+    frame.graph.add_pass("target")
         .reads(display, graph::ResourceUse::copy_from)
         .writes(image, graph::ResourceUse::copy_to)
-        .record([=](graph::PassCommands& commands) { commands.copy(display, image); });
+        .record([=](graph::PassCommands& commands) { commands.copy_image(display, image); });
 }
 
 } // namespace
@@ -45,7 +45,7 @@ RequiredDeviceFeatures::RequiredDeviceFeatures(VkPhysicalDevice device) {
     check(info.missing.empty(), Failure::no_device, "device '", info.name, "' lacks ",
           info.missing);
     gpu::DeviceFeatures wanted;
-    wanted.switch_on(device);
+    wanted.enable_features(device);
     core = wanted.core, v11 = wanted.v11, v12 = wanted.v12, v13 = wanted.v13;
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13, v13.pNext = nullptr;
 }

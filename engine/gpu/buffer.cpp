@@ -6,7 +6,7 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::uint64_t kFewestBytes = 16; // one texel of the largest format
+constexpr std::uint64_t kMinBufferBytes = 16; // one texel of the largest format
 
 struct TexelFormat {
     VkFormat format = VK_FORMAT_UNDEFINED; ///< undefined: no texel buffer
@@ -53,27 +53,27 @@ struct ChosenMemoryType {
 
 ChosenMemoryType choose_memory_type(const Device& device, const VkMemoryRequirements& needs,
                                     MemoryPreference home) {
-    constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags kHostMemoryFlags = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                                       VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const auto find = [&](VkMemoryPropertyFlags properties) {
         return device.memory_type(needs.memoryTypeBits, properties);
     };
     if (home == MemoryPreference::device) {
         // If the host sees only a part of the device's memory, large buffers stay outside this
         // part.
-        constexpr std::uint64_t kShareOfWindow = 16;
-        const int seen = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHost);
+        constexpr std::uint64_t kHostVisibleHeapDivisor = 16;
+        const int seen = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHostMemoryFlags);
         const std::uint64_t window = seen < 0 ? 0
                                               : device.heap_bytes(static_cast<std::uint32_t>(seen));
         if (!device.needs_staging() &&
-            (window == device.memory_budget() || needs.size <= window / kShareOfWindow))
+            (window == device.memory_budget() || needs.size <= window / kHostVisibleHeapDivisor))
             return {seen, true};
         return {find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), false};
     }
     const int cached = home == MemoryPreference::host_reads
-                           ? find(kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
+                           ? find(kHostMemoryFlags | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
                            : -1;
-    return {cached >= 0 ? cached : find(kHost), true};
+    return {cached >= 0 ? cached : find(kHostMemoryFlags), true};
 }
 
 /// Allocates memory for `buffer` and binds it. `mapped` is null if the host cannot see the memory.
@@ -104,7 +104,7 @@ void copy_buffer_now(Device& device, const std::string& doing, VkBuffer from,
 
 Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUsage use)
     : device_(&device), name_(std::move(name)),
-      bytes_(std::max<std::uint64_t>(bytes, kFewestBytes)) {
+      bytes_(std::max<std::uint64_t>(bytes, kMinBufferBytes)) {
     const auto [format, texel_bytes] = texel_format_of(use);
     if (texel_bytes > 0) {
         const std::uint64_t texels = bytes_ / texel_bytes,
@@ -138,7 +138,7 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) {
         std::memcpy(static_cast<std::byte*>(mapped_) + offset, data.data(), data.size());
         return;
     }
-    upload_.renew(*device_, device_->uploads().write(buffer_, offset, data));
+    upload_.replace_by_later(*device_, device_->uploads().write(buffer_, offset, data));
 }
 
 std::vector<std::byte> Buffer::read() const {

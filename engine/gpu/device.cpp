@@ -21,7 +21,7 @@ Device::Device(const DeviceOptions& options)
         if (options.given)
             adopt_external_device(*options.given);
         else
-            create_instance(options), choose(options);
+            create_instance(options), set_variant_choices(options);
         read_physical_device(options);
         if (!options.given) create_device();
         make_pool();
@@ -54,14 +54,14 @@ void Device::abandon(const Error& why) {
     if (!why_abandoned_) why_abandoned_ = why;
 }
 
-void Device::check_alive(VkResult result, const std::string& doing) try {
+void Device::check_not_lost(VkResult result, const std::string& doing) try {
     check_vk(result, doing);
 } catch (const Error& error) {
     if (error.failure == Failure::device_lost) abandon(error);
     throw;
 }
 
-void Device::check_waited(VkResult result, const std::string& doing) try {
+void Device::check_wait_result(VkResult result, const std::string& doing) try {
     check_vk(result, doing);
 } catch (const Error& error) {
     abandon(error);
@@ -133,7 +133,7 @@ void Device::begin_one_shot(const std::string& doing) {
 
 /// Submits the copies and waits. Their writes become visible to the host and to all later commands.
 void Device::end_one_shot(const std::string& doing) {
-    record_memory_barrier(one_shot_, kCopyWrites,
+    record_memory_barrier(one_shot_, kTransferWrite,
                           {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT});
     check_vk(vkEndCommandBuffer(one_shot_), doing + " (end a command buffer)");
@@ -142,8 +142,8 @@ void Device::end_one_shot(const std::string& doing) {
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    check_alive(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
-    check_waited(vkQueueWaitIdle(queue_), doing);
+    check_not_lost(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
+    check_wait_result(vkQueueWaitIdle(queue_), doing);
 }
 
 void Device::check_validation() const {

@@ -29,7 +29,8 @@ std::vector<DeviceProperties> list_devices();
 
 class StagedUploads;
 
-/// A device made by the caller with DeviceFeatures::switch_on. All handles must outlive the Device.
+/// A device made by the caller with DeviceFeatures::enable_features. All handles must outlive the
+/// Device.
 struct ExternalDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -76,10 +77,10 @@ public:
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool is_cpu() const { return info_.type == "cpu"; }
-    /// Returns the shader variants of the device: the defaults unless `choose` was called. Call
-    /// `choose` before the first frame.
-    const VariantChoices& choices() const { return choices_; }
-    void choose(const VariantChoices& choices) { choices_ = choices; }
+    /// Returns the shader variants of the device: the defaults unless `set_variant_choices` was
+    /// called. Call `set_variant_choices` before the first frame.
+    const VariantChoices& variant_choices() const { return choices_; }
+    void set_variant_choices(const VariantChoices& choices) { choices_ = choices; }
     /// Returns whether vertex shaders may write gl_Layer. If not, layered passes run layer by
     /// layer.
     bool supports_layered_rendering() const { return layered_; }
@@ -92,12 +93,12 @@ public:
                                            : limits_.maxTexelBufferElements;
     }
     /// Returns whether images of 32-bit floats can be sampled with linear filtering.
-    bool filters_floats() const { return filters_floats_; }
+    bool has_float_filtering() const { return filters_floats_; }
     /// Returns whether shaders may compute with doubles.
     bool supports_doubles() const { return doubles_; }
     /// Returns whether fragment shaders may read the number of their triangle. Vulkan ties this to
     /// geometry shaders.
-    bool numbers_triangles() const { return numbers_triangles_; }
+    bool supports_primitive_ids() const { return numbers_triangles_; }
     /// Returns whether the device counts vertices, fragments and other invocations.
     bool has_pipeline_statistics() const { return pipeline_statistics_; }
     bool needs_staging() const { return staged_; }
@@ -119,10 +120,10 @@ public:
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
     /// Does `check_vk` for a call that submits work or asks about its result. If the device is
     /// lost, it becomes abandoned.
-    void check_alive(VkResult result, const std::string& doing);
+    void check_not_lost(VkResult result, const std::string& doing);
     /// Does `check_vk` for a call that waits for the device. If the wait fails, the device becomes
     /// abandoned.
-    void check_waited(VkResult result, const std::string& doing);
+    void check_wait_result(VkResult result, const std::string& doing);
     bool abandoned() const { return abandoned_; }
     /// Throws the error that made the device abandoned, if any. Called before work is submitted.
     void check_usable() const;
@@ -154,7 +155,7 @@ public:
 private:
     void close();
     void create_instance(const DeviceOptions& options);
-    void choose(const DeviceOptions& options);
+    void set_variant_choices(const DeviceOptions& options);
     void adopt_external_device(const ExternalDevice& given);
     void read_physical_device(const DeviceOptions& options);
     void create_device();

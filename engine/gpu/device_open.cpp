@@ -79,7 +79,7 @@ void Device::create_instance(const DeviceOptions& options) {
     if (options.make_surface) surface_ = options.make_surface(instance_);
 }
 
-void Device::choose(const DeviceOptions& options) {
+void Device::set_variant_choices(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> devices = list_physical_devices(instance_);
     std::vector<DeviceProperties> infos = describe_all_devices(devices);
     for (std::size_t i = 0; surface_ && i < infos.size(); ++i)
@@ -127,15 +127,16 @@ void Device::read_physical_device(const DeviceOptions& options) {
     doubles_ = has.core.features.shaderFloat64;
     numbers_triangles_ = has.core.features.geometryShader;
     pipeline_statistics_ = has.core.features.pipelineStatisticsQuery;
-    filters_floats_ = DeviceFeatures::filters_floats(physical_);
+    filters_floats_ = DeviceFeatures::has_float_filtering(physical_);
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
     check(count > queue_family_, Failure::usage, "device '", info_.name, "' has ", count,
           " queue families, number ", queue_family_, " was given");
     timestamp_bits_ = families[queue_family_].timestampValidBits;
-    constexpr VkQueueFlags kWorks = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    check((families[queue_family_].queueFlags & kWorks) == kWorks && timestamp_bits_ > 0,
+    constexpr VkQueueFlags kRequiredQueueFlags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    check((families[queue_family_].queueFlags & kRequiredQueueFlags) == kRequiredQueueFlags &&
+              timestamp_bits_ > 0,
           Failure::usage, "device '", info_.name,
           "': wanted a queue family that draws, dispatches "
           "and has timestamps, found number ",
@@ -149,7 +150,7 @@ void Device::create_device() {
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
     DeviceFeatures features;
-    features.switch_on(physical_);
+    features.enable_features(physical_);
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     const char* const extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     create.enabledExtensionCount = surface_ ? 1 : 0;

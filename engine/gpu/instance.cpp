@@ -16,23 +16,23 @@ namespace catoptric::gpu {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* kNoDriver =
+constexpr const char* kNoDriverMessage =
     "no Vulkan device: no driver is installed; install one for the graphics card, or the software "
     "driver: apt-get install mesa-vulkan-drivers";
 
 /// Bytes of address space for a software driver and its compiler. With less, drivers crash, or the
 /// loader says that it could not map a driver's file.
-constexpr std::size_t kRoomForDriver = std::size_t{256} << 20;
+constexpr std::size_t kDriverAddressSpace = std::size_t{256} << 20;
 
 /// Returns the list that `call(count, items)` gives. The list is counted, then fetched, and both
 /// are repeated if it grew in between. Items that vanished in between are left out. Calls `failed`
 /// with a result that is an error.
 template <typename Item, typename Call, typename Failed>
 std::vector<Item> list_vulkan_items(Call&& call, Failed&& failed) {
-    constexpr int kTries = 8; // after the last try the fetched items are returned
+    constexpr int kMaxEnumerationAttempts = 8; // after the last try the fetched items are returned
     std::vector<Item> items;
     VkResult result = VK_INCOMPLETE;
-    for (int i = 0; i < kTries && result == VK_INCOMPLETE; ++i) {
+    for (int i = 0; i < kMaxEnumerationAttempts && result == VK_INCOMPLETE; ++i) {
         std::uint32_t count = 0;
         if (result = call(&count, nullptr); result < 0) failed(result);
         items.resize(count);
@@ -57,7 +57,7 @@ bool has_instance_extension(const char* layer, const char* name) {
         },
         [](VkResult result) {
             // The loader returns VK_ERROR_OUT_OF_HOST_MEMORY for a missing file.
-            fail(Failure::no_device, kNoDriver,
+            fail(Failure::no_device, kNoDriverMessage,
                  " (the Vulkan loader cannot read its driver files: ", name_of(result),
                  "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
         });
@@ -156,7 +156,7 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     // sorted here.
     if (!std::getenv("MESA_VK_DEVICE_SELECT") && !std::getenv("DRI_PRIME"))
         setenv("NODEVICE_SELECT", "1", 0);
-    check_address_space(kRoomForDriver, "a Vulkan driver");
+    check_address_space(kDriverAddressSpace, "a Vulkan driver");
     std::vector<const char*> layers, extensions;
     if (validate) {
         check(has_instance_layer(kValidationLayer), Failure::no_device,
@@ -186,7 +186,8 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
-    check_vk_start(vkCreateInstance(&create, nullptr, &instance), "create an instance", kNoDriver);
+    check_vk_start(vkCreateInstance(&create, nullptr, &instance), "create an instance",
+                   kNoDriverMessage);
     return instance;
 }
 
@@ -195,8 +196,8 @@ std::vector<VkPhysicalDevice> list_physical_devices(VkInstance instance) {
         [&](std::uint32_t* count, VkPhysicalDevice* items) {
             return vkEnumeratePhysicalDevices(instance, count, items);
         },
-        [](VkResult result) { check_vk_start(result, "enumerate devices", kNoDriver); });
-    check(!devices.empty(), Failure::no_device, kNoDriver);
+        [](VkResult result) { check_vk_start(result, "enumerate devices", kNoDriverMessage); });
+    check(!devices.empty(), Failure::no_device, kNoDriverMessage);
     std::ranges::stable_sort(devices, {}, [](VkPhysicalDevice device) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);
@@ -209,18 +210,18 @@ DeviceProperties describe_device(VkPhysicalDevice device) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
     vkGetPhysicalDeviceProperties2(device, &properties);
-    constexpr std::array kTypes{"discrete", "integrated", "virtual", "cpu", "other"};
+    constexpr std::array kDeviceTypeNames{"discrete", "integrated", "virtual", "cpu", "other"};
     DeviceProperties info;
     info.name = properties.properties.deviceName;
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     info.id = make_device_id(properties.properties);
     info.api = format_vulkan_version(properties.properties.apiVersion);
-    info.type =
-        kTypes[static_cast<std::size_t>(rank_device_type(properties.properties.deviceType))];
+    info.type = kDeviceTypeNames[static_cast<std::size_t>(
+        rank_device_type(properties.properties.deviceType))];
     if (info.type == "cpu") info.threads = count_cpu_threads();
     info.missing = properties.properties.apiVersion < VK_API_VERSION_1_3
                        ? "Vulkan 1.3 (has " + info.api + ")"
-                       : DeviceFeatures::missing(device);
+                       : DeviceFeatures::describe_missing_features(device);
     if (info.missing.empty()) info.missing = describe_vector_width_problem(driver);
     if (info.missing.empty() && find_queue_family(device) < 0)
         info.missing = "a queue for graphics and compute with timestamps";
@@ -232,9 +233,10 @@ int find_queue_family(VkPhysicalDevice device) {
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    constexpr VkQueueFlags kBoth = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    constexpr VkQueueFlags kRequiredQueueFlags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     for (std::uint32_t i = 0; i < count; ++i)
-        if ((families[i].queueFlags & kBoth) == kBoth && families[i].timestampValidBits > 0)
+        if ((families[i].queueFlags & kRequiredQueueFlags) == kRequiredQueueFlags &&
+            families[i].timestampValidBits > 0)
             return static_cast<int>(i);
     return -1;
 }
@@ -255,7 +257,7 @@ bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface) {
     return can && std::ranges::any_of(extensions, is_swapchain);
 }
 
-void DeviceFeatures::switch_on(VkPhysicalDevice device) {
+void DeviceFeatures::enable_features(VkPhysicalDevice device) {
     DeviceFeatures has;
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     core.features.imageCubeArray = true;
@@ -282,13 +284,14 @@ DeviceFeatures::DeviceFeatures() {
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13;
 }
 
-bool DeviceFeatures::filters_floats(VkPhysicalDevice device) {
-    constexpr VkFormatFeatureFlags kFilter = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    return format_allows_features(device, VK_FORMAT_R32_SFLOAT, kFilter) &&
-           format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kFilter);
+bool DeviceFeatures::has_float_filtering(VkPhysicalDevice device) {
+    constexpr VkFormatFeatureFlags kLinearFilterFeature =
+        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    return format_allows_features(device, VK_FORMAT_R32_SFLOAT, kLinearFilterFeature) &&
+           format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kLinearFilterFeature);
 }
 
-std::string DeviceFeatures::missing(VkPhysicalDevice device) {
+std::string DeviceFeatures::describe_missing_features(VkPhysicalDevice device) {
     DeviceFeatures has;
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     const std::pair<const char*, VkBool32> required[] = {

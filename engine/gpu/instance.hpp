@@ -36,14 +36,14 @@ int find_queue_family(VkPhysicalDevice device);
 struct DeviceFeatures {
     DeviceFeatures();
     /// Enables the required features, and the optional ones that the device has.
-    void switch_on(VkPhysicalDevice device);
+    void enable_features(VkPhysicalDevice device);
     DeviceFeatures(const DeviceFeatures&) = delete;
     DeviceFeatures& operator=(const DeviceFeatures&) = delete;
     /// Returns the names of the required features that `device` lacks, comma-separated.
-    static std::string missing(VkPhysicalDevice device);
+    static std::string describe_missing_features(VkPhysicalDevice device);
     /// Returns whether images of 32-bit floats can be sampled with linear filtering, which is
     /// optional in Vulkan.
-    static bool filters_floats(VkPhysicalDevice device);
+    static bool has_float_filtering(VkPhysicalDevice device);
     VkPhysicalDeviceFeatures2 core{};
     VkPhysicalDeviceVulkan11Features v11{};
     VkPhysicalDeviceVulkan12Features v12{};

@@ -215,7 +215,8 @@ bool Pipelines::ConstantsOrder::operator()(const ComputeState& a, const ComputeS
     return a.shader != b.shader ? a.shader < b.shader : are_constants_before(a, b);
 }
 
-const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& attachments) {
+const Pipeline& Pipelines::find_or_make_raster(const RasterState& state,
+                                               const Attachments& attachments) {
     const auto found = rasters_.find(RasterKeyView(state, attachments));
     if (found != rasters_.end()) return found->second;
 
@@ -239,7 +240,7 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
     return rasters_.emplace(RasterKey(state, attachments), std::move(pipeline)).first->second;
 }
 
-const Pipeline& Pipelines::compute(const ComputeState& state) {
+const Pipeline& Pipelines::find_or_make_compute(const ComputeState& state) {
     if (const auto found = computes_.find(state); found != computes_.end()) return found->second;
 
     const Stopwatch watch(ms_);

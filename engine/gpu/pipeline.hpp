@@ -63,11 +63,11 @@ public:
     explicit Pipelines(Device& device, std::map<std::string, std::string> variants = {},
                        const std::filesystem::path& cache = {})
         : device_(device), variants_(std::move(variants)), cache_(device, cache) {}
-    const Pipeline& raster(const RasterState& state, const Attachments& attachments);
-    const Pipeline& compute(const ComputeState& state);
+    const Pipeline& find_or_make_raster(const RasterState& state, const Attachments& attachments);
+    const Pipeline& find_or_make_compute(const ComputeState& state);
     const PipelineCache& cache() const { return cache_; }
-    std::size_t made() const { return rasters_.size() + computes_.size(); }
-    double ms() const { return ms_; } ///< milliseconds of the host, for all pipelines made
+    std::size_t made_pipeline_count() const { return rasters_.size() + computes_.size(); }
+    double compile_ms() const { return ms_; } ///< milliseconds of the host, for all pipelines made
 
 private:
     using RasterKey = std::pair<RasterState, Attachments>;

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kMagic = "catoptric pipelines 1\n";
+constexpr std::string_view kCacheFileSignature = "catoptric pipelines 1\n";
 
 /// Returns the 64-bit FNV-1a checksum. Drivers do not check cache data, so a truncated file must
 /// not reach them.
@@ -26,7 +26,7 @@ std::uint64_t fnv1a_checksum(std::string_view data) {
 
 std::string add_cache_file_header(const std::string& data) {
     const std::uint64_t sum = fnv1a_checksum(data);
-    std::string file(kMagic);
+    std::string file(kCacheFileSignature);
     file.append(reinterpret_cast<const char*>(&sum), sizeof sum);
     return file + data;
 }
@@ -34,9 +34,9 @@ std::string add_cache_file_header(const std::string& data) {
 /// Returns the data of a cache file; empty if the file is not complete.
 std::string strip_cache_file_header(const std::string& file) {
     std::uint64_t sum = 0;
-    const std::size_t head = kMagic.size() + sizeof sum;
-    if (file.size() < head || !file.starts_with(kMagic)) return {};
-    std::memcpy(&sum, file.data() + kMagic.size(), sizeof sum);
+    const std::size_t head = kCacheFileSignature.size() + sizeof sum;
+    if (file.size() < head || !file.starts_with(kCacheFileSignature)) return {};
+    std::memcpy(&sum, file.data() + kCacheFileSignature.size(), sizeof sum);
     const std::string data = file.substr(head);
     return fnv1a_checksum(data) == sum ? data : std::string();
 }

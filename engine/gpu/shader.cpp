@@ -51,7 +51,7 @@ enum SpirvStorageClass : std::uint32_t {
     kPushConstant = 9,
     kStorageBuffer = 12
 };
-constexpr std::uint32_t kGeometry = 2, kFloat64 = 10; // numbers of capabilities
+constexpr std::uint32_t kGeometryCapability = 2, kFloat64Capability = 10; // numbers of capabilities
 enum SpirvImageDimension : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
 struct SpirvType {
@@ -96,8 +96,8 @@ private:
         switch (op) {
         case kName: names_[words[0]] = reinterpret_cast<const char*>(words.data() + 1); break;
         case kCapability:
-            doubles_ = doubles_ || words[0] == kFloat64;
-            triangle_numbers_ = triangle_numbers_ || words[0] == kGeometry;
+            doubles_ = doubles_ || words[0] == kFloat64Capability;
+            triangle_numbers_ = triangle_numbers_ || words[0] == kGeometryCapability;
             break;
         case kDecorate:
             if (words.size() > 2) decorations_[{words[0], words[1]}] = words[2];

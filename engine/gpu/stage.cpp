@@ -13,7 +13,7 @@ namespace {
 ShaderConstants make_feature_constants(const Device& device) {
     ShaderConstants constants;
     if (device.reads_texels_from_storage()) constants.emplace_back("texels_in_storage", 1u);
-    if (!device.filters_floats()) constants.emplace_back("distances_by_gather", 1u);
+    if (!device.has_float_filtering()) constants.emplace_back("distances_by_gather", 1u);
     return constants;
 }
 
@@ -26,7 +26,7 @@ ShaderStage::ShaderStage(const Device& device, const std::string& name, VkShader
     reflection = reflect_spirv(name, shader.words);
     check(!reflection.doubles || device.supports_doubles(), Failure::no_device, "shader '", name,
           "' computes with doubles, which device '", device.info().name, "' cannot");
-    check(!reflection.triangle_numbers || device.numbers_triangles(), Failure::no_device,
+    check(!reflection.triangle_numbers || device.supports_primitive_ids(), Failure::no_device,
           "shader '", name, "' reads the number of a triangle, which device '", device.info().name,
           "' does not give; the technique raytrace with first=ray needs none");
     std::map<std::uint32_t, std::uint32_t> values;

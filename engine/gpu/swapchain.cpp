@@ -8,7 +8,7 @@ namespace {
 
 /// Semaphores for acquired images: one for each frame in flight, and one for the frame being
 /// recorded.
-constexpr std::size_t kTurns = 4;
+constexpr std::size_t kAcquireSemaphoreCount = 4;
 
 UniqueSemaphore make_semaphore(const Device& device) {
     const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
@@ -32,8 +32,8 @@ VkSurfaceFormatKHR choose_surface_format(const Device& device) {
 }
 
 VkExtent2D choose_swapchain_extent(const VkSurfaceCapabilitiesKHR& can, uvec2 wanted) {
-    constexpr std::uint32_t kAny = 0xFFFFFFFF;
-    if (can.currentExtent.width != kAny) return can.currentExtent;
+    constexpr std::uint32_t kAnySurfaceExtent = 0xFFFFFFFF;
+    if (can.currentExtent.width != kAnySurfaceExtent) return can.currentExtent;
     return {std::clamp(wanted.x, can.minImageExtent.width, can.maxImageExtent.width),
             std::clamp(wanted.y, can.minImageExtent.height, can.maxImageExtent.height)};
 }
@@ -44,22 +44,22 @@ Swapchain::Swapchain(Device& device) : device_(device), colours_(choose_surface_
     if (colours_.format == VK_FORMAT_R8G8B8A8_UNORM) format_ = Format::rgba8_unorm;
 }
 
-bool Swapchain::check(VkResult result, const std::string& doing) {
+bool Swapchain::check_result(VkResult result, const std::string& doing) {
     if (result == VK_SUCCESS) return true;
     lost_ |= result == VK_ERROR_SURFACE_LOST_KHR;
     if (lost_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return false;
-    device_.check_alive(result, doing);
+    device_.check_not_lost(result, doing);
     return false;
 }
 
-void Swapchain::wait() {
+void Swapchain::wait_idle() {
     device_.check_usable();
-    device_.check_waited(vkQueueWaitIdle(device_.queue()), "wait for the window's pictures");
+    device_.check_wait_result(vkQueueWaitIdle(device_.queue()), "wait for the window's pictures");
 }
 
-bool Swapchain::make(uvec2 size) {
+bool Swapchain::create_images(uvec2 size) {
     VkSurfaceCapabilitiesKHR can{};
-    if (!check(
+    if (!check_result(
             vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), device_.surface(), &can),
             "ask what the window can show"))
         return false;
@@ -84,8 +84,8 @@ bool Swapchain::make(uvec2 size) {
     create.clipped = true;
     create.oldSwapchain = chain_;
     VkSwapchainKHR chain = VK_NULL_HANDLE;
-    if (!check(vkCreateSwapchainKHR(device_.handle(), &create, nullptr, &chain),
-               "make the window's images"))
+    if (!check_result(vkCreateSwapchainKHR(device_.handle(), &create, nullptr, &chain),
+                      "make the window's images"))
         return false;
     chain_ = {device_.handle(), chain};
     std::uint32_t count = 0;
@@ -96,24 +96,26 @@ bool Swapchain::make(uvec2 size) {
              "get the window's images");
     // Semaphores of images acquired but not drawn are still signalled.
     acquired_.clear(), rendered_.clear();
-    for (std::size_t i = 0; i < kTurns; ++i) acquired_.push_back(make_semaphore(device_));
+    for (std::size_t i = 0; i < kAcquireSemaphoreCount; ++i)
+        acquired_.push_back(make_semaphore(device_));
     for (std::size_t i = 0; i < images_.size(); ++i) rendered_.push_back(make_semaphore(device_));
     size_ = {extent.width, extent.height};
     return true;
 }
 
-std::optional<std::uint32_t> Swapchain::acquire() {
+std::optional<std::uint32_t> Swapchain::acquire_image() {
     const std::size_t turn = (turn_ + 1) % acquired_.size();
     std::uint32_t image = 0;
     const VkResult result = vkAcquireNextImageKHR(device_.handle(), chain_, ~std::uint64_t{0},
                                                   acquired_[turn], VK_NULL_HANDLE, &image);
     // A suboptimal image is drawn all the same, because its semaphore will be signalled.
-    if (result != VK_SUBOPTIMAL_KHR && !check(result, "get the window's next image")) return {};
+    if (result != VK_SUBOPTIMAL_KHR && !check_result(result, "get the window's next image"))
+        return {};
     turn_ = turn;
     return image;
 }
 
-bool Swapchain::present(std::uint32_t image) {
+bool Swapchain::present_image(std::uint32_t image) {
     const VkSemaphore wait = rendered_[image];
     const VkSwapchainKHR chain = chain_;
     VkPresentInfoKHR present{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
@@ -122,7 +124,8 @@ bool Swapchain::present(std::uint32_t image) {
     present.swapchainCount = 1;
     present.pSwapchains = &chain;
     present.pImageIndices = &image;
-    return check(vkQueuePresentKHR(device_.queue(), &present), "show a picture in the window");
+    return check_result(vkQueuePresentKHR(device_.queue(), &present),
+                        "show a picture in the window");
 }
 
 } // namespace catoptric::gpu

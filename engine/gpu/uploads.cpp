@@ -8,8 +8,8 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::uint64_t kBlockBytes = 4 << 20;
-constexpr const char* kDoing = "write buffers";
+constexpr std::uint64_t kStagingBlockBytes = 4 << 20;
+constexpr const char* kUploadActivity = "write buffers";
 
 } // namespace
 
@@ -29,7 +29,7 @@ StagedUploads::StagedUploads(Device& device) : device_(device) {
              "create a semaphore");
     timeline_ = {device.handle(), semaphore_handle};
     for (StagingBlock& block : blocks_) {
-        block.staging = std::make_unique<Buffer>(device, "staging", kBlockBytes,
+        block.staging = std::make_unique<Buffer>(device, "staging", kStagingBlockBytes,
                                                  BufferUsage::staging);
         VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
         allocate.commandPool = pool_;
@@ -57,20 +57,21 @@ void StagedUploads::wait(WriteNumber ticket) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &ticket;
-    device_.check_waited(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}), kDoing);
+    device_.check_wait_result(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}),
+                              kUploadActivity);
     ended_ = ticket;
 }
 
 /// Returns a block that is recording and has room.
 StagedUploads::StagingBlock& StagedUploads::open_block() {
-    if (is_recording_ && blocks_[current_].used < kBlockBytes) return blocks_[current_];
+    if (is_recording_ && blocks_[current_].used < kStagingBlockBytes) return blocks_[current_];
     submit();
     StagingBlock& block = blocks_[current_];
     wait(block.ends);
     block.used = 0, block.targets.clear();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check_vk(vkBeginCommandBuffer(block.commands, &begin), kDoing);
+    check_vk(vkBeginCommandBuffer(block.commands, &begin), kUploadActivity);
     is_recording_ = true;
     return block;
 }
@@ -83,7 +84,7 @@ void StagedUploads::order_overlapping_writes(StagingBlock& block, const WriteRan
                target.first < other.end;
     });
     if (overlaps) {
-        record_memory_barrier(block.commands, kCopyWrites, kCopyWrites);
+        record_memory_barrier(block.commands, kTransferWrite, kTransferWrite);
         block.targets.clear();
     }
     block.targets.push_back(target);
@@ -95,7 +96,7 @@ StagedUploads::WriteNumber StagedUploads::write(VkBuffer to, std::uint64_t offse
     while (!data.empty()) {
         StagingBlock& block = open_block();
         const auto part = data.first(
-            std::min<std::uint64_t>(data.size(), kBlockBytes - block.used));
+            std::min<std::uint64_t>(data.size(), kStagingBlockBytes - block.used));
         block.staging->write(block.used, part);
         order_overlapping_writes(block, {to, offset, offset + part.size()});
         const VkBufferCopy region{block.used, offset, part.size()};
@@ -109,11 +110,11 @@ StagedUploads::WriteNumber StagedUploads::write(VkBuffer to, std::uint64_t offse
 void StagedUploads::submit() {
     if (!is_recording_) return;
     StagingBlock& block = blocks_[current_];
-    record_memory_barrier(block.commands, kCopyWrites,
+    record_memory_barrier(block.commands, kTransferWrite,
                           {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
     is_recording_ = false;
-    check_vk(vkEndCommandBuffer(block.commands), kDoing);
+    check_vk(vkEndCommandBuffer(block.commands), kUploadActivity);
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = block.commands;
     VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
@@ -125,7 +126,8 @@ void StagedUploads::submit() {
     submit.pCommandBufferInfos = &commands;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &signal;
-    device_.check_alive(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE), kDoing);
+    device_.check_not_lost(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE),
+                           kUploadActivity);
     block.ends = ++submitted_;
     current_ = (current_ + 1) % blocks_.size();
 }

@@ -27,7 +27,7 @@ public:
     ~StagedUploads();
 
     /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
-    /// Throws as Device::check_alive and check_waited do.
+    /// Throws as Device::check_not_lost and check_wait_result do.
     WriteNumber write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
     /// Submits the recorded copies that are not submitted yet.
     void submit();
@@ -72,7 +72,7 @@ public:
     }
     ~PendingUpload();
     /// Replaces the ticket with that of a later write to the same buffer.
-    void renew(Device& device, StagedUploads::WriteNumber ticket) {
+    void replace_by_later(Device& device, StagedUploads::WriteNumber ticket) {
         device_ = &device, ticket_ = ticket;
     }
 

@@ -4,7 +4,7 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::array<ShaderVariant, kVariants> kTable{
+constexpr std::array<ShaderVariant, kShaderVariantCount> kShaderVariants{
     {{"groups",
       {"scattered", "in order"},
       "groups_in_order",
@@ -20,6 +20,8 @@ constexpr std::array<ShaderVariant, kVariants> kTable{
 
 } // namespace
 
-std::span<const ShaderVariant, kVariants> list_shader_variants() { return kTable; }
+std::span<const ShaderVariant, kShaderVariantCount> list_shader_variants() {
+    return kShaderVariants;
+}
 
 } // namespace catoptric::gpu

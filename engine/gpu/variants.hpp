@@ -9,7 +9,7 @@
 /// picture takes, and never a byte of the picture.
 namespace catoptric::gpu {
 
-inline constexpr std::size_t kVariants = 3;
+inline constexpr std::size_t kShaderVariantCount = 3;
 
 struct ShaderVariant {
     std::string_view name;
@@ -17,9 +17,9 @@ struct ShaderVariant {
     std::string_view constant;               ///< shader constant that gets the index of the choice
     std::string_view help;
 };
-std::span<const ShaderVariant, kVariants> list_shader_variants();
+std::span<const ShaderVariant, kShaderVariantCount> list_shader_variants();
 
 /// The index of the choice for each variant, in the table's order.
-using VariantChoices = std::array<std::uint8_t, kVariants>;
+using VariantChoices = std::array<std::uint8_t, kShaderVariantCount>;
 
 } // namespace catoptric::gpu

@@ -25,8 +25,8 @@ struct MemoryUse {
     VkAccessFlags2 access = 0;
 };
 /// The writes of copies.
-inline constexpr MemoryUse kCopyWrites{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                       VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr MemoryUse kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                          VK_ACCESS_2_TRANSFER_WRITE_BIT};
 /// Records a barrier that makes the writes of earlier work visible to later work, in all memory.
 void record_memory_barrier(VkCommandBuffer commands, const MemoryUse& earlier,
                            const MemoryUse& later);
@@ -48,17 +48,17 @@ struct DeviceHandle {
 /// A Vulkan object of a device, destroyed with this value. If the device was abandoned the object
 /// is not destroyed, because the driver may still use it.
 template <typename Handle, auto Destroy>
-class Unique {
+class UniqueHandle {
 public:
-    Unique() = default;
-    Unique(DeviceHandle device, Handle handle) : device_(device), handle_(handle) {}
-    Unique(Unique&& other) noexcept
+    UniqueHandle() = default;
+    UniqueHandle(DeviceHandle device, Handle handle) : device_(device), handle_(handle) {}
+    UniqueHandle(UniqueHandle&& other) noexcept
         : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
-    Unique& operator=(Unique&& other) noexcept {
+    UniqueHandle& operator=(UniqueHandle&& other) noexcept {
         std::swap(device_, other.device_), std::swap(handle_, other.handle_);
         return *this;
     }
-    ~Unique() {
+    ~UniqueHandle() {
         const bool abandoned = device_.abandoned && *device_.abandoned;
         if (handle_ && !abandoned) Destroy(device_, handle_, nullptr);
     }
@@ -69,21 +69,21 @@ private:
     Handle handle_{};
 };
 
-using UniqueBuffer = Unique<VkBuffer, vkDestroyBuffer>;
-using UniqueBufferView = Unique<VkBufferView, vkDestroyBufferView>;
-using UniqueCommandPool = Unique<VkCommandPool, vkDestroyCommandPool>;
-using UniqueDescriptorPool = Unique<VkDescriptorPool, vkDestroyDescriptorPool>;
-using UniqueDescriptorSetLayout = Unique<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
-using UniqueImage = Unique<VkImage, vkDestroyImage>;
-using UniqueImageView = Unique<VkImageView, vkDestroyImageView>;
-using UniqueMemory = Unique<VkDeviceMemory, vkFreeMemory>;
-using UniquePipeline = Unique<VkPipeline, vkDestroyPipeline>;
-using UniquePipelineCache = Unique<VkPipelineCache, vkDestroyPipelineCache>;
-using UniquePipelineLayout = Unique<VkPipelineLayout, vkDestroyPipelineLayout>;
-using UniqueQueryPool = Unique<VkQueryPool, vkDestroyQueryPool>;
-using UniqueSampler = Unique<VkSampler, vkDestroySampler>;
-using UniqueSemaphore = Unique<VkSemaphore, vkDestroySemaphore>;
-using UniqueSwapchain = Unique<VkSwapchainKHR, vkDestroySwapchainKHR>;
-using UniqueShaderModule = Unique<VkShaderModule, vkDestroyShaderModule>;
+using UniqueBuffer = UniqueHandle<VkBuffer, vkDestroyBuffer>;
+using UniqueBufferView = UniqueHandle<VkBufferView, vkDestroyBufferView>;
+using UniqueCommandPool = UniqueHandle<VkCommandPool, vkDestroyCommandPool>;
+using UniqueDescriptorPool = UniqueHandle<VkDescriptorPool, vkDestroyDescriptorPool>;
+using UniqueDescriptorSetLayout = UniqueHandle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
+using UniqueImage = UniqueHandle<VkImage, vkDestroyImage>;
+using UniqueImageView = UniqueHandle<VkImageView, vkDestroyImageView>;
+using UniqueMemory = UniqueHandle<VkDeviceMemory, vkFreeMemory>;
+using UniquePipeline = UniqueHandle<VkPipeline, vkDestroyPipeline>;
+using UniquePipelineCache = UniqueHandle<VkPipelineCache, vkDestroyPipelineCache>;
+using UniquePipelineLayout = UniqueHandle<VkPipelineLayout, vkDestroyPipelineLayout>;
+using UniqueQueryPool = UniqueHandle<VkQueryPool, vkDestroyQueryPool>;
+using UniqueSampler = UniqueHandle<VkSampler, vkDestroySampler>;
+using UniqueSemaphore = UniqueHandle<VkSemaphore, vkDestroySemaphore>;
+using UniqueSwapchain = UniqueHandle<VkSwapchainKHR, vkDestroySwapchainKHR>;
+using UniqueShaderModule = UniqueHandle<VkShaderModule, vkDestroyShaderModule>;
 
 } // namespace catoptric::gpu

@@ -66,12 +66,12 @@ ResourceAccess access_to_whole_image(const Graph& graph, std::uint32_t image) {
     return {.id = image, .layer_count = desc.layers, .mip_count = desc.mips};
 }
 
-ResourceLedger<char> mark_output_parts(const Graph& graph) {
-    ResourceLedger<char> wanted(graph, false);
+SubresourceMap<char> mark_output_parts(const Graph& graph) {
+    SubresourceMap<char> wanted(graph, false);
     for (const ImageHandle& image : graph.output_images())
-        wanted.set(access_to_image_part(image), true);
+        wanted.set_value(access_to_image_part(image), true);
     for (const BufferHandle& buffer : graph.output_buffers())
-        wanted.set({.is_buffer = true, .id = buffer.id}, true);
+        wanted.set_value({.is_buffer = true, .id = buffer.id}, true);
     return wanted;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graph/plan.hpp"
-#include "graph/runs.hpp"
+#include "graph/run_length_array.hpp"
 
 #include <span>
 #include <string>
@@ -36,7 +36,7 @@ std::vector<ResourceAccess> list_pass_accesses(const Pass& pass);
 class GraphAccesses {
 public:
     explicit GraphAccesses(const Graph& graph);
-    std::span<const ResourceAccess> of(std::size_t pass) const {
+    std::span<const ResourceAccess> accesses_of_pass(std::size_t pass) const {
         return {all_.data() + first_[pass], all_.data() + first_[pass + 1]};
     }
 
@@ -75,55 +75,55 @@ void for_each_layer_range(const Part& part, std::uint32_t layers, const Visit& v
 
 /// A value for each layer of each mip of every image, and for every buffer.
 template <typename T>
-class ResourceLedger {
+class SubresourceMap {
 public:
-    explicit ResourceLedger(const Graph& graph, const T& value = {})
+    explicit SubresourceMap(const Graph& graph, const T& value = {})
         : images_(graph.images().size()) {
         entries_.reserve(images_ + graph.buffers().size());
         for (const ImageDesc& desc : graph.images())
-            entries_.push_back({ValueRuns<T>(desc.layers * desc.mips, value), desc.layers});
-        entries_.resize(images_ + graph.buffers().size(), {ValueRuns<T>(1, value), 1});
+            entries_.push_back({RunLengthArray<T>(desc.layers * desc.mips, value), desc.layers});
+        entries_.resize(images_ + graph.buffers().size(), {RunLengthArray<T>(1, value), 1});
     }
-    ValueRuns<T>& of(const ResourceAccess& a) { return entry(a).runs; }
-    const ValueRuns<T>& of(const ResourceAccess& a) const { return entry(a).runs; }
-    std::uint32_t layers_of(const ResourceAccess& a) const { return entry(a).layers; }
+    RunLengthArray<T>& of(const ResourceAccess& a) { return entry(a).runs; }
+    const RunLengthArray<T>& of(const ResourceAccess& a) const { return entry(a).runs; }
+    std::uint32_t layer_count_of(const ResourceAccess& a) const { return entry(a).layers; }
 
     /// Calls visit(first, end, value) for each run of equal values that the access meets.
     template <typename Visit>
-    void each(const ResourceAccess& a, const Visit& visit) const {
-        const LayerRuns& e = entry(a);
+    void for_each_value(const ResourceAccess& a, const Visit& visit) const {
+        const LayerValues& e = entry(a);
         for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
-            e.runs.each(first, end, visit);
+            e.runs.for_each_run(first, end, visit);
         });
     }
     template <typename Visit>
-    void change(const ResourceAccess& a, const Visit& visit) {
-        LayerRuns& e = entries_[index(a)];
+    void modify_values(const ResourceAccess& a, const Visit& visit) {
+        LayerValues& e = entries_[index(a)];
         for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
-            e.runs.change(first, end, visit);
+            e.runs.modify_runs(first, end, visit);
         });
     }
-    void set(const ResourceAccess& a, const T& value) {
-        change(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    void set_value(const ResourceAccess& a, const T& value) {
+        modify_values(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
     /// Returns whether some layer of the access has the value.
-    bool any(const ResourceAccess& a, const T& value) const {
+    bool contains_value(const ResourceAccess& a, const T& value) const {
         bool found = false;
-        each(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
+        for_each_value(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
         return found;
     }
 
 private:
-    struct LayerRuns {
-        ValueRuns<T> runs;
+    struct LayerValues {
+        RunLengthArray<T> runs;
         std::uint32_t layers;
     };
     std::size_t index(const ResourceAccess& a) const { return a.is_buffer ? images_ + a.id : a.id; }
-    LayerRuns& entry(const ResourceAccess& a) { return entries_[index(a)]; }
-    const LayerRuns& entry(const ResourceAccess& a) const { return entries_[index(a)]; }
+    LayerValues& entry(const ResourceAccess& a) { return entries_[index(a)]; }
+    const LayerValues& entry(const ResourceAccess& a) const { return entries_[index(a)]; }
 
     std::size_t images_;
-    std::vector<LayerRuns> entries_; // images, then buffers
+    std::vector<LayerValues> entries_; // images, then buffers
 };
 
 /// Returns an access to a part of an image. Its use is left at the default.
@@ -131,6 +131,6 @@ ResourceAccess access_to_image_part(const ImageHandle& image);
 /// Returns an access to all layers and mips of an image.
 ResourceAccess access_to_whole_image(const Graph& graph, std::uint32_t image);
 /// Returns a ledger that is true for every layer and buffer that is an output of the graph.
-ResourceLedger<char> mark_output_parts(const Graph& graph);
+SubresourceMap<char> mark_output_parts(const Graph& graph);
 
 } // namespace catoptric::graph

@@ -10,14 +10,14 @@ namespace {
 
 /// The touches of one layer of an image, or of a buffer, so far in this frame.
 struct TouchState {
-    TouchCode write = kNothing; // the last write in this frame; `nothing`: none
+    TouchCode write = kNoTouch; // the last write in this frame; kNoTouch: none
     TouchList readers;          // distinct readers since that write or the last layout change
 
     /// Returns the touches that the next write must wait for. For an image, all have its present
     /// layout.
     TouchList latest() const {
         if (!readers.empty()) return readers;
-        return write == kNothing ? TouchList() : TouchList(write);
+        return write == kNoTouch ? TouchList() : TouchList(write);
     }
     friend bool operator==(const TouchState&, const TouchState&) = default;
 };
@@ -97,7 +97,7 @@ TouchState state_on_arrival(ResourceUse use) {
     const ResourceTouch compute{.nothing = false, .use = use, .write = false, .raster = false};
     ResourceTouch raster = compute;
     raster.raster = true;
-    TouchState state{.write = kNothing, .readers = TouchList(encode_touch(compute))};
+    TouchState state{.write = kNoTouch, .readers = TouchList(encode_touch(compute))};
     state.readers.add(encode_touch(raster));
     return state;
 }
@@ -106,8 +106,8 @@ TouchState state_on_arrival(ResourceUse use) {
 TouchState state_at_frame_start(const Graph& graph, std::uint32_t image) {
     if (graph.lifetime(image) == ImageLifetime::persistent)
         return state_on_arrival(ResourceUse::sampled);
-    if (graph.lifetime(image) == ImageLifetime::imported && graph.arrives(image))
-        return state_on_arrival(*graph.arrives(image));
+    if (graph.lifetime(image) == ImageLifetime::imported && graph.state_on_import(image))
+        return state_on_arrival(*graph.state_on_import(image));
     return {};
 }
 
@@ -119,7 +119,7 @@ public:
           previous_(graph, state_on_arrival(ResourceUse::sampled)), users_(plan) {
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
             if (const TouchState state = state_at_frame_start(graph, i); !state.latest().empty())
-                states_.set(access_to_whole_image(graph, i), state);
+                states_.set_value(access_to_whole_image(graph, i), state);
     }
 
     void touch(const ResourceAccess& access, const ResourceTouch& touch,
@@ -127,8 +127,8 @@ public:
         const TouchCode code = encode_touch(touch);
         const auto visit = [&](std::uint32_t first, std::uint32_t end, TouchState& state) {
             if (state.latest().empty())
-                emit(access, first, end, {}, touch,
-                     list_touches(users_.touches_left_in(placement(access))), barriers);
+                emit_barriers(access, first, end, {}, touch,
+                              list_touches(users_.touches_left_in(placement(access))), barriers);
             else
                 wait(access, first, end,
                      touch.write ? state.latest()
@@ -136,14 +136,14 @@ public:
                      touch, barriers);
             record_touch(state, code, access.is_buffer);
         };
-        (access.previous ? previous_ : states_).change(access, visit);
+        (access.previous ? previous_ : states_).modify_values(access, visit);
     }
 
     /// Called after the last pass that touches the resource of the access.
-    void finish(const ResourceAccess& access) {
+    void finish_resource(const ResourceAccess& access) {
         if (placement(access).alone) return; // no later resource uses its memory
         TouchSet touches = 0;
-        states_.of(access).each([&](std::uint32_t, std::uint32_t, const TouchState& state) {
+        states_.of(access).for_each_run([&](std::uint32_t, std::uint32_t, const TouchState& state) {
             const TouchList latest = state.latest();
             for (std::size_t i = 0; i < latest.size(); ++i) touches |= touch_set_of(latest[i]);
         });
@@ -152,18 +152,19 @@ public:
 
     /// Adds a barrier for each layer, even if it is not needed within the frame: the work after the
     /// frame relies on it. `untouched`: also for layers that no pass touched.
-    void leave(const ResourceAccess& access, ResourceUse use, bool untouched,
-               std::vector<PlannedBarrier>& barriers) {
+    void transition_to_use(const ResourceAccess& access, ResourceUse use, bool untouched,
+                           std::vector<PlannedBarrier>& barriers) {
         const TouchState start = access.is_buffer ? TouchState()
                                                   : state_at_frame_start(graph_, access.id);
         const ResourceTouch touch{.nothing = false, .use = use};
-        states_.each(access, [&](std::uint32_t first, std::uint32_t end, const TouchState& state) {
-            if (!untouched && state == start) return;
-            TouchList latest = state.latest();
-            // Never touched: the barrier discards the contents.
-            if (latest.empty()) latest.add(kNothing);
-            wait(access, first, end, latest, touch, barriers);
-        });
+        states_.for_each_value(
+            access, [&](std::uint32_t first, std::uint32_t end, const TouchState& state) {
+                if (!untouched && state == start) return;
+                TouchList latest = state.latest();
+                // Never touched: the barrier discards the contents.
+                if (latest.empty()) latest.add(kNoTouch);
+                wait(access, first, end, latest, touch, barriers);
+            });
     }
 
     const MemoryPlacement& placement(const ResourceAccess& access) const {
@@ -177,16 +178,16 @@ private:
         if (awaited.empty()) return;
         std::vector<ResourceTouch> others;
         for (std::size_t i = 1; i < awaited.size(); ++i) others.push_back(make_touch(awaited[i]));
-        emit(access, first, end, make_touch(awaited.front()), touch, others, barriers);
+        emit_barriers(access, first, end, make_touch(awaited.front()), touch, others, barriers);
     }
 
-    void emit(const ResourceAccess& access, std::uint32_t first, std::uint32_t end,
-              const ResourceTouch& before, const ResourceTouch& after,
-              const std::vector<ResourceTouch>& shared,
-              std::vector<PlannedBarrier>& barriers) const {
+    void emit_barriers(const ResourceAccess& access, std::uint32_t first, std::uint32_t end,
+                       const ResourceTouch& before, const ResourceTouch& after,
+                       const std::vector<ResourceTouch>& shared,
+                       std::vector<PlannedBarrier>& barriers) const {
         // A buffer has no layout, so it needs no barrier if there is nothing to wait for.
         if (access.is_buffer && before.nothing && shared.empty()) return;
-        for_each_subresource_rectangle(first, end, states_.layers_of(access),
+        for_each_subresource_rectangle(first, end, states_.layer_count_of(access),
                                        [&](std::uint32_t first_mip, std::uint32_t mips,
                                            std::uint32_t first_layer, std::uint32_t layers) {
                                            append_barrier(barriers, {.is_buffer = access.is_buffer,
@@ -204,29 +205,29 @@ private:
 
     const Graph& graph_;
     const GraphPlan& plan_;
-    ResourceLedger<TouchState> states_, previous_;
+    SubresourceMap<TouchState> states_, previous_;
     SharedMemoryUsers users_;
 };
 
-void add_output_barriers(const ResourceAccess& whole, const ResourceLedger<char>& wanted,
+void add_output_barriers(const ResourceAccess& whole, const SubresourceMap<char>& wanted,
                          ResourceStateTracker& tracker, std::vector<PlannedBarrier>& barriers) {
     const auto leave = [&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
         if (!is_wanted) return;
         for_each_subresource_rectangle(
-            first, end, wanted.layers_of(whole),
+            first, end, wanted.layer_count_of(whole),
             [&](std::uint32_t first_mip, std::uint32_t mips, std::uint32_t first_layer,
                 std::uint32_t layers) {
                 ResourceAccess part = whole;
                 part.first_mip = first_mip, part.mip_count = mips;
                 part.first_layer = first_layer, part.layer_count = layers;
-                tracker.leave(part, ResourceUse::copy_from, true, barriers);
+                tracker.transition_to_use(part, ResourceUse::copy_from, true, barriers);
             });
     };
-    wanted.of(whole).each(leave);
+    wanted.of(whole).for_each_run(leave);
 }
 
 void add_frame_end_barriers(const Graph& graph, ResourceStateTracker& tracker, GraphPlan& plan) {
-    const ResourceLedger<char> wanted = mark_output_parts(graph);
+    const SubresourceMap<char> wanted = mark_output_parts(graph);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const ResourceAccess whole = access_to_whole_image(graph, i);
         const bool stays = graph.lifetime(i) ==
@@ -234,20 +235,22 @@ void add_frame_end_barriers(const Graph& graph, ResourceStateTracker& tracker, G
         switch (plan.images[i].used || stays ? graph.lifetime(i) : ImageLifetime::frame) {
         case ImageLifetime::frame: add_output_barriers(whole, wanted, tracker, plan.last); break;
         case ImageLifetime::previous:
-            tracker.leave(whole, ResourceUse::sampled, true, plan.last);
+            tracker.transition_to_use(whole, ResourceUse::sampled, true, plan.last);
             break;
         case ImageLifetime::persistent:
-            tracker.leave(whole, ResourceUse::sampled, false, plan.last);
+            tracker.transition_to_use(whole, ResourceUse::sampled, false, plan.last);
             break;
         case ImageLifetime::imported:
-            tracker.leave(whole, graph.leaves(i), graph.arrives(i) != graph.leaves(i), plan.last);
+            tracker.transition_to_use(whole, graph.state_on_release(i),
+                                      graph.state_on_import(i) != graph.state_on_release(i),
+                                      plan.last);
             break;
         }
     }
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b) {
         const ResourceAccess whole{.is_buffer = true, .id = b};
         if (plan.buffers[b].used && graph.is_imported({b}))
-            tracker.leave(whole, ResourceUse::copy_from, false, plan.last);
+            tracker.transition_to_use(whole, ResourceUse::copy_from, false, plan.last);
         else
             add_output_barriers(whole, wanted, tracker, plan.last);
     }
@@ -260,12 +263,12 @@ void plan_barriers(const Graph& graph, const GraphAccesses& all, GraphPlan& plan
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
         PlannedPass& planned = plan.passes[position];
         const Pass& pass = graph.passes()[planned.pass];
-        const std::span<const ResourceAccess> uses = all.of(planned.pass);
+        const std::span<const ResourceAccess> uses = all.accesses_of_pass(planned.pass);
         planned.barriers.reserve(uses.size());
         for (const ResourceAccess& a : uses)
             tracker.touch(a, make_touch(a, pass), planned.barriers);
         for (const ResourceAccess& a : uses)
-            if (tracker.placement(a).last == position) tracker.finish(a);
+            if (tracker.placement(a).last == position) tracker.finish_resource(a);
     }
     add_frame_end_barriers(graph, tracker, plan);
 }

@@ -1,6 +1,6 @@
 #include "graph/commands.hpp"
 
-#include "graph/record.hpp"
+#include "graph/frame_recorder.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -10,8 +10,8 @@ namespace catoptric::graph {
 namespace {
 
 // Names in shaders/lib/work.glsl.
-constexpr const char* kCountWork = "count_work";
-constexpr std::string_view kWorkBuffer = "WorkBuffer";
+constexpr const char* kCountWorkConstant = "count_work";
+constexpr std::string_view kWorkBufferName = "WorkBuffer";
 
 /// Returns the bytes of one mip of a part of an image.
 std::uint64_t count_bytes(const ImageDesc& desc, const ImageHandle& part) {
@@ -22,11 +22,11 @@ std::uint64_t count_bytes(const ImageDesc& desc, const ImageHandle& part) {
 
 } // namespace
 
-void PassCommands::count(WorkKind kind, std::uint64_t count) {
-    if (WorkCounter* const work = recorder_.work()) work->add(kind, count);
+void PassCommands::add_counted_work(WorkKind kind, std::uint64_t count) {
+    if (WorkCounter* const work = recorder_.work_counter()) work->add(kind, count);
 }
 
-void PassCommands::use(gpu::RasterState state) {
+void PassCommands::bind_pipeline(gpu::RasterState state) {
     gpu::Attachments attachments;
     for (const ImageUse& use : pass_.images) {
         if (use.use == ResourceUse::colour)
@@ -34,21 +34,22 @@ void PassCommands::use(gpu::RasterState state) {
         if (use.use == ResourceUse::depth) attachments.depth = true;
     }
     if (layer_count_ > 1) state.vertex += "#layered";
-    if (recorder_.work()) state.features.emplace_back(kCountWork, 1u);
+    if (recorder_.work_counter()) state.features.emplace_back(kCountWorkConstant, 1u);
     pipeline_name_ = state.vertex + "+" + state.fragment;
-    pipeline_ = &recorder_.pipelines().raster(state, attachments);
+    pipeline_ = &recorder_.pipelines().find_or_make_raster(state, attachments);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
 
-void PassCommands::use(const gpu::ComputeState& state) {
+void PassCommands::bind_pipeline(const gpu::ComputeState& state) {
     pipeline_name_ = state.shader;
     gpu::ComputeState counting;
-    if (recorder_.work()) {
+    if (recorder_.work_counter()) {
         counting = state;
-        counting.features.emplace_back(kCountWork, 1u);
+        counting.features.emplace_back(kCountWorkConstant, 1u);
     }
-    pipeline_ = &recorder_.pipelines().compute(recorder_.work() ? counting : state);
+    pipeline_ = &recorder_.pipelines().find_or_make_compute(recorder_.work_counter() ? counting
+                                                                                     : state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
@@ -69,8 +70,9 @@ void PassCommands::require_declared(ImageHandle image, std::string_view name) co
 
 void PassCommands::bind(std::string_view name, std::span<const ImageHandle> images,
                         TextureFilter filter) {
-    check(!images.empty() && images.size() <= kMostImages, Failure::internal, "pass '", pass_.name,
-          "': '", name, "' wants 1 to ", kMostImages, " images, found ", images.size());
+    check(!images.empty() && images.size() <= kMaxBoundImages, Failure::internal, "pass '",
+          pass_.name, "': '", name, "' wants 1 to ", kMaxBoundImages, " images, found ",
+          images.size());
     BoundImageList bound{{}, images.size(), filter};
     std::ranges::copy(images, bound.images.begin());
     for (const ImageHandle& image : images) require_declared(image, name);
@@ -101,7 +103,7 @@ void PassCommands::bind(std::string_view name, const gpu::Buffer& buffer) {
     dirty_ = true;
 }
 
-void PassCommands::geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices) {
+void PassCommands::bind_geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices) {
     const VkDeviceSize offset = 0;
     if (const VkBuffer buffer = vertices.handle(); std::exchange(vertices_, buffer) != buffer)
         vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
@@ -115,26 +117,26 @@ void PassCommands::draw(std::uint32_t first_index, std::uint32_t index_count,
     const std::uint32_t first = std::max(first_layer, first_layer_);
     const std::uint32_t end = std::min(first_layer + layer_count, first_layer_ + layer_count_);
     if (first >= end || index_count == 0) return;
-    flush();
-    count(WorkKind::draws);
+    flush_bindings();
+    add_counted_work(WorkKind::draws);
     vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first_instance + first);
 }
 
 void PassCommands::draw_covering_triangle() {
-    flush();
-    count(WorkKind::draws);
+    flush_bindings();
+    add_counted_work(WorkKind::draws);
     vkCmdDraw(commands_, 3, 1, 0, 0);
 }
 
-void PassCommands::scissor(const PixelArea& area) {
+void PassCommands::set_scissor(const PixelArea& area) {
     const VkRect2D scissor{{static_cast<std::int32_t>(area.x), static_cast<std::int32_t>(area.y)},
                            {area.width, area.height}};
     vkCmdSetScissor(commands_, 0, 1, &scissor);
 }
 
 void PassCommands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    flush();
-    count(WorkKind::dispatches);
+    flush_bindings();
+    add_counted_work(WorkKind::dispatches);
     vkCmdDispatch(commands_, x, y, z);
 }
 
@@ -145,19 +147,19 @@ void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offse
     check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name,
           "' dispatches what buffer '", graph_.buffers()[arguments.id].name,
           "' says but does not declare it as indirect");
-    flush();
-    count(WorkKind::dispatches);
+    flush_bindings();
+    add_counted_work(WorkKind::dispatches);
     vkCmdDispatchIndirect(commands_, recorder_.buffer(arguments), offset);
 }
 
-void PassCommands::barrier() {
+void PassCommands::storage_barrier() {
     gpu::record_memory_barrier(
         commands_, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT},
         {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
          VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT});
 }
 
-void PassCommands::copy(ImageHandle from, ImageHandle to) {
+void PassCommands::copy_image(ImageHandle from, ImageHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
     const ImageDesc& desc = graph_.images()[from.id];
@@ -168,29 +170,30 @@ void PassCommands::copy(ImageHandle from, ImageHandle to) {
     region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
     region.extent = {size_at_mip(desc.width, from.first_mip),
                      size_at_mip(desc.height, from.first_mip), 1};
-    count(WorkKind::bytes, count_bytes(desc, from));
-    vkCmdCopyImage(commands_, recorder_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                   recorder_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    add_counted_work(WorkKind::bytes, count_bytes(desc, from));
+    vkCmdCopyImage(commands_, recorder_.physical_image(from).image,
+                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.physical_image(to).image,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
-void PassCommands::copy(ImageHandle from, BufferHandle to) {
+void PassCommands::copy_image(ImageHandle from, BufferHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
     const VkBufferImageCopy region = make_copy_region(graph_.images()[from.id], from);
-    count(WorkKind::bytes, count_bytes(graph_.images()[from.id], from));
-    vkCmdCopyImageToBuffer(commands_, recorder_.physical(from).image,
+    add_counted_work(WorkKind::bytes, count_bytes(graph_.images()[from.id], from));
+    vkCmdCopyImageToBuffer(commands_, recorder_.physical_image(from).image,
                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.buffer(to), 1, &region);
 }
 
-void PassCommands::fill(BufferHandle buffer, std::uint32_t word) {
+void PassCommands::fill_buffer(BufferHandle buffer, std::uint32_t word) {
     require_declared(buffer, "target of a fill");
-    count(WorkKind::bytes, graph_.buffers()[buffer.id].bytes);
+    add_counted_work(WorkKind::bytes, graph_.buffers()[buffer.id].bytes);
     vkCmdFillBuffer(commands_, recorder_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
-void PassCommands::update(BufferHandle buffer, std::span<const std::byte> bytes) {
+void PassCommands::update_buffer(BufferHandle buffer, std::span<const std::byte> bytes) {
     require_declared(buffer, "target of an update");
-    count(WorkKind::bytes, bytes.size());
+    add_counted_work(WorkKind::bytes, bytes.size());
     vkCmdUpdateBuffer(commands_, recorder_.buffer(buffer), 0, bytes.size(), bytes.data());
 }
 
@@ -233,9 +236,10 @@ void PassCommands::write_images(const gpu::ShaderBinding& binding, const BoundRe
         const ImageHandle image = images[i < count ? i : 0];
         infos.push_back(
             {binding.kind == BindingKind::sampled_image
-                 ? recorder_.sampler(filter_of(image, filter))
+                 ? recorder_.sampler(sampler_filter_of_binding(image, filter))
                  : VK_NULL_HANDLE,
-             recorder_.physical(image).view(recorder_.device(), binding.shape, image),
+             recorder_.physical_image(image).find_or_create_view(recorder_.device(), binding.shape,
+                                                                 image),
              stored ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
     }
 }
@@ -252,20 +256,21 @@ void PassCommands::write_buffer(const gpu::ShaderBinding& binding, const BoundRe
 
 /// Returns the name under which a pass binds the resource of this binding. A list of texels has two
 /// bindings, a texel buffer and a storage buffer, with one name (shaders/lib/texels.glsl).
-std::string_view PassCommands::list_of(const gpu::ShaderBinding& binding) {
-    constexpr std::string_view kInStorage = "_in_storage";
+std::string_view PassCommands::find_bound_image_list(const gpu::ShaderBinding& binding) {
+    constexpr std::string_view kInStorageSuffix = "_in_storage";
     std::string_view name = binding.name;
-    if (name.ends_with(kInStorage)) name.remove_suffix(kInStorage.size());
+    if (name.ends_with(kInStorageSuffix)) name.remove_suffix(kInStorageSuffix.size());
     return name;
 }
 
 /// Returns the filter of the sampler for an image. On devices that do not filter 32-bit floats,
 /// images of distances use the nearest texel. There the shader interpolates them itself
 /// (`distances_by_gather`).
-TextureFilter PassCommands::filter_of(ImageHandle image, TextureFilter filter) const {
+TextureFilter PassCommands::sampler_filter_of_binding(ImageHandle image,
+                                                      TextureFilter filter) const {
     const ImageDesc& desc = graph_.images()[image.id];
     const bool is_float = desc.format == Format::r32f || desc.format == Format::rgba32f;
-    if (!is_float || filter == TextureFilter::nearest || recorder_.device().filters_floats())
+    if (!is_float || filter == TextureFilter::nearest || recorder_.device().has_float_filtering())
         return filter;
     check(desc.format == Format::r32f && filter == TextureFilter::linear, Failure::no_device,
           "pass '", pass_.name, "' filters '", desc.name,
@@ -275,7 +280,7 @@ TextureFilter PassCommands::filter_of(ImageHandle image, TextureFilter filter) c
 }
 
 /// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.
-void PassCommands::flush() {
+void PassCommands::flush_bindings() {
     check(pipeline_, Failure::internal, "pass '", pass_.name,
           "' draws or dispatches without a pipeline");
     if (dirty_ && !pipeline_->bindings.empty()) {
@@ -291,8 +296,8 @@ void PassCommands::flush() {
         writes.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const gpu::ShaderBinding& binding = pipeline_->bindings[i];
-            const bool is_work = binding.name == kWorkBuffer && recorder_.work();
-            const auto bound = bound_.find(list_of(binding));
+            const bool is_work = binding.name == kWorkBufferName && recorder_.work_counter();
+            const auto bound = bound_.find(find_bound_image_list(binding));
             check(is_work || bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
             if (!is_work) require_kind(binding, bound->second);
@@ -305,7 +310,7 @@ void PassCommands::flush() {
             write.pBufferInfo = &buffers[i];
             write.pTexelBufferView = &texels[i];
             if (is_work)
-                buffers[i] = recorder_.work()->shader_counts();
+                buffers[i] = recorder_.work_counter()->shader_counts();
             else if (is_image_binding(binding.kind) || binding.kind == gpu::BindingKind::sampler)
                 write_images(binding, bound->second, images);
             else

@@ -18,7 +18,7 @@ namespace catoptric::graph {
 class FrameRecorder;
 
 /// The most images that one name of a shader can be bound to, as an array of textures.
-inline constexpr std::size_t kMostImages = 8;
+inline constexpr std::size_t kMaxBoundImages = 8;
 
 /// How a sampled image is looked up. Coordinates clamp to the edge, and cubes are filtered across
 /// faces.
@@ -43,15 +43,15 @@ public:
     /// Selects a raster pipeline. A pass of several layers uses the vertex shader's "#layered"
     /// build where the device can write gl_Layer from a vertex shader. On other devices the body is
     /// called once for each layer. In both cases gl_InstanceIndex tells the layer (see `draw`).
-    void use(gpu::RasterState state);
-    void use(const gpu::ComputeState& state);
+    void bind_pipeline(gpu::RasterState state);
+    void bind_pipeline(const gpu::ComputeState& state);
     /// Binds an image, which the pass must declare.
     void bind(std::string_view name, ImageHandle image,
               TextureFilter filter = TextureFilter::nearest) {
         bind(name, std::span(&image, 1), filter);
     }
-    /// Binds 1 to kMostImages images to an array. If the shader's array is longer, the first image
-    /// fills its other entries.
+    /// Binds 1 to kMaxBoundImages images to an array. If the shader's array is longer, the first
+    /// image fills its other entries.
     void bind(std::string_view name, std::span<const ImageHandle> images,
               TextureFilter filter = TextureFilter::nearest);
     /// Binds a sampler without an image.
@@ -60,7 +60,7 @@ public:
     void bind(std::string_view name, const gpu::Buffer& buffer);
     /// Sets the push constants of the draws and dispatches that follow.
     template <typename T>
-    void push(const T& value) {
+    void push_constants(const T& value) {
         push_.assign(reinterpret_cast<const std::byte*>(&value),
                      reinterpret_cast<const std::byte*>(&value) + sizeof value);
         is_pushed_ = false;
@@ -69,48 +69,48 @@ public:
     /// whole picture.
     void draw_covering_triangle();
     /// Sets the vertices (as in shaders/shared.h) and the 32-bit indices of the draws that follow.
-    void geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
+    void bind_geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
     /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
     /// gl_InstanceIndex is `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1, std::uint32_t first_instance = 0);
     /// Limits the draws that follow to the area, in pixels, which must lie within the attachments.
-    void scissor(const PixelArea& area);
+    void set_scissor(const PixelArea& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
     /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
     /// pass declares as indirect.
     void dispatch_indirect(BufferHandle arguments, std::uint64_t offset = 0);
     /// Makes the writes of earlier dispatches of this pass visible to later ones.
-    void barrier();
+    void storage_barrier();
     /// Copies an image to one of the same size and format, all layers of the handles. The pass
     /// declares both.
-    void copy(ImageHandle from, ImageHandle to);
+    void copy_image(ImageHandle from, ImageHandle to);
     /// Copies one mip of an image to a buffer: rows from the top down, one layer after another. The
     /// pass declares both.
-    void copy(ImageHandle from, BufferHandle to);
+    void copy_image(ImageHandle from, BufferHandle to);
     /// Sets every 32-bit word of a buffer that the pass declares as copy_to.
-    void fill(BufferHandle buffer, std::uint32_t word);
+    void fill_buffer(BufferHandle buffer, std::uint32_t word);
     /// Writes bytes to the start of a buffer that the pass declares as copy_to: whole words, at
     /// most 65536 bytes.
-    void update(BufferHandle buffer, std::span<const std::byte> bytes);
+    void update_buffer(BufferHandle buffer, std::span<const std::byte> bytes);
 
 private:
     struct BoundImageList {
-        std::array<ImageHandle, kMostImages> images{};
+        std::array<ImageHandle, kMaxBoundImages> images{};
         std::size_t count = 1;
         TextureFilter filter = TextureFilter::nearest;
     };
     using BoundResource = std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::Buffer*>;
-    void flush();
+    void flush_bindings();
     /// Adds to the counted work of the pass, if the frame counts work.
-    void count(WorkKind kind, std::uint64_t count = 1);
+    void add_counted_work(WorkKind kind, std::uint64_t count = 1);
     void require_declared(ImageHandle image, std::string_view name) const;
     void require_declared(BufferHandle buffer, std::string_view name) const;
     void require_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;
     void write_images(const gpu::ShaderBinding& binding, const BoundResource& bound,
                       std::vector<VkDescriptorImageInfo>& infos);
-    static std::string_view list_of(const gpu::ShaderBinding& binding);
-    TextureFilter filter_of(ImageHandle image, TextureFilter filter) const;
+    static std::string_view find_bound_image_list(const gpu::ShaderBinding& binding);
+    TextureFilter sampler_filter_of_binding(ImageHandle image, TextureFilter filter) const;
     void write_buffer(const gpu::ShaderBinding& binding, const BoundResource& bound,
                       VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 

@@ -9,7 +9,7 @@
 namespace catoptric::graph {
 
 /// The most frames that may be in flight at once.
-constexpr std::uint32_t kMostInFlight = 3;
+constexpr std::uint32_t kMaxFramesInFlight = 3;
 
 /// An image that outlives the frame: a persistent image, or one with a `previous`.
 struct PersistentImage {
@@ -44,8 +44,9 @@ struct CompiledGraph {
     /// Whether a frame with this plan has run; other plans do not count for memory.
     bool ran = false;
 
-    ShapeResources shared;                         ///< resources that live within a frame
-    std::array<ShapeResources, kMostInFlight> own; ///< outputs of a frame, a copy for each slot
+    ShapeResources shared; ///< resources that live within a frame
+    std::array<ShapeResources, kMaxFramesInFlight>
+        own; ///< outputs of a frame, a copy for each slot
     /// Images that outlive frames, by image number, for the frame submitted last; null for others.
     std::vector<PersistentImage*> kept;
 

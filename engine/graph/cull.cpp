@@ -7,26 +7,27 @@ namespace catoptric::graph {
 namespace {
 
 /// Returns the layers and buffers whose contents are needed at the end of the frame.
-ResourceLedger<char> mark_live_at_frame_end(const Graph& graph) {
-    ResourceLedger<char> live = mark_output_parts(graph);
+SubresourceMap<char> mark_live_at_frame_end(const Graph& graph) {
+    SubresourceMap<char> live = mark_output_parts(graph);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
         if (graph.lifetime(i) == ImageLifetime::persistent ||
             graph.lifetime(i) == ImageLifetime::imported)
-            live.set(access_to_whole_image(graph, i), true);
+            live.set_value(access_to_whole_image(graph, i), true);
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
-        if (graph.is_imported({b})) live.set({.is_buffer = true, .id = b}, true);
+        if (graph.is_imported({b})) live.set_value({.is_buffer = true, .id = b}, true);
     return live;
 }
 
 /// Returns a bit for each attachment of the pass that is not read before it is written again.
 /// Images come first among the accesses, in order of declaration.
 std::uint32_t find_unread_attachments(std::span<const ResourceAccess> accesses,
-                                      const ResourceLedger<char>& live) {
-    constexpr std::size_t kBits = 32;
+                                      const SubresourceMap<char>& live) {
+    constexpr std::size_t kPassesPerWord = 32;
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < std::min(accesses.size(), kBits); ++i) {
+    for (std::size_t i = 0; i < std::min(accesses.size(), kPassesPerWord); ++i) {
         const ResourceAccess& a = accesses[i];
-        if (!a.is_buffer && a.write && is_attachment(a.use) && !live.any(a, true)) bits |= 1u << i;
+        if (!a.is_buffer && a.write && is_attachment(a.use) && !live.contains_value(a, true))
+            bits |= 1u << i;
     }
     return bits;
 }
@@ -34,17 +35,18 @@ std::uint32_t find_unread_attachments(std::span<const ResourceAccess> accesses,
 /// Sweeps from the last pass to the first. `live` starts as the contents needed at the end of the
 /// frame.
 std::vector<PassFate> cull_backwards(const GraphAccesses& all, std::size_t passes,
-                                     ResourceLedger<char> live) {
+                                     SubresourceMap<char> live) {
     std::vector<PassFate> fates(passes);
     for (std::size_t p = fates.size(); p-- > 0;) {
         fates[p].survives = std::ranges::any_of(
-            all.of(p), [&](const ResourceAccess& a) { return a.write && live.any(a, true); });
+            all.accesses_of_pass(p),
+            [&](const ResourceAccess& a) { return a.write && live.contains_value(a, true); });
         if (!fates[p].survives) continue;
-        fates[p].unread = find_unread_attachments(all.of(p), live);
-        for (const ResourceAccess& a : all.of(p))
-            if (a.write) live.set(a, false);
-        for (const ResourceAccess& a : all.of(p))
-            if (a.needs && !a.previous) live.set(a, true);
+        fates[p].unread = find_unread_attachments(all.accesses_of_pass(p), live);
+        for (const ResourceAccess& a : all.accesses_of_pass(p))
+            if (a.write) live.set_value(a, false);
+        for (const ResourceAccess& a : all.accesses_of_pass(p))
+            if (a.needs && !a.previous) live.set_value(a, true);
     }
     return fates;
 }
@@ -52,7 +54,7 @@ std::vector<PassFate> cull_backwards(const GraphAccesses& all, std::size_t passe
 } // namespace
 
 std::vector<PassFate> decide_pass_fates(const Graph& graph, const GraphAccesses& all) {
-    ResourceLedger<char> at_end = mark_live_at_frame_end(graph);
+    SubresourceMap<char> at_end = mark_live_at_frame_end(graph);
     while (true) {
         std::vector<PassFate> fates = cull_backwards(all, graph.passes().size(), at_end);
         // Contents of the last frame that survivors read must be complete at the end of this frame,
@@ -60,9 +62,9 @@ std::vector<PassFate> decide_pass_fates(const Graph& graph, const GraphAccesses&
         bool grew = false;
         for (std::size_t p = 0; p < fates.size(); ++p) {
             if (!fates[p].survives) continue;
-            for (const ResourceAccess& a : all.of(p)) {
-                if (!a.previous || !at_end.any(a, false)) continue;
-                at_end.set(a, true);
+            for (const ResourceAccess& a : all.accesses_of_pass(p)) {
+                if (!a.previous || !at_end.contains_value(a, false)) continue;
+                at_end.set_value(a, true);
                 grew = true;
             }
         }

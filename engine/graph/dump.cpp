@@ -87,7 +87,8 @@ void write_pass_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
 
 void write_placement(std::ostream& out, const MemorySharers& sharers,
                      const MemoryPlacement& placement) {
-    constexpr std::size_t kNamed = 32; // in a large frame, hundreds of resources share a place
+    constexpr std::size_t kMaxNamedResources =
+        32; // in a large frame, hundreds of resources share a place
     if (!placement.used) {
         out << ", not used\n";
         return;
@@ -95,7 +96,7 @@ void write_placement(std::ostream& out, const MemorySharers& sharers,
     out << ", passes " << placement.first + 1 << " to " << placement.last + 1 << ", heap "
         << placement.heap << " at " << placement.offset << ", " << placement.bytes << " bytes";
     if (placement.alone) out << ", alone";
-    const std::vector<std::string_view> others = sharers.names(placement, kNamed);
+    const std::vector<std::string_view> others = sharers.names(placement, kMaxNamedResources);
     for (std::size_t i = 0; i < others.size(); ++i)
         out << (i == 0 ? ", shares with '" : ", '") << others[i] << "'";
     const std::size_t count = sharers.count(placement);

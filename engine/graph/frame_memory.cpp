@@ -71,8 +71,8 @@ void FrameMemory::allocate(HeapAllocations& arena, std::vector<std::uint64_t> by
     arena.bytes = std::move(bytes);
 }
 
-void FrameMemory::make(CompiledGraph& shape, ShapeResources& resources,
-                       const HeapAllocations& arena, bool alone) {
+void FrameMemory::create_resources(CompiledGraph& shape, ShapeResources& resources,
+                                   const HeapAllocations& arena, bool alone) {
     resources = {};
     const std::vector<std::uint64_t> begin = output_offsets_in_heaps(shape);
     const auto offset_of = [&](const MemoryPlacement& p) {
@@ -101,7 +101,7 @@ void FrameMemory::make(CompiledGraph& shape, ShapeResources& resources,
     resources.made = true;
 }
 
-std::uint64_t FrameMemory::bytes() const {
+std::uint64_t FrameMemory::memory_bytes() const {
     std::uint64_t sum = 0;
     const auto add = [&](const HeapAllocations& arena) {
         for (const std::uint64_t bytes : arena.bytes) sum += bytes;
@@ -111,9 +111,9 @@ std::uint64_t FrameMemory::bytes() const {
     return sum;
 }
 
-void FrameMemory::provide(CompiledGraph& shape, std::size_t slot,
-                          std::span<const std::shared_ptr<CompiledGraph>> shapes,
-                          const std::function<void()>& wait) {
+void FrameMemory::find_or_allocate(CompiledGraph& shape, std::size_t slot,
+                                   std::span<const std::shared_ptr<CompiledGraph>> shapes,
+                                   const std::function<void()>& wait) {
     shape.ran = true;
     if (shape.shared.made && shape.own[slot].made) return;
     if (std::vector<std::uint64_t> bytes = max_claimed_heap_bytes(shapes, false);
@@ -128,8 +128,8 @@ void FrameMemory::provide(CompiledGraph& shape, std::size_t slot,
         for (const auto& other : shapes) other->own[slot] = {};
         allocate(own_[slot], std::move(bytes));
     }
-    if (!shape.shared.made) make(shape, shape.shared, shared_, false);
-    if (!shape.own[slot].made) make(shape, shape.own[slot], own_[slot], true);
+    if (!shape.shared.made) create_resources(shape, shape.shared, shared_, false);
+    if (!shape.own[slot].made) create_resources(shape, shape.own[slot], own_[slot], true);
 }
 
 } // namespace catoptric::graph

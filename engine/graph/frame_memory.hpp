@@ -17,12 +17,12 @@ public:
     /// Makes the resources that `shape` runs with in this slot, unless they exist. `shapes`: all
     /// shapes that need memory. Calls `wait` before it destroys anything that frames in flight may
     /// use.
-    void provide(CompiledGraph& shape, std::size_t slot,
-                 std::span<const std::shared_ptr<CompiledGraph>> shapes,
-                 const std::function<void()>& wait);
+    void find_or_allocate(CompiledGraph& shape, std::size_t slot,
+                          std::span<const std::shared_ptr<CompiledGraph>> shapes,
+                          const std::function<void()>& wait);
 
     /// Returns the bytes of device memory that are allocated.
-    std::uint64_t bytes() const;
+    std::uint64_t memory_bytes() const;
 
 private:
     /// The bytes of each heap and the memory allocated for them.
@@ -31,12 +31,12 @@ private:
         std::vector<gpu::UniqueMemory> heaps;
     };
     void allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes);
-    void make(CompiledGraph& shape, ShapeResources& resources, const HeapAllocations& arena,
-              bool alone);
+    void create_resources(CompiledGraph& shape, ShapeResources& resources,
+                          const HeapAllocations& arena, bool alone);
 
     const gpu::Device& device_;
     HeapAllocations shared_;
-    std::array<HeapAllocations, kMostInFlight> own_;
+    std::array<HeapAllocations, kMaxFramesInFlight> own_;
 };
 
 } // namespace catoptric::graph

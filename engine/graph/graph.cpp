@@ -65,56 +65,56 @@ PassBuilder& PassBuilder::updates(ImageHandle image, ResourceUse use, const Clea
     return *this;
 }
 
-PassBuilder& PassBuilder::layers(std::uint32_t count) {
+PassBuilder& PassBuilder::set_layer_count(std::uint32_t count) {
     pass_.layer_count = count;
     return *this;
 }
 
-PassBuilder& PassBuilder::area(const PixelArea& area) {
+PassBuilder& PassBuilder::set_area(const PixelArea& area) {
     pass_.area = area;
     return *this;
 }
 
 void PassBuilder::record(std::function<void(PassCommands&)> body) { pass_.body = std::move(body); }
 
-ImageHandle Graph::image(ImageDesc desc) {
+ImageHandle Graph::add_image(ImageDesc desc) {
     const auto id = static_cast<std::uint32_t>(images_.size());
     images_.push_back(std::move(desc));
     lives_.emplace_back();
     return whole_image(id, images_.back());
 }
 
-BufferHandle Graph::buffer(BufferDesc desc) {
+BufferHandle Graph::add_buffer(BufferDesc desc) {
     buffers_.push_back(std::move(desc));
     imported_buffers_.push_back(false);
     outside_buffers_.push_back(nullptr);
     return {static_cast<std::uint32_t>(buffers_.size() - 1)};
 }
 
-ImageHandle Graph::persistent(ImageDesc desc) {
+ImageHandle Graph::add_persistent_image(ImageDesc desc) {
     const auto found = history_.persistent.find(desc.name);
     LayerHashes held(desc.layers * desc.mips);
     if (found != history_.persistent.end() && found->second.desc == desc)
         held = found->second.stamps;
-    const ImageHandle handle = image(std::move(desc));
+    const ImageHandle handle = add_image(std::move(desc));
     lives_.back().lifetime = ImageLifetime::persistent;
     lives_.back().held = std::move(held);
     return handle;
 }
 
-const ImageDesc& Graph::described(ImageHandle image, const char* asked) const {
+const ImageDesc& Graph::find_image_desc(ImageHandle image, const char* asked) const {
     check(image.id < images_.size(), Failure::internal, asked, " of image number ", image.id,
           ", but the graph has ", images_.size(), " images");
     return images_[image.id];
 }
 
 bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
-    const ImageDesc& desc = described(part, "holds()");
+    const ImageDesc& desc = find_image_desc(part, "holds()");
     check(lifetime(part.id) == ImageLifetime::persistent, Failure::internal, "holds() of image '",
           desc.name, "', which is not kept");
     bool all = true;
     for_each_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
-        content_hashes_at_start(part.id).each(
+        content_hashes_at_start(part.id).for_each_run(
             first, end, [&](std::uint32_t, std::uint32_t, const std::optional<std::uint64_t>& s) {
                 all = all && s == content_hash;
             });
@@ -123,15 +123,15 @@ bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
 }
 
 void Graph::set_content_hash(ImageHandle part, std::uint64_t content_hash) {
-    const ImageDesc& desc = described(part, "made_from()");
+    const ImageDesc& desc = find_image_desc(part, "made_from()");
     check(lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
           "made_from() of image '", desc.name, "', which is not kept");
     stamped_.push_back({part, content_hash});
 }
 
-ImageHandle Graph::import(ImageDesc desc, PhysicalImage* outside,
-                          std::optional<ResourceUse> arrives, ResourceUse leaves) {
-    const ImageHandle handle = image(std::move(desc));
+ImageHandle Graph::import_external(ImageDesc desc, PhysicalImage* outside,
+                                   std::optional<ResourceUse> arrives, ResourceUse leaves) {
+    const ImageHandle handle = add_image(std::move(desc));
     lives_.back() = {.lifetime = ImageLifetime::imported,
                      .arrives = arrives,
                      .leaves = leaves,
@@ -140,25 +140,25 @@ ImageHandle Graph::import(ImageDesc desc, PhysicalImage* outside,
     return handle;
 }
 
-BufferHandle Graph::import(BufferDesc desc, const gpu::Buffer* outside) {
-    const BufferHandle handle = buffer(std::move(desc));
+BufferHandle Graph::import_external(BufferDesc desc, const gpu::Buffer* outside) {
+    const BufferHandle handle = add_buffer(std::move(desc));
     imported_buffers_.back() = true;
     outside_buffers_.back() = outside;
     return handle;
 }
 
-PassBuilder Graph::pass(std::string name, PassTag tag) {
+PassBuilder Graph::add_pass(std::string name, PassTag tag) {
     Pass& pass = passes_.emplace_back();
     pass.name = std::move(name);
     pass.tag = tag;
     return PassBuilder(pass);
 }
 
-ImageHandle Graph::previous(ImageHandle image) {
-    const ImageDesc& desc = described(image, "previous()");
+ImageHandle Graph::previous_contents(ImageHandle image) {
+    const ImageDesc& desc = find_image_desc(image, "previous_contents()");
     ImageLifetime& lifetime = lives_[image.id].lifetime;
     check(lifetime == ImageLifetime::frame || lifetime == ImageLifetime::previous,
-          Failure::internal, "previous() of image '", desc.name, "', which is ",
+          Failure::internal, "previous_contents() of image '", desc.name, "', which is ",
           lifetime == ImageLifetime::persistent ? "kept" : "imported", " and has one copy");
     lifetime = ImageLifetime::previous;
     image.previous = true;
@@ -166,7 +166,7 @@ ImageHandle Graph::previous(ImageHandle image) {
 }
 
 bool Graph::has_history(ImageHandle image) const {
-    return history_.previous.contains(described(image, "has_history()").name);
+    return history_.previous.contains(find_image_desc(image, "has_history()").name);
 }
 
 void Graph::mark_output(ImageHandle image) { wanted_images_.push_back(image); }
@@ -181,18 +181,19 @@ GraphHistory Graph::history_for_next_frame() const {
                 images_[i].name, GraphHistory::PersistentImage{images_[i], lives_[i].held});
     }
     for (const auto& [part, content_hash] : stamped_)
-        for_each_layer_range(
-            part, images_[part.id].layers, [&](std::uint32_t first, std::uint32_t end) {
-                left.persistent.at(images_[part.id].name).stamps.set(first, end, content_hash);
-            });
+        for_each_layer_range(part, images_[part.id].layers,
+                             [&](std::uint32_t first, std::uint32_t end) {
+                                 left.persistent.at(images_[part.id].name)
+                                     .stamps.fill_range(first, end, content_hash);
+                             });
     return left;
 }
 
-Graph Graph::without_bodies() const {
+Graph Graph::copy_without_recorders() const {
     Graph outline = *this;
     outline.history_ = {};
     for (Pass& pass : outline.passes_) pass.body = nullptr;
-    for (ImageOwnership& life : outline.lives_) life.outside = nullptr;
+    for (ImportedImageState& life : outline.lives_) life.outside = nullptr;
     for (const gpu::Buffer*& outside : outline.outside_buffers_) outside = nullptr;
     return outline;
 }

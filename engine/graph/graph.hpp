@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/format.hpp"
-#include "graph/runs.hpp"
+#include "graph/run_length_array.hpp"
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@
 #include <vector>
 
 /// A frame as data: images, buffers and passes in the order in which they run. A frame is declared
-/// (this file), planned (plan.hpp, without a device) and run (run.hpp, on the device).
+/// (this file), planned (plan.hpp, without a device) and run (graph_runner.hpp, on the device).
 namespace catoptric::gpu {
 class Buffer;
 }
@@ -153,8 +153,8 @@ public:
     /// Declares an attachment that is cleared within the pass's area and keeps its contents
     /// elsewhere.
     PassBuilder& updates(ImageHandle image, ResourceUse use, const ClearValue& clear);
-    PassBuilder& layers(std::uint32_t count);
-    PassBuilder& area(const PixelArea& area);
+    PassBuilder& set_layer_count(std::uint32_t count);
+    PassBuilder& set_area(const PixelArea& area);
     void record(std::function<void(PassCommands&)> body);
 
 private:
@@ -163,7 +163,7 @@ private:
 
 /// The content hash of each layer of each mip; no value if the layer was never written. Layer l of
 /// mip m has the number m * layers + l.
-using LayerHashes = ValueRuns<std::optional<std::uint64_t>>;
+using LayerHashes = RunLengthArray<std::optional<std::uint64_t>>;
 
 /// The contents that a runner has from earlier frames.
 struct GraphHistory {
@@ -188,12 +188,12 @@ public:
     explicit Graph(GraphHistory history) : history_(std::move(history)) {}
 
     /// Adds an image. Returns a handle of all its layers and mips.
-    ImageHandle image(ImageDesc desc);
-    BufferHandle buffer(BufferDesc desc);
+    ImageHandle add_image(ImageDesc desc);
+    BufferHandle add_buffer(BufferDesc desc);
     /// Adds a persistent image: its contents stay, under its name, until a pass writes them again.
     /// They also stay through frames that do not declare the image. The memory is held as long as
     /// the runner lives. Another description under the same name discards the contents.
-    ImageHandle persistent(ImageDesc desc);
+    ImageHandle add_persistent_image(ImageDesc desc);
     /// Returns whether all of a part of a persistent image has this content hash, so that no pass
     /// needs to write it. The caller defines the hash, for example of scene and settings.
     bool holds_content(ImageHandle part, std::uint64_t content_hash) const;
@@ -201,20 +201,21 @@ public:
     /// written layer of a persistent image must get a hash.
     void set_content_hash(ImageHandle part, std::uint64_t content_hash);
     /// Adds an image that is owned outside the graph. It is used like any other image and counts as
-    /// an output. It arrives in the layout of the use `arrives`; none means that its contents do
-    /// not matter. It is left in the layout of `leaves`. `outside` may change from frame to frame,
-    /// must match `desc` and must live until the frame has ended.
-    ImageHandle import(ImageDesc desc, PhysicalImage* outside, std::optional<ResourceUse> arrives,
-                       ResourceUse leaves);
+    /// an output. It arrives in the layout of the use `arrives`; none means that its
+    /// contents do not matter. It is left in the layout of `leaves`. `outside` may change
+    /// from frame to frame, must match `desc` and must live until the frame has ended.
+    ImageHandle import_external(ImageDesc desc, PhysicalImage* outside,
+                                std::optional<ResourceUse> arrives, ResourceUse leaves);
     /// Adds a buffer that is owned outside the graph. Writes to it are visible to the host once the
     /// frame has ended.
-    BufferHandle import(BufferDesc desc, const gpu::Buffer* outside);
-    PassBuilder pass(std::string name, PassTag tag = PassTag::none);
+    BufferHandle import_external(BufferDesc desc, const gpu::Buffer* outside);
+    PassBuilder add_pass(std::string name, PassTag tag = PassTag::none);
 
     /// Returns a handle of the image's contents at the end of the last frame (black on the first).
     /// Costs a second copy of the image, whose memory is not shared.
-    ImageHandle previous(ImageHandle image);
-    /// Returns whether the last frame left contents of the image. If not, `previous` shows black.
+    ImageHandle previous_contents(ImageHandle image);
+    /// Returns whether the last frame left contents of the image. If not, `previous_contents` shows
+    /// black.
     bool has_history(ImageHandle image) const;
     /// Marks an image as an output of the frame. Passes that no output depends on are culled.
     void mark_output(ImageHandle image);
@@ -225,12 +226,14 @@ public:
     const std::deque<Pass>& passes() const { return passes_; }
     const std::vector<ImageHandle>& output_images() const { return wanted_images_; }
     const std::vector<BufferHandle>& output_buffers() const { return wanted_buffers_; }
-    const std::vector<ContentRecord>& stamps() const { return stamped_; }
+    const std::vector<ContentRecord>& content_records() const { return stamped_; }
     ImageLifetime lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
     bool is_imported(BufferHandle buffer) const { return imported_buffers_[buffer.id]; }
     /// Returns the use in whose layout an imported image arrives.
-    std::optional<ResourceUse> arrives(std::uint32_t image) const { return lives_[image].arrives; }
-    ResourceUse leaves(std::uint32_t image) const { return lives_[image].leaves; }
+    std::optional<ResourceUse> state_on_import(std::uint32_t image) const {
+        return lives_[image].arrives;
+    }
+    ResourceUse state_on_release(std::uint32_t image) const { return lives_[image].leaves; }
     PhysicalImage* imported_image(std::uint32_t image) const { return lives_[image].outside; }
     const gpu::Buffer* imported_image(BufferHandle buffer) const {
         return outside_buffers_[buffer.id];
@@ -242,21 +245,21 @@ public:
     /// Returns the history for the next frame once this frame has run.
     GraphHistory history_for_next_frame() const;
     /// Returns a copy with declarations only, to compare other graphs with.
-    Graph without_bodies() const;
+    Graph copy_without_recorders() const;
 
 private:
-    struct ImageOwnership {
+    struct ImportedImageState {
         ImageLifetime lifetime = ImageLifetime::frame;
         std::optional<ResourceUse> arrives;
         ResourceUse leaves = ResourceUse::sampled;
         PhysicalImage* outside = nullptr;
         LayerHashes held;
     };
-    const ImageDesc& described(ImageHandle image, const char* asked) const;
+    const ImageDesc& find_image_desc(ImageHandle image, const char* asked) const;
 
     GraphHistory history_;
     std::vector<ImageDesc> images_;
-    std::vector<ImageOwnership> lives_; // one per entry of `images_`
+    std::vector<ImportedImageState> lives_; // one per entry of `images_`
     std::vector<BufferDesc> buffers_;
     std::vector<char> imported_buffers_; // one per entry of `buffers_`
     std::vector<const gpu::Buffer*> outside_buffers_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graph/touches.hpp"
+#include "graph/touch_list.hpp"
 
 namespace catoptric::graph {
 

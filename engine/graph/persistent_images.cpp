@@ -36,7 +36,7 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
 } // namespace
 
 /// Creates the copies of the image, cleared to black and in the layout for sampling.
-void PersistentImages::make(const ImageDesc& desc, PersistentImage& kept) {
+void PersistentImages::create_image(const ImageDesc& desc, PersistentImage& kept) {
     const std::size_t copies = kept.lifetime == ImageLifetime::previous ? 2 : 1;
     const MemoryRequirements needs = make_device_sizer(device_).image(desc);
     const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
@@ -55,8 +55,9 @@ void PersistentImages::make(const ImageDesc& desc, PersistentImage& kept) {
     kept.stamps = LayerHashes(desc.layers * desc.mips);
 }
 
-PersistentImage& PersistentImages::provide(const ImageDesc& desc, ImageLifetime lifetime,
-                                           const std::function<void()>& wait) {
+PersistentImage& PersistentImages::find_or_create_images(const ImageDesc& desc,
+                                                         ImageLifetime lifetime,
+                                                         const std::function<void()>& wait) {
     auto found = all_.find(desc.name);
     if (found != all_.end() &&
         (found->second.copies[0].desc != desc || found->second.lifetime != lifetime)) {
@@ -67,31 +68,33 @@ PersistentImage& PersistentImages::provide(const ImageDesc& desc, ImageLifetime 
     if (found == all_.end()) {
         PersistentImage kept;
         kept.lifetime = lifetime;
-        make(desc, kept);
+        create_image(desc, kept);
         found = all_.emplace(desc.name, std::move(kept)).first;
     }
     return found->second;
 }
 
-void PersistentImages::provide(CompiledGraph& shape, const std::function<void()>& wait) {
+void PersistentImages::find_or_create_images(CompiledGraph& shape,
+                                             const std::function<void()>& wait) {
     shape.kept.assign(shape.plan.images.size(), nullptr);
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
         if (shape.is_persistent(i))
-            shape.kept[i] = &provide(shape.outline.images()[i], shape.outline.lifetime(i), wait);
+            shape.kept[i] = &find_or_create_images(shape.outline.images()[i],
+                                                   shape.outline.lifetime(i), wait);
 }
 
 void PersistentImages::write(const Graph& graph, const CompiledGraph& shape) {
-    for (const auto& [part, content_hash] : graph.stamps()) {
+    for (const auto& [part, content_hash] : graph.content_records()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image
         for_each_layer_range(part, graph.images()[part.id].layers,
                              [&](std::uint32_t first, std::uint32_t end) {
-                                 kept->stamps.set(first, end, content_hash);
+                                 kept->stamps.fill_range(first, end, content_hash);
                              });
     }
 }
 
-void PersistentImages::advance(const CompiledGraph& shape) {
+void PersistentImages::swap_previous_copies(const CompiledGraph& shape) {
     for (PersistentImage* const kept : shape.kept) {
         if (!kept || kept->lifetime != ImageLifetime::previous) continue;
         kept->last = 1 - kept->last;
@@ -99,7 +102,7 @@ void PersistentImages::advance(const CompiledGraph& shape) {
     }
 }
 
-std::uint64_t PersistentImages::bytes() const {
+std::uint64_t PersistentImages::memory_bytes() const {
     std::uint64_t sum = 0;
     for (const auto& [name, kept] : all_) sum += kept.bytes;
     return sum;

@@ -20,24 +20,24 @@ public:
 
     /// Finds or makes the persistent images of the shape. Calls `wait` before it destroys anything
     /// that frames in flight may use.
-    void provide(CompiledGraph& shape, const std::function<void()>& wait);
+    void find_or_create_images(CompiledGraph& shape, const std::function<void()>& wait);
     /// Stores the content hashes that the submitted frame sets.
     void write(const Graph& graph, const CompiledGraph& shape);
     /// Swaps the two copies of each image that has a `previous`: the frame just submitted becomes
     /// the last frame.
-    void advance(const CompiledGraph& shape);
+    void swap_previous_copies(const CompiledGraph& shape);
     /// Drops all images. Must not be called while frames are in flight.
-    void forget() { all_.clear(); }
-    RetainedImages take() { return std::exchange(all_, {}); }
-    void put(RetainedImages all) { all_ = std::move(all); }
+    void release_all_images() { all_.clear(); }
+    RetainedImages take_retained_images() { return std::exchange(all_, {}); }
+    void restore_retained_images(RetainedImages all) { all_ = std::move(all); }
     GraphHistory history() const;
     /// Returns the bytes of device memory that are allocated.
-    std::uint64_t bytes() const;
+    std::uint64_t memory_bytes() const;
 
 private:
-    void make(const ImageDesc& desc, PersistentImage& kept);
-    PersistentImage& provide(const ImageDesc& desc, ImageLifetime lifetime,
-                             const std::function<void()>& wait);
+    void create_image(const ImageDesc& desc, PersistentImage& kept);
+    PersistentImage& find_or_create_images(const ImageDesc& desc, ImageLifetime lifetime,
+                                           const std::function<void()>& wait);
 
     gpu::Device& device_;
     RetainedImages all_;

@@ -56,8 +56,8 @@ VkBufferImageCopy make_copy_region(const ImageDesc& desc, const ImageHandle& par
     return region;
 }
 
-VkImageView PhysicalImage::view(const gpu::Device& device, gpu::ImageViewType shape,
-                                const ImageHandle& part) {
+VkImageView PhysicalImage::find_or_create_view(const gpu::Device& device, gpu::ImageViewType shape,
+                                               const ImageHandle& part) {
     using gpu::ImageViewType;
     const std::uint32_t layer_count = part.layer_count;
     const ImageViewKey key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};

@@ -16,7 +16,8 @@ struct PhysicalImage {
     VkImage image = VK_NULL_HANDLE;
 
     /// Returns the view of the part's layers and mips. Each view is made once.
-    VkImageView view(const gpu::Device& device, gpu::ImageViewType shape, const ImageHandle& part);
+    VkImageView find_or_create_view(const gpu::Device& device, gpu::ImageViewType shape,
+                                    const ImageHandle& part);
 
 private:
     using ImageViewKey =

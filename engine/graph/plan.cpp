@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "graph/barriers.hpp"
 #include "graph/cull.hpp"
-#include "graph/place.hpp"
+#include "graph/memory_placement.hpp"
 #include "graph/validate.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) 
     plan.passes.reserve(fates.size());
     for (std::uint32_t p = 0; p < fates.size(); ++p) {
         if (!fates[p].survives) {
-            plan.culled.push_back({p, describe_cull_reason(graph, all.of(p))});
+            plan.culled.push_back({p, describe_cull_reason(graph, all.accesses_of_pass(p))});
             continue;
         }
         plan.passes.push_back({p, {}, fates[p].unread});
@@ -68,10 +68,11 @@ void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphL
 } // namespace
 
 MemorySizer make_default_sizer() {
-    constexpr std::uint64_t kAlignment = 256;
+    constexpr std::uint64_t kDefaultAlignment = 256;
     const auto padded = [](std::uint64_t bytes) {
-        return MemoryRequirements{.bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment,
-                                  .alignment = kAlignment,
+        return MemoryRequirements{.bytes = (bytes + kDefaultAlignment - 1) / kDefaultAlignment *
+                                           kDefaultAlignment,
+                                  .alignment = kDefaultAlignment,
                                   .heap = 0};
     };
     return {.image =

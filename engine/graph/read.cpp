@@ -1,5 +1,5 @@
 // Read-back of a runner's images and buffers.
-#include "graph/run.hpp"
+#include "graph/graph_runner.hpp"
 #include "graph/sync.hpp"
 
 namespace catoptric::graph {
@@ -42,9 +42,9 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
 
 } // namespace
 
-std::vector<std::byte> GraphRunner::read(FrameTicket ticket, ImageHandle image) {
-    wait(ticket);
-    const FrameSlot& slot = slot_of(ticket);
+std::vector<std::byte> GraphRunner::read_resource(FrameTicket ticket, ImageHandle image) {
+    wait_for_frame(ticket);
+    const FrameSlot& slot = slot_of_frame(ticket);
     CompiledGraph& shape = *slot.shape;
     const ImageDesc& desc = shape.outline.images()[image.id];
     const bool kept = shape.is_persistent(image.id);
@@ -69,9 +69,9 @@ std::vector<std::byte> GraphRunner::read(FrameTicket ticket, ImageHandle image) 
     return data;
 }
 
-std::vector<std::byte> GraphRunner::read(FrameTicket ticket, BufferHandle buffer) {
-    wait(ticket);
-    const CompiledGraph& shape = *slot_of(ticket).shape;
+std::vector<std::byte> GraphRunner::read_resource(FrameTicket ticket, BufferHandle buffer) {
+    wait_for_frame(ticket);
+    const CompiledGraph& shape = *slot_of_frame(ticket).shape;
     const auto& [name, bytes] = shape.outline.buffers()[buffer.id];
     const VkBuffer source = shape.buffer(buffer, index_of(ticket.frame));
     gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUsage::read_back);
@@ -87,12 +87,12 @@ std::vector<std::byte> GraphRunner::read(FrameTicket ticket, BufferHandle buffer
 std::vector<std::byte> GraphRunner::read_history() {
     std::vector<std::byte> history;
     if (frame_ == 0) return history;
-    const CompiledGraph& shape = *slot_of({frame_}).shape;
+    const CompiledGraph& shape = *slot_of_frame({frame_}).shape;
     for (std::uint32_t id = 0; id < shape.outline.images().size(); ++id) {
         if (!shape.is_persistent(id) || shape.outline.lifetime(id) != ImageLifetime::previous)
             continue;
         const ImageDesc& desc = shape.outline.images()[id];
-        const std::vector<std::byte> image = read(
+        const std::vector<std::byte> image = read_resource(
             ImageHandle{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
         history.insert(history.end(), image.begin(), image.end());
     }

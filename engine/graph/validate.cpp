@@ -12,11 +12,11 @@ namespace catoptric::graph {
 namespace {
 
 /// Returns the first layers of `access` for which `there` is false; empty if it is true for all.
-std::string describe_missing_layers(const Graph& graph, const ResourceLedger<char>& there,
+std::string describe_missing_layers(const Graph& graph, const SubresourceMap<char>& there,
                                     const ResourceAccess& access) {
-    if (!there.any(access, false)) return "";
+    if (!there.contains_value(access, false)) return "";
     std::optional<std::pair<std::uint32_t, std::uint32_t>> missing;
-    there.each(access, [&](std::uint32_t first, std::uint32_t end, bool is_there) {
+    there.for_each_value(access, [&](std::uint32_t first, std::uint32_t end, bool is_there) {
         if (!is_there && !missing) missing = {first, end};
     });
     if (access.is_buffer) return "it";
@@ -27,8 +27,8 @@ void check_resource_names(const Graph& graph) {
     std::unordered_set<std::string_view> seen;
     seen.reserve(graph.images().size() + graph.buffers().size());
     const auto resource = [&](const std::string& name, std::string_view kind) {
-        check(!name.empty(), kInvalidGraph, kind, " number ", seen.size(), " has no name");
-        check(seen.insert(name).second, kInvalidGraph, kind, " '", name,
+        check(!name.empty(), kInvalidGraphFailure, kind, " number ", seen.size(), " has no name");
+        check(seen.insert(name).second, kInvalidGraphFailure, kind, " '", name,
               "': another image or buffer has the same name");
     };
     for (const ImageDesc& desc : graph.images()) resource(desc.name, "image");
@@ -36,18 +36,19 @@ void check_resource_names(const Graph& graph) {
     seen.clear();
     seen.reserve(graph.passes().size());
     for (const Pass& pass : graph.passes()) {
-        check(!pass.name.empty(), kInvalidGraph, "pass number ", seen.size(), " has no name");
-        check(seen.insert(pass.name).second, kInvalidGraph, "pass '", pass.name,
+        check(!pass.name.empty(), kInvalidGraphFailure, "pass number ", seen.size(),
+              " has no name");
+        check(seen.insert(pass.name).second, kInvalidGraphFailure, "pass '", pass.name,
               "' is declared twice: names are unique");
     }
 }
 
 void check_image_limits(const ImageDesc& desc, const GraphLimits& limits) {
-    check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kInvalidGraph, "image '", desc.name,
-          "' is empty: ", desc.width, "x", desc.height, ", ", desc.layers, " layers");
-    check(!desc.cube || desc.layers % 6 == 0, kInvalidGraph, "image '", desc.name,
+    check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kInvalidGraphFailure, "image '",
+          desc.name, "' is empty: ", desc.width, "x", desc.height, ", ", desc.layers, " layers");
+    check(!desc.cube || desc.layers % 6 == 0, kInvalidGraphFailure, "image '", desc.name,
           "' is a cube, but its ", desc.layers, " layers are not a multiple of 6");
-    check(!desc.cube || desc.width == desc.height, kInvalidGraph, "image '", desc.name,
+    check(!desc.cube || desc.width == desc.height, kInvalidGraphFailure, "image '", desc.name,
           "' is a cube, but not square: ", desc.width, "x", desc.height);
     const std::uint32_t size = std::max(desc.width, desc.height);
     const std::uint32_t allowed = desc.cube ? limits.max_size_cube : limits.max_size_2d;
@@ -57,8 +58,9 @@ void check_image_limits(const ImageDesc& desc, const GraphLimits& limits) {
     check(desc.layers <= limits.max_layers, Failure::exhausted, "image '", desc.name, "' wants ",
           desc.layers, " layers, device allows max_layers = ", limits.max_layers);
     const auto most_mips = static_cast<std::uint32_t>(std::bit_width(size));
-    check(desc.mips > 0 && desc.mips <= most_mips, kInvalidGraph, "image '", desc.name, "' wants ",
-          desc.mips, " mips, but of ", desc.width, "x", desc.height, " there are 1 to ", most_mips);
+    check(desc.mips > 0 && desc.mips <= most_mips, kInvalidGraphFailure, "image '", desc.name,
+          "' wants ", desc.mips, " mips, but of ", desc.width, "x", desc.height, " there are 1 to ",
+          most_mips);
 }
 
 [[noreturn]] void fail_read_before_write(const Graph& graph, const Pass& pass,
@@ -67,39 +69,40 @@ void check_image_limits(const ImageDesc& desc, const GraphLimits& limits) {
                        : a.use == ResourceUse::storage ? "reads and writes "
                        : a.clears                      ? "updates "
                                                        : "loads (has no clear for) ";
-    fail(kInvalidGraph, "pass '", pass.name, "' ", verb, describe_access(graph, a), " as ",
+    fail(kInvalidGraphFailure, "pass '", pass.name, "' ", verb, describe_access(graph, a), " as ",
          name_of(a.use), " before any pass writes ", missing);
 }
 
 /// Returns the contents that exist before the first pass: those of persistent and of imported
 /// resources.
-ResourceLedger<char> mark_contents_at_start(const Graph& graph) {
-    ResourceLedger<char> there(graph, false);
+SubresourceMap<char> mark_contents_at_start(const Graph& graph) {
+    SubresourceMap<char> there(graph, false);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
         const ResourceAccess all = access_to_whole_image(graph, i);
-        if (graph.lifetime(i) == ImageLifetime::imported && graph.arrives(i)) there.set(all, true);
+        if (graph.lifetime(i) == ImageLifetime::imported && graph.state_on_import(i))
+            there.set_value(all, true);
         if (graph.lifetime(i) != ImageLifetime::persistent) continue;
-        graph.content_hashes_at_start(i).each(
+        graph.content_hashes_at_start(i).for_each_run(
             [&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
-                if (stamp) there.of(all).set(first, end, true);
+                if (stamp) there.of(all).fill_range(first, end, true);
             });
     }
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
-        if (graph.is_imported({b})) there.set({.is_buffer = true, .id = b}, true);
+        if (graph.is_imported({b})) there.set_value({.is_buffer = true, .id = b}, true);
     return there;
 }
 
 /// Checks that every layer is written before it is read, by an earlier pass of this frame or before
 /// the frame. Returns the contents that exist after the last pass.
-ResourceLedger<char> check_writes_before_reads(const Graph& graph, const GraphAccesses& all) {
-    ResourceLedger<char> written = mark_contents_at_start(graph);
+SubresourceMap<char> check_writes_before_reads(const Graph& graph, const GraphAccesses& all) {
+    SubresourceMap<char> written = mark_contents_at_start(graph);
     for (std::size_t p = 0; p < graph.passes().size(); ++p) {
-        for (const ResourceAccess& a : all.of(p))
-            if (a.needs && !a.previous && written.any(a, false))
+        for (const ResourceAccess& a : all.accesses_of_pass(p))
+            if (a.needs && !a.previous && written.contains_value(a, false))
                 fail_read_before_write(graph, graph.passes()[p], a,
                                        describe_missing_layers(graph, written, a));
-        for (const ResourceAccess& a : all.of(p))
-            if (a.write) written.set(a, true);
+        for (const ResourceAccess& a : all.accesses_of_pass(p))
+            if (a.write) written.set_value(a, true);
     }
     return written;
 }
@@ -109,7 +112,7 @@ void check_hashes_for_writes(const Graph& graph, const ContentRecord& stamped) {
     const ImageDesc& desc = graph.images()[part.id];
     if (part.layer_count == 0 || part.end_layer() > desc.layers || part.mip_count == 0 ||
         part.end_mip() > desc.mips)
-        fail(kInvalidGraph, describe_access(graph, part),
+        fail(kInvalidGraphFailure, describe_access(graph, part),
              " is said to be made from something, but the image has "
              "layers [0,",
              desc.layers, ") and ", desc.mips, " mip(s)");
@@ -118,72 +121,74 @@ void check_hashes_for_writes(const Graph& graph, const ContentRecord& stamped) {
 /// Checks that passes write exactly those parts of persistent images for which a content hash is
 /// set.
 void check_content_hash_parts(const Graph& graph, const GraphAccesses& all) {
-    ResourceLedger<char> stamped(graph, false), written(graph, false);
-    for (const ContentRecord& s : graph.stamps()) {
+    SubresourceMap<char> stamped(graph, false), written(graph, false);
+    for (const ContentRecord& s : graph.content_records()) {
         check_hashes_for_writes(graph, s);
-        stamped.set(access_to_image_part(s.part), true);
+        stamped.set_value(access_to_image_part(s.part), true);
     }
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
-        for (const ResourceAccess& a : all.of(p)) {
+        for (const ResourceAccess& a : all.accesses_of_pass(p)) {
             if (!a.write || a.is_buffer || graph.lifetime(a.id) != ImageLifetime::persistent)
                 continue;
-            if (stamped.any(a, false))
-                fail(kInvalidGraph, "pass '", graph.passes()[p].name, "' writes ",
+            if (stamped.contains_value(a, false))
+                fail(kInvalidGraphFailure, "pass '", graph.passes()[p].name, "' writes ",
                      describe_access(graph, a), ", which is kept, but nobody says what ",
                      describe_missing_layers(graph, stamped, a), " are made from");
-            written.set(a, true);
+            written.set_value(a, true);
         }
-    for (const ContentRecord& s : graph.stamps())
-        if (const ResourceAccess a = access_to_image_part(s.part); written.any(a, false))
-            fail(kInvalidGraph, describe_access(graph, a),
+    for (const ContentRecord& s : graph.content_records())
+        if (const ResourceAccess a = access_to_image_part(s.part); written.contains_value(a, false))
+            fail(kInvalidGraphFailure, describe_access(graph, a),
                  " is said to be made from something, but no pass writes ",
                  describe_missing_layers(graph, written, a));
 }
 
 [[noreturn]] void fail_read_of_previous(const Graph& graph, const Pass& pass,
                                         const ResourceAccess& a,
-                                        const ResourceLedger<char>& written) {
+                                        const SubresourceMap<char>& written) {
     const std::string name = quote_resource_name(graph, a);
-    check(written.any(access_to_whole_image(graph, a.id), true), kInvalidGraph, "pass '", pass.name,
-          "' reads previous(", name, ") as ", name_of(a.use), " but no pass writes ", name);
-    fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
+    check(written.contains_value(access_to_whole_image(graph, a.id), true), kInvalidGraphFailure,
+          "pass '", pass.name, "' reads previous(", name, ") as ", name_of(a.use),
+          " but no pass writes ", name);
+    fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
          name_of(a.use), " but no pass writes ", describe_missing_layers(graph, written, a), " of ",
          name);
 }
 
 void check_reads_of_previous(const Graph& graph, const GraphAccesses& all,
-                             const ResourceLedger<char>& written) {
+                             const SubresourceMap<char>& written) {
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
-        for (const ResourceAccess& a : all.of(p))
-            if (a.previous && written.any(a, false))
+        for (const ResourceAccess& a : all.accesses_of_pass(p))
+            if (a.previous && written.contains_value(a, false))
                 fail_read_of_previous(graph, graph.passes()[p], a, written);
 }
 
-void check_outputs_are_written(const Graph& graph, const ResourceLedger<char>& written) {
+void check_outputs_are_written(const Graph& graph, const SubresourceMap<char>& written) {
     for (const ImageHandle& image : graph.output_images()) {
-        check(image.id < graph.images().size(), kInvalidGraph, "image number ", image.id,
+        check(image.id < graph.images().size(), kInvalidGraphFailure, "image number ", image.id,
               " is wanted, but the graph has ", graph.images().size());
         const ResourceAccess a = access_to_image_part(image);
         const std::string what = describe_access(graph, a);
-        check(!image.previous, kInvalidGraph, what,
+        check(!image.previous, kInvalidGraphFailure, what,
               " is wanted: only this frame's contents can be");
         const ImageDesc& desc = graph.images()[image.id];
-        check(a.layer_count > 0 && a.end_layer() <= desc.layers, kInvalidGraph, what,
+        check(a.layer_count > 0 && a.end_layer() <= desc.layers, kInvalidGraphFailure, what,
               " is wanted, but the image has layers [0,", desc.layers, ")");
-        check(a.mip_count > 0 && a.end_mip() <= desc.mips, kInvalidGraph, what,
+        check(a.mip_count > 0 && a.end_mip() <= desc.mips, kInvalidGraphFailure, what,
               " is wanted, but the image has mips [0,", desc.mips, ")");
-        check(graph.lifetime(a.id) != ImageLifetime::imported, kInvalidGraph, what,
+        check(graph.lifetime(a.id) != ImageLifetime::imported, kInvalidGraphFailure, what,
               " is wanted, but imported: read it where it comes from");
         const std::string missing = describe_missing_layers(graph, written, a);
-        check(missing.empty(), kInvalidGraph, what, " is wanted, but no pass writes ", missing);
+        check(missing.empty(), kInvalidGraphFailure, what, " is wanted, but no pass writes ",
+              missing);
     }
     for (const BufferHandle& buffer : graph.output_buffers()) {
-        check(buffer.id < graph.buffers().size(), kInvalidGraph, "buffer number ", buffer.id,
+        check(buffer.id < graph.buffers().size(), kInvalidGraphFailure, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
         const ResourceAccess a{.is_buffer = true, .id = buffer.id};
-        check(!graph.is_imported(buffer), kInvalidGraph, describe_access(graph, a),
+        check(!graph.is_imported(buffer), kInvalidGraphFailure, describe_access(graph, a),
               " is wanted, but imported: read it where it comes from");
-        check(written.any(a, true), kInvalidGraph, describe_access(graph, a),
+        check(written.contains_value(a, true), kInvalidGraphFailure, describe_access(graph, a),
               " is wanted, but no pass writes it");
     }
 }
@@ -194,10 +199,10 @@ void validate_graph(const Graph& graph, const GraphAccesses& all, const GraphLim
     check_resource_names(graph);
     for (const ImageDesc& desc : graph.images()) check_image_limits(desc, limits);
     for (const BufferDesc& desc : graph.buffers())
-        check(desc.bytes > 0, kInvalidGraph, "buffer '", desc.name, "' is empty: 0 bytes");
+        check(desc.bytes > 0, kInvalidGraphFailure, "buffer '", desc.name, "' is empty: 0 bytes");
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
-        validate_pass(graph, graph.passes()[p], all.of(p), limits);
-    const ResourceLedger<char> written = check_writes_before_reads(graph, all);
+        validate_pass(graph, graph.passes()[p], all.accesses_of_pass(p), limits);
+    const SubresourceMap<char> written = check_writes_before_reads(graph, all);
     check_reads_of_previous(graph, all, written);
     check_outputs_are_written(graph, written);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)

@@ -33,28 +33,28 @@ bool is_writing_use(ResourceUse use, bool is_buffer) {
 
 void check_image_handle(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     const std::size_t count = a.is_buffer ? graph.buffers().size() : graph.images().size();
-    check(a.id < count, kInvalidGraph, "pass '", pass.name, "' names ",
+    check(a.id < count, kInvalidGraphFailure, "pass '", pass.name, "' names ",
           a.is_buffer ? "buffer" : "image", " number ", a.id, ", but the graph has ", count);
     if (a.is_buffer) return;
     const auto& [layers, mips] = std::pair(graph.images()[a.id].layers, graph.images()[a.id].mips);
     if (a.layer_count == 0)
-        fail(kInvalidGraph, "pass '", pass.name, "' names no layer of ",
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' names no layer of ",
              quote_resource_name(graph, a), " as ", name_of(a.use));
     if (a.end_layer() > layers)
-        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
-             name_of(a.use), ", but the image has layers [0,", layers, ")");
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
+             " as ", name_of(a.use), ", but the image has layers [0,", layers, ")");
     if (a.mip_count == 0 || a.end_mip() > mips)
-        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
-             name_of(a.use), ", but the image has mips [0,", mips, ")");
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
+             " as ", name_of(a.use), ", but the image has mips [0,", mips, ")");
     if (a.mip_count > 1 && a.use != ResourceUse::sampled)
-        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
-             name_of(a.use), ": one mip at a time");
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
+             " as ", name_of(a.use), ": one mip at a time");
 }
 
 void check_attachment_access(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     const Format format = graph.images()[a.id].format;
     if (is_depth(format) == (a.use == ResourceUse::depth)) return;
-    fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
+    fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
          name_of(a.use), ", but its format ", name_of(format), " is a ",
          is_depth(format) ? "depth" : "colour", " format");
 }
@@ -62,20 +62,20 @@ void check_attachment_access(const Graph& graph, const Pass& pass, const Resourc
 /// Texts are built only on failure, because most passes are valid.
 void check_use_is_allowed(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     if (a.write && a.previous)
-        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe_access(graph, a), " as ",
-             name_of(a.use), ": last frame's contents are only read");
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' writes ", describe_access(graph, a),
+             " as ", name_of(a.use), ": last frame's contents are only read");
     if (!(a.write ? is_writing_use(a.use, a.is_buffer) : is_reading_use(a.use, a.is_buffer)))
-        fail(kInvalidGraph, "pass '", pass.name, "' ", a.write ? "writes " : "reads ",
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' ", a.write ? "writes " : "reads ",
              describe_access(graph, a), " as ", name_of(a.use), ", which is not a way to ",
              a.write ? "write " : "read ", a.is_buffer ? "a buffer" : "an image");
     if (a.clears && !is_attachment(a.use))
-        fail(kInvalidGraph, "pass '", pass.name, "' clears ", describe_access(graph, a), " as ",
-             name_of(a.use), ", but only attachments are cleared");
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' clears ", describe_access(graph, a),
+             " as ", name_of(a.use), ", but only attachments are cleared");
     if (a.clears && a.needs && !pass.area)
-        fail(kInvalidGraph, "pass '", pass.name, "' updates ", describe_access(graph, a), " as ",
-             name_of(a.use), ", but has no area to do it in");
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' updates ", describe_access(graph, a),
+             " as ", name_of(a.use), ", but has no area to do it in");
     if (pass.is_raster() && (a.use == ResourceUse::copy_from || a.use == ResourceUse::copy_to))
-        fail(kInvalidGraph, "pass '", pass.name, "' has attachments and uses ",
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' has attachments and uses ",
              describe_access(graph, a), " as ", name_of(a.use),
              ": copies need a pass of their own");
     if (!a.is_buffer && is_attachment(a.use)) check_attachment_access(graph, pass, a);
@@ -92,9 +92,9 @@ void check_equal_sizes(const Graph& graph, const Pass& pass, const ResourceAcces
     const auto [width, height] = size(x, a);
     const auto [width2, height2] = size(y, b);
     if (width == width2 && height == height2) return;
-    fail(kInvalidGraph, "pass '", pass.name, "' attaches ", describe_access(graph, a), " as ",
-         name_of(a.use), " (", width, "x", height, ") and ", describe_access(graph, b), " as ",
-         name_of(b.use), " (", width2, "x", height2, "): attachments have one size");
+    fail(kInvalidGraphFailure, "pass '", pass.name, "' attaches ", describe_access(graph, a),
+         " as ", name_of(a.use), " (", width, "x", height, ") and ", describe_access(graph, b),
+         " as ", name_of(b.use), " (", width2, "x", height2, "): attachments have one size");
 }
 
 void check_attachments(const Graph& graph, const Pass& pass, std::span<const ResourceAccess> all) {
@@ -103,11 +103,11 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Res
     for (const ResourceAccess& a : all) {
         if (a.is_buffer || !is_attachment(a.use)) continue;
         if (a.layer_count != pass.layer_count)
-            fail(kInvalidGraph, "pass '", pass.name, "' renders ", pass.layer_count,
+            fail(kInvalidGraphFailure, "pass '", pass.name, "' renders ", pass.layer_count,
                  " layer(s), but attaches ", describe_access(graph, a), " as ", name_of(a.use),
                  ", which are ", a.layer_count);
         if (a.use == ResourceUse::depth && depth)
-            fail(kInvalidGraph, "pass '", pass.name, "' attaches both ",
+            fail(kInvalidGraphFailure, "pass '", pass.name, "' attaches both ",
                  describe_access(graph, *depth), " and ", describe_access(graph, a), " as depth");
         if (a.use == ResourceUse::depth) depth = &a;
         if (!first) first = &a;
@@ -130,18 +130,18 @@ void check_access_pair(const Graph& graph, const Pass& pass, const ResourceAcces
                                             base + static_cast<std::uint32_t>(end));
     };
     if (a.write && b.write)
-        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe_access(graph, a), " as ",
-             name_of(a.use), " and ", describe_access(graph, b), " as ", name_of(b.use),
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' writes ", describe_access(graph, a),
+             " as ", name_of(a.use), " and ", describe_access(graph, b), " as ", name_of(b.use),
              ": written twice", where());
     const ResourceAccess& read = a.write ? b : a;
     const ResourceAccess& other = a.write ? a : b;
     if (other.write)
-        fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe_access(graph, read), " as ",
-             name_of(read.use), " while it writes ", describe_access(graph, other), " as ",
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, read),
+             " as ", name_of(read.use), " while it writes ", describe_access(graph, other), " as ",
              name_of(other.use), where());
     if (!a.is_buffer && a.use != b.use)
-        fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
-             name_of(a.use), " and ", describe_access(graph, b), " as ", name_of(b.use),
+        fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a),
+             " as ", name_of(a.use), " and ", describe_access(graph, b), " as ", name_of(b.use),
              ": one image cannot be in two layouts at once", where());
 }
 
@@ -167,14 +167,14 @@ void check_access_pairs(const Graph& graph, const Pass& pass, std::span<const Re
 
 void validate_pass(const Graph& graph, const Pass& pass, std::span<const ResourceAccess> all,
                    const GraphLimits& limits) {
-    check(static_cast<bool>(pass.body), kInvalidGraph, "pass '", pass.name, "' has no body");
-    check(pass.layer_count > 0, kInvalidGraph, "pass '", pass.name, "' renders 0 layers");
+    check(static_cast<bool>(pass.body), kInvalidGraphFailure, "pass '", pass.name, "' has no body");
+    check(pass.layer_count > 0, kInvalidGraphFailure, "pass '", pass.name, "' renders 0 layers");
     for (const ResourceAccess& a : all) {
         check_image_handle(graph, pass, a);
         check_use_is_allowed(graph, pass, a);
     }
-    check(std::ranges::any_of(all, &ResourceAccess::write), kInvalidGraph, "pass '", pass.name,
-          "' writes nothing");
+    check(std::ranges::any_of(all, &ResourceAccess::write), kInvalidGraphFailure, "pass '",
+          pass.name, "' writes nothing");
     check_access_pairs(graph, pass, all);
     check_attachments(graph, pass, all);
     if (pass.layer_count > limits.max_framebuffer_layers)

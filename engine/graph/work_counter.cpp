@@ -7,29 +7,30 @@ namespace catoptric::graph {
 namespace {
 
 // The order of the bits is the order of the results.
-constexpr VkQueryPipelineStatisticFlags kStatistics =
+constexpr VkQueryPipelineStatisticFlags kPipelineStatisticFlags =
     VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
 constexpr WorkKind kCountedByQuery[] = {WorkKind::vertices, WorkKind::primitives,
                                         WorkKind::fragments, WorkKind::invocations};
-constexpr std::size_t kResults = std::size(kCountedByQuery);
-constexpr std::uint64_t kShaderBytes = shared::kShaderWorkKinds * 2 * sizeof(std::uint32_t);
+constexpr std::size_t kStatisticCount = std::size(kCountedByQuery);
+constexpr std::uint64_t kShaderCounterBytes = shared::kShaderWorkKindCount * 2 *
+                                              sizeof(std::uint32_t);
 
 } // namespace
 
 WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes) : device_(device) {
     for (std::string& name : passes) passes_.push_back({std::move(name), {}});
     const std::uint64_t alignment = device.limits().minStorageBufferOffsetAlignment;
-    stride_ = (kShaderBytes + alignment - 1) / alignment * alignment;
+    stride_ = (kShaderCounterBytes + alignment - 1) / alignment * alignment;
     buffer_ = gpu::Buffer(device, "counted work", stride_ * passes_.size(),
                           gpu::BufferUsage::read_back);
     if (!device.has_pipeline_statistics() || passes_.empty()) return;
     VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
     create.queryCount = static_cast<std::uint32_t>(passes_.size());
-    create.pipelineStatistics = kStatistics;
+    create.pipelineStatistics = kPipelineStatisticFlags;
     VkQueryPool pool = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateQueryPool(device.handle(), &create, nullptr, &pool),
                   "create pipeline statistics");
@@ -41,7 +42,7 @@ void WorkCounter::begin_pass(VkCommandBuffer commands) {
     if (pass_ == 0) {
         vkCmdFillBuffer(commands, buffer_.handle(), 0, VK_WHOLE_SIZE, 0);
         gpu::record_memory_barrier(
-            commands, gpu::kCopyWrites,
+            commands, gpu::kTransferWrite,
             {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
     }
@@ -55,36 +56,36 @@ void WorkCounter::begin_pass(VkCommandBuffer commands) {
 void WorkCounter::end_pass(VkCommandBuffer commands) {
     if (statistics_) vkCmdEndQuery(commands, statistics_, static_cast<std::uint32_t>(pass_));
     if (++pass_ < passes_.size()) return;
-    gpu::record_memory_barrier(
-        commands,
-        {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-             VK_PIPELINE_STAGE_2_TRANSFER_BIT,
-         VK_ACCESS_2_MEMORY_WRITE_BIT},
-        {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+    gpu::record_memory_barrier(commands,
+                               {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                                    VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                                VK_ACCESS_2_MEMORY_WRITE_BIT},
+                               {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
 }
 
 VkDescriptorBufferInfo WorkCounter::shader_counts() const {
-    return {buffer_.handle(), pass_ * stride_, kShaderBytes};
+    return {buffer_.handle(), pass_ * stride_, kShaderCounterBytes};
 }
 
 std::vector<PassWork> WorkCounter::read() {
     const std::vector<std::byte> bytes = buffer_.read();
-    std::vector<std::uint64_t> results(kResults * passes_.size());
+    std::vector<std::uint64_t> results(kStatisticCount * passes_.size());
     if (statistics_)
         gpu::check_vk(vkGetQueryPoolResults(device_.handle(), statistics_, 0,
                                             static_cast<std::uint32_t>(passes_.size()),
                                             results.size() * sizeof results[0], results.data(),
-                                            kResults * sizeof results[0],
+                                            kStatisticCount * sizeof results[0],
                                             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
                       "read pipeline statistics");
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         WorkCounts& counts = passes_[i].counts;
-        std::uint32_t words[shared::kShaderWorkKinds][2]; // the low word comes first
-        std::memcpy(words, bytes.data() + i * stride_, kShaderBytes);
-        for (std::size_t kind = 0; kind < shared::kShaderWorkKinds; ++kind)
+        std::uint32_t words[shared::kShaderWorkKindCount][2]; // the low word comes first
+        std::memcpy(words, bytes.data() + i * stride_, kShaderCounterBytes);
+        for (std::size_t kind = 0; kind < shared::kShaderWorkKindCount; ++kind)
             counts.values[kind] = std::uint64_t{words[kind][1]} << 32 | words[kind][0];
-        for (std::size_t k = 0; statistics_ && k < kResults; ++k)
-            counts[kCountedByQuery[k]] = results[kResults * i + k];
+        for (std::size_t k = 0; statistics_ && k < kStatisticCount; ++k)
+            counts[kCountedByQuery[k]] = results[kStatisticCount * i + k];
     }
     return passes_;
 }

@@ -168,10 +168,10 @@ CodecResult encode_picture(const std::string& format, const ImageCodecs::PixelVa
     });
 }
 
-constexpr ImageCodecs kCodecs{.open = open_picture,
-                              .read = read_picture_rows,
-                              .close = close_picture,
-                              .encode = encode_picture};
+constexpr ImageCodecs kOpenImageIoCodecs{.open = open_picture,
+                                         .read = read_picture_rows,
+                                         .close = close_picture,
+                                         .encode = encode_picture};
 
 } // namespace
 
@@ -179,5 +179,5 @@ constexpr ImageCodecs kCodecs{.open = open_picture,
 
 extern "C" __attribute__((visibility("default"))) const catoptric::ImageCodecs*
 catoptric_image_codecs_3() {
-    return &catoptric::kCodecs;
+    return &catoptric::kOpenImageIoCodecs;
 }

@@ -32,7 +32,7 @@ void compare_counts(const Benchmark& before, const Benchmark& after, BenchmarkCh
     const std::map<std::string, double>& old_counts = before.rounds.back().counters;
     for (const auto& [name, count] : after.rounds.back().counters) {
         const auto old = old_counts.find(name);
-        if (!name.starts_with(kWorkCounters) || old == old_counts.end()) continue;
+        if (!name.starts_with(kWorkCounterPrefix) || old == old_counts.end()) continue;
         ++change.compared_counts;
         if (old->second != count) change.counts.push_back({name, old->second, count});
     }
@@ -75,10 +75,10 @@ std::string name_of(CostKind cost) {
 }
 
 double round_cost(const BenchmarkRound& round, CostKind cost) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kUnknownCost = std::numeric_limits<double>::quiet_NaN();
     switch (cost) {
-    case CostKind::cycles: return round.cycles.value_or(kNone);
-    case CostKind::instructions: return round.instructions.value_or(kNone);
+    case CostKind::cycles: return round.cycles.value_or(kUnknownCost);
+    case CostKind::instructions: return round.instructions.value_or(kUnknownCost);
     case CostKind::cpu_time: return round.cpu_ms;
     case CostKind::real_time: break;
     }

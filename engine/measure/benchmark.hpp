@@ -56,7 +56,7 @@ std::vector<double> list_round_costs(const Benchmark& benchmark, CostKind cost);
 /// confidence interval.
 struct CostRatio {
     double median = 0;
-    Interval ci95; ///< 95 % confidence; unknown for fewer than `kFewest` rounds
+    Interval ci95; ///< 95 % confidence; unknown for fewer than `kMinIntervalSamples` rounds
     bool is_above_one() const { return ci95.low > 1; }
     bool is_below_one() const { return ci95.high < 1; }
 };
@@ -65,7 +65,7 @@ struct CostRatio {
 CostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Beginning of the names of counters that hold counted work (core/work.hpp), such as "work/nodes".
-inline constexpr const char* kWorkCounters = "work/";
+inline constexpr const char* kWorkCounterPrefix = "work/";
 
 /// Counted work of a benchmark that differs before and after a change.
 struct CountChange {

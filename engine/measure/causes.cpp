@@ -9,7 +9,7 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kMirrors = "mirrors";
+constexpr std::string_view kMirrorRowTable = "mirrors";
 
 template <double Causes::*Figure>
 MetricValue cause_metric_value(const Row& row) {
@@ -32,42 +32,43 @@ MetricValue list_cause_shares(const Row& row) {
     return list;
 }
 
-const RegisteredMetric kSquaredError{
+const RegisteredMetric kSquaredErrorMetric{
     {.name = "causes/squared_error",
      .help = "mean square difference of the row's picture, which the causes add up to",
-     .mask = kMirrors,
+     .mask = kMirrorRowTable,
      .better = BetterDirection::less,
      .order = 270,
      .get = cause_metric_value<&Causes::squared_error>}};
-const RegisteredMetric kPerMirror{{.name = "causes/squared_error_per_mirror",
-                                   .help = "causes of the error of each mirror",
-                                   .mask = kMirrors,
-                                   .better = BetterDirection::less,
-                                   .order = 271,
-                                   .get = [](const Row& row) -> MetricValue {
-                                       return row.causes ? row.causes->squared_error_per_mirror
-                                                         : std::vector<double>();
-                                   }}};
-const RegisteredMetric kRest{
+const RegisteredMetric kErrorPerMirrorMetric{{.name = "causes/squared_error_per_mirror",
+                                              .help = "causes of the error of each mirror",
+                                              .mask = kMirrorRowTable,
+                                              .better = BetterDirection::less,
+                                              .order = 271,
+                                              .get = [](const Row& row) -> MetricValue {
+                                                  return row.causes
+                                                             ? row.causes->squared_error_per_mirror
+                                                             : std::vector<double>();
+                                              }}};
+const RegisteredMetric kUnexplainedErrorMetric{
     {.name = "causes/rest_rmse",
      .help = "rmse when all causes are removed: near 0 if no cause is missing",
-     .mask = kMirrors,
+     .mask = kMirrorRowTable,
      .order = 272,
      .get = cause_metric_value<&Causes::rest_rmse>}};
-const RegisteredMetric kAtLightEdges{
+const RegisteredMetric kErrorAtLightEdgesMetric{
     {.name = "causes/at_light_edges",
      .help = "share of the squared error in pixels that looked within a texel of a light's outline",
-     .mask = kMirrors,
+     .mask = kMirrorRowTable,
      .order = 273,
      .get = [](const Row& row) -> MetricValue {
          return row.causes && row.light_edges ? row.light_edges->share : NAN;
      }}};
-const RegisteredMetric kList{
+const RegisteredMetric kCauseSharesMetric{
     {.name = "causes/list",
      .help =
          "each cause's share of the squared error (Shapley values for five of them, 1 in sum), and "
          "the decrease of the error when only this cause is removed",
-     .mask = kMirrors,
+     .mask = kMirrorRowTable,
      .order = 274,
      .get = list_cause_shares}};
 

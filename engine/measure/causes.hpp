@@ -39,7 +39,7 @@ struct Causes {
     std::vector<Cause> list;
     double rest_rmse = 0; ///< rmse with all causes removed; near 0 if no cause is missing
     /// Cause with the largest part of each pixel's squared error, row-major, as 1 + its index in
-    /// `list`. 0 means that the pixel shows no mirror or is not off (kOff).
+    /// `list`. 0 means that the pixel shows no mirror or is not off (kVisibleDifference).
     std::vector<std::uint8_t> largest;
 };
 

@@ -32,11 +32,11 @@ struct NormalEquations {
 
 /// Solves by coordinate descent: each step sets one unknown to the best value that is not negative.
 KindVector solve_non_negative(const NormalEquations& equations) {
-    constexpr int kMostSweeps = 200'000;
-    constexpr double kSmallestChange = 1e-12;
+    constexpr int kMaxSolverSweeps = 200'000;
+    constexpr double kConvergenceLimit = 1e-12;
     const std::size_t count = equations.right.size();
     KindVector found(count);
-    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kMaxSolverSweeps; ++sweep) {
         double change = 0, size = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const double diagonal = equations.matrix[i][i];
@@ -50,7 +50,7 @@ KindVector solve_non_negative(const NormalEquations& equations) {
             size = std::max(size, next * std::sqrt(diagonal));
             found[i] = next;
         }
-        if (change <= kSmallestChange * size) break;
+        if (change <= kConvergenceLimit * size) break;
     }
     return found;
 }
@@ -95,11 +95,11 @@ std::vector<std::size_t> find_front_of_times(const std::vector<Row>& rows,
 } // namespace
 
 std::string_view name_of(CostOrigin origin) {
-    constexpr std::string_view kNames[] = {"fitted", "literature", "given"};
-    return kNames[static_cast<std::size_t>(origin)];
+    constexpr std::string_view kCostOriginNames[] = {"fitted", "literature", "given"};
+    return kCostOriginNames[static_cast<std::size_t>(origin)];
 }
 
-double CostFit::share_within(double factor) const {
+double CostFit::fraction_within(double factor) const {
     std::size_t within = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
         within += left_out_ms[i] <= samples[i].ms * factor &&
@@ -119,18 +119,18 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
 }
 
 PredictedFront find_predicted_front(const DeviceCosts& costs, const std::vector<Row>& rows) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kUnknownTime = std::numeric_limits<double>::quiet_NaN();
     PredictedFront front;
     std::vector<double> ms, cheap, dear;
     for (const Row& row : rows) {
         const WorkCounts counts = work_of_row(row);
         const bool is_known = has_work(row);
         front.times.push_back(is_known ? predict_time(costs, counts)
-                                       : PredictedTime{kNone, kNone, kNone});
+                                       : PredictedTime{kUnknownTime, kUnknownTime, kUnknownTime});
         const bool takes_part = is_known && is_ranking_candidate(row);
-        ms.push_back(takes_part ? front.times.back().ms : kNone);
-        cheap.push_back(takes_part ? predict_time_at_ends(costs, counts, true) : kNone);
-        dear.push_back(takes_part ? predict_time_at_ends(costs, counts, false) : kNone);
+        ms.push_back(takes_part ? front.times.back().ms : kUnknownTime);
+        cheap.push_back(takes_part ? predict_time_at_ends(costs, counts, true) : kUnknownTime);
+        dear.push_back(takes_part ? predict_time_at_ends(costs, counts, false) : kUnknownTime);
     }
     front.rows = find_front_of_times(rows, ms);
     front.rows_if_rays_are_cheap = find_front_of_times(rows, cheap);

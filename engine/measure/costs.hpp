@@ -42,7 +42,7 @@ struct CostFit {
     std::vector<double> left_out_ms; ///< prediction of each sample, fitted without it
     /// Returns the share of samples, 0..1, whose prediction lies within a factor `factor` of the
     /// measured time.
-    double share_within(double factor) const;
+    double fraction_within(double factor) const;
 };
 
 struct DeviceCosts {

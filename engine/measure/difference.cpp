@@ -28,7 +28,7 @@ void check_equal_sizes(const Picture& a, const Picture& b, const Mask& mask,
           " pixels wants a FLIP map of as many, found ", flip_size);
 }
 
-const RegisteredMetric kPixels{
+const RegisteredMetric kComparedPixelsMetric{
     {.name = "pixels",
      .unit = "pixels",
      .help = "number of pixels of the mask, including pixels that are not finite",
@@ -36,7 +36,7 @@ const RegisteredMetric kPixels{
      .get = [](const Difference& error) -> MetricValue {
          return static_cast<double>(error.pixels);
      }}};
-const RegisteredMetric kFlip{
+const RegisteredMetric kFlipMetric{
     {.name = "flip",
      .help = "mean LDR-FLIP at 67 pixels per degree, of the pictures as displayed",
      .better = BetterDirection::less,
@@ -44,21 +44,21 @@ const RegisteredMetric kFlip{
      .each_mask_in_table = true,
      .columns = {{"FLIP"}},
      .get = [](const Difference& error) -> MetricValue { return error.flip; }}};
-const RegisteredMetric kShareOff{
+const RegisteredMetric kShareOffMetric{
     {.name = "off",
      .help = "share of the pixels whose largest channel difference exceeds .02",
      .better = BetterDirection::less,
      .order = 102,
      .columns = {{"off, %", ValueFormat::percent, 2}},
      .get = [](const Difference& error) -> MetricValue { return error.off; }}};
-const RegisteredMetric kMae{
+const RegisteredMetric kMaeMetric{
     {.name = "mae",
      .help = "mean absolute difference, linear RGB times 2^exposure, clamped to [0,1]",
      .better = BetterDirection::less,
      .order = 103,
      .columns = {{"MAE"}},
      .get = [](const Difference& error) -> MetricValue { return error.mae; }}};
-const RegisteredMetric kRmse{
+const RegisteredMetric kRmseMetric{
     {.name = "rmse",
      .help = "root of the mean square difference, linear RGB times 2^exposure, "
              "clamped to [0,1]; negative: below the noise of the reference",
@@ -67,23 +67,23 @@ const RegisteredMetric kRmse{
      .each_mask_in_table = true,
      .columns = {{"rmse"}},
      .get = [](const Difference& error) -> MetricValue { return error.rmse; }}};
-const RegisteredMetric kPsnr{{.name = "psnr",
-                              .unit = "dB",
-                              .help = "-20 log10 rmse; none for equal pictures",
-                              .better = BetterDirection::more,
-                              .order = 106,
-                              .columns = {{"PSNR dB", ValueFormat::fixed, 1}},
-                              .get = [](const Difference& error) -> MetricValue {
-                                  return error.psnr.value_or(Difference::kNone);
-                              }}};
-const RegisteredMetric kP99{
+const RegisteredMetric kPsnrMetric{{.name = "psnr",
+                                    .unit = "dB",
+                                    .help = "-20 log10 rmse; none for equal pictures",
+                                    .better = BetterDirection::more,
+                                    .order = 106,
+                                    .columns = {{"PSNR dB", ValueFormat::fixed, 1}},
+                                    .get = [](const Difference& error) -> MetricValue {
+                                        return error.psnr.value_or(Difference::kNone);
+                                    }}};
+const RegisteredMetric kPercentile99Metric{
     {.name = "p99",
      .help = "99th percentile of the pixels' largest channel difference",
      .better = BetterDirection::less,
      .order = 107,
      .columns = {{"p99"}},
      .get = [](const Difference& error) -> MetricValue { return error.p99; }}};
-const RegisteredMetric kNonfinite{
+const RegisteredMetric kNonfiniteMetric{
     {.name = "nonfinite",
      .unit = "pixels",
      .help = "number of pixels that are NaN or infinite; any such pixel makes a row fail",
@@ -92,25 +92,27 @@ const RegisteredMetric kNonfinite{
      .get = [](const Difference& error) -> MetricValue {
          return static_cast<double>(error.nonfinite);
      }}};
-const RegisteredMetric kMax{
+const RegisteredMetric kMaxDifferenceMetric{
     {.name = "max",
      .help = "largest channel difference of all pixels",
      .better = BetterDirection::less,
      .order = 109,
      .get = [](const Difference& error) -> MetricValue { return error.max; }}};
-const RegisteredMetric kMaxAt{{.name = "max_at",
-                               .help = "pixel with the largest channel difference",
-                               .order = 110,
-                               .get = [](const Difference& error) -> MetricValue {
-                                   return PixelPosition{error.max_x, error.max_y};
-                               }}};
+const RegisteredMetric kMaxDifferencePixelMetric{
+    {.name = "max_at",
+     .help = "pixel with the largest channel difference",
+     .order = 110,
+     .get = [](const Difference& error) -> MetricValue {
+         return PixelPosition{error.max_x, error.max_y};
+     }}};
 
-const RegisteredMetric kMean{{.name = "mean",
-                              .help = "mean of the whole picture by channel, linear",
-                              .mask = "all",
-                              .order = 280,
-                              .get = [](const Row& row) -> MetricValue { return row.mean.rgb; }}};
-const RegisteredMetric kMeanClamped{
+const RegisteredMetric kMeanMetric{
+    {.name = "mean",
+     .help = "mean of the whole picture by channel, linear",
+     .mask = "all",
+     .order = 280,
+     .get = [](const Row& row) -> MetricValue { return row.mean.rgb; }}};
+const RegisteredMetric kMeanClampedMetric{
     {.name = "mean_clamped",
      .help = "mean of the whole picture by channel, linear, clamped to [0,1]",
      .mask = "all",
@@ -119,8 +121,8 @@ const RegisteredMetric kMeanClamped{
 
 /// Differences of the pixels of a short run. `largest` is NaN where a pixel is not finite.
 struct PixelBlock {
-    static constexpr std::size_t kPixels = 256;
-    std::array<double, kPixels> largest, square, absolute;
+    static constexpr std::size_t kComparedPixelsMetric = 256;
+    std::array<double, kComparedPixelsMetric> largest, square, absolute;
 };
 
 /// Fills `run` with the differences of `count` pixels of three values each.
@@ -151,8 +153,8 @@ CATOPTRIC_WIDE void compute_block_differences(const float* __restrict a, const f
 
 void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
                         std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
-    for (std::size_t first = 0; first < a.size(); first += PixelBlock::kPixels) {
-        const std::size_t count = std::min(PixelBlock::kPixels, a.size() - first);
+    for (std::size_t first = 0; first < a.size(); first += PixelBlock::kComparedPixelsMetric) {
+        const std::size_t count = std::min(PixelBlock::kComparedPixelsMetric, a.size() - first);
         const auto part = [&](auto values) {
             return values.empty() ? values : values.subspan(first, count);
         };
@@ -178,7 +180,7 @@ void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
         absolutes_ += run.absolute[i];
         flips_ += static_cast<double>(flip_map[i]);
         largest_.push_back(largest);
-        off_[first + i] = largest > kOff;
+        off_[first + i] = largest > kVisibleDifference;
         off_count_ += off_[first + i];
         if (largest_.size() == 1 || largest > result_.max) {
             const auto width = static_cast<std::size_t>(width_);

@@ -68,7 +68,7 @@ std::optional<BounceFinding> find_bounces(const Comparison& comparison) {
     if (finding.steps.size() < 2) return {};
     const double rest = finding.steps.back()->error.rmse;
     finding.fall = finding.steps.front()->error.rmse - rest;
-    finding.helps = finding.fall > kStep;
+    finding.helps = finding.fall > kEightBitStep;
     const Row* corrected = find_parallax_row(comparison);
     if (has_known_error(corrected) &&
         2 * corrected->error.rmse * corrected->error.rmse < rest * rest)

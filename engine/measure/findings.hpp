@@ -11,7 +11,7 @@
 namespace catoptric::measure {
 
 /// Difference between neighbouring values of an 8-bit picture, on a scale from 0 to 1.
-inline constexpr double kStep = 1.0 / 255;
+inline constexpr double kEightBitStep = 1.0 / 255;
 
 /// Result for smooth dielectrics, whose reflection some rows do not draw.
 struct UndrawnReflectionFinding {
@@ -54,7 +54,7 @@ std::optional<StoredDistanceFinding> find_stored_distance(const Comparison& comp
 struct BounceFinding {
     std::vector<const Row*> steps; ///< rows with 1, 2, ... inter-reflections
     double fall = 0;               ///< fall of the rmse from the first to the last step
-    bool helps = false;            ///< whether the fall is larger than kStep
+    bool helps = false;            ///< whether the fall is larger than kEightBitStep
     /// Row of part three if its squared error is less than half of the squared error of the last
     /// step. Null otherwise.
     const Row* dominated_by = nullptr;

@@ -28,7 +28,7 @@ namespace {
 const dmat3 kXyzFromRgb = {{10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382},
                            {8788810.0 / 24577794, 8788810.0 / 12288897, 8788810.0 / 73733382},
                            {4435075.0 / 24577794, 887015.0 / 12288897, 70074185.0 / 73733382}};
-const dvec3 kWhite = kXyzFromRgb * dvec3(1);
+const dvec3 kWhiteXyz = kXyzFromRgb * dvec3(1);
 
 /// Returns `matrix * v`. It is written out so that compilers vectorise loops over it.
 inline dvec3 multiply_matrix(const dmat3& matrix, const dvec3& v) {
@@ -38,9 +38,9 @@ inline dvec3 multiply_matrix(const dmat3& matrix, const dvec3& v) {
 }
 
 /// Matrix from linear RGB to XYZ divided by the XYZ of white.
-const dmat3 kRelativeFromRgb = {kXyzFromRgb[0] / kWhite, kXyzFromRgb[1] / kWhite,
-                                kXyzFromRgb[2] / kWhite};
-const dmat3 kRgbFromRelative = glm::inverse(kRelativeFromRgb);
+const dmat3 kRelativeXyzFromRgb = {kXyzFromRgb[0] / kWhiteXyz, kXyzFromRgb[1] / kWhiteXyz,
+                                   kXyzFromRgb[2] / kWhiteXyz};
+const dmat3 kRgbFromRelativeXyz = glm::inverse(kRelativeXyzFromRgb);
 
 /// Returns a colour in opponent space: x achromatic, y red-green, z blue-yellow.
 inline dvec3 ycxcz_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
@@ -60,9 +60,10 @@ inline double clamp_to_gamut(double value) { return std::min(std::max(value, 0.0
 /// Halley's method after a guess that divides the exponent by three. It has no branch, so compilers
 /// vectorise loops over it.
 inline double cube_root(double t) {
-    constexpr std::int32_t kBias = 0x2a51'37a0; // makes the guess's largest error least, 3.5 %
+    constexpr std::int32_t kCubeRootBias =
+        0x2a51'37a0; // makes the guess's largest error least, 3.5 %
     const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(t));
-    const auto root = static_cast<double>(std::bit_cast<float>(bits / 3 + kBias));
+    const auto root = static_cast<double>(std::bit_cast<float>(bits / 3 + kCubeRootBias));
     const auto nearer = [t](double guess) {
         const double cube = guess * guess * guess;
         return guess * (cube + 2 * t) / (2 * cube + t);
@@ -74,9 +75,9 @@ inline double cube_root(double t) {
 inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
     // CIELAB's linear part meets the cube root with equal value and slope, so no branch is needed.
     const auto f = [](double t) {
-        constexpr double kDelta = 6.0 / 29, kLeast = kDelta * kDelta * kDelta;
-        return cube_root(std::max(t, kLeast)) +
-               std::min(t - kLeast, 0.0) * (1 / (3 * kDelta * kDelta));
+        constexpr double kLabDelta = 6.0 / 29, kLabLinearEnd = kLabDelta * kLabDelta * kLabDelta;
+        return cube_root(std::max(t, kLabLinearEnd)) +
+               std::min(t - kLabLinearEnd, 0.0) * (1 / (3 * kLabDelta * kLabDelta));
     };
     const dvec3 n = multiply_matrix(relative_from_rgb, rgb);
     const double l = 116 * f(n.y) - 16;
@@ -100,12 +101,12 @@ FilterKernel contrast_sensitivity_kernel(double a, double b, int radius, double 
     constexpr double kPi = std::numbers::pi;
     const double amplitude = std::sqrt(a * std::sqrt(kPi / b));
     // Share of the middle weight that is below float's rounding.
-    constexpr double kNothing = 1e-10;
+    constexpr double kNegligibleWeight = 1e-10;
     const auto weight = [&](int i) {
         const double degrees = i / pixels_per_degree;
         return amplitude * std::exp(-kPi * kPi * degrees * degrees / b);
     };
-    while (radius > 0 && weight(radius) < kNothing * amplitude) --radius;
+    while (radius > 0 && weight(radius) < kNegligibleWeight * amplitude) --radius;
     FilterKernel kernel(radius);
     for (int i = -radius; i <= radius; ++i) kernel[i] = weight(i);
     return kernel;
@@ -113,9 +114,9 @@ FilterKernel contrast_sensitivity_kernel(double a, double b, int radius, double 
 
 int colour_kernel_radius(double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
-    constexpr double kWidest = 0.04; // the largest b below
+    constexpr double kWidestGaussian = 0.04; // the largest b below
     return static_cast<int>(
-        std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixels_per_degree));
+        std::ceil(3 * std::sqrt(kWidestGaussian / (2 * kPi * kPi)) * pixels_per_degree));
 }
 
 /// Picture by channel, in opponent colours or another space.
@@ -129,7 +130,7 @@ struct PixelRegion {
 /// Converts linear RGB to opponent colours in place.
 CATOPTRIC_WIDE void convert_to_opponent(double* __restrict x, double* __restrict y,
                                         double* __restrict z, std::size_t count) {
-    const dmat3 relative_from_rgb = kRelativeFromRgb; // a local copy stays in registers
+    const dmat3 relative_from_rgb = kRelativeXyzFromRgb; // a local copy stays in registers
     for (std::size_t i = 0; i < count; ++i) {
         const dvec3 colour = ycxcz_from_rgb({x[i], y[i], z[i]}, relative_from_rgb);
         x[i] = colour.x, y[i] = colour.y, z[i] = colour.z;
@@ -166,7 +167,7 @@ void convert_part_to_opponent(const Picture& display, const PixelRegion& part, i
 CATOPTRIC_WIDE void convert_to_uniform_space(double* __restrict x, double* __restrict y,
                                              double* __restrict z, std::size_t count) {
     // local copies stay in registers
-    const dmat3 rgb_from_relative = kRgbFromRelative, relative_from_rgb = kRelativeFromRgb;
+    const dmat3 rgb_from_relative = kRgbFromRelativeXyz, relative_from_rgb = kRelativeXyzFromRgb;
     for (std::size_t i = 0; i < count; ++i) {
         const dvec3 rgb = rgb_from_ycxcz({x[i], y[i], z[i]}, rgb_from_relative);
         const dvec3 even = hunt_lab_from_rgb(
@@ -213,21 +214,22 @@ class ColourDistanceMap {
 public:
     /// Returns the mapped difference. `distance` is that of two colours by `hyab_distance`.
     float operator()(float distance) const {
-        const float error = std::pow(distance, kExponent);
-        const float knee = kKneeIn * largest_;
-        return error < knee ? kKneeOut / knee * error
-                            : kKneeOut + (error - knee) / (largest_ - knee) * (1 - kKneeOut);
+        const float error = std::pow(distance, kColourErrorExponent);
+        const float knee = kErrorKneeInput * largest_;
+        return error < knee
+                   ? kErrorKneeOutput / knee * error
+                   : kErrorKneeOutput + (error - knee) / (largest_ - knee) * (1 - kErrorKneeOutput);
     }
 
 private:
-    static dvec3 lab(const dvec3& rgb) { return hunt_lab_from_rgb(rgb, kRelativeFromRgb); }
+    static dvec3 lab(const dvec3& rgb) { return hunt_lab_from_rgb(rgb, kRelativeXyzFromRgb); }
 
-    static constexpr float kExponent = 0.7F; // q_c
-    static constexpr float kKneeIn = 0.4F;   // p_c
-    static constexpr float kKneeOut = 0.95F; // p_t
+    static constexpr float kColourErrorExponent = 0.7F; // q_c
+    static constexpr float kErrorKneeInput = 0.4F;      // p_c
+    static constexpr float kErrorKneeOutput = 0.95F;    // p_t
     // Green against blue is the largest difference in the sRGB gamut.
     float largest_ = std::pow(static_cast<float>(hyab_distance(lab({0, 1, 0}), lab({0, 0, 1}))),
-                              kExponent);
+                              kColourErrorExponent);
 };
 
 // --- section 4.2: feature pipeline ---------------------------------------------------------------
@@ -387,18 +389,18 @@ std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, i
 
     // The planes of a tile stay in the cache. Each tile is computed with as many pixels around it
     // as the filters reach, so no pixel depends on the tiling.
-    constexpr int kTile = 128;
+    constexpr int kFlipTileEdge = 128;
     const FlipKernels kernels{ColourKernels(pixels_per_degree), FeatureKernels(pixels_per_degree),
                               flip_filter_radius(pixels_per_degree)};
-    const ivec2 size(a.width, end - first), tiles = (size + kTile - 1) / kTile;
+    const ivec2 size(a.width, end - first), tiles = (size + kFlipTileEdge - 1) / kFlipTileEdge;
     std::vector<float> map(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     const int tile_count = tiles.x * tiles.y;
     std::atomic<int> next{0};
     const auto work = [&](std::size_t) {
         FlipMapPart part_of_map(kernels);
         for (int tile = next++; tile < tile_count; tile = next++) {
-            const ivec2 low = kTile * ivec2(tile % tiles.x, tile / tiles.x);
-            const ivec2 high = min(low + kTile, size), from(0, first);
+            const ivec2 low = kFlipTileEdge * ivec2(tile % tiles.x, tile / tiles.x);
+            const ivec2 high = min(low + kFlipTileEdge, size), from(0, first);
             part_of_map.write(a, b, {low + from, high + from},
                               map.data() + std::ptrdiff_t(low.y) * size.x + low.x, size.x);
         }

@@ -22,21 +22,21 @@ MetricValue ray_count_value(const Row& row) {
     return row.rays ? static_cast<double>((*row.rays).*Kind) : NAN;
 }
 
-const RegisteredMetric kScenePasses{
+const RegisteredMetric kScenePassesMetric{
     {.name = "scene_passes",
      .help = "renders of the scene per frame, a cube counted once: the seed report's R",
      .better = BetterDirection::less,
      .order = 10,
      .columns = {{"R", ValueFormat::fixed}},
      .get = [](const Row& row) -> MetricValue { return static_cast<double>(row.scene_passes); }}};
-const RegisteredMetric kSceneDraws{
+const RegisteredMetric kSceneDrawsMetric{
     {.name = "scene_draws",
      .help = "renders of the scene per frame, with every face of a cube counted",
      .better = BetterDirection::less,
      .order = 11,
      .columns = {{"Draws", ValueFormat::fixed}},
      .get = [](const Row& row) -> MetricValue { return static_cast<double>(row.scene_draws); }}};
-const RegisteredMetric kGpuTime{
+const RegisteredMetric kGpuTimeMetric{
     {.name = "gpu_ms",
      .unit = "ms",
      .help = "time of a frame on the device, from the first to the last time stamp",
@@ -44,7 +44,7 @@ const RegisteredMetric kGpuTime{
      .order = 20,
      .columns = {{"ms", ValueFormat::times}, {"95 %", ValueFormat::time_interval}},
      .get = [](const Row& row) -> MetricValue { return row.gpu_ms; }}};
-const RegisteredMetric kRecordTime{
+const RegisteredMetric kRecordTimeMetric{
     {.name = "cpu_record_ms",
      .unit = "ms",
      .help = "time to record the command buffer",
@@ -52,7 +52,7 @@ const RegisteredMetric kRecordTime{
      .order = 21,
      .columns = {{.title = "record ms", .style = ValueFormat::own_times, .order = 23}},
      .get = [](const Row& row) -> MetricValue { return row.cpu_record_ms; }}};
-const RegisteredMetric kWallTime{
+const RegisteredMetric kWallTimeMetric{
     {.name = "wall_ms",
      .unit = "ms",
      .help = "time from submit to fence, without recording and read-back",
@@ -60,7 +60,7 @@ const RegisteredMetric kWallTime{
      .order = 22,
      .columns = {{"wall ms", ValueFormat::times}},
      .get = [](const Row& row) -> MetricValue { return row.wall_ms; }}};
-const RegisteredMetric kProcessorTime{
+const RegisteredMetric kProcessorTimeMetric{
     {.name = "cpu_ms",
      .unit = "ms",
      .help = "processor time of the whole process per frame, if the device is a processor",
@@ -68,32 +68,33 @@ const RegisteredMetric kProcessorTime{
      .order = 24,
      .columns = {{.title = "cpu ms", .style = ValueFormat::times, .order = 22}},
      .get = [](const Row& row) -> MetricValue { return row.cpu_ms; }}};
-const RegisteredMetric kWaited{
+const RegisteredMetric kWaitedShareMetric{
     {.name = "waited",
      .help =
          "share of time in which the row's threads waited for a processor that other programs used",
      .better = BetterDirection::less,
      .order = 29,
      .get = [](const Row& row) -> MetricValue { return row.waited; }}};
-const RegisteredMetric kNoisy{
+const RegisteredMetric kNoisyTimesMetric{
     {.name = "noisy",
      .help = "whether the row's threads waited for more than 5 % of the time, because of other "
              "programs; its times are then unreliable",
      .order = 29,
      .get = [](const Row& row) -> MetricValue { return row.noisy; }}};
-const RegisteredMetric kPasses{{.name = "passes",
-                                .unit = "ms",
-                                .help = "time of each pass on the device, in order of execution",
-                                .better = BetterDirection::less,
-                                .order = 30,
-                                .get = list_pass_times}};
-const RegisteredMetric kClosure{
+const RegisteredMetric kPassTimesMetric{
+    {.name = "passes",
+     .unit = "ms",
+     .help = "time of each pass on the device, in order of execution",
+     .better = BetterDirection::less,
+     .order = 30,
+     .get = list_pass_times}};
+const RegisteredMetric kPassTimeSumMetric{
     {.name = "closure",
      .help =
          "sum of the times of all passes, divided by wall_ms; near 1 if time stamps are correct",
      .order = 40,
      .get = [](const Row& row) -> MetricValue { return row.closure; }}};
-const RegisteredMetric kMemory{
+const RegisteredMetric kGraphMemoryMetric{
     {.name = "memory_bytes",
      .unit = "bytes",
      .help = "memory of the frame's images",
@@ -101,7 +102,7 @@ const RegisteredMetric kMemory{
      .order = 210,
      .columns = {{"MiB", ValueFormat::mebibytes}},
      .get = [](const Row& row) -> MetricValue { return static_cast<double>(row.memory_bytes); }}};
-const RegisteredMetric kTraced{
+const RegisteredMetric kTracedFractionMetric{
     {.name = "traced_fraction",
      .help = "share of the mirror pixels that were traced because the search answered unknown",
      .mask = "mirrors",
@@ -109,16 +110,15 @@ const RegisteredMetric kTraced{
      .order = 220,
      .columns = {{"Traced, %", ValueFormat::percent, 2, MetricTable::lookup, 999}},
      .get = [](const Row& row) -> MetricValue { return zero_to_nothing(row.traced_fraction); }}};
-const RegisteredMetric kAutoEdge{{.name = "auto_face/edge",
-                                  .unit = "texels",
-                                  .help = "edge of captures that face=auto chose, in texels",
-                                  .order = 230,
-                                  .get = [](const Row& row) -> MetricValue {
-                                      return row.auto_face
-                                                 ? static_cast<double>(row.auto_face->edge)
-                                                 : NAN;
-                                  }}};
-const RegisteredMetric kAutoNeeds{
+const RegisteredMetric kAutoFaceEdgeMetric{
+    {.name = "auto_face/edge",
+     .unit = "texels",
+     .help = "edge of captures that face=auto chose, in texels",
+     .order = 230,
+     .get = [](const Row& row) -> MetricValue {
+         return row.auto_face ? static_cast<double>(row.auto_face->edge) : NAN;
+     }}};
+const RegisteredMetric kAutoFaceNeedsMetric{
     {.name = "auto_face/needs",
      .unit = "texels",
      .help = "edge that each mirror alone needs, in texels; 0: not in view",
@@ -126,22 +126,22 @@ const RegisteredMetric kAutoNeeds{
      .get = [](const Row& row) -> MetricValue {
          return row.auto_face ? row.auto_face->needs : std::vector<double>();
      }}};
-const RegisteredMetric kPrimaryRays{{.name = "rays/primary",
-                                     .unit = "rays",
-                                     .help = "number of camera rays of a frame",
-                                     .order = 240,
-                                     .get = ray_count_value<&RayCounts::primary>}};
-const RegisteredMetric kMirrorRays{{.name = "rays/mirror",
-                                    .unit = "rays",
-                                    .help = "number of reflected rays of a frame",
-                                    .order = 241,
-                                    .get = ray_count_value<&RayCounts::mirror>}};
-const RegisteredMetric kShadowRays{{.name = "rays/shadow",
-                                    .unit = "rays",
-                                    .help = "number of shadow rays of a frame",
-                                    .order = 242,
-                                    .get = ray_count_value<&RayCounts::shadow>}};
-const RegisteredMetric kSaturated{
+const RegisteredMetric kPrimaryRaysMetric{{.name = "rays/primary",
+                                           .unit = "rays",
+                                           .help = "number of camera rays of a frame",
+                                           .order = 240,
+                                           .get = ray_count_value<&RayCounts::primary>}};
+const RegisteredMetric kMirrorRaysMetric{{.name = "rays/mirror",
+                                          .unit = "rays",
+                                          .help = "number of reflected rays of a frame",
+                                          .order = 241,
+                                          .get = ray_count_value<&RayCounts::mirror>}};
+const RegisteredMetric kShadowRaysMetric{{.name = "rays/shadow",
+                                          .unit = "rays",
+                                          .help = "number of shadow rays of a frame",
+                                          .order = 242,
+                                          .get = ray_count_value<&RayCounts::shadow>}};
+const RegisteredMetric kSaturatedTexelsMetric{
     {.name = "saturated_texels",
      .unit = "texels",
      .help = "number of texels of half-float captures that are cut off at 65504",

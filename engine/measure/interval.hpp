@@ -9,13 +9,13 @@
 namespace catoptric::measure {
 
 /// Smallest number of values for which the median has a 95 % confidence interval.
-inline constexpr std::size_t kFewest = 6;
+inline constexpr std::size_t kMinIntervalSamples = 6;
 
 /// Returns an interval that contains the median of the underlying distribution with at least 95 %
 /// confidence, if the values are independent. The interval runs from the k-th smallest to the k-th
 /// largest value. k is the largest rank for which P(Binomial(n, 1/2) < k) <= 2.5 % (David and
 /// Nagaraja, Order Statistics, 7.1). For 6 to 8 values it is their range (96.9 % for 6). It is
-/// unknown for fewer than `kFewest` values or if a value is NaN. Costs O(n log n).
+/// unknown for fewer than `kMinIntervalSamples` values or if a value is NaN. Costs O(n log n).
 Interval median_interval(std::span<const double> values);
 
 /// Return the interval of the median of a[i]/b[i], and of a[i]-b[i]. If the lists differ in length,

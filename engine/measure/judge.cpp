@@ -20,7 +20,7 @@ const Row* find_row_that_beats(const std::vector<const Row*>& front, const Row& 
     return found == front.end() ? nullptr : *found;
 }
 
-const RegisteredMetric kFailed{
+const RegisteredMetric kFailedRowMetric{
     {.name = "failed",
      .help =
          "whether the row's picture has pixels that are NaN or infinite; no figure of such a row "

@@ -10,7 +10,7 @@
 namespace catoptric::measure {
 
 /// Largest difference that counts as settled: one step of 8 bits, linear.
-inline constexpr double kLagBound = 1.0 / 255;
+inline constexpr double kLagErrorLimit = 1.0 / 255;
 
 /// Errors along the whole path at one speed.
 struct LagAtSpeed {
@@ -24,8 +24,8 @@ struct LagAtSpeed {
 struct SettlingAfterCut {
     std::vector<double> rmse;
     std::vector<double> max; ///< the largest channel difference of any mirror pixel
-    /// First frame from which on the rmse, or each pixel, is within kLagBound. Empty if that does
-    /// not happen in these frames.
+    /// First frame from which on the rmse, or each pixel, is within kLagErrorLimit. Empty if that
+    /// does not happen in these frames.
     std::optional<int> rmse_settled, max_settled;
 };
 

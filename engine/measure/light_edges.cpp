@@ -9,41 +9,42 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kMirrors = "mirrors";
-constexpr int kBesideRmse = 104; // order of columns that stand beside rmse
+constexpr std::string_view kMirrorMask = "mirrors";
+constexpr int kColumnOrderBesideRmse = 104; // order of columns that stand beside rmse
 
 template <double LightEdgeErrors::*Figure>
 MetricValue light_edge_metric_value(const Row& row) {
     return row.light_edges ? (*row.light_edges).*Figure : NAN;
 }
 
-const RegisteredMetric kRmse{
+const RegisteredMetric kLightEdgeRmseMetric{
     {.name = "light_edges/rmse",
      .help = "part of the rmse from pixels that looked within a texel of a light's outline; the "
              "squares of this part and of rest_rmse add up to that of rmse",
-     .mask = kMirrors,
+     .mask = kMirrorMask,
      .better = BetterDirection::less,
      .order = 255,
-     .columns = {{.title = "rmse, light edges", .order = kBesideRmse}},
+     .columns = {{.title = "rmse, light edges", .order = kColumnOrderBesideRmse}},
      .get = light_edge_metric_value<&LightEdgeErrors::rmse>}};
-const RegisteredMetric kRest{{.name = "light_edges/rest_rmse",
-                              .help = "part of the rmse from all other pixels",
-                              .mask = kMirrors,
-                              .better = BetterDirection::less,
-                              .order = 256,
-                              .columns = {{.title = "rmse, rest", .order = kBesideRmse}},
-                              .get = light_edge_metric_value<&LightEdgeErrors::rest_rmse>}};
-const RegisteredMetric kShare{
+const RegisteredMetric kRemainingRmseMetric{
+    {.name = "light_edges/rest_rmse",
+     .help = "part of the rmse from all other pixels",
+     .mask = kMirrorMask,
+     .better = BetterDirection::less,
+     .order = 256,
+     .columns = {{.title = "rmse, rest", .order = kColumnOrderBesideRmse}},
+     .get = light_edge_metric_value<&LightEdgeErrors::rest_rmse>}};
+const RegisteredMetric kLightEdgeShareMetric{
     {.name = "light_edges/share",
      .help = "share of the squared error in pixels that looked within a texel "
              "of a light's outline",
-     .mask = kMirrors,
+     .mask = kMirrorMask,
      .order = 257,
      .get = light_edge_metric_value<&LightEdgeErrors::share>}};
-const RegisteredMetric kPixels{
+const RegisteredMetric kLightEdgePixelsMetric{
     {.name = "light_edges/pixels",
      .help = "share of the pixels that looked within a texel of a light's outline",
-     .mask = kMirrors,
+     .mask = kMirrorMask,
      .order = 258,
      .get = light_edge_metric_value<&LightEdgeErrors::pixels>}};
 

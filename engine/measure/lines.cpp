@@ -13,26 +13,27 @@
 namespace catoptric::measure {
 namespace {
 
-constexpr int kPatch = 4; ///< edge of the square that makes a patch
+constexpr int kPatchEdge = 4; ///< edge of the square that makes a patch
 /// Pixels dilated by 1 touch if their columns and rows differ by at most this.
-constexpr int kReach = 3;
+constexpr int kPixelBorder = 3;
 
-/// Returns a mask of the lower right corners of squares of kPatch x kPatch pixels that all count.
+/// Returns a mask of the lower right corners of squares of kPatchEdge x kPatchEdge pixels that all
+/// count.
 Mask mask_patch_corners(const Mask& mask, std::size_t width) {
     Mask corners(mask.size());
     const std::size_t height = mask.size() / width;
-    if (width < kPatch || height < kPatch) return corners;
-    // For each of the last kPatch rows: whether kPatch adjacent pixels count, the last of them at
-    // x.
-    std::array<Mask, kPatch> runs;
+    if (width < kPatchEdge || height < kPatchEdge) return corners;
+    // For each of the last kPatchEdge rows: whether kPatchEdge adjacent pixels count, the last of
+    // them at x.
+    std::array<Mask, kPatchEdge> runs;
     runs.fill(Mask(width));
     for (std::size_t y = 0; y < height; ++y) {
         const std::uint8_t* const row = mask.data() + y * width;
-        std::uint8_t* const run = runs[y % kPatch].data();
-        for (std::size_t x = kPatch - 1; x < width; ++x)
+        std::uint8_t* const run = runs[y % kPatchEdge].data();
+        for (std::size_t x = kPatchEdge - 1; x < width; ++x)
             run[x] = (row[x] != 0) & (row[x - 1] != 0) & (row[x - 2] != 0) & (row[x - 3] != 0);
         std::uint8_t* const corner = corners.data() + y * width;
-        if (y + 1 >= kPatch)
+        if (y + 1 >= kPatchEdge)
             for (std::size_t x = 0; x < width; ++x)
                 corner[x] = runs[0][x] & runs[1][x] & runs[2][x] & runs[3][x];
     }
@@ -43,33 +44,35 @@ Mask mask_patch_corners(const Mask& mask, std::size_t width) {
 class RemainingPixels {
 public:
     RemainingPixels(const Mask& mask, std::size_t width)
-        : stride_(width + 2 * kReach), pixels_(stride_ * (mask.size() / width + 2 * kReach)) {
+        : stride_(width + 2 * kPixelBorder),
+          pixels_(stride_ * (mask.size() / width + 2 * kPixelBorder)) {
         for (std::size_t first = 0, y = 0; first < mask.size(); first += width, ++y)
             std::copy_n(mask.begin() + static_cast<std::ptrdiff_t>(first), width,
-                        pixels_.begin() + static_cast<std::ptrdiff_t>((y + kReach) * stride_) +
-                            kReach);
+                        pixels_.begin() +
+                            static_cast<std::ptrdiff_t>((y + kPixelBorder) * stride_) +
+                            kPixelBorder);
     }
 
-    std::uint8_t& at(int x, int y) { return row(y)[x + kReach]; }
+    std::uint8_t& at(int x, int y) { return row(y)[x + kPixelBorder]; }
 
     /// Removes the pixels that (x, y) touches and calls `found` for each, row by row.
     template <typename Found>
     void take_around(int x, int y, Found&& found) {
-        for (int v = y - kReach; v <= y + kReach; ++v) {
-            // Points to column x - kReach, because rows have a border.
+        for (int v = y - kPixelBorder; v <= y + kPixelBorder; ++v) {
+            // Points to column x - kPixelBorder, because rows have a border.
             std::uint8_t* const around = row(v) + x;
-            if ((four(around) | four(around + kReach)) == 0) continue;
-            for (int i = 0; i <= 2 * kReach; ++i) {
+            if ((four(around) | four(around + kPixelBorder)) == 0) continue;
+            for (int i = 0; i <= 2 * kPixelBorder; ++i) {
                 if (around[i] == 0) continue;
                 around[i] = 0;
-                found(x - kReach + i, v);
+                found(x - kPixelBorder + i, v);
             }
         }
     }
 
 private:
     std::uint8_t* row(int y) {
-        return pixels_.data() + static_cast<std::size_t>(y + kReach) * stride_;
+        return pixels_.data() + static_cast<std::size_t>(y + kPixelBorder) * stride_;
     }
     static std::uint32_t four(const std::uint8_t* pixels) {
         std::uint32_t result;
@@ -113,7 +116,7 @@ PixelSetBounds remove_connected_set(const Mask& corners, std::size_t width,
     return set;
 }
 
-const RegisteredMetric kLongestLine{
+const RegisteredMetric kLongestLineMetric{
     {.name = "longest_line",
      .unit = "pixels",
      .help = "length of the longest connected set of pixels that are off; sets that contain a 4x4 "

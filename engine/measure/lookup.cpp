@@ -12,78 +12,78 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kFirstOrder = "first_order";
+constexpr std::string_view kFirstOrderMask = "first_order";
 
 template <double LookupErrorSummary::*Figure>
 MetricValue lookup_metric_value(const Row& row) {
     return row.lookup ? (*row.lookup).*Figure : NAN;
 }
 
-const RegisteredMetric kPixels{
+const RegisteredMetric kLookupPixelsMetric{
     {.name = "lookup/pixels",
      .unit = "pixels",
      .help = "number of mirror pixels whose reflected ray meets no second mirror",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .order = 260,
      .columns = {{"Pixels", ValueFormat::fixed, 0, MetricTable::lookup}},
      .get = [](const Row& row) -> MetricValue {
          return row.lookup ? static_cast<double>(row.lookup->pixels) : NAN;
      }}};
-const RegisteredMetric kMean{
+const RegisteredMetric kMeanAngleMetric{
     {.name = "lookup/mean_degrees",
      .unit = "degrees",
      .help = "mean angle between the looked-up and the true direction",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .better = BetterDirection::less,
      .order = 261,
      .columns = {{"Mean, degrees", ValueFormat::fixed, 3, MetricTable::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::mean_degrees>}};
-const RegisteredMetric kP95{
+const RegisteredMetric kAnglePercentile95Metric{
     {.name = "lookup/p95_degrees",
      .unit = "degrees",
      .help = "95th percentile of the angle between the looked-up and the true direction",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .better = BetterDirection::less,
      .order = 262,
      .columns = {{"95 %", ValueFormat::fixed, 2, MetricTable::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::p95_degrees>}};
-const RegisteredMetric kP99{
+const RegisteredMetric kAnglePercentile99Metric{
     {.name = "lookup/p99_degrees",
      .unit = "degrees",
      .help = "99th percentile of the angle between the looked-up and the true direction",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .better = BetterDirection::less,
      .order = 263,
      .columns = {{"99 %", ValueFormat::fixed, 2, MetricTable::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::p99_degrees>}};
-const RegisteredMetric kWrongObject{
+const RegisteredMetric kWrongObjectMetric{
     {.name = "lookup/wrong_object",
      .help = "share of the pixels whose look-up finds another object than the true one",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .better = BetterDirection::less,
      .order = 264,
      .columns = {{"Wrong object, %", ValueFormat::percent, 2, MetricTable::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::wrong_object>}};
-const RegisteredMetric kUnknown{
+const RegisteredMetric kUnknownLookupsMetric{
     {.name = "lookup/unknown",
      .help = "share of the pixels whose search answers unknown",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .better = BetterDirection::less,
      .order = 265,
      .columns = {{"Unknown, %", ValueFormat::percent, 2, MetricTable::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::unknown>}};
-const RegisteredMetric kMiss{
+const RegisteredMetric kMissedLookupsMetric{
     {.name = "lookup/miss",
      .help = "share of the pixels whose search answers miss",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .order = 266,
      .columns = {{"Miss, %", ValueFormat::percent, 2, MetricTable::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::miss>}};
-const RegisteredMetric kResidual{
+const RegisteredMetric kLookupResidualMetric{
     {.name = "lookup/p95_residual",
      .help = "95th percentile, over hits, of the relative distance between the point found and the "
              "captured surface",
-     .mask = kFirstOrder,
+     .mask = kFirstOrderMask,
      .better = BetterDirection::less,
      .order = 267,
      .get = lookup_metric_value<&LookupErrorSummary::p95_residual>}};

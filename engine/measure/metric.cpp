@@ -17,7 +17,7 @@ std::vector<Metric>& metric_table() {
 
 bool is_row_metric(const Metric& quantity) {
     return std::holds_alternative<Metric::RowFunction>(quantity.get) ||
-           std::holds_alternative<Metric::OfStudy>(quantity.get);
+           std::holds_alternative<Metric::IsStudyMetric>(quantity.get);
 }
 
 std::vector<Metric> metrics_in_order() {
@@ -39,7 +39,7 @@ std::size_t picture_metric_index(const Metric& quantity) {
     return index;
 }
 
-constexpr RowMask kMasks[] = {
+constexpr RowMask kRowMasks[] = {
     {"error", "mirrors", "", &Errors::error},
     {"error_first_order", "first_order", "first order", &Errors::error_first_order},
     {"error_mirror_in_mirror", "mirror_in_mirror", "mirror in mirror",
@@ -75,7 +75,7 @@ void set_studied(Row& row, const std::string& metric, MetricValue value) {
     row.studied->values[metric] = std::move(value);
 }
 
-MetricValue studied(const Row& row, std::string_view metric) {
+MetricValue studied_value(const Row& row, std::string_view metric) {
     if (!row.studied) return {};
     const auto found = row.studied->values.find(metric);
     return found == row.studied->values.end() ? MetricValue() : found->second;
@@ -85,7 +85,7 @@ MetricValue metric_value(const Metric& quantity, const Row& row) {
     check(is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a row");
     if (const auto* get = std::get_if<Metric::RowFunction>(&quantity.get)) return (*get)(row);
-    return studied(row, quantity.name);
+    return studied_value(row, quantity.name);
 }
 
 MetricValue metric_value(const Metric& quantity, const Difference& difference) {
@@ -103,7 +103,7 @@ bool is_shown(const Metric& quantity, const Comparison& comparison) {
 }
 
 bool is_missing_value(const MetricValue& value) {
-    struct Asks {
+    struct MissingValueVisitor {
         bool operator()(std::monostate) const { return true; }
         bool operator()(bool) const { return false; }
         bool operator()(double number) const { return !std::isfinite(number); }
@@ -115,7 +115,7 @@ bool is_missing_value(const MetricValue& value) {
         bool operator()(const std::vector<double>& list) const { return list.empty(); }
         bool operator()(const std::vector<ValueParts>& list) const { return list.empty(); }
     };
-    return std::visit(Asks{}, value);
+    return std::visit(MissingValueVisitor{}, value);
 }
 
 std::vector<double> compute_picture_metrics(const PicturePair& compared) {
@@ -126,7 +126,7 @@ std::vector<double> compute_picture_metrics(const PicturePair& compared) {
     return figures;
 }
 
-std::span<const RowMask> list_row_masks() { return kMasks; }
+std::span<const RowMask> list_row_masks() { return kRowMasks; }
 
 bool has_columns(const RowMask& mask, const Comparison& comparison) {
     return !mask.only_where_some || std::ranges::any_of(comparison.rows, [&](const Row& row) {

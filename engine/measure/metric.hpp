@@ -43,7 +43,7 @@ struct Studied {
 /// Sets the row's value of a metric of a study.
 void set_studied(Row& row, const std::string& metric, MetricValue value);
 /// Returns the row's value of a metric of a study; no value if the study has not set it.
-MetricValue studied(const Row& row, std::string_view metric);
+MetricValue studied_value(const Row& row, std::string_view metric);
 
 enum class BetterDirection : std::uint8_t { neither, less, more };
 
@@ -91,18 +91,18 @@ struct Metric {
     bool each_mask_in_table = false;
     std::vector<MetricColumn> columns = {}; ///< columns in the report's tables; may be empty
 
-    /// Name of the study that fills this metric in Row::studied. Reports show the metric only if
-    /// the study was asked for. Empty for other metrics.
+    /// Name of the study that fills this metric in Row::studied. Reports show the metric only
+    /// if the study was asked for. Empty for other metrics.
     std::string_view study = {};
 
     /// Marks a metric whose value is the entry of its name in Row::studied.
-    struct OfStudy {};
+    struct IsStudyMetric {};
     using RowFunction = MetricValue (*)(const Row&);
     using DifferenceFunction = MetricValue (*)(const Difference&);
     /// Function that computes a metric of two pictures. A value that is not finite counts as no
     /// value. The function is called once for each mask of pixels.
     using PictureFunction = double (*)(const PicturePair&);
-    std::variant<OfStudy, RowFunction, DifferenceFunction, PictureFunction> get;
+    std::variant<IsStudyMetric, RowFunction, DifferenceFunction, PictureFunction> get;
 };
 
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program

@@ -104,7 +104,7 @@ struct Difference {
     /// Pixel with the largest difference; the first in reading order if there are several.
     int max_x = -1;
     int max_y = -1;
-    double off = kNone; ///< share of the finite pixels of the mask that are off (kOff), 0..1
+    double off = kNone; ///< share of the finite pixels of the mask that are off, 0..1
     /// Longest line of pixels that are off, in pixels: `longest_line` of measure/lines.hpp.
     double longest_line = kNone;
     /// Values of the metrics that are computed from pictures (Metric::PictureFunction).

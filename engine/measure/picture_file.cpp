@@ -19,9 +19,9 @@ namespace {
 /// channel.
 std::array<std::size_t, 3> find_rgb_channels(const std::vector<std::string>& channels) {
     std::array<std::size_t, 3> rgb = {0, 0, 0};
-    constexpr std::array<const char*, 3> kNames = {"R", "G", "B"};
+    constexpr std::array<const char*, 3> kRgbChannelNames = {"R", "G", "B"};
     for (std::size_t c = 0; c < rgb.size(); ++c) {
-        const auto at = std::ranges::find(channels, kNames[c]);
+        const auto at = std::ranges::find(channels, kRgbChannelNames[c]);
         if (at == channels.end()) return {0, 0, 0};
         rgb[c] = static_cast<std::size_t>(at - channels.begin());
     }
@@ -43,8 +43,8 @@ ImageReader::ImageShapeCheck make_shape_check(const std::string& name,
                                               const PictureReader::PictureSizeCheck& judge) {
     return [&name, &judge](const ImageShape& shape) {
         if (judge) judge(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
-        check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMostValues,
-              Failure::bad_data, name, ": wanted at most ", kMostValues, " values, found ",
+        check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMaxPictureValues,
+              Failure::bad_data, name, ": wanted at most ", kMaxPictureValues, " values, found ",
               shape.size.x, "x", shape.size.y, " with ", shape.channel_count, " channels");
     };
 }
@@ -111,11 +111,11 @@ std::string PictureReader::format() const {
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
     static const LinearDecoder kDecoded;
     // Pixels that are read at once; at least a row.
-    constexpr std::size_t kPixels = std::size_t{1} << 18;
+    constexpr std::size_t kPixelsPerBlock = std::size_t{1} << 18;
     const bool is_stored = open_->format == "png"; // PNGs store sRGB values
     const std::size_t channel_count = open_->reader.shape().channel_count;
     const auto columns = static_cast<std::size_t>(width());
-    const std::size_t most = std::max<std::size_t>(1, kPixels / columns) * columns;
+    const std::size_t most = std::max<std::size_t>(1, kPixelsPerBlock / columns) * columns;
     auto row = static_cast<std::uint32_t>(first);
     while (!pixels.empty()) {
         const std::size_t count = std::min(most, pixels.size());

@@ -13,7 +13,7 @@
 namespace catoptric::measure {
 
 /// Largest picture that is read unless the caller says otherwise: 2^29 values, 2 GiB of float.
-constexpr std::uint64_t kMostValues = std::uint64_t{1} << 29;
+constexpr std::uint64_t kMaxPictureValues = std::uint64_t{1} << 29;
 
 /// Reads a picture row by row as `read_picture` does.
 class PictureReader {
@@ -21,8 +21,9 @@ public:
     /// Refuses a picture by its width and height: throws if they are not accepted.
     using PictureSizeCheck = std::function<void(int, int)>;
 
-    /// Reads only the header and checks it against `judge`, `kMostValues`, and whether a file of
-    /// this size can hold so many values. Memory for the picture is allocated after these checks.
+    /// Reads only the header and checks it against `judge`, `kMaxPictureValues`, and whether a file
+    /// of this size can hold so many values. Memory for the picture is allocated after these
+    /// checks.
     explicit PictureReader(const std::filesystem::path& path, const PictureSizeCheck& judge = {});
     ~PictureReader();
     PictureReader(PictureReader&&) noexcept;

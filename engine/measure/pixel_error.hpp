@@ -26,10 +26,10 @@ inline dvec3 differ_over_views(const vec3& a, const vec3& b) {
     return glm::abs(clamp_pixel(a) - clamp_pixel(b));
 }
 
-/// Returns whether a channel differs by more than kOff. Both pixels must be finite.
+/// Returns whether a channel differs by more than kVisibleDifference. Both pixels must be finite.
 inline bool differs_visibly(const vec3& a, const vec3& b) {
     const dvec3 channels = differ_over_views(a, b);
-    return std::max({channels.x, channels.y, channels.z}) > kOff;
+    return std::max({channels.x, channels.y, channels.z}) > kVisibleDifference;
 }
 
 /// Returns the mean squared difference over the channels, 0..1, or NaN if a pixel is not finite.

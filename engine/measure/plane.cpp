@@ -7,21 +7,21 @@ namespace {
 
 /// Four adjacent values of a row.
 using FourValues [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-constexpr int kSums = 8; // sums that stay in registers
-constexpr int kBlock = 4 * kSums;
+constexpr int kRegisterSums = 8; // sums that stay in registers
+constexpr int kConvolutionBlock = 4 * kRegisterSums;
 
 /// Writes the weighted sum of `taps` rows to `to`. Each row has `width` values.
 CATOPTRIC_WIDE void sum_weighted_rows(const double* const* rows, const double* weights,
                                       std::size_t taps, int width, double* to) {
     int x = 0;
-    for (; x + kBlock <= width; x += kBlock) {
-        FourValues sums[kSums] = {};
+    for (; x + kConvolutionBlock <= width; x += kConvolutionBlock) {
+        FourValues sums[kRegisterSums] = {};
         for (std::size_t tap = 0; tap < taps; ++tap) {
             const FourValues* row = reinterpret_cast<const FourValues*>(rows[tap] + x);
-            for (int i = 0; i < kSums; ++i) sums[i] += weights[tap] * row[i];
+            for (int i = 0; i < kRegisterSums; ++i) sums[i] += weights[tap] * row[i];
         }
         FourValues* const there = reinterpret_cast<FourValues*>(to + x);
-        for (int i = 0; i < kSums; ++i) there[i] = sums[i];
+        for (int i = 0; i < kRegisterSums; ++i) there[i] = sums[i];
     }
     for (; x < width; ++x) {
         double sum = 0;

@@ -46,7 +46,7 @@ void ShapleyValues::add(std::uint32_t coalition, std::span<const double> values)
     }
 }
 
-const std::vector<double>& ShapleyValues::worth(std::size_t player) const {
+const std::vector<double>& ShapleyValues::shapley_values_of(std::size_t player) const {
     const auto missing = std::ranges::find(came_, false);
     check(missing == came_.end(), Failure::internal, "coalition ", missing - came_.begin(), " of ",
           worth_.size(), " players is missing");

@@ -25,7 +25,7 @@ public:
     void add(std::uint32_t coalition, std::span<const double> values);
     /// Returns the worth of the player in each game (entry g: game g). Throws `internal` before all
     /// coalitions were added.
-    const std::vector<double>& worth(std::size_t player) const;
+    const std::vector<double>& shapley_values_of(std::size_t player) const;
 
 private:
     std::size_t games_;

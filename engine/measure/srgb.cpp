@@ -37,7 +37,7 @@ EightBitCurve::EightBitCurve() {
     least_.back() = 2;
     std::size_t code = 0;
     for (std::size_t i = 0; i < guesses_.size(); ++i) {
-        const auto bits = static_cast<std::uint32_t>(i << kDropped);
+        const auto bits = static_cast<std::uint32_t>(i << kDroppedMantissaBits);
         const auto value = static_cast<double>(std::bit_cast<float>(bits));
         while (value >= least_[code + 1]) ++code;
         guesses_[i] = static_cast<std::uint8_t>(code);
@@ -46,7 +46,7 @@ EightBitCurve::EightBitCurve() {
         values_[i] = static_cast<float>(static_cast<double>(i) / 255);
 }
 
-const EightBitCurve& EightBitCurve::get() {
+const EightBitCurve& EightBitCurve::instance() {
     static const EightBitCurve kCurve;
     return kCurve;
 }

@@ -42,12 +42,12 @@ private:
 class EightBitCurve {
 public:
     /// Returns the shared table, which the first call creates.
-    static const EightBitCurve& get();
+    static const EightBitCurve& instance();
 
     /// Returns exactly round(srgb_from_linear(linear) * 255) / 255. Costs a nanosecond.
     float operator()(double linear) const {
         const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(linear));
-        std::size_t code = guesses_[bits >> kDropped];
+        std::size_t code = guesses_[bits >> kDroppedMantissaBits];
         // At most one code begins among floats with the same first bits. So one step up is enough,
         // or one step down if the float was rounded up. Conditions are summed because the processor
         // would mispredict branches.
@@ -59,15 +59,16 @@ public:
 private:
     EightBitCurve();
 
-    static constexpr int kDropped = 16;
+    static constexpr int kDroppedMantissaBits = 16;
     /// Least linear value that is encoded as each 8-bit code, indexed by the code. Entry 256 is
     /// above 1, so no value in [0,1] reaches it.
     std::array<double, 257> least_{};
     /// Codes indexed by the first bits of a float.
-    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDropped) + 1> guesses_{};
+    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDroppedMantissaBits) + 1>
+        guesses_{};
     std::array<float, 256> values_{};
 };
 
-inline float srgb_in_8_bits(double linear) { return EightBitCurve::get()(linear); }
+inline float srgb_in_8_bits(double linear) { return EightBitCurve::instance()(linear); }
 
 } // namespace catoptric::measure

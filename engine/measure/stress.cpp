@@ -13,7 +13,7 @@ namespace {
 double share_of_limit(const StressCase& one) {
     if (std::isnan(one.measured)) return std::numeric_limits<double>::infinity();
     if (one.limit > 0) return one.measured / one.limit;
-    return one.holds() ? 0 : std::numeric_limits<double>::infinity();
+    return one.is_within_limit() ? 0 : std::numeric_limits<double>::infinity();
 }
 
 } // namespace
@@ -29,14 +29,14 @@ std::string name_of(StressVerdict verdict) {
     return "";
 }
 
-const StressCase* StressRow::worst() const {
+const StressCase* StressRow::worst_case() const {
     const auto found = std::ranges::max_element(cases, {}, [](const StressCase& one) {
-        return std::pair(!one.holds() && !one.is_quality, share_of_limit(one));
+        return std::pair(!one.is_within_limit() && !one.is_quality, share_of_limit(one));
     });
     return found == cases.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> StressResults::not_run() const {
+std::vector<std::string> StressResults::list_parts_not_run() const {
     std::vector<std::string> all;
     for (const StressRow& row : rows) {
         if (row.verdict == StressVerdict::unsupported) all.push_back(row.id + ": " + row.remark);
@@ -46,7 +46,7 @@ std::vector<std::string> StressResults::not_run() const {
     return all;
 }
 
-bool StressResults::failed() const {
+bool StressResults::has_failed_row() const {
     return std::ranges::any_of(
         rows, [](const StressRow& row) { return row.verdict == StressVerdict::fail; });
 }

@@ -26,7 +26,7 @@ struct StressCase {
     double measured = 0;
     double limit = 0;
     bool is_quality = false; ///< whether a picture beyond the limit looks worse but is not wrong
-    bool holds() const { return measured <= limit; }
+    bool is_within_limit() const { return measured <= limit; }
 };
 
 struct StressPicture {
@@ -48,7 +48,7 @@ struct StressRow {
     std::string turned_red_by;
     /// Returns the case whose measured value is nearest to its limit, or furthest beyond it. Wrong
     /// pictures precede pictures that only look worse. Returns null if the property has no case.
-    const StressCase* worst() const;
+    const StressCase* worst_case() const;
 };
 
 struct StressResults {
@@ -62,10 +62,10 @@ struct StressResults {
     int width = 0, height = 0;
     std::uint64_t seed = 1;
     std::vector<StressRow> rows;
-    bool failed() const; ///< Returns whether a row failed.
+    bool has_failed_row() const; ///< Returns whether a row failed.
     /// Returns "C9: why" for each row, and "L2, what: why" for each part of a row, that could not
     /// be run.
-    std::vector<std::string> not_run() const;
+    std::vector<std::string> list_parts_not_run() const;
 };
 
 } // namespace catoptric::measure

@@ -13,7 +13,7 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kOrdering[] = {"flip", "off", "mae"};
+constexpr std::string_view kOrderingMetrics[] = {"flip", "off", "mae"};
 
 const RowMask& mirror_row_mask() { return list_row_masks().front(); }
 
@@ -117,7 +117,7 @@ std::vector<RowOrder> order_rows_over_views(const Comparison& comparison) {
             rows.push_back(&row);
     std::vector<RowOrder> orders;
     if (rows.size() > 1)
-        for (const std::string_view name : kOrdering)
+        for (const std::string_view name : kOrderingMetrics)
             orders.push_back(order_rows_by_metric(name, rows));
     return orders;
 }

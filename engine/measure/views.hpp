@@ -28,8 +28,8 @@ Interval metric_difference_over_views(const Row& a, const Row& b, std::string_vi
 
 /// Returns whether a metric of `a` over the mirrors is less than that of `b`: the interval of their
 /// difference over the views lies below 0. Without drawn views, the metrics of the picture are
-/// compared, and FLIP must differ by more than the noise of the reference. Fewer views than kFewest
-/// give false.
+/// compared, and FLIP must differ by more than the noise of the reference. Fewer views than
+/// kMinIntervalSamples give false.
 bool is_metric_less(const Row& a, const Row& b, std::string_view figure);
 /// Returns whether the metrics of two rows differ over the views with 95 % confidence. Otherwise
 /// the rows tie.

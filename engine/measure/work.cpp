@@ -11,13 +11,13 @@ namespace {
 
 /// Returns "work/" and the name of each kind. Metrics refer to these texts.
 const std::array<std::string, kWorkKindCount>& list_metric_names() {
-    static const std::array<std::string, kWorkKindCount> kNames = [] {
+    static const std::array<std::string, kWorkKindCount> kWorkMetricNames = [] {
         std::array<std::string, kWorkKindCount> names;
         for (std::size_t i = 0; i < kWorkKindCount; ++i)
             names[i] = "work/" + std::string(kWorkKinds[i].name);
         return names;
     }();
-    return kNames;
+    return kWorkMetricNames;
 }
 
 MetricValue to_metric_value(const std::optional<std::uint64_t>& count) {
@@ -33,11 +33,11 @@ std::vector<Metric> list_work_metrics() {
                            .help = kWorkKinds[i].help,
                            .better = BetterDirection::less,
                            .order = 700 + static_cast<int>(i),
-                           .get = Metric::OfStudy{}});
-    metrics.push_back({.name = kWorkByPass,
+                           .get = Metric::IsStudyMetric{}});
+    metrics.push_back({.name = kWorkByPassMetric,
                        .help = "the same counts for each pass of the frame",
                        .order = 700 + static_cast<int>(kWorkKindCount),
-                       .get = Metric::OfStudy{}});
+                       .get = Metric::IsStudyMetric{}});
     return metrics;
 }
 
@@ -53,13 +53,13 @@ void set_row_work(Row& row, const std::vector<PassWork>& passes) {
                 list.back().values.emplace_back(kWorkKinds[i].name,
                                                 to_metric_value(pass.counts.values[i]));
     }
-    set_studied(row, kWorkByPass, std::move(list));
+    set_studied(row, kWorkByPassMetric, std::move(list));
 }
 
 WorkCounts work_of_row(const Row& row) {
     WorkCounts counts;
     for (std::size_t i = 0; i < kWorkKindCount; ++i) {
-        const MetricValue value = studied(row, list_metric_names()[i]);
+        const MetricValue value = studied_value(row, list_metric_names()[i]);
         if (const double* number = std::get_if<double>(&value))
             counts.values[i] = static_cast<std::uint64_t>(*number);
     }
@@ -67,7 +67,7 @@ WorkCounts work_of_row(const Row& row) {
 }
 
 bool has_work(const Row& row) {
-    return !is_missing_value(studied(row, "work/" + std::string(kWorkKinds[0].name)));
+    return !is_missing_value(studied_value(row, "work/" + std::string(kWorkKinds[0].name)));
 }
 
 } // namespace catoptric::measure

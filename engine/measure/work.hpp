@@ -9,9 +9,9 @@
 namespace catoptric::measure {
 
 /// Name of the metric that holds the work of each pass.
-inline constexpr const char* kWorkByPass = "work_by_pass";
+inline constexpr const char* kWorkByPassMetric = "work_by_pass";
 
-/// Returns the metrics: "work/" with the name of each kind of work, and kWorkByPass.
+/// Returns the metrics: "work/" with the name of each kind of work, and kWorkByPassMetric.
 std::vector<Metric> list_work_metrics();
 /// Sets the metrics of a row from the work of its passes.
 void set_row_work(Row& row, const std::vector<PassWork>& passes);

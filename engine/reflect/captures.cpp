@@ -4,61 +4,67 @@ namespace catoptric::reflect {
 
 namespace {
 
-SharedKnobs::Shadow shadow_of(const KnobSettings& settings) {
-    using enum SharedKnobs::Shadow;
-    constexpr SharedKnobs::Shadow kRastered[] = {map, none}, kTraced[] = {ray, map, none};
-    if (settings.has(kShadow)) return kRastered[settings.integer(kShadow)];
-    return settings.has(kTracedShadow) ? kTraced[settings.integer(kTracedShadow)] : none;
+SharedKnobs::ShadowMethod shadow_method_of(const KnobSettings& settings) {
+    using enum SharedKnobs::ShadowMethod;
+    constexpr SharedKnobs::ShadowMethod kRasterShadows[] = {map, none},
+                                        kTracedShadows[] = {ray, map, none};
+    if (settings.has_knob(kShadowKnob)) return kRasterShadows[settings.integer_value(kShadowKnob)];
+    return settings.has_knob(kTracedShadowKnob)
+               ? kTracedShadows[settings.integer_value(kTracedShadowKnob)]
+               : none;
 }
 
 /// Returns the value of a knob, or nothing if there is no such knob or its special word is set.
-std::optional<std::uint32_t> number_of(const KnobSettings& settings, const Knob& knob) {
-    if (!settings.has(knob) || settings.is_special(knob)) return std::nullopt;
-    return static_cast<std::uint32_t>(settings.integer(knob));
+std::optional<std::uint32_t> find_knob_number(const KnobSettings& settings, const Knob& knob) {
+    if (!settings.has_knob(knob) || settings.is_special(knob)) return std::nullopt;
+    return static_cast<std::uint32_t>(settings.integer_value(knob));
 }
 
 /// Returns whether a knob of two choices has the second.
-bool has_second(const KnobSettings& settings, const Knob& knob) {
-    return settings.has(knob) && settings.integer(knob) == 1;
+bool has_second_choice(const KnobSettings& settings, const Knob& knob) {
+    return settings.has_knob(knob) && settings.integer_value(knob) == 1;
 }
 
 } // namespace
 
 SharedKnobs shared_knobs(const KnobSettings& settings) {
-    constexpr Format kFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};
-    SharedKnobs knobs{.shadow = shadow_of(settings)};
-    knobs.shadow_map = number_of(settings, kShadowMapEdge).value_or(1);
-    knobs.face = number_of(settings, kFace);
-    knobs.chooses_face = settings.has(kFace) && !knobs.face;
-    knobs.stores_floats = has_second(settings, kColour);
-    if (settings.has(kDistance)) knobs.distance = kFormats[settings.integer(kDistance)];
-    if (settings.has(kRange)) knobs.range = settings.number(kRange);
-    knobs.continues = number_of(settings, kContinue).value_or(0);
-    knobs.by_object = has_second(settings, kLookup);
-    knobs.asks_all = has_second(settings, kCaptures);
-    knobs.leaves_out_spheres = has_second(settings, kMirrors);
-    if (settings.has(kRough)) {
-        knobs.rough = settings.as<SharedKnobs::Rough>(kRough);
-        knobs.taps = static_cast<std::uint32_t>(settings.integer(kTaps));
-        knobs.lobe_rays = static_cast<std::uint32_t>(settings.integer(kLobeRays));
+    constexpr Format kDistanceFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};
+    SharedKnobs knobs{.shadow = shadow_method_of(settings)};
+    knobs.shadow_map = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
+    knobs.face = find_knob_number(settings, kFaceKnob);
+    knobs.chooses_face = settings.has_knob(kFaceKnob) && !knobs.face;
+    knobs.stores_floats = has_second_choice(settings, kColourKnob);
+    if (settings.has_knob(kDistanceKnob))
+        knobs.distance = kDistanceFormats[settings.integer_value(kDistanceKnob)];
+    if (settings.has_knob(kDistanceRangeKnob))
+        knobs.range = settings.number_value(kDistanceRangeKnob);
+    knobs.continues = find_knob_number(settings, kContinueKnob).value_or(0);
+    knobs.by_object = has_second_choice(settings, kLookupKnob);
+    knobs.asks_all = has_second_choice(settings, kCapturesKnob);
+    knobs.leaves_out_spheres = has_second_choice(settings, kMirrorsKnob);
+    if (settings.has_knob(kRoughKnob)) {
+        knobs.rough = settings.enum_value<SharedKnobs::Rough>(kRoughKnob);
+        knobs.taps = static_cast<std::uint32_t>(settings.integer_value(kTapsKnob));
+        knobs.lobe_rays = static_cast<std::uint32_t>(settings.integer_value(kRoughRaysKnob));
     }
-    if (settings.has(kLaw)) knobs.law = settings.as<SharedKnobs::Law>(kLaw);
-    knobs.capture = number_of(settings, kCapture);
-    knobs.is_black_in_others = settings.has(kCapture) && !knobs.capture;
+    if (settings.has_knob(kBlurLawKnob))
+        knobs.law = settings.enum_value<SharedKnobs::Law>(kBlurLawKnob);
+    knobs.capture = find_knob_number(settings, kCaptureKnob);
+    knobs.is_black_in_others = settings.has_knob(kCaptureKnob) && !knobs.capture;
     return knobs;
 }
 
 int count_shadow_passes(int lights, const KnobSettings& settings) {
-    return shadow_of(settings) == SharedKnobs::Shadow::map ? lights : 0;
+    return shadow_method_of(settings) == SharedKnobs::ShadowMethod::map ? lights : 0;
 }
 
 render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
                                             const KnobSettings& settings) {
     const SharedKnobs knobs = shared_knobs(settings);
     render::CaptureOptions options;
-    options.face = knobs.face ? *knobs.face : inputs.scene.common_face();
+    options.face = knobs.face ? *knobs.face : inputs.scene.common_face_edge();
     if (knobs.stores_floats) {
-        check(inputs.scene.device().filters_floats(), Failure::no_device,
+        check(inputs.scene.device().has_float_filtering(), Failure::no_device,
               "colour=float filters images of 32-bit floats, which device '",
               inputs.scene.device().info().name, "' cannot; take colour=half");
         options.colour = Format::rgba32f;
@@ -66,7 +72,7 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
     if (!knobs.distance) return options;
     options.distance = knobs.distance;
     if (options.distance == Format::r8_unorm)
-        options.stored_unit = inputs.scene.space().length(knobs.range);
+        options.stored_unit = inputs.scene.space().to_scene_length(knobs.range);
     const bool continues = knobs.continues > 0;
     const bool wants_normals = knobs.looks_up_levels() && knobs.law == SharedKnobs::Law::exact &&
                                inputs.scene.has_rough_mirrors();
@@ -85,15 +91,15 @@ render::MirrorShader make_capture_shader(const MirrorInputs& around, std::string
     const auto set = [&](const char* constant, int value) {
         look.constants.emplace_back(constant, static_cast<std::uint32_t>(value));
     };
-    for (const auto& [knob, constant] : {std::pair{&kContinue, "hops"},
-                                         {&kLookup, "by_object"},
-                                         {&kCaptures, "asks_others"},
-                                         {&kShow, "show"}})
-        if (settings.has(*knob)) set(constant, settings.integer(*knob));
+    for (const auto& [knob, constant] : {std::pair{&kContinueKnob, "hops"},
+                                         {&kLookupKnob, "by_object"},
+                                         {&kCapturesKnob, "asks_others"},
+                                         {&kShowKnob, "show"}})
+        if (settings.has_knob(*knob)) set(constant, settings.integer_value(*knob));
     // The captures of mirrors that share a technique all hold surface numbers, or none does. Some
     // mirrors may have no capture, so all are checked.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
-            const render::CubeArray* const cubes = around.captures->array_of(mirror);
+            const render::CubeArray* const cubes = around.captures->array_of_mirror(mirror);
             return cubes && cubes->surfaces;
         }))
         set("has_surfaces", 1);
@@ -106,7 +112,7 @@ render::MirrorShader make_search_shader(const Technique& technique, const Mirror
     render::MirrorShader look = make_capture_shader(around, technique.search, settings);
     for (const Knob& knob : technique.knobs) {
         if (std::ranges::find(kSearchKnobs, knob.name, &Knob::name) != kSearchKnobs.end()) continue;
-        const double value = settings.number(knob);
+        const double value = settings.number_value(knob);
         if (knob.is_real)
             look.constants.emplace_back(knob.name, static_cast<float>(value));
         else

@@ -13,14 +13,14 @@ inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f"
 inline constexpr std::array<std::string_view, 2> kColourChoices{"half", "float"};
 inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
 
-inline constexpr Knob kFace{
+inline constexpr Knob kFaceKnob{
     .name = "face",
     .help = "edge of a capture's face in texels; auto: as fine as the picture's pixels",
     .low = 1,
     .high = 16384,
     .value = 256,
     .special = "auto"};
-inline constexpr Knob kCapture{
+inline constexpr Knob kCaptureKnob{
     .name = "capture",
     .help = "in a plan with other techniques: face edge, in texels, of the capture by which other "
             "mirrors show this mirror; none: black in other mirrors",
@@ -28,36 +28,36 @@ inline constexpr Knob kCapture{
     .high = 16384,
     .value = 256,
     .special = "none"};
-inline constexpr Knob kColour{.name = "colour",
-                              .help = "format of captured colour: half (up to 65504) or float",
-                              .high = 1,
-                              .choices = kColourChoices};
-inline constexpr Knob kShadow{.name = "shadow",
-                              .help = "shadows: from shadow maps or none",
-                              .high = 1,
-                              .choices = kShadowChoices};
+inline constexpr Knob kColourKnob{.name = "colour",
+                                  .help = "format of captured colour: half (up to 65504) or float",
+                                  .high = 1,
+                                  .choices = kColourChoices};
+inline constexpr Knob kShadowKnob{.name = "shadow",
+                                  .help = "shadows: from shadow maps or none",
+                                  .high = 1,
+                                  .choices = kShadowChoices};
 inline constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
-inline constexpr Knob kTracedShadow{.name = "shadow",
-                                    .help = "shadows: from rays, from shadow maps, or none",
+inline constexpr Knob kTracedShadowKnob{.name = "shadow",
+                                        .help = "shadows: from rays, from shadow maps, or none",
+                                        .high = 2,
+                                        .choices = kTracedShadowChoices};
+inline constexpr Knob kShadowMapEdgeKnob{.name = "shadow_map",
+                                         .help = "edge of a shadow map's face in texels",
+                                         .low = 1,
+                                         .high = 16384,
+                                         .value = 1024};
+inline constexpr Knob kDistanceKnob{.name = "distance",
+                                    .help = "format of captured distances",
                                     .high = 2,
-                                    .choices = kTracedShadowChoices};
-inline constexpr Knob kShadowMapEdge{.name = "shadow_map",
-                                     .help = "edge of a shadow map's face in texels",
-                                     .low = 1,
-                                     .high = 16384,
-                                     .value = 1024};
-inline constexpr Knob kDistance{.name = "distance",
-                                .help = "format of captured distances",
-                                .high = 2,
-                                .choices = kDistanceChoices};
-inline constexpr Knob kRange{
+                                    .choices = kDistanceChoices};
+inline constexpr Knob kDistanceRangeKnob{
     .name = "range",
     .help = "largest distance that distance=unorm8 can store, in world units",
     .low = 1,
     .high = 1000000,
     .value = 200};
 
-inline constexpr Knob kContinue{
+inline constexpr Knob kContinueKnob{
     .name = "continue",
     .help =
         "number of further mirrors through which a reflected ray is followed before the look-up",
@@ -70,26 +70,26 @@ inline constexpr std::array<std::string_view, 2> kCapturesChoices{"own", "all"};
 inline constexpr std::array<std::string_view, 2> kMirrorsChoices{"captured", "left_out"};
 inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state", "residual"};
 
-inline constexpr Knob kLookup{
+inline constexpr Knob kLookupKnob{
     .name = "lookup",
     .help = "interpolation of colour: bilinear mixes four texels; object mixes only texels that "
             "show the same object",
     .high = 1,
     .value = 1,
     .choices = kLookupChoices};
-inline constexpr Knob kCaptures{
+inline constexpr Knob kCapturesKnob{
     .name = "captures",
     .help = "captures that a search reads: own, or all (other mirrors' captures if the own one "
             "answers unknown)",
     .high = 1,
     .choices = kCapturesChoices};
-inline constexpr Knob kMirrors{
+inline constexpr Knob kMirrorsKnob{
     .name = "mirrors",
     .help = "mirrors in captures: captured, or left_out (without exact spheres, through which rays "
             "are followed)",
     .high = 1,
     .choices = kMirrorsChoices};
-inline constexpr Knob kShow{
+inline constexpr Knob kShowKnob{
     .name = "show",
     .help = "picture on mirrors: colour; state of the search, hit (green), unknown (red) or miss "
             "(blue); residual of the search",
@@ -98,39 +98,42 @@ inline constexpr Knob kShow{
 
 /// In the order of SharedKnobs::Rough and of SharedKnobs::Law.
 inline constexpr std::array<std::string_view, 4> kRoughChoices{"none", "mips", "prefilter", "rays"};
-inline constexpr std::array<std::string_view, 5> kLawChoices{"none", "frostbite", "square", "cone",
-                                                             "exact"};
-inline constexpr Knob kRough{
+inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",
+                                                                 "cone", "exact"};
+inline constexpr Knob kRoughKnob{
     .name = "rough",
     .help = "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
             "prefilter (level filtered by the GGX lobe), rays (searches in directions of the lobe)",
     .high = 3,
     .value = 2,
     .choices = kRoughChoices};
-inline constexpr Knob kTaps{.name = "taps",
-                            .help = "samples of each texel for rough=prefilter",
-                            .low = 1,
-                            .high = 2048,
-                            .value = 32};
-inline constexpr Knob kLobeRays{
+inline constexpr Knob kTapsKnob{.name = "taps",
+                                .help = "samples of each texel for rough=prefilter",
+                                .low = 1,
+                                .high = 2048,
+                                .value = 32};
+inline constexpr Knob kRoughRaysKnob{
     .name = "rays",
-    .help = "directions of each rough pixel: searches for rough=rays, rays where a tracer completes "
-            "the search",
+    .help =
+        "directions of each rough pixel: searches for rough=rays, rays where a tracer completes "
+        "the search",
     .low = 1,
     .high = 4096,
     .value = 16};
-inline constexpr Knob kLaw{
+inline constexpr Knob kBlurLawKnob{
     .name = "law",
-    .help = "how the blur of rough=mips and rough=prefilter depends on the distance of the reflected "
-            "surface: none, frostbite, square, cone, or exact (the lobe's solid angle)",
+    .help =
+        "how the blur of rough=mips and rough=prefilter depends on the distance of the reflected "
+        "surface: none, frostbite, square, cone, or exact (the lobe's solid angle)",
     .high = 4,
     .value = 4,
-    .choices = kLawChoices};
+    .choices = kBlurLawChoices};
 
 /// Knobs that every search has, in lists after the search's own knobs.
 inline constexpr std::array kSearchKnobs{
-    kFace, kColour, kDistance, kRange, kContinue, kLookup, kCaptures,     kMirrors,
-    kShow, kRough,  kLaw,      kTaps,  kLobeRays, kShadow, kShadowMapEdge};
+    kFaceKnob,    kColourKnob,   kDistanceKnob,  kDistanceRangeKnob, kContinueKnob,
+    kLookupKnob,  kCapturesKnob, kMirrorsKnob,   kShowKnob,          kRoughKnob,
+    kBlurLawKnob, kTapsKnob,     kRoughRaysKnob, kShadowKnob,        kShadowMapEdgeKnob};
 
 template <std::size_t N>
 constexpr std::array<Knob, N + kSearchKnobs.size()>
@@ -173,9 +176,9 @@ struct LayerRange {
 /// from captures, is out of date, as runs of layers. Sets their content hash to `hash` of the
 /// mirror. If captures are not kept from frame to frame, all cubes are out of date.
 template <typename Hash>
-std::vector<LayerRange>
-find_outdated_cubes(graph::Graph& graph, const render::Captures& captures, std::uint32_t array,
-                    graph::ImageHandle derived, Hash&& hash) {
+std::vector<LayerRange> find_outdated_cubes(graph::Graph& graph, const render::Captures& captures,
+                                            std::uint32_t array, graph::ImageHandle derived,
+                                            Hash&& hash) {
     std::vector<LayerRange> runs;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
         const render::CapturePlace& place = captures.places[mirror];

@@ -13,7 +13,7 @@ namespace catoptric::reflect {
 namespace {
 
 std::optional<std::uint32_t> shadow_map_edge(const SharedKnobs& knobs) {
-    if (knobs.shadow != SharedKnobs::Shadow::map) return std::nullopt;
+    if (knobs.shadow != SharedKnobs::ShadowMethod::map) return std::nullopt;
     return knobs.shadow_map;
 }
 
@@ -23,7 +23,7 @@ public:
     ShadowMaps(graph::Graph& graph, const render::FrameInputs& inputs, const require::Model& model)
         : graph_(graph), inputs_(inputs), model_(model) {}
 
-    render::Lighting of(std::optional<std::uint32_t> edge) {
+    render::Lighting find_or_add_map(std::optional<std::uint32_t> edge) {
         if (!edge) return {};
         const auto found = made_.find(*edge);
         if (found != made_.end()) return found->second;
@@ -53,7 +53,7 @@ std::optional<std::uint32_t> shadow_map_edge_for_view(const std::vector<Techniqu
     std::optional<std::uint32_t> finest;
     if (!is_drawn) return shadow_map_edge(choices.front().shared);
     for (const TechniqueChoice& choice : choices)
-        if (choice.shared.shadow != SharedKnobs::Shadow::none)
+        if (choice.shared.shadow != SharedKnobs::ShadowMethod::none)
             finest = std::max(finest.value_or(1), choice.shared.shadow_map);
     return finest;
 }
@@ -71,7 +71,7 @@ std::vector<render::CaptureOptions> choose_capture_options(const render::FrameIn
         render::CaptureOptions options{.face = 0, .lighting = view_lighting};
         if (technique->capture) {
             options = technique->capture(inputs, choice.settings);
-            options.lighting = maps.of(shadow_map_edge(choice.shared));
+            options.lighting = maps.find_or_add_map(shadow_map_edge(choice.shared));
             if (reads_other_captures(choice.shared)) {
                 shared.surfaces = shared.surfaces || options.surfaces;
                 shared.second_layer = shared.second_layer || options.second_layer;
@@ -106,7 +106,7 @@ render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
         const Technique& technique = *choice.technique;
         render::MirrorShader look; // no fragment shader: black
         const bool is_kept = feeding.kept != nullptr;
-        if (feeding.last && feeding.last->places[i].exists() &&
+        if (feeding.last && feeding.last->places[i].is_captured() &&
             (feeding.was_there[i] || !is_kept)) {
             look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
             look.captures = feeding.last;
@@ -152,11 +152,12 @@ FeedbackCaptures add_feedback_passes(graph::Graph& graph, const render::FrameInp
         return {{}, RoughLevels(graph, inputs, nullptr, {})};
     std::vector<render::CaptureOptions> options = choose_capture_options(inputs, assignment, maps,
                                                                          view_lighting);
-    render::CaptureUpdate feeding =
-        keeping.model.is_everything
-            ? render::update_all_captures(graph, inputs, "capture", std::move(options))
-            : render::update_required_captures(graph, inputs, "capture", options, keeping.model,
-                                               {keeping.before, keeping.comparisons, keeping.most});
+    render::CaptureUpdate feeding = keeping.model.is_everything
+                                        ? render::update_all_captures(graph, inputs, "capture",
+                                                                      std::move(options))
+                                        : render::update_required_captures(
+                                              graph, inputs, "capture", options, keeping.model,
+                                              {keeping.before, keeping.comparisons, keeping.most});
     std::vector<SharedKnobs> knobs;
     for (const std::uint32_t choice : assignment.of_mirror)
         knobs.push_back(assignment.choices[choice].shared);
@@ -206,7 +207,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     const bool is_mixed = choices.size() > 1;
     ShadowMaps maps(graph, inputs, keeping.model);
     const bool completes = is_completed(choices);
-    const render::Lighting lighting = maps.of(
+    const render::Lighting lighting = maps.find_or_add_map(
         shadow_map_edge_for_view(choices, is_mixed || completes));
     if (!is_mixed && !completes && choices.front().technique->picture)
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
@@ -225,7 +226,8 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         const KnobSettings& settings = choices[i].settings;
         const Technique& technique = *choices[i].technique;
         const MirrorInputs around{
-            outputs.captures, completes ? lighting : maps.of(shadow_map_edge(choices[i].shared)),
+            outputs.captures,
+            completes ? lighting : maps.find_or_add_map(shadow_map_edge(choices[i].shared)),
             list_mirrors_of_choice(i, assignment)};
         MirrorShading look = technique.search
                                  ? MirrorShading{make_search_shader(technique, around, settings),

@@ -7,50 +7,50 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
-enum class Force { search, unknown };
-constexpr Knob kForce{.name = "force",
-                      .help = "pixels to trace: those for which the search answers unknown, or all",
-                      .high = 1,
-                      .choices = kForceChoices};
-constexpr auto kKnobs = list_search_knobs(std::array{kForce});
+constexpr std::array<std::string_view, 2> kForcedLookupChoices{"search", "unknown"};
+enum class ForcedLookup { search, unknown };
+constexpr Knob kForceKnob{
+    .name = "force",
+    .help = "pixels to trace: those for which the search answers unknown, or all",
+    .high = 1,
+    .choices = kForcedLookupChoices};
+constexpr auto kHybridKnobs = list_search_knobs(std::array{kForceKnob});
 
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
 MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
                                   const KnobSettings& settings, const MirrorInputs& around) {
     MirrorShading look = make_pyramid_shading(graph, inputs, settings, around);
-    const bool traces_all = settings.as<Force>(kForce) == Force::unknown;
+    const bool traces_all = settings.enum_value<ForcedLookup>(kForceKnob) == ForcedLookup::unknown;
     if (traces_all) look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
-    const bool is_rough = std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
-        return inputs.scene.is_rough_mirror(mirror);
-    });
+    const bool is_rough = std::ranges::any_of(
+        around.mirrors, [&](std::uint32_t mirror) { return inputs.scene.is_rough_mirror(mirror); });
     const SharedKnobs knobs = shared_knobs(settings);
     if (is_rough && knobs.rough != SharedKnobs::Rough::none) look.tracer->rays = knobs.lobe_rays;
     // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
-    if (traces_all && look.tracer->rays <= 1 && inputs.scene.device().numbers_triangles()) {
+    if (traces_all && look.tracer->rays <= 1 && inputs.scene.device().supports_primitive_ids()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }
-    if (knobs.shadow == SharedKnobs::Shadow::none)
+    if (knobs.shadow == SharedKnobs::ShadowMethod::none)
         look.tracer->shadow = TracerSettings::TracedShadow::none;
     return look;
 }
 
-constexpr std::string_view kCompared[] = {"hybrid"};
+constexpr std::string_view kHybridDefaultRows[] = {"hybrid"};
 
-constexpr Technique kHybrid{
+constexpr Technique kHybridTechnique{
     .name = "hybrid",
     .summary = "Searches first and traces only the pixels for which the search found no answer.",
     .order = 15,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kHybridKnobs,
+    .compared = kHybridDefaultRows,
     .scene_passes = count_feedback_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_hybrid_shading};
-const RegisteredTechnique kRow{kHybrid};
+const RegisteredTechnique kHybridRegistration{kHybridTechnique};
 
 } // namespace
 

@@ -6,12 +6,12 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kSteps{.name = "steps",
-                      .help = "number of steps of equal angle along the reflected ray",
-                      .low = 1,
-                      .high = 256,
-                      .value = 16};
-constexpr auto kKnobs = list_search_knobs(std::array{kSteps});
+constexpr Knob kStepsKnob{.name = "steps",
+                          .help = "number of steps of equal angle along the reflected ray",
+                          .low = 1,
+                          .high = 256,
+                          .value = 16};
+constexpr auto kLayeredKnobs = list_search_knobs(std::array{kStepsKnob});
 
 render::CaptureOptions choose_layered_capture_options(const render::FrameInputs& inputs,
                                                       const KnobSettings& settings) {
@@ -23,8 +23,8 @@ render::CaptureOptions choose_layered_capture_options(const render::FrameInputs&
 MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
                                    const KnobSettings& settings, const MirrorInputs& around) {
     MirrorShading look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
-    look.mirror.constants.emplace_back("steps",
-                                       static_cast<std::uint32_t>(settings.integer(kSteps)));
+    look.mirror.constants.emplace_back(
+        "steps", static_cast<std::uint32_t>(settings.integer_value(kStepsKnob)));
     // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
     // binding.
     const auto images = [&](const char* name, auto&& image) {
@@ -39,16 +39,16 @@ MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
     return look;
 }
 
-constexpr std::string_view kCompared[] = {"layered"};
+constexpr std::string_view kLayeredDefaultRows[] = {"layered"};
 
-constexpr Technique kLayered{
+constexpr Technique kLayeredTechnique{
     .name = "layered",
     .summary =
         "Marches through captures that also hold a second surface behind the first, and so finds "
         "hidden surfaces.",
     .order = 14,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kLayeredKnobs,
+    .compared = kLayeredDefaultRows,
     // R = 2 N + 2
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
@@ -57,7 +57,7 @@ constexpr Technique kLayered{
     .capture = choose_layered_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_layered_shading};
-const RegisteredTechnique kRow{kLayered};
+const RegisteredTechnique kLayeredRegistration{kLayeredTechnique};
 
 } // namespace
 

@@ -6,27 +6,27 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = list_search_knobs(
+constexpr auto kMarchKnobs = list_search_knobs(
     std::array{Knob{.name = "steps",
                     .help = "number of steps of equal angle along the reflected ray",
                     .low = 1,
                     .high = 256,
                     .value = 16}});
 
-constexpr std::string_view kCompared[] = {"march"};
+constexpr std::string_view kMarchDefaultRows[] = {"march"};
 
-constexpr Technique kMarch{
+constexpr Technique kMarchTechnique{
     .name = "march",
     .summary =
         "Marches along the reflected ray in steps of equal angle and refines the first crossing.",
     .order = 12,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kMarchKnobs,
+    .compared = kMarchDefaultRows,
     .scene_passes = count_feedback_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .search = "reflect/march.frag"};
-const RegisteredTechnique kRow{kMarch};
+const RegisteredTechnique kMarchRegistration{kMarchTechnique};
 
 } // namespace
 

@@ -32,14 +32,14 @@ MirroredFaces list_mirrored_faces(const render::GpuScene& scene,
         if (!choice.technique->mirrored_bounces) continue;
         const scene::FlatFaces& flats = scene.flat_mirrors()[i];
         const int bounces = choice.technique->mirrored_bounces(choice.settings);
-        if (!flats.is_one()) all.bodies.emplace_back(i, flats.bent);
+        if (!flats.is_single_plane()) all.bodies.emplace_back(i, flats.bent);
         for (std::size_t k = 0; k < flats.faces.size(); ++k) {
             const scene::FlatFace& face = flats.faces[k];
             if (face.off > scene.flat_tolerance()) {
                 std::ranges::copy(face.triangles, std::back_inserter(all.bodies.back().second));
                 continue;
             }
-            all.faces.push_back({i, flats.is_one() ? 0 : k + 1, face.triangles});
+            all.faces.push_back({i, flats.is_single_plane() ? 0 : k + 1, face.triangles});
             all.planes.push_back(render::MirrorPlane{face, bounces});
         }
     }
@@ -77,7 +77,7 @@ render::MirrorShaders add_shaders_within_view(render::MirrorShaders looks, const
                                .buffers = {}});
     }
     for (const auto& [mirror, bent] : all.bodies) {
-        looks.of_mirror[mirror] = render::MirrorShaders::kInParts;
+        looks.of_mirror[mirror] = render::MirrorShaders::kShadedByParts;
         if (!bent.empty()) looks.parts.push_back({mirror, black, bent});
     }
     for (std::size_t i = 0; i < all.faces.size(); ++i) {
@@ -119,7 +119,7 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
     if (most == asked) return {};
     return {"flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
             std::to_string(asked) + ": a frame has at most " +
-            std::to_string(render::kMostMirroredViews) + " views in mirrors"};
+            std::to_string(render::kMaxMirroredViews) + " views in mirrors"};
 }
 
 } // namespace catoptric::reflect

@@ -8,12 +8,13 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kBounces{.name = "bounces",
-                        .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
-                        .low = 0,
-                        .high = 8,
-                        .value = 3};
-constexpr Knob kKnobs[] = {kBounces, kFace, kColour, kShadow, kShadowMapEdge, kCapture};
+constexpr Knob kBouncesKnob{.name = "bounces",
+                            .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
+                            .low = 0,
+                            .high = 8,
+                            .value = 3};
+constexpr Knob kNaiveKnobs[] = {kBouncesKnob, kFaceKnob,          kColourKnob,
+                                kShadowKnob,  kShadowMapEdgeKnob, kCaptureKnob};
 
 /// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
 /// technique, since only these look into it.
@@ -22,7 +23,7 @@ MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs&
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.lighting = around.lighting;
     render::MirrorShader look; // no fragment shader: black
-    const int bounces = settings.integer(kBounces);
+    const int bounces = settings.integer_value(kBouncesKnob);
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;
         if (bounce == bounces) of_others.face = 0;
@@ -38,23 +39,24 @@ MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs&
     return {std::move(look), {}};
 }
 
-constexpr std::string_view kCompared[] = {"naive:bounces=0", "naive:bounces=1", "naive:bounces=2",
-                                          "naive:bounces=3", "naive:bounces=4"};
+constexpr std::string_view kNaiveDefaultRows[] = {
+    "naive:bounces=0", "naive:bounces=1", "naive:bounces=2", "naive:bounces=3", "naive:bounces=4"};
 
-constexpr Technique kNaive{
+constexpr Technique kNaiveTechnique{
     .name = "naive",
     .summary =
         "Renders every bounce again in each frame, from black; looks up the reflected direction "
         "without correction.",
     .order = 1,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kNaiveKnobs,
+    .compared = kNaiveDefaultRows,
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
-            return mirrors * settings.integer(kBounces) + count_shadow_passes(lights, settings) + 1;
+            return mirrors * settings.integer_value(kBouncesKnob) +
+                   count_shadow_passes(lights, settings) + 1;
         },
     .look = make_naive_shading};
-const RegisteredTechnique kRow{kNaive};
+const RegisteredTechnique kNaiveRegistration{kNaiveTechnique};
 
 } // namespace
 

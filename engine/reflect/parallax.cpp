@@ -7,41 +7,44 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr const char* kFragment = "reflect/parallax.frag";
-constexpr std::array<std::string_view, 3> kRules{"none", "saturation", "void_test"};
-enum class Rule { none, saturation, void_test };
-constexpr Knob kWithout{.name = "without",
-                        .help = "rule of robustness to leave out, to measure its cost",
-                        .high = 2,
-                        .choices = kRules};
-constexpr Knob kKnobs[] = {kFace, kColour,   kDistance, kRange,         kRough,  kLaw,
-                           kTaps, kLobeRays, kShadow,   kShadowMapEdge, kWithout};
+constexpr const char* kParallaxShader = "reflect/parallax.frag";
+constexpr std::array<std::string_view, 3> kDroppedRuleChoices{"none", "saturation", "void_test"};
+enum class DroppedRule { none, saturation, void_test };
+constexpr Knob kWithoutRuleKnob{.name = "without",
+                                .help = "rule of robustness to leave out, to measure its cost",
+                                .high = 2,
+                                .choices = kDroppedRuleChoices};
+constexpr Knob kParallaxKnobs[] = {
+    kFaceKnob, kColourKnob,    kDistanceKnob, kDistanceRangeKnob, kRoughKnob,      kBlurLawKnob,
+    kTapsKnob, kRoughRaysKnob, kShadowKnob,   kShadowMapEdgeKnob, kWithoutRuleKnob};
 
-render::CaptureOptions capture(const render::FrameInputs& inputs, const KnobSettings& settings) {
+render::CaptureOptions parallax_capture_options(const render::FrameInputs& inputs,
+                                                const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
-    options.saturates = settings.as<Rule>(kWithout) != Rule::saturation;
+    options.saturates = settings.enum_value<DroppedRule>(kWithoutRuleKnob) !=
+                        DroppedRule::saturation;
     return options;
 }
 
-constexpr std::string_view kCompared[] = {"parallax"};
+constexpr std::string_view kParallaxDefaultRows[] = {"parallax"};
 
-constexpr Technique kParallax{
+constexpr Technique kParallaxTechnique{
     .name = "parallax",
     .summary = "As reuse, but corrects the reflected direction once, from the captured distance.",
     .order = 3,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kParallaxKnobs,
+    .compared = kParallaxDefaultRows,
     .scene_passes = count_feedback_passes,
-    .capture = capture,
-    .in_captures = kFragment,
+    .capture = parallax_capture_options,
+    .in_captures = kParallaxShader,
     .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings& settings,
                const MirrorInputs& around) {
-        MirrorShading look{make_capture_shader(around, kFragment, settings), {}};
-        if (settings.as<Rule>(kWithout) == Rule::void_test)
+        MirrorShading look{make_capture_shader(around, kParallaxShader, settings), {}};
+        if (settings.enum_value<DroppedRule>(kWithoutRuleKnob) == DroppedRule::void_test)
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;
     }};
-const RegisteredTechnique kRow{kParallax};
+const RegisteredTechnique kParallaxRegistration{kParallaxTechnique};
 
 } // namespace
 

@@ -16,10 +16,10 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\n";
-constexpr std::size_t kLongestFileName = 80;
+constexpr std::string_view kRuleSeparators = " \t\n";
+constexpr std::size_t kMaxFileNameLength = 80;
 
-constexpr double kLeastSaid =
+constexpr double kMinReportedBentShare =
     .001; // smallest share of area outside all flat faces that is reported
 
 std::string parse_percent(double share) {
@@ -48,11 +48,11 @@ PatternPrecision pattern_precision(const std::string& item, std::size_t index,
 }
 
 std::string quote_names(const std::vector<std::string>& names) {
-    constexpr std::size_t kMostListed = 20;
+    constexpr std::size_t kMaxListedMirrors = 20;
     std::string list = std::to_string(names.size()) + (names.size() == 1 ? " mirror" : " mirrors");
-    for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+    for (std::size_t i = 0; i < std::min(names.size(), kMaxListedMirrors); ++i)
         list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote_printable(names[i]);
-    return list + (names.size() > kMostListed ? ", ..." : "");
+    return list + (names.size() > kMaxListedMirrors ? ", ..." : "");
 }
 
 PlanRule parse_plan_rule(const std::string& text, std::string_view plan) {
@@ -81,14 +81,14 @@ std::uint32_t find_choice_index(const TechniqueChoice& choice,
 TechniqueChoice fallback_choice(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
     const KnobSettings defaults(choice.technique->knobs);
-    for (const Knob* const knob : {&kShadow, &kShadowMapEdge}) {
-        const std::string value = choice.settings.text(*knob);
-        if (value == defaults.text(*knob)) continue;
-        rest.settings.set(rest.technique->name, knob->name, value);
+    for (const Knob* const knob : {&kShadowKnob, &kShadowMapEdgeKnob}) {
+        const std::string value = choice.settings.format_value(*knob);
+        if (value == defaults.format_value(*knob)) continue;
+        rest.settings.set_knob(rest.technique->name, knob->name, value);
         rest.label += (rest.label.find(':') == std::string::npos ? ":" : ",") +
                       std::string(knob->name) + "=" + value;
     }
-    rest.settle();
+    rest.update_from_settings();
     return rest;
 }
 
@@ -96,15 +96,15 @@ TechniqueChoice fallback_choice(const TechniqueChoice& choice) {
 
 std::string TechniquePlan::file_name() const {
     if (is_technique) return rules.front().choice.file_name();
-    if (is_auto) return std::string(kAuto);
+    if (is_auto) return std::string(kAutoPlanName);
     std::string name = label.starts_with("plan:") ? label : "plan-" + label;
     std::erase(name, '=');
     std::ranges::replace_if(
         name, [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; },
         '-');
-    if (name.size() <= kLongestFileName) return name;
+    if (name.size() <= kMaxFileNameLength) return name;
     const std::size_t mark = std::hash<std::string>{}(label); // shortened names differ by this hash
-    return name.substr(0, kLongestFileName - 7) + "-" + std::to_string(mark % 1000000);
+    return name.substr(0, kMaxFileNameLength - 7) + "-" + std::to_string(mark % 1000000);
 }
 
 bool TechniquePlan::same_as(const TechniquePlan& other) const {
@@ -114,20 +114,20 @@ bool TechniquePlan::same_as(const TechniquePlan& other) const {
 }
 
 TechniquePlan parse_plan(std::string_view text) {
-    if (text == kAuto)
+    if (text == kAutoPlanName)
         return {.label = std::string(text), .rules = {}, .is_auto = true, .reasons = {}};
     const std::string_view head = text.substr(0, text.find(':'));
-    check(head != kAuto, Failure::usage, "'", text,
+    check(head != kAutoPlanName, Failure::usage, "'", text,
           "': wanted auto alone, which finds settings "
           "itself, found '",
-          text.substr(kAuto.size()), "' after it");
+          text.substr(kAutoPlanName.size()), "' after it");
     if (head.find('=') == std::string_view::npos)
         return {.label = std::string(text),
                 .rules = {{"*", parse_technique_choice(text)}},
                 .is_technique = true,
                 .reasons = {}};
     TechniquePlan plan{.label = std::string(text), .rules = {}, .reasons = {}};
-    for (const std::string& rule : split_text(text, kBlanks))
+    for (const std::string& rule : split_text(text, kRuleSeparators))
         if (!rule.empty()) plan.rules.push_back(parse_plan_rule(rule, text));
     return plan;
 }
@@ -142,11 +142,11 @@ MirrorAssignment assign_mirrors(const TechniquePlan& plan, const std::vector<std
         assignment.reasons.resize(names.size());
         return assignment;
     }
-    struct Best {
+    struct BestMatchingRule {
         PatternPrecision rank = kNone;
         const PlanRule* rule = nullptr;
     };
-    std::vector<Best> best(names.size());
+    std::vector<BestMatchingRule> best(names.size());
     for (const PlanRule& rule : plan.rules) {
         for (const std::string& item : split_text(rule.pattern, ",")) {
             bool matches = false;
@@ -179,7 +179,7 @@ void add_plan_demands(require::ModelInput& question, const std::vector<Technique
             const TechniqueChoice& searching = choice.rest ? *choice.rest : choice;
             question.whole_cubes = question.whole_cubes || searching.technique->reads_whole_cubes;
             question.asks_all = question.asks_all || searching.shared.asks_all;
-            if (choice.shared.shadow == SharedKnobs::Shadow::none) continue;
+            if (choice.shared.shadow == SharedKnobs::ShadowMethod::none) continue;
             const std::uint32_t edge = choice.shared.shadow_map;
             coarsest = std::min(coarsest.value_or(edge), edge);
         }
@@ -204,8 +204,8 @@ MirrorAssignment replace_unfit_techniques(MirrorAssignment assignment,
                                     ": rest=" + choice.label;
             assignment.lacks[i] = lack + ", drawn by " + choice.label;
         } else if (choice.technique->mirrored_bounces) {
-            const double bent = 1 - flats[i].share(tolerance);
-            if (bent >= kLeastSaid)
+            const double bent = 1 - flats[i].flat_area_share(tolerance);
+            if (bent >= kMinReportedBentShare)
                 assignment.lacks[i] = parse_percent(bent) +
                                       " of its surface is not flat, black there";
         }

@@ -22,7 +22,7 @@ struct TechniquePlan {
     std::string label; ///< "secant:face=64", "1=planar *=reuse", "plan:mixed.json"
     std::vector<PlanRule> rules;
     bool is_technique = false; ///< one technique for all mirrors; the scene may have none
-    bool is_auto = false;      ///< no rules until a scene has suggested them (kAuto)
+    bool is_auto = false;      ///< no rules until a scene has suggested them (kAutoPlanName)
     /// Reason for the technique of each mirror, in suggested plans.
     std::vector<std::string> reasons;
 
@@ -34,10 +34,10 @@ struct TechniquePlan {
 };
 
 /// Name of the technique `auto`, which chooses a plan for each scene (require::suggest_plan).
-inline constexpr std::string_view kAuto = "auto";
+inline constexpr std::string_view kAutoPlanName = "auto";
 
 /// Reads "name[:knob=value,...]", or rules "PATTERN=name[:knob=value,...] ..." separated by blanks,
-/// or kAuto. Throws `Failure::usage` with the faulty part and the nearest name.
+/// or kAutoPlanName. Throws `Failure::usage` with the faulty part and the nearest name.
 TechniquePlan parse_plan(std::string_view text);
 
 /// A plan applied to the mirrors of a scene. All lists but `choices` have one entry per mirror;

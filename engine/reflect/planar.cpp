@@ -12,46 +12,48 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kRestChoices{
     "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
-constexpr Knob kBounces{
+constexpr Knob kBouncesKnob{
     .name = "bounces",
     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
     .low = 0,
     .high = 16,
     .value = 2};
-constexpr Knob kRest{.name = "rest",
-                     .help = "technique of mirrors that are not flat",
-                     .high = kRestChoices.size() - 1,
-                     .choices = kRestChoices};
-constexpr Knob kKnobs[] = {kBounces, kRest, kShadow, kShadowMapEdge, kCapture};
+constexpr Knob kRestKnob{.name = "rest",
+                         .help = "technique of mirrors that are not flat",
+                         .high = kRestChoices.size() - 1,
+                         .choices = kRestChoices};
+constexpr Knob kPlanarKnobs[] = {kBouncesKnob, kRestKnob, kShadowKnob, kShadowMapEdgeKnob,
+                                 kCaptureKnob};
 
 std::string describe_planar_misfit(const scene::FlatFaces& flats, double tolerance) {
     if (flats.is_rough) return "rough";
-    if (flats.share(tolerance) >= scene::kFlatEnough) return {};
+    if (flats.flat_area_share(tolerance) >= scene::kMinFlatAreaShare) return {};
     char text[96] = "not flat";
-    if (flats.share(scene::kFarFromFlat) >= scene::kFlatEnough)
+    if (flats.flat_area_share(scene::kMaxPlaneDeviation) >= scene::kMinFlatAreaShare)
         std::snprintf(text, sizeof text, "%.2g rad off a plane, where %.2g would do",
                       flats.faces.front().off, tolerance);
     return text;
 }
 
-constexpr std::string_view kCompared[] = {"planar"};
+constexpr std::string_view kPlanarDefaultRows[] = {"planar"};
 
-constexpr Technique kPlanar{
+constexpr Technique kPlanarTechnique{
     .name = "planar",
     .summary = "Draws a mirrored view for each flat mirror, in each frame.",
     .order = 16,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kPlanarKnobs,
+    .compared = kPlanarDefaultRows,
     .scene_passes =
         [](int, int lights, const KnobSettings& settings) {
             return count_shadow_passes(lights, settings) + 1;
         },
     .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
                const MirrorInputs&) { return MirrorShading{}; },
-    .mirrored_bounces = [](const KnobSettings& settings) { return settings.integer(kBounces); },
+    .mirrored_bounces =
+        [](const KnobSettings& settings) { return settings.integer_value(kBouncesKnob); },
     .unfit = describe_planar_misfit,
-    .rest = &kRest};
-const RegisteredTechnique kRow{kPlanar};
+    .rest = &kRestKnob};
+const RegisteredTechnique kPlanarRegistration{kPlanarTechnique};
 
 } // namespace
 

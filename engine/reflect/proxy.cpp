@@ -7,14 +7,14 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kShapes{"box", "sphere"};
-constexpr Knob kShape{.name = "shape",
-                      .help = "shape that approximates the surroundings",
-                      .high = 1,
-                      .choices = kShapes};
-constexpr auto kKnobs = [] {
-    auto knobs = list_search_knobs(std::array{kShape});
-    std::ranges::find(knobs, kContinue.name, &Knob::name)->value =
+constexpr std::array<std::string_view, 2> kProxyShapeChoices{"box", "sphere"};
+constexpr Knob kProxyShapeKnob{.name = "shape",
+                               .help = "shape that approximates the surroundings",
+                               .high = 1,
+                               .choices = kProxyShapeChoices};
+constexpr auto kProxyKnobs = [] {
+    auto knobs = list_search_knobs(std::array{kProxyShapeKnob});
+    std::ranges::find(knobs, kContinueKnob.name, &Knob::name)->value =
         0; // as published, without following rays through other mirrors
     return knobs;
 }();
@@ -24,9 +24,9 @@ constexpr std::uint64_t kProxyBytes = 28; // size of Proxy in shaders/reflect/pr
 graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInputs& inputs,
                                    const std::shared_ptr<const render::Captures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
-    const graph::BufferHandle proxies = graph.buffer(
+    const graph::BufferHandle proxies = graph.add_buffer(
         {inputs.prefix + "proxies", kProxyBytes * mirrors});
-    graph::PassBuilder pass = graph.pass(inputs.prefix + "proxies");
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "proxies");
     std::vector<graph::ImageHandle> faces;
     for (const render::CubeArray& cubes : captures->arrays) {
         faces.push_back(
@@ -46,7 +46,7 @@ graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInput
     }
     pass.writes(proxies, graph::ResourceUse::storage_write)
         .record([=, table = captures->table](graph::PassCommands& commands) {
-            commands.use(state);
+            commands.bind_pipeline(state);
             commands.bind("distance_faces", faces);
             commands.bind("Proxies", proxies);
             commands.bind("nearest_texels", graph::TextureFilter::nearest);
@@ -60,23 +60,23 @@ MirrorShading make_proxy_shading(graph::Graph& graph, const render::FrameInputs&
                                  const KnobSettings& settings, const MirrorInputs& around) {
     MirrorShading look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
     look.mirror.buffers.emplace_back("Proxies", add_proxy_pass(graph, inputs, around.captures));
-    look.mirror.constants.emplace_back("shape",
-                                       static_cast<std::uint32_t>(settings.integer(kShape)));
+    look.mirror.constants.emplace_back(
+        "shape", static_cast<std::uint32_t>(settings.integer_value(kProxyShapeKnob)));
     return look;
 }
 
-constexpr Technique kProxy{
+constexpr Technique kProxyTechnique{
     .name = "proxy",
     .summary =
         "Approximates each mirror's surroundings by a box or sphere, derived from the capture.",
     .order = 10,
-    .knobs = kKnobs,
+    .knobs = kProxyKnobs,
     .scene_passes = count_feedback_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .reads_whole_cubes = true,
     .look = make_proxy_shading};
-const RegisteredTechnique kRow{kProxy};
+const RegisteredTechnique kProxyRegistration{kProxyTechnique};
 
 } // namespace
 

@@ -13,7 +13,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = list_search_knobs(std::array<Knob, 0>{});
+constexpr auto kPyramidKnobs = list_search_knobs(std::array<Knob, 0>{});
 
 /// Returns the topmost level, which has one cell per face. Must match pyramid_level_edge and
 /// top_pyramid_level in shaders/reflect/pyramid.glsl.
@@ -39,7 +39,7 @@ std::uint64_t distance_bounds_hash(const render::Captures& captures, std::size_t
         .add(options.distance.value_or(options.colour))
         .add(options.stored_unit)
         .add(options.leaves_out_spheres)
-        .value();
+        .hash_value();
 }
 
 /// Returns the cubes of the array whose stored bounds are out of date, as runs.
@@ -50,13 +50,12 @@ std::vector<CubeRange> find_outdated_pyramids(graph::Graph& graph, const render:
     // read.
     const graph::ImageHandle distances = cubes.distance.value_or(cubes.colour);
     std::vector<CubeRange> runs;
-    for (const LayerRange& run : find_outdated_cubes(graph, captures, array, bounds,
-                                                     [&](std::uint32_t mirror) {
-                                                         return distance_bounds_hash(captures,
-                                                                                     mirror);
-                                                     }))
-        runs.push_back({distances.layers(run.first, run.count),
-                        bounds.layers(run.first, run.count), cubes.face});
+    for (const LayerRange& run :
+         find_outdated_cubes(graph, captures, array, bounds, [&](std::uint32_t mirror) {
+             return distance_bounds_hash(captures, mirror);
+         }))
+        runs.push_back({distances.layers(run.first, run.count), bounds.layers(run.first, run.count),
+                        cubes.face});
     return runs;
 }
 
@@ -76,22 +75,22 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
         graph::ImageDesc desc{inputs.prefix + "pyramid" + (array ? std::to_string(array + 1) : ""),
                               Format::r32ui, 1u << top, pyramid_level_edge(cubes.face, 1),
                               cubes.colour.layer_count};
-        pyramids.push_back(captures.drawings.empty() ? graph.image(std::move(desc))
-                                                     : graph.persistent(std::move(desc)));
+        pyramids.push_back(captures.drawings.empty() ? graph.add_image(std::move(desc))
+                                                     : graph.add_persistent_image(std::move(desc)));
         std::ranges::copy(find_outdated_pyramids(graph, captures, array, pyramids.back()),
                           std::back_inserter(runs));
     }
     if (runs.empty()) return pyramids;
-    graph::PassBuilder pass = graph.pass(inputs.prefix + "pyramid");
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "pyramid");
     for (const CubeRange& run : runs)
         pass.reads(run.distances, graph::ResourceUse::sampled)
             .writes(run.bounds, graph::ResourceUse::storage_write);
     pass.record([top_of_all, runs = std::move(runs)](graph::PassCommands& commands) {
         for (std::uint32_t level = 1; level <= top_of_all; ++level) {
-            if (level > 1) commands.barrier();
-            commands.use(
+            if (level > 1) commands.storage_barrier();
+            commands.bind_pipeline(
                 gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
-            commands.push(static_cast<std::int32_t>(level));
+            commands.push_constants(static_cast<std::int32_t>(level));
             for (const CubeRange& run : runs) {
                 if (level > top_pyramid_level(run.face)) continue;
                 commands.bind("distances", run.distances);
@@ -115,20 +114,20 @@ MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInput
 
 namespace {
 
-constexpr std::string_view kCompared[] = {"pyramid"};
+constexpr std::string_view kPyramidDefaultRows[] = {"pyramid"};
 
-constexpr Technique kPyramid{
+constexpr Technique kPyramidTechnique{
     .name = "pyramid",
     .summary =
         "Follows the reflected ray through bounds of the captured distance, exact to the texel.",
     .order = 13,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kPyramidKnobs,
+    .compared = kPyramidDefaultRows,
     .scene_passes = count_feedback_passes,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_pyramid_shading};
-const RegisteredTechnique kRow{kPyramid};
+const RegisteredTechnique kPyramidRegistration{kPyramidTechnique};
 
 } // namespace
 

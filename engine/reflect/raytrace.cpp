@@ -6,26 +6,26 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
-constexpr std::array<std::string_view, 2> kFirstChoices{"ray", "raster"};
-constexpr std::array<std::string_view, 2> kHitChoices{"f32", "f64"};
+constexpr std::array<std::string_view, 2> kFirstHitChoices{"ray", "raster"};
+constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
 /// Numbered as in shaders/lib/plain.glsl.
-constexpr std::array<std::string_view, 6> kRules{"none",        "watertight", "box_slack",
-                                                 "spawn_bound", "shadow_end", "stable_sphere"};
-enum class Shape { mesh, exact };
-enum class First { ray, raster };
-enum class Precision { f32, f64 };
-constexpr Knob kDepth{.name = "depth",
-                      .help = "largest number of mirror bounces; longer paths end black",
-                      .low = 0,
-                      .high = 64,
-                      .value = 8};
-constexpr Knob kSamples{
+constexpr std::array<std::string_view, 6> kDroppedRuleChoices{
+    "none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
+enum class SphereShape { mesh, exact };
+enum class FirstHitMethod { ray, raster };
+enum class HitPrecision { f32, f64 };
+constexpr Knob kDepthKnob{.name = "depth",
+                          .help = "largest number of mirror bounces; longer paths end black",
+                          .low = 0,
+                          .high = 64,
+                          .value = 8};
+constexpr Knob kSamplesKnob{
     .name = "samples",
     .help = "rays per pixel: 1 = the centre, n*n = a regular grid, other numbers = stratified",
     .low = 1,
     .high = 65536,
     .value = 1};
-constexpr Knob kRays{
+constexpr Knob kLobeRaysKnob{
     .name = "rays",
     .help =
         "rays of each sample, whose directions are drawn from the lobes of rough surfaces (GGX, "
@@ -33,70 +33,74 @@ constexpr Knob kRays{
     .low = 0,
     .high = 65536,
     .value = 0};
-constexpr Knob kLobeSeed{
+constexpr Knob kLobeSeedKnob{
     .name = "seed",
     .help = "seed of the directions drawn for rays=N, in addition to --seed; pictures of two seeds "
             "are independent draws",
     .low = 0,
     .high = 999'999'999,
     .value = 0};
-constexpr std::int64_t kMostPaths = 65536; // of a pixel: samples times rays
-constexpr Knob kSphere{.name = "sphere",
-                       .help = "shape of balls: triangles or exact spheres",
-                       .high = 1,
-                       .choices = kSphereChoices};
-constexpr Knob kFirst{
+constexpr std::int64_t kMaxPathsPerPixel = 65536; // of a pixel: samples times rays
+constexpr Knob kSphereKnob{.name = "sphere",
+                           .help = "shape of balls: triangles or exact spheres",
+                           .high = 1,
+                           .choices = kSphereChoices};
+constexpr Knob kFirstHitKnob{
     .name = "first",
     .help = "how the surface that the camera sees is found: by a ray, or by the rasteriser",
     .high = 1,
-    .choices = kFirstChoices};
-constexpr Knob kHit{.name = "hit",
-                    .help = "precision of hit points: single or double",
-                    .high = 1,
-                    .choices = kHitChoices};
-constexpr Knob kWithout{.name = "without",
-                        .help = "rule of robustness to leave out, to measure its cost",
-                        .high = 5,
-                        .choices = kRules};
-constexpr Knob kKnobs[] = {kDepth, kSamples, kRays,    kLobeSeed,      kTracedShadow, kSphere,
-                           kFirst, kHit,     kWithout, kShadowMapEdge, kCapture};
+    .choices = kFirstHitChoices};
+constexpr Knob kHitPrecisionKnob{.name = "hit",
+                                 .help = "precision of hit points: single or double",
+                                 .high = 1,
+                                 .choices = kHitPrecisionChoices};
+constexpr Knob kWithoutRuleKnob{.name = "without",
+                                .help = "rule of robustness to leave out, to measure its cost",
+                                .high = 5,
+                                .choices = kDroppedRuleChoices};
+constexpr Knob kRaytraceKnobs[] = {kDepthKnob,         kSamplesKnob,      kLobeRaysKnob,
+                                   kLobeSeedKnob,      kTracedShadowKnob, kSphereKnob,
+                                   kFirstHitKnob,      kHitPrecisionKnob, kWithoutRuleKnob,
+                                   kShadowMapEdgeKnob, kCaptureKnob};
 
 bool is_first_raster(const KnobSettings& settings) {
-    return settings.as<First>(kFirst) == First::raster;
+    return settings.enum_value<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
 }
 
 TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting& lighting) {
-    const SharedKnobs::Shadow shadow = shared_knobs(settings).shadow;
-    return {.depth = static_cast<std::uint32_t>(settings.integer(kDepth)),
-            .samples = settings.integer(kSamples),
-            .rays = static_cast<std::uint32_t>(settings.integer(kRays)),
-            .seed = static_cast<std::uint32_t>(settings.integer(kLobeSeed)),
+    const SharedKnobs::ShadowMethod shadow = shared_knobs(settings).shadow;
+    return {.depth = static_cast<std::uint32_t>(settings.integer_value(kDepthKnob)),
+            .samples = settings.integer_value(kSamplesKnob),
+            .rays = static_cast<std::uint32_t>(settings.integer_value(kLobeRaysKnob)),
+            .seed = static_cast<std::uint32_t>(settings.integer_value(kLobeSeedKnob)),
             // A scene without lights has no shadow map, and no light needs a shadow test.
-            .shadow = shadow == SharedKnobs::Shadow::none ? TracerSettings::TracedShadow::none
-                      : shadow == SharedKnobs::Shadow::map && lighting.shadow_map
+            .shadow = shadow == SharedKnobs::ShadowMethod::none ? TracerSettings::TracedShadow::none
+                      : shadow == SharedKnobs::ShadowMethod::map && lighting.shadow_map
                           ? TracerSettings::TracedShadow::map
                           : TracerSettings::TracedShadow::ray,
             .lighting = lighting,
-            .exact_spheres = settings.as<Shape>(kSphere) == Shape::exact,
+            .exact_spheres = settings.enum_value<SphereShape>(kSphereKnob) == SphereShape::exact,
             .first_raster = is_first_raster(settings),
-            .doubles = settings.as<Precision>(kHit) == Precision::f64,
-            .without = static_cast<std::uint32_t>(settings.integer(kWithout))};
+            .doubles = settings.enum_value<HitPrecision>(kHitPrecisionKnob) == HitPrecision::f64,
+            .without = static_cast<std::uint32_t>(settings.integer_value(kWithoutRuleKnob))};
 }
 
-std::string conflict(const KnobSettings& settings) {
-    if (settings.integer(kRays) * std::int64_t{settings.integer(kSamples)} > kMostPaths)
-        return "rays=" + settings.text(kRays) + " for each of samples=" + settings.text(kSamples) +
+std::string describe_knob_conflict(const KnobSettings& settings) {
+    if (settings.integer_value(kLobeRaysKnob) * std::int64_t{settings.integer_value(kSamplesKnob)} >
+        kMaxPathsPerPixel)
+        return "rays=" + settings.format_value(kLobeRaysKnob) +
+               " for each of samples=" + settings.format_value(kSamplesKnob) +
                ": wanted at most 65536 in all";
     if (!is_first_raster(settings)) return {};
-    if (settings.integer(kSamples) > 1)
+    if (settings.integer_value(kSamplesKnob) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
-               settings.text(kSamples);
-    if (settings.integer(kRays) > 1)
+               settings.format_value(kSamplesKnob);
+    if (settings.integer_value(kLobeRaysKnob) > 1)
         return "first=raster keeps the surface of each pixel for one ray; wanted rays=0 or rays=1, "
                "found rays=" +
-               settings.text(kRays);
-    if (settings.as<Shape>(kSphere) == Shape::exact)
+               settings.format_value(kLobeRaysKnob);
+    if (settings.enum_value<SphereShape>(kSphereKnob) == SphereShape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
     return {};
 }
@@ -104,7 +108,7 @@ std::string conflict(const KnobSettings& settings) {
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
 int scene_passes(int, int lights, const KnobSettings& settings) {
     if (!is_first_raster(settings)) return count_shadow_passes(lights, settings);
-    return 1 + (shared_knobs(settings).shadow == SharedKnobs::Shadow::none ? 0 : lights);
+    return 1 + (shared_knobs(settings).shadow == SharedKnobs::ShadowMethod::none ? 0 : lights);
 }
 
 TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
@@ -124,23 +128,24 @@ MirrorShading make_ray_traced_shading(graph::Graph&, const render::FrameInputs&,
     return look;
 }
 
-constexpr std::string_view kCompared[] = {"raytrace:depth=0",      "raytrace:depth=1",
-                                          "raytrace:depth=2",      "raytrace:depth=3",
-                                          "raytrace:depth=4",      "raytrace:depth=8",
-                                          "raytrace:sphere=exact", "raytrace:depth=4,first=raster"};
+constexpr std::string_view kRaytraceDefaultRows[] = {
+    "raytrace:depth=0",      "raytrace:depth=1",
+    "raytrace:depth=2",      "raytrace:depth=3",
+    "raytrace:depth=4",      "raytrace:depth=8",
+    "raytrace:sphere=exact", "raytrace:depth=4,first=raster"};
 
-constexpr Technique kRaytrace{
+constexpr Technique kRaytraceTechnique{
     .name = "raytrace",
     .summary = "Traces Whitted rays in a compute shader; the reference for all other techniques.",
     .order = 100,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kRaytraceKnobs,
+    .compared = kRaytraceDefaultRows,
     .scene_passes = scene_passes,
     .look = make_ray_traced_shading,
-    .conflict = conflict,
+    .conflict = describe_knob_conflict,
     .completes_view = is_first_raster,
     .picture = add_ray_traced_picture};
-const RegisteredTechnique kRow{kRaytrace};
+const RegisteredTechnique kRaytraceRegistration{kRaytraceTechnique};
 
 } // namespace
 

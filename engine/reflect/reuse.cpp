@@ -6,24 +6,24 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr const char* kFragment = "reflect/naive.frag";
-constexpr Knob kKnobs[] = {kFace,     kColour, kRough,        kTaps,
-                           kLobeRays, kShadow, kShadowMapEdge};
+constexpr const char* kReuseShader = "reflect/naive.frag";
+constexpr Knob kReuseKnobs[] = {kFaceKnob,      kColourKnob, kRoughKnob,        kTapsKnob,
+                                kRoughRaysKnob, kShadowKnob, kShadowMapEdgeKnob};
 
-constexpr std::string_view kCompared[] = {"reuse"};
+constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 
-constexpr Technique kReuse{
+constexpr Technique kReuseTechnique{
     .name = "reuse",
     .summary = "Draws one capture per mirror and frame; deeper bounces come from the last frame's "
                "captures.",
     .order = 2,
-    .knobs = kKnobs,
-    .compared = kCompared,
+    .knobs = kReuseKnobs,
+    .compared = kReuseDefaultRows,
     .scene_passes = count_feedback_passes,
     .capture = make_capture_options,
-    .in_captures = kFragment,
-    .search = kFragment};
-const RegisteredTechnique kRow{kReuse};
+    .in_captures = kReuseShader,
+    .search = kReuseShader};
+const RegisteredTechnique kReuseRegistration{kReuseTechnique};
 
 } // namespace
 

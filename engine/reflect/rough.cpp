@@ -1,5 +1,5 @@
-// Filtered levels of captures. Level m has faces of edge / 2^m texels. `mips` takes the mean of each
-// square of texels. `prefilter` filters the capture by the GGX lobe of each level's width
+// Filtered levels of captures. Level m has faces of edge / 2^m texels. `mips` takes the mean of
+// each square of texels. `prefilter` filters the capture by the GGX lobe of each level's width
 // (shaders/lib/math/rough.glsl), with samples that read the box-filtered chain.
 #include "reflect/rough.hpp"
 
@@ -24,8 +24,8 @@ std::uint32_t count_levels(Rough rough, std::uint32_t face) {
     const auto most = std::max(1u, static_cast<std::uint32_t>(std::bit_width(face)) - 1);
     if (rough == Rough::mips) return most;
     std::uint32_t level = 1;
-    while (level < most && f32::alpha_of_capture_level(static_cast<float>(level),
-                                                       static_cast<float>(face)) < 1)
+    while (level < most &&
+           f32::alpha_of_capture_level(static_cast<float>(level), static_cast<float>(face)) < 1)
         ++level;
     return level;
 }
@@ -55,18 +55,17 @@ void declare_level_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
 
 void add_box_pass(graph::Graph& graph, const std::string& name,
                   const std::vector<FilteredCubes>& runs) {
-    graph::PassBuilder pass = graph.pass(name);
+    graph::PassBuilder pass = graph.add_pass(name);
     for (const FilteredCubes& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled);
         declare_level_writes(pass, run.boxes);
     }
     pass.record([runs](graph::PassCommands& commands) {
-        const auto deepest = std::ranges::max(runs, {}, [](const FilteredCubes& run) {
-            return run.boxes.mip_count;
-        });
+        const auto deepest = std::ranges::max(
+            runs, {}, [](const FilteredCubes& run) { return run.boxes.mip_count; });
         for (std::uint32_t level = 1; level <= deepest.boxes.mip_count; ++level) {
-            if (level > 1) commands.barrier();
-            commands.use(
+            if (level > 1) commands.storage_barrier();
+            commands.bind_pipeline(
                 gpu::ComputeState{"rough/box.comp", {{"from_level", level > 1 ? 1u : 0u}}});
             for (const FilteredCubes& run : runs) {
                 if (level > run.boxes.mip_count) continue;
@@ -88,22 +87,22 @@ struct PrefilterParameters {
 
 void add_prefilter_pass(graph::Graph& graph, const std::string& name,
                         const std::vector<FilteredCubes>& runs, std::uint32_t taps) {
-    graph::PassBuilder pass = graph.pass(name);
+    graph::PassBuilder pass = graph.add_pass(name);
     for (const FilteredCubes& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled).reads(run.boxes, ResourceUse::sampled);
         declare_level_writes(pass, run.levels);
     }
     pass.record([runs, taps](graph::PassCommands& commands) {
-        commands.use(gpu::ComputeState{"rough/prefilter.comp", {}});
+        commands.bind_pipeline(gpu::ComputeState{"rough/prefilter.comp", {}});
         for (const FilteredCubes& run : runs) {
             commands.bind("captured", run.captured, graph::TextureFilter::linear);
             commands.bind("boxes", run.boxes, graph::TextureFilter::mipmapped);
             for (std::uint32_t level = 1; level <= run.levels.mip_count; ++level) {
                 commands.bind("level", run.levels.mip(level - 1));
-                commands.push(PrefilterParameters{
-                    f32::alpha_of_capture_level(static_cast<float>(level),
-                                                static_cast<float>(run.face)),
-                    taps});
+                commands.push_constants(
+                    PrefilterParameters{f32::alpha_of_capture_level(static_cast<float>(level),
+                                                                    static_cast<float>(run.face)),
+                                        taps});
                 const std::uint32_t groups = count_groups(run.face, level);
                 commands.dispatch(groups, groups, run.levels.layer_count);
             }
@@ -112,18 +111,18 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
 }
 
 /// Returns the name of the levels and passes of a way of filtering.
-std::string name_levels(const render::FrameInputs& inputs, Rough rough, std::uint32_t taps) {
+std::string name_of_levels(const render::FrameInputs& inputs, Rough rough, std::uint32_t taps) {
     return inputs.prefix + "rough/" +
            (rough == Rough::mips ? std::string("mips") : "prefilter" + std::to_string(taps));
 }
 
-std::string number_of_array(std::size_t array) {
+std::string suffix_of_array(std::size_t array) {
     return array ? "." + std::to_string(array + 1) : "";
 }
 
 } // namespace
 
-RoughLevels::Filter RoughLevels::filter_of(const SharedKnobs& knobs) {
+RoughLevels::Filter RoughLevels::filter_of_knobs(const SharedKnobs& knobs) {
     return {knobs.rough, knobs.rough == Rough::prefilter ? knobs.taps : 0};
 }
 
@@ -133,7 +132,7 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
     : inputs_(inputs), captures_(std::move(captures)) {
     for (std::uint32_t mirror = 0; captures_ && mirror < knobs.size(); ++mirror) {
         if (!knobs[mirror].looks_up_levels() || !inputs.scene.is_rough_mirror(mirror)) continue;
-        FilteredCaptures& filtered = filtered_[filter_of(knobs[mirror])];
+        FilteredCaptures& filtered = filtered_[filter_of_knobs(knobs[mirror])];
         filtered.is_read.resize(knobs.size());
         filtered.is_read[mirror] = true;
         if (knobs[mirror].asks_all) filtered.is_read.assign(knobs.size(), true);
@@ -142,11 +141,11 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
         for (std::size_t array = 0; array < captures_->arrays.size(); ++array) {
             const render::CubeArray& cubes = captures_->arrays[array];
             graph::ImageDesc desc = describe_levels(
-                name_levels(inputs, filter.rough, filter.taps) + number_of_array(array), cubes,
+                name_of_levels(inputs, filter.rough, filter.taps) + suffix_of_array(array), cubes,
                 count_levels(filter.rough, cubes.face));
             filtered.levels.push_back(captures_->drawings.empty()
-                                          ? graph.image(std::move(desc))
-                                          : graph.persistent(std::move(desc)));
+                                          ? graph.add_image(std::move(desc))
+                                          : graph.add_persistent_image(std::move(desc)));
         }
 }
 
@@ -164,9 +163,9 @@ void RoughLevels::add_lookups(graph::Graph& graph, std::span<const std::uint32_t
         return;
     }
     look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(knobs.law));
-    std::vector<ImageHandle> levels = filtered_.at(filter_of(knobs)).levels;
+    std::vector<ImageHandle> levels = filtered_.at(filter_of_knobs(knobs)).levels;
     if (before && captures_->drawings.empty())
-        for (ImageHandle& image : levels) image = graph.previous(image);
+        for (ImageHandle& image : levels) image = graph.previous_contents(image);
     look.images.emplace_back("rough_cubes", std::move(levels));
 }
 
@@ -177,13 +176,13 @@ void RoughLevels::add_passes(graph::Graph& graph) const {
 void RoughLevels::add_passes_of(graph::Graph& graph, const Filter& filter,
                                 const FilteredCaptures& filtered) const {
     const auto hash_of = [&](std::uint32_t mirror) {
-        if (!filtered.is_read[mirror]) return ContentHash().add(std::uint64_t{0}).value();
+        if (!filtered.is_read[mirror]) return ContentHash().add(std::uint64_t{0}).hash_value();
         return ContentHash()
             .add(captures_->drawings[mirror])
             .add(captures_->options[mirror].colour)
-            .value();
+            .hash_value();
     };
-    const std::string name = name_levels(inputs_, filter.rough, filter.taps);
+    const std::string name = name_of_levels(inputs_, filter.rough, filter.taps);
     std::vector<FilteredCubes> runs;
     for (std::uint32_t array = 0; array < captures_->arrays.size(); ++array) {
         const render::CubeArray& cubes = captures_->arrays[array];
@@ -193,12 +192,12 @@ void RoughLevels::add_passes_of(graph::Graph& graph, const Filter& filter,
         if (outdated.empty()) continue;
         ImageHandle boxes = levels;
         if (filter.rough == Rough::prefilter)
-            boxes = graph.image(describe_levels(name + "/boxes" + number_of_array(array), cubes,
-                                                count_levels(Rough::mips, cubes.face)));
+            boxes = graph.add_image(describe_levels(name + "/boxes" + suffix_of_array(array), cubes,
+                                                    count_levels(Rough::mips, cubes.face)));
         for (const LayerRange& run : outdated)
             runs.push_back({cubes.colour.layers(run.first, run.count),
-                            boxes.layers(run.first, run.count),
-                            levels.layers(run.first, run.count), cubes.face});
+                            boxes.layers(run.first, run.count), levels.layers(run.first, run.count),
+                            cubes.face});
     }
     if (runs.empty()) return;
     add_box_pass(graph, name + "/boxes", runs);

@@ -41,7 +41,7 @@ private:
         std::vector<graph::ImageHandle> levels; ///< one image for each array of captures
         std::vector<bool> is_read; ///< by mirror: whether a rough surface may look into its capture
     };
-    static Filter filter_of(const SharedKnobs& knobs);
+    static Filter filter_of_knobs(const SharedKnobs& knobs);
     void add_passes_of(graph::Graph& graph, const Filter& filter,
                        const FilteredCaptures& filtered) const;
 

@@ -6,16 +6,16 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kSteps{.name = "steps",
-                      .help = "number of secant steps after the first; 0 equals parallax",
-                      .low = 0,
-                      .high = 8,
-                      .value = 2};
-constexpr auto kKnobs = list_search_knobs(std::array{kSteps});
+constexpr Knob kStepsKnob{.name = "steps",
+                          .help = "number of secant steps after the first; 0 equals parallax",
+                          .low = 0,
+                          .high = 8,
+                          .value = 2};
+constexpr auto kSecantKnobs = list_search_knobs(std::array{kStepsKnob});
 
 MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
                                   const KnobSettings& settings, const MirrorInputs& around) {
-    const int steps = settings.integer(kSteps);
+    const int steps = settings.integer_value(kStepsKnob);
     if (steps == 0) // without the knobs of a search, which `parallax` does not have
         return {make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})), {}};
     MirrorShading look{make_capture_shader(around, "reflect/secant.frag", settings), {}};
@@ -23,19 +23,20 @@ MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
     return look;
 }
 
-constexpr std::string_view kCompared[] = {"secant:continue=0", "secant"};
+constexpr std::string_view kSecantDefaultRows[] = {"secant:continue=0", "secant"};
 
-constexpr Technique kSecant{.name = "secant",
-                            .summary = "Searches the captured distance for the point that the "
-                                       "reflected ray meets, by secant steps.",
-                            .order = 11,
-                            .knobs = kKnobs,
-                            .compared = kCompared,
-                            .scene_passes = count_feedback_passes,
-                            .capture = make_capture_options,
-                            .in_captures = "reflect/parallax.frag",
-                            .look = make_secant_shading};
-const RegisteredTechnique kRow{kSecant};
+constexpr Technique kSecantTechnique{
+    .name = "secant",
+    .summary = "Searches the captured distance for the point that the "
+               "reflected ray meets, by secant steps.",
+    .order = 11,
+    .knobs = kSecantKnobs,
+    .compared = kSecantDefaultRows,
+    .scene_passes = count_feedback_passes,
+    .capture = make_capture_options,
+    .in_captures = "reflect/parallax.frag",
+    .look = make_secant_shading};
+const RegisteredTechnique kSecantRegistration{kSecantTechnique};
 
 } // namespace
 

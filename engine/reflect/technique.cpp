@@ -46,10 +46,10 @@ std::string TechniqueChoice::file_name() const {
     return name;
 }
 
-void TechniqueChoice::settle() {
+void TechniqueChoice::update_from_settings() {
     shared = shared_knobs(settings);
     rest = technique->rest ? std::make_shared<const TechniqueChoice>(
-                                 parse_technique_choice(settings.choice(*technique->rest)))
+                                 parse_technique_choice(settings.choice_name(*technique->rest)))
                            : nullptr;
 }
 
@@ -64,13 +64,13 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
         const auto equals = item.find('=');
         check(equals != std::string_view::npos, Failure::usage, "technique '", text, "': '", item,
               "' should read knob=value");
-        choice.settings.set(technique.name, item.substr(0, equals), item.substr(equals + 1));
+        choice.settings.set_knob(technique.name, item.substr(0, equals), item.substr(equals + 1));
         if (comma == std::string_view::npos) break;
         rest = rest.substr(comma + 1);
     }
     const std::string conflict = technique.conflict ? technique.conflict(choice.settings) : "";
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
-    choice.settle();
+    choice.update_from_settings();
     return choice;
 }
 

@@ -19,7 +19,7 @@ namespace catoptric::reflect {
 /// Images and buffers that a technique adds to the graph, with notes for the user.
 struct TechniqueOutputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
-    /// Whether the alpha of `hdr` says which surface the ray met (shared::kMetBits).
+    /// Whether the alpha of `hdr` says which surface the ray met (shared::kHitMirrorBits).
     bool has_hits = false;
     std::vector<graph::BufferHandle> counters; ///< shared::Counters of each tracing pass
     /// Image with the direction in which each mirror pixel looked into a capture
@@ -48,8 +48,8 @@ struct MirrorShading {
 
 /// Values of the knobs that techniques share, as typed values.
 struct SharedKnobs {
-    enum class Shadow { none, map, ray };
-    Shadow shadow = Shadow::none;
+    enum class ShadowMethod { none, map, ray };
+    ShadowMethod shadow = ShadowMethod::none;
     std::uint32_t shadow_map = 1; ///< edge of a shadow map's face in texels
     /// Edge of a capture's face in texels; none: `auto`, or the technique has no such knob.
     std::optional<std::uint32_t> face;
@@ -145,7 +145,7 @@ struct TechniqueChoice {
         rest; ///< draws the mirrors that are unfit; null: none are
 
     /// Reads `shared` and `rest` again, after a change of `settings`.
-    void settle();
+    void update_from_settings();
     /// Returns the label as a file name: "naive-bounces3".
     std::string file_name() const;
     /// Returns whether technique and knob values are the same. The spelling of the labels does not

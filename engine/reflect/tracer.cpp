@@ -17,9 +17,9 @@ namespace {
 using graph::ResourceUse;
 
 /// Offset of a ray's origin in the report, in world units.
-constexpr double kReportOffset = 1e-3;
+constexpr double kSeedReportRayOffset = 1e-3;
 /// Most work groups in one row of a dispatch. Every device allows 65535.
-constexpr std::uint32_t kMostAcross = 32768;
+constexpr std::uint32_t kMaxWorkGroupsPerRow = 32768;
 
 /// Returns the positions of the samples in the pixel. These are the centre for one sample, and a
 /// regular grid for n*n. Other counts get one jittered point in each of n cells of the smallest
@@ -62,7 +62,7 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
              {"first_raster", tracer.first_raster ? 1u : 0u},
              {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
              {"without", tracer.without},
-             {"fixed_offset", scene.space().length(kReportOffset)}},
+             {"fixed_offset", scene.space().to_scene_length(kSeedReportRayOffset)}},
             scene.tracing_features(sphere_mode_of_tracer(tracer))};
 }
 
@@ -81,7 +81,7 @@ std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
     ContentHash hash;
     hash.add(seed).add(tracer.rays).add(tracer.samples);
     if (tracer.seed != 0) hash.add(tracer.seed);
-    const std::uint64_t mixed = hash.value();
+    const std::uint64_t mixed = hash.hash_value();
     return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
 }
 
@@ -94,8 +94,9 @@ void dispatch_samples(graph::PassCommands& commands, const TracerSettings& trace
     const auto count = static_cast<std::uint32_t>(offsets.size()) * rays;
     const std::uint32_t lobe_seed = make_lobe_seed(tracer, seed);
     for (std::uint32_t i = 0; i < count; ++i) {
-        if (i > 0) commands.barrier();
-        commands.push(shared::TraceParameters{offsets[i / rays], i, count, size, lobe_seed});
+        if (i > 0) commands.storage_barrier();
+        commands.push_constants(
+            shared::TraceParameters{offsets[i / rays], i, count, size, lobe_seed});
         dispatch();
     }
 }
@@ -111,18 +112,19 @@ PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
     PixelList list;
-    list.pixels = graph.buffer({name, sizeof(std::uint32_t) * size.x * size.y});
-    list.arguments = graph.buffer({name + "/arguments", 3 * sizeof(std::uint32_t)});
-    list.counters = graph.buffer({inputs.prefix + "counters" + suffix, sizeof(shared::Counters)});
-    graph.pass(name + "/reset")
+    list.pixels = graph.add_buffer({name, sizeof(std::uint32_t) * size.x * size.y});
+    list.arguments = graph.add_buffer({name + "/arguments", 3 * sizeof(std::uint32_t)});
+    list.counters = graph.add_buffer(
+        {inputs.prefix + "counters" + suffix, sizeof(shared::Counters)});
+    graph.add_pass(name + "/reset")
         .writes(list.counters, ResourceUse::copy_to)
         .writes(list.arguments, ResourceUse::copy_to)
         .record([=](graph::PassCommands& commands) {
-            commands.fill(list.counters, 0);
-            commands.fill(list.arguments, 0);
+            commands.fill_buffer(list.counters, 0);
+            commands.fill_buffer(list.arguments, 0);
         });
     const bool in_alpha = !view.tracers; // see render::add_camera_view
-    graph::PassBuilder pass = graph.pass(name);
+    graph::PassBuilder pass = graph.add_pass(name);
     if (in_alpha)
         pass.reads(view.hdr, ResourceUse::storage_read);
     else
@@ -142,8 +144,8 @@ PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
             commands.bind("arguments", list.arguments);
             commands.bind("List", list.pixels);
             const char* const shader = in_alpha ? "trace_list.comp#first" : "trace_list.comp";
-            commands.use(gpu::ComputeState{shader, {{"tracer", number}}});
-            commands.push(size);
+            commands.bind_pipeline(gpu::ComputeState{shader, {{"tracer", number}}});
+            commands.push_constants(size);
             commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
         });
     return list;
@@ -155,13 +157,13 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
                                   const TracerSettings& tracer) {
     const uvec2 size = inputs.size;
     const TracedPicture traced{
-        graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y}),
-        graph.buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
-    graph.pass(inputs.prefix + "raytrace/reset")
+        graph.add_image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y}),
+        graph.add_buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
+    graph.add_pass(inputs.prefix + "raytrace/reset")
         .writes(traced.counters, ResourceUse::copy_to)
-        .record([=](graph::PassCommands& commands) { commands.fill(traced.counters, 0); });
-    inputs.scene.want_tracing(sphere_mode_of_tracer(tracer));
-    graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
+        .record([=](graph::PassCommands& commands) { commands.fill_buffer(traced.counters, 0); });
+    inputs.scene.request_ray_tracing(sphere_mode_of_tracer(tracer));
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
     if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.writes(traced.hdr, ResourceUse::storage_write)
         .writes(traced.counters, ResourceUse::storage)
@@ -169,9 +171,9 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
             bind_tracer_resources(commands, scene, tracer);
             commands.bind("picture", traced.hdr);
             commands.bind("counters", traced.counters);
-            commands.use(make_tracer_state(tracer, scene, false));
+            commands.bind_pipeline(make_tracer_state(tracer, scene, false));
             const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),
-                                rows = (groups + kMostAcross - 1) / kMostAcross;
+                                rows = (groups + kMaxWorkGroupsPerRow - 1) / kMaxWorkGroupsPerRow;
             dispatch_samples(commands, tracer, size, seed,
                              [&] { commands.dispatch((groups + rows - 1) / rows, rows); });
         });
@@ -183,8 +185,8 @@ graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInp
                                      const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
     const PixelList list = add_pixel_list(graph, inputs, suffix, number, view);
-    inputs.scene.want_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
-    graph::PassBuilder pass = graph.pass(inputs.prefix + "trace" + suffix);
+    inputs.scene.request_ray_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
     if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.reads(list.arguments, ResourceUse::indirect)
         .reads(list.pixels, ResourceUse::storage_read)
@@ -196,7 +198,7 @@ graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInp
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);
-            commands.use(make_tracer_state(tracer, scene, true));
+            commands.bind_pipeline(make_tracer_state(tracer, scene, true));
             dispatch_samples(commands, tracer, size, seed,
                              [&] { commands.dispatch_indirect(list.arguments); });
         });

@@ -8,7 +8,7 @@ namespace catoptric::reflect {
 struct TracerSettings {
     enum class TracedShadow : std::uint32_t { none, map, ray }; ///< as in shaders/lib/bindings.glsl
 
-    std::uint32_t depth = render::kReferenceDepth; ///< mirror bounces; longer paths end black
+    std::uint32_t depth = render::kReferenceBounces; ///< mirror bounces; longer paths end black
     int samples = 1; ///< rays per pixel: 1 = its centre, n*n = a regular grid, else stratified
     /// Rays from each rough surface, in directions drawn from its lobe; each starts with a camera
     /// ray of its own. 0: rough surfaces reflect sharply.
@@ -28,8 +28,8 @@ struct TracerSettings {
 };
 
 struct TracedPicture {
-    graph::ImageHandle
-        hdr; ///< linear radiance, rgba32f; alpha says which surface the ray met (shared::kMetBits)
+    graph::ImageHandle hdr; ///< linear radiance, rgba32f; alpha says which surface the ray met
+                            ///< (shared::kHitMirrorBits)
     graph::BufferHandle counters;
 };
 TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs& inputs,

@@ -7,12 +7,14 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kMostTriangles = 64; ///< the most triangles of an object that is tested
-constexpr std::size_t kMostLooks = 1 << 22;  ///< the most tests of boxes and vertices, in total
+constexpr std::uint32_t kMaxBackdropTriangles =
+    64; ///< the most triangles of an object that is tested
+constexpr std::size_t kMaxBackdropTests = 1
+                                          << 22; ///< the most tests of boxes and vertices, in total
 /// Tolerance as a fraction of the triangle's largest coordinate: sixteen of its roundings. The
 /// extent of the scene does not enter, nor do distant objects. The height of a small object may be
 /// tiny next to them.
-constexpr double kInPlane = 0x1p-20;
+constexpr double kCoplanarTolerance = 0x1p-20;
 
 struct BackdropPlane {
     dvec3 normal; ///< unit length, towards the light
@@ -36,7 +38,7 @@ public:
         : geometry_(geometry), light_(light) {}
 
     bool is_backdrop(const DrawRange& range) {
-        if (range.own || range.index_count > 3 * kMostTriangles) return false;
+        if (range.own || range.index_count > 3 * kMaxBackdropTriangles) return false;
         for (std::uint32_t k = 0; k < range.index_count; k += 3)
             if (!is_before(range.first_index + k)) return false;
         return true;
@@ -54,14 +56,15 @@ private:
         BackdropPlane plane{across / size, 0, 0};
         plane.at = dot(plane.normal, corner(0));
         for (std::uint32_t j = 0; j < 3; ++j)
-            plane.room = std::max(plane.room, kInPlane * f64::largest(glm::abs(corner(j))));
-        const double height = light_.kind == shared::kLightDirectional
+            plane.room = std::max(plane.room,
+                                  kCoplanarTolerance * f64::largest(glm::abs(corner(j))));
+        const double height = light_.kind == shared::kLightKindDirectional
                                   ? -dot(plane.normal, dvec3(light_.forward))
                                   : -plane.depth(dvec3(light_.position));
         if (height == 0) return true; // edge-on to the light, so it casts no shadow
         if (height < 0) plane = {-plane.normal, -plane.at, plane.room};
         return std::ranges::all_of(geometry_.ranges, [&](const DrawRange& other) {
-            return ++looks_ < kMostLooks &&
+            return ++looks_ < kMaxBackdropTests &&
                    (depth_behind_plane(plane, other.bounds) <= plane.room ||
                     all_vertices_before(plane, other));
         });
@@ -69,7 +72,7 @@ private:
 
     bool all_vertices_before(const BackdropPlane& plane, const DrawRange& range) {
         looks_ += range.index_count;
-        if (range.own || looks_ >= kMostLooks) return false;
+        if (range.own || looks_ >= kMaxBackdropTests) return false;
         for (std::uint32_t k = 0; k < range.index_count; ++k) {
             const auto& vertex = geometry_.vertices[geometry_.indices[range.first_index + k]];
             if (!(plane.depth(dvec3(vertex.position)) <= plane.room)) return false;

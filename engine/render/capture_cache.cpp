@@ -1,8 +1,8 @@
 #include "render/capture_cache.hpp"
 
 #include "core/error.hpp"
-#include "render/decider.hpp"
-#include "render/turns.hpp"
+#include "render/capture_decider.hpp"
+#include "render/postponed_redraws.hpp"
 #include "require/model.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace catoptric::render {
 namespace {
 
 /// Names of the two sets of a sequence, and of the set for frames outside any sequence.
-constexpr std::array<const char*, 3> kSets{"a", "b", "aside"};
+constexpr std::array<const char*, 3> kCaptureSetNames{"a", "b", "aside"};
 
 /// Removes the captures of mirrors that need none. If no capture would remain, keeps all of them.
 std::vector<CaptureOptions> drop_unneeded_captures(const std::vector<CaptureOptions>& options,
@@ -67,7 +67,7 @@ void add_copy_of_unchanged(graph::Graph& graph, const std::string& name,
     const Captures& captures = *feeding.captures;
     std::vector<std::pair<graph::ImageHandle, graph::ImageHandle>> copies;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
-        if (!captures.places[mirror].exists()) continue;
+        if (!captures.places[mirror].is_captured()) continue;
         const auto drawing = [&](std::uint32_t face) {
             return feeding.kept->faces[mirror][face].drawing;
         };
@@ -97,11 +97,11 @@ void add_copy_of_unchanged(graph::Graph& graph, const std::string& name,
         }
     }
     if (copies.empty()) return;
-    graph::PassBuilder pass = graph.pass(name);
+    graph::PassBuilder pass = graph.add_pass(name);
     for (const auto& [from, to] : copies)
         pass.reads(from, graph::ResourceUse::copy_from).writes(to, graph::ResourceUse::copy_to);
     pass.record([copies = std::move(copies)](graph::PassCommands& commands) {
-        for (const auto& [from, to] : copies) commands.copy(from, to);
+        for (const auto& [from, to] : copies) commands.copy_image(from, to);
     });
 }
 
@@ -151,7 +151,8 @@ CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& i
         drop_unneeded_captures(options, model), known);
     const auto declare = [&](const std::vector<CaptureOptions>& laid_out,
                              const CaptureCache& filled) {
-        Captures captures = declare_captures(graph, inputs, name, laid_out, kSets[filled.set]);
+        Captures captures = declare_captures(graph, inputs, name, laid_out,
+                                             kCaptureSetNames[filled.set]);
         for (const std::array<CachedFace, 6>& faces : filled.faces)
             std::ranges::transform(faces, captures.drawings.emplace_back().begin(),
                                    &CachedFace::drawing);

@@ -120,7 +120,7 @@ public:
     /// Returns a buffer of zeros, one word a mirror, that neither the host nor the device uses.
     std::shared_ptr<gpu::Buffer> buffer(std::size_t mirrors);
     /// Records that the frame `frame`, just submitted, writes to the buffer. Null is ignored.
-    void used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame);
+    void mark_used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame);
 
 private:
     struct PooledBuffer {

@@ -57,8 +57,8 @@ std::shared_ptr<gpu::Buffer> ComparisonBuffers::buffer(std::size_t mirrors) {
     return found->buffer;
 }
 
-void ComparisonBuffers::used(const std::shared_ptr<const gpu::Buffer>& buffer,
-                             std::uint64_t frame) {
+void ComparisonBuffers::mark_used(const std::shared_ptr<const gpu::Buffer>& buffer,
+                                  std::uint64_t frame) {
     const auto is_it = [&](const PooledBuffer& entry) { return entry.buffer == buffer; };
     const auto found = std::ranges::find_if(entries_, is_it);
     if (found != entries_.end()) found->frame = frame;
@@ -68,19 +68,19 @@ void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
                             const CaptureUpdate& feeding) {
     if (!feeding.kept || !feeding.kept->differing) return;
     const Captures &last = *feeding.last, &now = *feeding.captures;
-    struct Push {
+    struct ComparisonParameters {
         std::uint32_t before, after, mirror;
     };
     struct CubePair {
         CubeArray before, after; ///< the whole arrays
-        Push push;
+        ComparisonParameters push;
         std::uint32_t faces;
     };
     std::vector<CubePair> all;
     for (std::uint32_t mirror = 0; mirror < now.places.size(); ++mirror)
         for_each_face_run(
             [&](std::uint32_t face) {
-                return now.places[mirror].exists() &&
+                return now.places[mirror].is_captured() &&
                        feeding.work.work_on_face(mirror, face) == FaceWork::compare;
             },
             [&](std::uint32_t first, std::uint32_t end) {
@@ -90,11 +90,11 @@ void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
                                {6 * from.cube + first, 6 * to.cube + first, mirror},
                                end - first});
             });
-    const graph::BufferHandle differing = graph.import(
+    const graph::BufferHandle differing = graph.import_external(
         graph::BufferDesc{inputs.prefix + now.name + ".differing",
                           feeding.kept->differing->bytes()},
         feeding.kept->differing.get());
-    graph::PassBuilder pass = graph.pass(inputs.prefix + now.name + ".compare");
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + now.name + ".compare");
     std::vector<graph::ImageHandle> images;
     for (const CubePair& one : all)
         for (const CubeArray* const cubes : {&one.before, &one.after})
@@ -104,14 +104,14 @@ void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
     for (const graph::ImageHandle image : images) pass.reads(image, graph::ResourceUse::sampled);
     pass.writes(differing, graph::ResourceUse::storage_write)
         .record([all = std::move(all), differing](graph::PassCommands& commands) {
-            commands.use(gpu::ComputeState{"differing.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"differing.comp", {}});
             commands.bind("Differing", differing);
             for (const auto& [before, after, push, faces] : all) {
                 commands.bind("colour_before", before.colour);
                 commands.bind("colour_after", after.colour);
                 commands.bind("distance_before", before.distance.value_or(before.colour));
                 commands.bind("distance_after", after.distance.value_or(after.colour));
-                commands.push(push);
+                commands.push_constants(push);
                 const std::uint32_t groups = (after.face + 7) / 8;
                 commands.dispatch(groups, groups, faces);
             }

@@ -31,10 +31,10 @@ void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options
         area ? pass.updates(image, ResourceUse::colour, clear)
              : pass.writes(image, ResourceUse::colour, clear);
     };
-    write(cubes.colour, kBlack);
+    write(cubes.colour, kClearToBlack);
     if (cubes.distance) write(*cubes.distance, ClearValue{nothing, 0, 0, 0});
     if (cubes.surfaces) write(*cubes.surfaces, ClearValue{});
-    if (area) pass.area(*area);
+    if (area) pass.set_area(*area);
 }
 
 /// Returns whether the part of the face may show the object.
@@ -42,8 +42,9 @@ bool may_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint
                           const require::FacePart& part, std::size_t object) {
     return part.is_whole() ||
            !intersect_face_parts(
-                part, face_part_showing_box(scene.views()[scene.capture_view(mirror) + face],
-                                            static_cast<int>(face), scene.ranges()[object].bounds))
+                part,
+                face_part_showing_box(scene.views()[scene.capture_view(mirror) + face],
+                                      static_cast<int>(face), scene.draw_ranges()[object].bounds))
                 .empty();
 }
 
@@ -51,8 +52,8 @@ bool may_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint
 std::vector<InnerBall> list_hiding_balls(const GpuScene& scene, const MirrorShaders& looks) {
     std::vector<InnerBall> balls;
     for (std::uint32_t mirror = 0; mirror < scene.mirror_count(); ++mirror)
-        if (looks.of_mirror[mirror] != MirrorShaders::kInParts)
-            balls.push_back(scene.inner_ball(mirror));
+        if (looks.of_mirror[mirror] != MirrorShaders::kShadedByParts)
+            balls.push_back(scene.inner_ball_of_mirror(mirror));
     return balls;
 }
 
@@ -63,9 +64,9 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
                       const std::shared_ptr<const MirrorShaders>& looks,
                       std::optional<ImageHandle> peeled, const require::FacePart& changing) {
     const std::string name = inputs.prefix + pass_name;
-    const ImageHandle depth = graph.image(
+    const ImageHandle depth = graph.add_image(
         {name + ".depth", Format::d32f, options.face, options.face, faces.count, faces.count == 6});
-    graph::PassBuilder pass = graph.pass(name, PassTag::scene);
+    graph::PassBuilder pass = graph.add_pass(name, PassTag::scene);
     declare_shader_reads(pass, options.lighting, *looks);
     if (peeled) pass.reads(*peeled, ResourceUse::sampled);
     const require::FacePart part = grow_to_texels(changing, options.face);
@@ -81,13 +82,13 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == Format::r8_unorm)
         drawing.store.emplace_back("half_step", 0.5f / 255);
-    pass.writes(depth, ResourceUse::depth, kFarthest)
-        .layers(faces.count)
+    pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+        .set_layer_count(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
                  edge = options.face, drawing = std::move(drawing),
                  leaves_out = options.leaves_out_spheres](PassCommands& commands) {
             const auto is_wanted = [&](std::size_t object) {
-                const DrawRange& range = scene.ranges()[object];
+                const DrawRange& range = scene.draw_ranges()[object];
                 return object != scene.mirror_object(mirror) &&
                        !(leaves_out && range.mirror && range.exact_sphere && !range.lit) &&
                        may_face_show_object(scene, mirror, face, part, object);
@@ -98,7 +99,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
             }
             const std::vector<std::uint8_t> shown = find_shown_faces(
                 std::span(scene.views()).subspan(drawing.first_view, drawing.layers),
-                {edge, scene.device().limits().subPixelPrecisionBits}, scene.ranges(),
+                {edge, scene.device().limits().subPixelPrecisionBits}, scene.draw_ranges(),
                 list_hiding_balls(scene, *drawing.looks), is_wanted);
             draw_scene(
                 commands, scene, drawing, [&](std::size_t object) { return shown[object] != 0; },
@@ -110,12 +111,12 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
 /// Declares a pass that clears faces that no ray can ask for.
 void add_clear_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
                     const FaceRange& faces, const std::string& name, const CubeArray& cubes) {
-    graph::PassBuilder pass = graph.pass(inputs.prefix + name_of(name, faces) + ".clear");
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + name_of(name, faces) + ".clear");
     declare_cube_writes(pass, options, cubes);
     if (cubes.colour2)
         declare_cube_writes(pass, options,
                             {cubes.face, *cubes.colour2, cubes.distance2, {}, {}, {}});
-    pass.layers(faces.count).record([](PassCommands&) {});
+    pass.set_layer_count(faces.count).record([](PassCommands&) {});
 }
 
 } // namespace
@@ -124,7 +125,7 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs, const Ca
                         MirrorShaders looks, const CaptureWork& work) {
     const auto shared = std::make_shared<const MirrorShaders>(std::move(looks));
     for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
-        if (!captures.places[mirror].exists()) continue;
+        if (!captures.places[mirror].is_captured()) continue;
         const auto& [array, cube] = captures.places[mirror];
         const CaptureOptions& options = captures.options[mirror];
         const std::string number = "/" + std::to_string(mirror + 1);

@@ -58,7 +58,7 @@ bool merge_smaller_captures(MirrorsByFormatAndEdge& kinds, std::vector<std::stri
     notes.push_back(std::to_string(count) + (count == 1 ? " mirror is" : " mirrors are") +
                     " captured with " + std::to_string(next->first.second) +
                     " texels an edge instead of " + std::to_string(cheapest->first.second) +
-                    ": a frame has at most " + std::to_string(shared::kMostArrays) +
+                    ": a frame has at most " + std::to_string(shared::kMaxCubeArrays) +
                     " arrays of captures");
     next->second.insert(next->second.end(), cheapest->second.begin(), cheapest->second.end());
     std::ranges::sort(next->second);
@@ -73,7 +73,8 @@ CubeArray declare_cube_array(graph::Graph& graph, const std::string& name,
         graph::ImageDesc desc{
             name + what, format, options.face, options.face, static_cast<std::uint32_t>(6 * cubes),
             true};
-        return stay ? graph.persistent(std::move(desc)) : graph.image(std::move(desc));
+        return stay ? graph.add_persistent_image(std::move(desc))
+                    : graph.add_image(std::move(desc));
     };
     check(options.distance || !(options.surfaces || options.second_layer), Failure::internal,
           "captures '", name, "' want surfaces or a second layer, which need the distance");
@@ -96,16 +97,16 @@ graph::BufferHandle add_capture_table(graph::Graph& graph, const std::string& na
     for (std::size_t i = 0; i < captures.places.size(); ++i) {
         const auto& [array, cube] = captures.places[i];
         places.places[i] = array << 16 | cube;
-        if (!captures.places[i].exists()) continue;
+        if (!captures.places[i].is_captured()) continue;
         const CaptureOptions& options = captures.options[i];
         places.arrays[array] = {options.stored_unit,
                                 options.distance == Format::r8_unorm ? 1u : 0u};
     }
-    const graph::BufferHandle table = graph.buffer({name + ".table", sizeof places});
-    graph.pass(name + ".table")
+    const graph::BufferHandle table = graph.add_buffer({name + ".table", sizeof places});
+    graph.add_pass(name + ".table")
         .writes(table, graph::ResourceUse::copy_to)
         .record([table, places](graph::PassCommands& commands) {
-            commands.update(table, std::as_bytes(std::span(&places, 1)));
+            commands.update_buffer(table, std::as_bytes(std::span(&places, 1)));
         });
     return table;
 }
@@ -134,15 +135,16 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
     Captures captures;
     captures.name = std::move(name);
     MirrorsByFormatAndEdge kinds = group_mirrors_by_format_and_edge(options);
-    const std::size_t most_cubes = inputs.scene.most_cubes();
+    const std::size_t most_cubes = inputs.scene.max_cube_count();
     bool merged = true;
-    while (merged && count_cube_arrays(kinds, most_cubes) > shared::kMostArrays)
+    while (merged && count_cube_arrays(kinds, most_cubes) > shared::kMaxCubeArrays)
         merged = merge_smaller_captures(kinds, captures.notes);
     const std::size_t count = count_cube_arrays(kinds, most_cubes);
-    check(count <= shared::kMostArrays && options.size() <= shared::kMostCaptured,
+    check(count <= shared::kMaxCubeArrays && options.size() <= shared::kMaxCapturedMirrors,
           Failure::exhausted, "captures of ", options.size(), " mirrors in ", kinds.size(),
           " sizes and formats want ", count, " arrays of at most ", most_cubes,
-          " cubes; a frame has ", shared::kMostArrays, ", of ", shared::kMostCaptured, " mirrors");
+          " cubes; a frame has ", shared::kMaxCubeArrays, ", of ", shared::kMaxCapturedMirrors,
+          " mirrors");
     captures.places.resize(options.size());
     const std::string dot_set = set.empty() ? "" : "." + set;
     for (const auto& [kind, mirrors] : kinds) {
@@ -173,8 +175,8 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
 Captures captures_of_previous_frame(graph::Graph& graph, const Captures& captures) {
     Captures last = captures;
     for (CubeArray& cubes : last.arrays) {
-        cubes = {cubes.face, graph.previous(cubes.colour), cubes.distance, {}, {}, {}};
-        if (cubes.distance) cubes.distance = graph.previous(*cubes.distance);
+        cubes = {cubes.face, graph.previous_contents(cubes.colour), cubes.distance, {}, {}, {}};
+        if (cubes.distance) cubes.distance = graph.previous_contents(*cubes.distance);
     }
     return last;
 }

@@ -48,9 +48,9 @@ bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b);
 
 /// The place of a mirror's capture in the arrays.
 struct CapturePlace {
-    /// Indices from 0; `array` is kMostArrays if the mirror has no capture.
-    std::uint32_t array = shared::kMostArrays, cube = 0;
-    bool exists() const { return array < shared::kMostArrays; }
+    /// Indices from 0; `array` is kMaxCubeArrays if the mirror has no capture.
+    std::uint32_t array = shared::kMaxCubeArrays, cube = 0;
+    bool is_captured() const { return array < shared::kMaxCubeArrays; }
     bool operator==(const CapturePlace&) const = default;
 };
 
@@ -59,7 +59,7 @@ struct Captures {
     std::string name;                    ///< passes have the names name/1, name/2, ...
     std::vector<CaptureOptions> options; ///< options of each mirror's capture
     std::vector<CapturePlace> places;    ///< place of each mirror's capture
-    std::vector<CubeArray> arrays;       ///< 1 to shared::kMostArrays arrays
+    std::vector<CubeArray> arrays;       ///< 1 to shared::kMaxCubeArrays arrays
     /// Holds a shared::CaptureTable; absent if mirror n is cube n of the only array.
     std::optional<graph::BufferHandle> table;
     std::vector<std::string> notes; ///< deviations from the request, one sentence each
@@ -68,18 +68,18 @@ struct Captures {
     std::vector<std::array<std::uint64_t, 6>> drawings;
 
     /// Returns the array that holds the mirror's capture; null if the mirror has none.
-    const CubeArray* array_of(std::uint32_t mirror) const {
-        return places[mirror].exists() ? &arrays[places[mirror].array] : nullptr;
+    const CubeArray* array_of_mirror(std::uint32_t mirror) const {
+        return places[mirror].is_captured() ? &arrays[places[mirror].array] : nullptr;
     }
 };
 
 /// Declares one array for each combination of size and format, and more if the device limits the
-/// layers. If that exceeds kMostArrays, enlarges the captures for which the next larger edge adds
-/// the fewest texels, and says so in `notes`.
-/// `options`: by mirror; at least one mirror must have a capture.
-/// `set`: if not empty, the arrays persist until they are overwritten
-/// (graph::ImageLifetime::persistent). The name tells them from other arrays of the same captures.
-/// Throws `exhausted` if kMostArrays arrays cannot hold the captures. Costs O(mirrors).
+/// layers. If that exceeds kMaxCubeArrays, enlarges the captures for which the next larger edge
+/// adds the fewest texels, and says so in `notes`. `options`: by mirror; at least one mirror must
+/// have a capture. `set`: if not empty, the arrays persist until they are overwritten
+/// (graph::ImageLifetime::persistent). The name tells them from other arrays of the same
+/// captures. Throws `exhausted` if kMaxCubeArrays arrays cannot hold the captures. Costs
+/// O(mirrors).
 Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
                           std::vector<CaptureOptions> options, const std::string& set = "");
 

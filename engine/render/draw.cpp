@@ -14,7 +14,7 @@ using graph::ImageHandle;
 using graph::PassCommands;
 using graph::TextureFilter;
 
-constexpr const char* kBlackMirror = "mirror_black.frag";
+constexpr const char* kBlackMirrorShader = "mirror_black.frag";
 
 /// Returns the winding of back faces in a view's picture. Cube faces show the scene mirrored.
 gpu::Winding back_face_winding(const shared::View& view) {
@@ -27,8 +27,8 @@ gpu::Winding back_face_winding(const shared::View& view) {
 /// for each run of triangles.
 void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
                  std::uint32_t first_view, std::uint32_t layers, const DrawnParts& parts) {
-    const DrawRange& range = scene.ranges()[object];
-    const auto instance = static_cast<std::uint32_t>(object) << shared::kLayerBits;
+    const DrawRange& range = scene.draw_ranges()[object];
+    const auto instance = static_cast<std::uint32_t>(object) << shared::kInstanceLayerBits;
     scene.bind_vertices(commands, object);
     const auto draw_layers = [&](std::uint32_t first, std::uint32_t count) {
         const auto draw = [&](std::uint32_t from, std::uint32_t indices) {
@@ -100,7 +100,7 @@ gpu::ShaderConstants fragment_shader_constants(const GpuScene& scene, const Draw
 
 void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
                   const MirrorShader& look, const ObjectFilter& wanted, const DrawnParts& parts) {
-    gpu::RasterState state{"", kBlackMirror, drawing.store};
+    gpu::RasterState state{"", kBlackMirrorShader, drawing.store};
     state.features = fragment_shader_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = look.fragment +
@@ -119,7 +119,7 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSetti
 /// For a sphere they are half of all triangles. Returns false if the eye is inside the object's
 /// bounds or the view has a clip plane.
 bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::size_t object) {
-    const DrawRange& range = scene.ranges()[object];
+    const DrawRange& range = scene.draw_ranges()[object];
     const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
                         all(lessThanEqual(view.eye, range.bounds.hi));
     return range.shell && !range.flipped && !within && view.parallel == 0 && view.clip == vec4(0);
@@ -130,17 +130,17 @@ bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::s
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                   const ObjectFilter& wanted, const DrawnParts& parts) {
-    std::ranges::copy(scene.features(first_view), std::back_inserter(state.features));
+    std::ranges::copy(scene.shader_features(first_view), std::back_inserter(state.features));
     const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
         if (own && !scene.has_object_spaces()) break;
         state.vertex = (own ? "placed.vert" : "scene.vert") + std::string(build);
         bool in_use = false; // avoids creating a pipeline that draws nothing
-        for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
-            if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
+        for (std::size_t i = 0; i < scene.draw_ranges().size(); ++i) {
+            if (scene.draw_ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) {
-                commands.use(state);
-                commands.push(shared::DrawParameters{first_view, ablated});
+                commands.bind_pipeline(state);
+                commands.push_constants(shared::DrawParameters{first_view, ablated});
             }
             draw_object(commands, scene, i, first_view, layers, parts);
         }
@@ -182,13 +182,14 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
         draw_objects(
             commands, scene, diffuse, first_view, layers, 0,
             [&](std::size_t i) {
-                const DrawRange& range = scene.ranges()[i];
+                const DrawRange& range = scene.draw_ranges()[i];
                 return !range.mirror && range.one_sided == one_sided && wanted(i);
             },
             whole);
     };
     const auto is_black = [&](std::size_t object) {
-        return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);
+        return first_view == GpuScene::kCameraViewIndex &&
+               scene.hides_everything_from_camera(object);
     };
     const auto draw_all_mirrors = [&] {
         for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
@@ -210,18 +211,18 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
     };
     // In a scene of many mirrors, other mirrors cover most of a capture. Drawing them first avoids
     // shading what they hide.
-    const bool mirrors_first = scene.uses_mirror_bvh() && first_view != GpuScene::kCameraView;
+    const bool mirrors_first = scene.uses_mirror_bvh() && first_view != GpuScene::kCameraViewIndex;
     if (mirrors_first) draw_all_mirrors();
     draw_diffuse(false, gpu::Winding::none);
-    if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))
+    if (std::ranges::any_of(scene.draw_ranges(), &DrawRange::one_sided))
         draw_diffuse(true, back_face_winding(scene.views()[first_view]));
     if (!mirrors_first) draw_all_mirrors();
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
-    for (std::size_t i = 0; i < scene.ranges().size(); ++i)
+    for (std::size_t i = 0; i < scene.draw_ranges().size(); ++i)
         if (is_shut(i))
             return draw_objects(commands, scene,
-                                {"", kBlackMirror, store, gpu::Winding::none, features}, first_view,
-                                layers, 0, is_shut, whole);
+                                {"", kBlackMirrorShader, store, gpu::Winding::none, features},
+                                first_view, layers, 0, is_shut, whole);
 }
 
 } // namespace catoptric::render

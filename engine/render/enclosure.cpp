@@ -10,7 +10,7 @@ namespace catoptric::render {
 namespace {
 
 // Tolerance for a sum of solid angles, far above its rounding error.
-constexpr double kRoundings = 1e-3;
+constexpr double kSolidAngleTolerance = 1e-3;
 
 using PointKey = std::array<double, 3>;
 
@@ -45,7 +45,7 @@ bool encloses_point(const Geometry& geometry, const DrawRange& range, const dvec
     if (!(all(lessThanEqual(range.bounds.lo, in_scene)) &&
           all(lessThanEqual(in_scene, range.bounds.hi))))
         return false;
-    const vec3 point = range.own ? vec3(range.own->point(place)) : in_scene;
+    const vec3 point = range.own ? vec3(range.own->to_object_point(place)) : in_scene;
     double seen = 0;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         const auto corner = [&](std::uint32_t j) {
@@ -55,7 +55,8 @@ bool encloses_point(const Geometry& geometry, const DrawRange& range, const dvec
     }
     // Inside, the sum is the whole sphere of directions. On a face it is half of that, and on an
     // edge or a corner a fraction. Outside it is 0.
-    return std::abs(seen) > kRoundings && is_closed_surface(range.index_count, [&](std::size_t k) {
+    return std::abs(seen) > kSolidAngleTolerance &&
+           is_closed_surface(range.index_count, [&](std::size_t k) {
                return dvec3(geometry.vertices[geometry.indices[range.first_index + k]].position);
            });
 }

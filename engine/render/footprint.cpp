@@ -10,14 +10,14 @@ namespace catoptric::render {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
-constexpr std::uint32_t kMultiple = 16;
+constexpr std::uint32_t kFaceEdgeMultiple = 16;
 
 /// One triangle of a mirror.
 struct MirrorFacet {
     std::array<dvec3, 3> position, normal;
 
-    dvec3 middle() const { return (position[0] + position[1] + position[2]) / 3.0; }
-    dvec3 middle_normal() const { return glm::normalize(normal[0] + normal[1] + normal[2]); }
+    dvec3 facet_centre() const { return (position[0] + position[1] + position[2]) / 3.0; }
+    dvec3 mean_vertex_normal() const { return glm::normalize(normal[0] + normal[1] + normal[2]); }
 };
 
 /// Returns the least and the largest normal curvature of the surface with the facet's interpolated
@@ -64,10 +64,10 @@ double texels_needed_by_facet(const PixelGrid& pixels, const MirrorFacet& facet)
     double to_axis = 1;
     for (const dvec3& corner : facet.position)
         to_axis = std::min(to_axis, cosine_to_axis(pixels.view, corner));
-    const double pixel_angle = pixels.angle(to_axis);
-    const dvec3 to_eye = dvec3(pixels.view.eye) - facet.middle();
+    const double pixel_angle = pixels.angle_per_pixel(to_axis);
+    const dvec3 to_eye = dvec3(pixels.view.eye) - facet.facet_centre();
     const double distance = glm::length(to_eye);
-    const double cosine = distance > 0 ? dot(to_eye, facet.middle_normal()) / distance : 1;
+    const double cosine = distance > 0 ? dot(to_eye, facet.mean_vertex_normal()) / distance : 1;
     double need = 0;
     for (const double curvature : principal_curvatures(facet)) {
         // A concave mirror is convex from behind.
@@ -80,14 +80,14 @@ double texels_needed_by_facet(const PixelGrid& pixels, const MirrorFacet& facet)
 
 } // namespace
 
-double PixelGrid::corner() const {
+double PixelGrid::corner_cosine() const {
     const double across = 1 / glm::length(dvec3(view.right)),
                  up = 1 / glm::length(dvec3(view.down));
     return 1 / std::sqrt(1 + across * across + up * up);
 }
 
-double PixelGrid::angle(double cosine) const {
-    const double at_most = std::max(cosine, corner());
+double PixelGrid::angle_per_pixel(double cosine) const {
+    const double at_most = std::max(cosine, corner_cosine());
     return 2 / (glm::length(dvec3(view.down)) * height) * at_most * at_most;
 }
 
@@ -104,17 +104,17 @@ double texels_needed_by_sphere(const PixelGrid& pixels, const vec3& centre, doub
     for (const dvec3& inward : picture_side_planes(pixels.view))
         if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
     const double distance = glm::length(seen);
-    if (distance <= radius) return texels_for_footprint(pixels.angle(0));
+    if (distance <= radius) return texels_for_footprint(pixels.angle_per_pixel(0));
     // Samples the sphere in the plane of the axis and its centre, outwards from the centre, because
     // pixels shrink in that direction.
     const double axis = std::acos(glm::clamp(cosine_to_axis(pixels.view, dvec3(centre)), -1., 1.));
-    constexpr int kPlaces = 64;
+    constexpr int kRadiusSamples = 64;
     double need = 0;
-    for (int k = 0; k < kPlaces; ++k) {
-        const double across = k * radius / kPlaces; // distance of the ray from the centre
+    for (int k = 0; k < kRadiusSamples; ++k) {
+        const double across = k * radius / kRadiusSamples; // distance of the ray from the centre
         const double cosine = std::sqrt(1 - across * across / (radius * radius));
         const double along = std::sqrt(distance * distance - across * across) - radius * cosine;
-        const double pixel = pixels.angle(std::cos(axis + std::asin(across / distance)));
+        const double pixel = pixels.angle_per_pixel(std::cos(axis + std::asin(across / distance)));
         need = std::max(need, texels_for_footprint(
                                   reflected_pixel_footprint(pixel, along, 1 / radius, cosine)));
     }
@@ -141,8 +141,8 @@ double texels_needed_by_mesh(const PixelGrid& pixels, std::span<const shared::Ve
 std::uint32_t common_capture_edge(std::span<const double> needs, std::uint32_t most) {
     const double need = needs.empty() ? 0 : *std::ranges::max_element(needs);
     if (!(need < most)) return most;
-    const auto multiples = static_cast<std::uint32_t>(std::ceil(need / kMultiple));
-    return std::min(std::max(multiples, 1u) * kMultiple, most);
+    const auto multiples = static_cast<std::uint32_t>(std::ceil(need / kFaceEdgeMultiple));
+    return std::min(std::max(multiples, 1u) * kFaceEdgeMultiple, most);
 }
 
 } // namespace catoptric::render

@@ -20,9 +20,9 @@ struct PixelGrid {
 
     /// Returns the smallest angle between neighbouring pixels. `cosine`: of the direction's angle
     /// to the axis, above 0. Directions beyond the picture's corner count as the corner.
-    double angle(double cosine) const;
+    double angle_per_pixel(double cosine) const;
     /// Returns the cosine of the angle between the axis and the corner of the picture.
-    double corner() const;
+    double corner_cosine() const;
 };
 
 /// Returns the angle between the reflected directions of two neighbouring pixels on a mirror at

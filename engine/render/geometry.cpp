@@ -86,7 +86,8 @@ void write_scene_space_vertices(Geometry& geometry, const scene::Scene& now,
     DrawRange& range = geometry.ranges[index];
     range.bounds = {};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const vec3 position = space.point(dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
+        const vec3 position = space.to_scene_point(
+            dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
         range.bounds.add(position);
         geometry.vertices[range.first_vertex + i] = {
             position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))};
@@ -195,17 +196,17 @@ void lay_out_attributes(Geometry& geometry, const scene::Scene& now) {
 
 } // namespace
 
-Geometry make_geometry(const scene::Scene& now, const SceneUnits& space, ObjectSpaceChoice spaces) {
+Geometry make_geometry(const scene::Scene& now, const SceneUnits& space, VertexSpace spaces) {
     Geometry geometry{.core = space.core, .spaces = spaces};
-    const std::vector<bool> shared = spaces == ObjectSpaceChoice::own
+    const std::vector<bool> shared = spaces == VertexSpace::object_space
                                          ? find_objects_sharing_meshes(now)
                                          : std::vector<bool>(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         DrawRange range = make_draw_range(now, now.objects[i]);
         range.storage = static_cast<std::uint32_t>(i);
         range.shares = shared[i];
-        if (range.shares ||
-            (spaces == ObjectSpaceChoice::own && is_small_for_distance(now, now.objects[i], space)))
+        if (range.shares || (spaces == VertexSpace::object_space &&
+                             is_small_for_distance(now, now.objects[i], space)))
             range.own.emplace();
         geometry.ranges.push_back(range);
     }
@@ -224,21 +225,21 @@ Geometry make_geometry(const scene::Scene& now, const SceneUnits& space, ObjectS
 /// Returns the radius of a sphere around the middle of the object's bounds that contains the
 /// object.
 float bounding_radius(const Geometry& geometry, const DrawRange& range) {
-    constexpr float kRoom = 1 + 0x1p-20f;
+    constexpr float kRadiusMargin = 1 + 0x1p-20f;
     if (range.bounds.empty()) return 0;
-    if (range.own) return kRoom * length(range.bounds.extent()) / 2;
+    if (range.own) return kRadiusMargin * length(range.bounds.extent()) / 2;
     const vec3 middle = range.bounds.centre();
     float squared = 0;
     for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
         const vec3 from = geometry.vertices[range.first_vertex + i].position - middle;
         squared = std::max(squared, dot(from, from));
     }
-    return kRoom * std::sqrt(squared);
+    return kRadiusMargin * std::sqrt(squared);
 }
 
 bool needs_other_space(const Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
                        std::size_t object) {
-    if (geometry.spaces == ObjectSpaceChoice::one) return false;
+    if (geometry.spaces == VertexSpace::scene_space) return false;
     const DrawRange& range = geometry.ranges[object];
     if (range.shares) return !may_share_mesh(now, now.objects[object]);
     return range.own.has_value() != is_small_for_distance(now, now.objects[object], space);

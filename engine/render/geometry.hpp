@@ -11,9 +11,9 @@
 namespace catoptric::render {
 
 /// The choice of objects that are stored in object space.
-enum class ObjectSpaceChoice {
-    one, ///< none: all vertices are in scene units
-    own  ///< some: see make_geometry
+enum class VertexSpace {
+    scene_space, ///< none: all vertices are in scene units
+    object_space ///< some: see make_geometry
 };
 
 /// The triangles of one object in the shared buffers, and its properties.
@@ -60,14 +60,14 @@ struct Geometry {
     /// Object spaces of meshes that copies share, by mesh index.
     std::map<std::size_t, MeshSpace> mesh_spaces;
     Bounds<float> core; ///< bounds of most of the scene (SceneUnits::core)
-    ObjectSpaceChoice spaces = ObjectSpaceChoice::one;
+    VertexSpace spaces = VertexSpace::scene_space;
     std::uint32_t flat_indices = 0; ///< number of indices in scene units
 };
-/// Builds the geometry of a scene. With ObjectSpaceChoice::own, an object keeps an object space if
-/// it is small (is_small) or one of many copies (shared_objects). Costs O(n) in stored vertices and
-/// triangles; a copy that shares its mesh costs O(1).
+/// Builds the geometry of a scene. With VertexSpace::object_space, an object keeps an object space
+/// if it is small (is_small) or one of many copies (shared_objects). Costs O(n) in stored vertices
+/// and triangles; a copy that shares its mesh costs O(1).
 Geometry make_geometry(const scene::Scene& now, const SceneUnits& space,
-                       ObjectSpaceChoice spaces = ObjectSpaceChoice::one);
+                       VertexSpace spaces = VertexSpace::scene_space);
 
 /// Returns whether `make_geometry` would now choose another kind of space for the object.
 bool needs_other_space(const Geometry& geometry, const scene::Scene& now, const SceneUnits& space,

@@ -13,7 +13,7 @@ namespace {
 
 /// Returns the light's entry, without its position and its shadow axes.
 shared::Light make_light_entry(const scene::PointLight& light, const SceneUnits& space) {
-    const scene::LightKind& kind = scene::kind_of(light.kind);
+    const scene::LightKind& kind = scene::light_kind_of(light.kind);
     shared::Light entry{};
     entry.normal = vec3(light.normal);
     entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
@@ -21,10 +21,10 @@ shared::Light make_light_entry(const scene::PointLight& light, const SceneUnits&
     const double share = is_alike_all_round ? light_share_towards(light, {0, 0, 1}) : 1;
     const double area = light.directional ? 1 : share * light.area * space.scale * space.scale;
     entry.intensity = light.emission * static_cast<float>(area);
-    entry.reach = 1 / space.length(light.range);
+    entry.reach = 1 / space.to_scene_length(light.range);
     entry.kind = !light.is_lamp              ? kind.shader_kind
-                 : light.cosines != dvec3(0) ? shared::kLightOfTwoSides
-                                             : shared::kLightAtPoint;
+                 : light.cosines != dvec3(0) ? shared::kLightKindTwoSidedLamp
+                                             : shared::kLightKindPoint;
     const bool has_numbers = !light.is_lamp && kind.shader_numbers != nullptr;
     const auto [cos_outer, sharpness] = has_numbers ? kind.shader_numbers(light)
                                                     : scene::ShaderNumbers();
@@ -53,7 +53,7 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
             light_places_.push_back(space_.to_scene_units(light.position));
         entry.position = vec3(light_places_.back());
         if (!light.directional) {
-            const float gap = nearest_.distance(
+            const float gap = nearest_.distance_to_nearest(
                 geometry_, light_places_.back(),
                 [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
             const bool has_axes = light.cosines != dvec3(0);
@@ -70,12 +70,12 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
     }
     std::vector<shared::Light> all = lights_;
     all.resize(shared::kMaxLights);
-    light_buffer_.set(all);
+    light_buffer_.set_contents(all);
 }
 
 std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {
     std::vector<shared::View> views;
-    if (light.kind == shared::kLightDirectional) {
+    if (light.kind == shared::kLightKindDirectional) {
         std::ranges::copy(make_sun_views(light.forward, space_.core, geometry_bounds(geometry_)),
                           std::back_inserter(views));
     } else {
@@ -88,7 +88,7 @@ std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) con
 }
 
 std::uint32_t GpuScene::drawn_shadow_faces(std::uint32_t light) const {
-    return lights_[light].kind == shared::kLightDirectional ? 2 : shadow_faces_;
+    return lights_[light].kind == shared::kLightKindDirectional ? 2 : shadow_faces_;
 }
 
 } // namespace catoptric::render

@@ -16,7 +16,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kNoMirror = 0;
+constexpr std::uint32_t kNoMirrorNumber = 0;
 
 shared::Surface make_surface_entry(const scene::Object& object, const scene::Material& material,
                                    std::uint32_t mirror, const SceneUnits& space) {
@@ -28,8 +28,8 @@ shared::Surface make_surface_entry(const scene::Object& object, const scene::Mat
     surface.reflectance = material.reflectance;
     surface.mirror = mirror;
     if (object.sphere) {
-        surface.centre = space.point(object.sphere->centre);
-        surface.radius = space.length(object.sphere->radius);
+        surface.centre = space.to_scene_point(object.sphere->centre);
+        surface.radius = space.to_scene_length(object.sphere->radius);
     }
     return surface;
 }
@@ -93,54 +93,56 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
                       double ambient, std::size_t slot) {
-    update_ms_ = 0, hierarchy_ms_before_ = tracing_->ms();
+    update_ms_ = 0, hierarchy_ms_before_ = tracing_->update_ms();
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = false;
-    const SceneChanges changes = seen_.take_over(now, !complete_);
+    const SceneChanges changes = seen_.update_and_compare(now, !complete_);
     complete_ = false; // stays false if the update throws, so that the next update fills everything
     if (changes.layout)
-        lay_out(now);
+        rebuild_layout(now);
     else
-        move(now, changes.moved);
+        move_objects(now, changes.moved);
     const bool moves_vertices = vertices_.layouts() != known_layouts_;
     if (changes.layout || changes.materials || moves_vertices)
         details_.fill(now, geometry_, vertices_, device_.max_texel_count(sizeof(std::uint32_t)));
-    if (changes.shapes() || changes.materials || moves_vertices) fill_surfaces(now);
-    if (changes.shapes()) fill_placements();
+    if (changes.has_shape_changes() || changes.materials || moves_vertices) fill_surfaces(now);
+    if (changes.has_shape_changes()) fill_placements();
     known_layouts_ = vertices_.layouts();
-    if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
-    if (changes.shapes() || changes.lights) {
+    if (changes.has_shape_changes() || changes.lights) fill_lights(now, changes.lights);
+    if (changes.has_shape_changes() || changes.lights) {
         backdrops_.clear();
         for (const shared::Light& light : lights_)
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
         tracing_->set_backdrops(objects_in_all(backdrops_));
     }
-    sky_.set(now.environment);
-    if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);
-    if (changes.shapes() || changes.lights || !is_same_camera(camera_, camera) || size_ != size)
+    sky_.set_environment(now.environment);
+    if (changes.has_shape_changes() || changes.lights || changes.materials)
+        fill_probes(now, changes);
+    if (changes.has_shape_changes() || changes.lights || !is_same_camera(camera_, camera) ||
+        size_ != size)
         fill_views(camera, size);
     if (face_needs_.empty())
-        face_needs_ = find_face_needs(geometry_, mirror_objects_, probes_, views_[kCameraView],
+        face_needs_ = find_face_needs(geometry_, mirror_objects_, probes_, views_[kCameraViewIndex],
                                       eye_, size.y);
     fill_frame(ambient);
-    write(slot);
+    write_buffers(slot);
     complete_ = true;
-    if (first_update_ms_ == 0) first_update_ms_ = watch.ms();
+    if (first_update_ms_ == 0) first_update_ms_ = watch.elapsed_ms();
 }
 
-void GpuScene::lay_out(const scene::Scene& now) {
-    geometry_ = make_geometry(now, space_, ObjectSpaceChoice::own);
+void GpuScene::rebuild_layout(const scene::Scene& now) {
+    geometry_ = make_geometry(now, space_, VertexSpace::object_space);
     has_object_spaces_ = std::ranges::any_of(
         geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
-    find_shells(now);
-    nearest_.lay_out(geometry_);
-    tracing_->lay_out();
-    vertices_.lay_out(geometry_);
+    find_closed_shells(now);
+    nearest_.set_geometry(geometry_);
+    tracing_->record_layout_change();
+    vertices_.set_geometry(geometry_);
 }
 
 /// Finds the exact spheres among the mirrors whose mesh hides its own back faces.
-void GpuScene::find_shells(const scene::Scene& now) {
+void GpuScene::find_closed_shells(const scene::Scene& now) {
     std::map<std::size_t, bool> known; // by mesh
     for (const std::size_t object : mirror_objects_) {
         DrawRange& range = geometry_.ranges[object];
@@ -151,21 +153,21 @@ void GpuScene::find_shells(const scene::Scene& now) {
     }
 }
 
-void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& objects) {
+void GpuScene::move_objects(const scene::Scene& now, const std::vector<std::size_t>& objects) {
     if (std::ranges::any_of(objects, [&](std::size_t object) {
             return needs_other_space(geometry_, now, space_, object);
         }))
-        return lay_out(now);
+        return rebuild_layout(now);
     bool rebuild = false;
     for (const std::size_t object : objects) {
         const bool changed = move_object(geometry_, now, space_, object);
-        nearest_.move(object);
-        tracing_->move(object, changed);
-        const bool unexpected = changed && vertices_.move(object);
+        nearest_.record_moved_object(object);
+        tracing_->record_moved_object(object, changed);
+        const bool unexpected = changed && vertices_.record_moved_object(object);
         rebuild = rebuild || unexpected || geometry_.ranges[object].one_sided; // indices may change
     }
     if (rebuild)
-        vertices_.lay_out(geometry_);
+        vertices_.set_geometry(geometry_);
     else if (!objects.empty())
         vertices_.copy_moved_vertices(geometry_);
 }
@@ -176,7 +178,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     for (const scene::Object& object : now.objects) {
         const scene::Material& material = now.materials[object.material];
         surfaces_.push_back(make_surface_entry(
-            object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirror, space_));
+            object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirrorNumber, space_));
         surfaces_.back().detail = details_.indices()[surfaces_.size() - 1];
     }
     // The traversal intersects exact spheres with an object space, so the shaders' list leaves them
@@ -184,7 +186,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
-    surface_buffer_.set(pack_into_texels(listed));
+    surface_buffer_.set_contents(pack_into_texels(listed));
 }
 
 /// Writes the placements of object spaces: an entry for each object, or a single entry if no object
@@ -198,7 +200,7 @@ void GpuScene::fill_placements() {
         placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
                          bvh::float_rounding_error(own->centre)};
     }
-    placement_buffer_.set(placements);
+    placement_buffer_.set_contents(placements);
 }
 
 bool GpuScene::has_other_mirrors() const {
@@ -212,7 +214,7 @@ bool GpuScene::has_other_mirrors() const {
 InnerBall GpuScene::make_inner_ball(std::size_t object, const dvec3& centre) {
     InnerBall ball{vec3(centre), 0, object};
     if (geometry_.ranges[object].shell)
-        ball.radius = nearest_.distance(
+        ball.radius = nearest_.distance_to_nearest(
             geometry_, centre, [&](std::size_t i, const DrawRange&) { return i != object; });
     return ball;
 }
@@ -238,12 +240,13 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         const scene::Material& material = now.materials[now.objects[object].material];
         probe.reflectance = material.mirror ? material.reflectance : material.albedo;
         const bool is_lit = geometry_.ranges[object].lit;
-        probe.kind = is_lit ? shared::kProbeLit
-                            : (material.mirror ? shared::kProbeConstant : shared::kProbeMetal);
+        probe.kind = is_lit ? shared::kMirrorLit
+                            : (material.mirror ? shared::kMirrorConstantReflectance
+                                               : shared::kMirrorMetal);
         if (is_lit) probe.radius = 0; // no ray is followed through the mirror
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;
-        const float gap = nearest_.distance(
+        const float gap = nearest_.distance_to_nearest(
             geometry_, probe_places_[mirror],
             [&](std::size_t i, const DrawRange&) { return i == object; });
         for (shared::View& view : make_cube_views(probe.centre, gap)) {
@@ -256,56 +259,56 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
             view.eye_low = bvh::float_rounding_error(light_places_[light]);
             scene_views_.push_back(view);
         }
-    probe_buffer_.set(pack_into_texels(probes_));
-    if (uses_mirror_bvh()) mirror_tree_.set(build_mirror_tree(probes_));
+    probe_buffer_.set_contents(pack_into_texels(probes_));
+    if (uses_mirror_bvh()) mirror_tree_.set_contents(build_mirror_tree(probes_));
 }
 
 void GpuScene::fill_frame(double ambient) {
-    frame_.set(
+    frame_.set_contents(
         std::vector<shared::Frame>{{static_cast<float>(ambient), light_count(), mirror_count(),
                                     static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});
 }
 
-std::uint32_t GpuScene::common_face() const {
+std::uint32_t GpuScene::common_face_edge() const {
     return common_capture_edge(face_needs_, device_.limits().maxImageDimensionCube);
 }
 
-void GpuScene::write(std::size_t slot) {
+void GpuScene::write_buffers(std::size_t slot) {
     uploads_ += vertices_.write(device_, slot) + sky_.write(device_, slot);
     for (DeviceList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
                                &light_buffer_, &probe_buffer_, &mirror_tree_})
-        uploads_ += buffer->write(device_, slot);
+        uploads_ += buffer->write_changed_pages(device_, slot);
     uploads_ += details_.write(device_, slot);
 }
 
 void GpuScene::bind(graph::PassCommands& commands) const {
-    commands.bind("frame", frame_.at(slot_));
-    commands.bind("Views", view_buffer_.at(slot_));
-    commands.bind("surface_texels", surface_buffer_.at(slot_));
-    commands.bind("Placements", placement_buffer_.at(slot_));
-    commands.bind("Lights", light_buffer_.at(slot_));
-    commands.bind("probe_texels", probe_buffer_.at(slot_));
-    commands.bind("mirror_nodes", mirror_tree_.at(slot_));
+    commands.bind("frame", frame_.buffer_of_copy(slot_));
+    commands.bind("Views", view_buffer_.buffer_of_copy(slot_));
+    commands.bind("surface_texels", surface_buffer_.buffer_of_copy(slot_));
+    commands.bind("Placements", placement_buffer_.buffer_of_copy(slot_));
+    commands.bind("Lights", light_buffer_.buffer_of_copy(slot_));
+    commands.bind("probe_texels", probe_buffer_.buffer_of_copy(slot_));
+    commands.bind("mirror_nodes", mirror_tree_.buffer_of_copy(slot_));
     details_.bind(commands, slot_);
     sky_.bind(commands, slot_);
     vertices_.bind(commands, slot_);
 }
 
-gpu::ShaderConstants GpuScene::features(std::uint32_t view) const {
+gpu::ShaderConstants GpuScene::shader_features(std::uint32_t view) const {
     return {{"object_spaces", has_object_spaces() ? 1u : 0u},
             {"details", details_.any() ? 1u : 0u},
             {"masks", details_.masks() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},
-            {"environment_kind", sky_.kind()},
+            {"environment_kind", sky_.environment_kind()},
             {"orthographic", views_[view].parallel},
             {"mirror_tree", uses_mirror_bvh() ? 1u : 0u}};
 }
 
 gpu::ShaderConstants GpuScene::tracing_features(SphereMode spheres) const {
-    gpu::ShaderConstants constants = features();
+    gpu::ShaderConstants constants = shader_features();
     for (const auto& constant :
-         make_tracer_constants(device_.choices(), tracing_->largest_bytes(spheres, slot_),
+         make_tracer_constants(device_.variant_choices(), tracing_->largest_bytes(spheres, slot_),
                                device_.limits().maxStorageBufferRange))
         constants.push_back(constant);
     return constants;
@@ -319,18 +322,19 @@ void GpuScene::bind_vertices(graph::PassCommands& commands, std::size_t object) 
     vertices_.bind(commands, slot_, object);
 }
 
-void GpuScene::prepare() const {
+void GpuScene::prepare_frame() const {
     if (added_views_ > 0) {
-        view_buffer_.set(views_);
-        uploads_ += view_buffer_.write(device_, slot_);
+        view_buffer_.set_contents(views_);
+        uploads_ += view_buffer_.write_changed_pages(device_, slot_);
     }
     for (const SphereMode spheres : {SphereMode::mesh, SphereMode::exact})
         if (wants_tracing_[static_cast<std::size_t>(spheres)])
-            tracing_->prepare(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
+            tracing_->prepare_trees(device_, geometry_, surfaces_, spheres, wants_first_hits_,
+                                    slot_);
 }
 
 void GpuScene::bind_tracing(graph::PassCommands& commands, SphereMode spheres) const {
-    tracing_->prepare(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
+    tracing_->prepare_trees(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
     tracing_->bind(commands, spheres, slot_);
 }
 

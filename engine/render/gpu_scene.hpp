@@ -2,11 +2,11 @@
 
 #include "graph/commands.hpp"
 #include "render/backdrop.hpp"
+#include "render/device_list.hpp"
 #include "render/material_parameters.hpp"
 #include "render/mirror_tree.hpp"
 #include "render/mirrored.hpp"
 #include "render/nearest.hpp"
-#include "render/resident.hpp"
 #include "render/scene_changes.hpp"
 #include "render/shown_faces.hpp"
 #include "render/sky.hpp"
@@ -38,16 +38,14 @@ public:
 
     std::uint32_t mirror_count() const { return static_cast<std::uint32_t>(probes_.size()); }
     /// Returns whether there are so many mirrors that testing each of them costs more than a tree.
-    bool uses_mirror_bvh() const { return probes_.size() > kFewMirrors; }
+    bool uses_mirror_bvh() const { return probes_.size() > kMaxMirrorsWithoutTree; }
     /// Returns whether some mirror is not an exact sphere or has light of its own.
     bool has_other_mirrors() const;
     /// Returns whether some mirror reflects in lobes.
-    bool has_rough_mirrors() const {
-        return std::ranges::any_of(ranges(), &DrawRange::rough);
-    }
+    bool has_rough_mirrors() const { return std::ranges::any_of(draw_ranges(), &DrawRange::rough); }
     /// Returns whether the mirror reflects in lobes. Mirrors count from 0 here.
     bool is_rough_mirror(std::uint32_t mirror) const {
-        return ranges()[mirror_object(mirror)].rough;
+        return draw_ranges()[mirror_object(mirror)].rough;
     }
     std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
     /// Returns the layers of each light in shadow maps, and how many of them are drawn.
@@ -59,12 +57,14 @@ public:
     }
     const gpu::Device& device() const { return device_; }
     const SceneUnits& space() const { return space_; }
-    const std::vector<DrawRange>& ranges() const { return geometry_.ranges; }
+    const std::vector<DrawRange>& draw_ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& views() const { return views_; }
     /// Returns the index of the object that is the given mirror. Mirrors count from 0 here.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
     /// Returns a ball inside the mirror. Only mirrors that hide their own back have one.
-    const InnerBall& inner_ball(std::uint32_t mirror) const { return inner_balls_[mirror]; }
+    const InnerBall& inner_ball_of_mirror(std::uint32_t mirror) const {
+        return inner_balls_[mirror];
+    }
     /// Returns the mirror number of the object, from 1; 0: no mirror.
     std::uint32_t mirror_of(std::size_t object) const { return surfaces_[object].mirror; }
     /// Returns the flat faces of each mirror, scene units; empty for mirrors that are not flat.
@@ -75,42 +75,42 @@ public:
     MirroredEye eye() const;
     /// Returns whether the object is a closed mirror around the camera, which no light from outside
     /// reaches.
-    bool hides_all_from_camera(std::size_t object) const { return hides_all_[object]; }
+    bool hides_everything_from_camera(std::size_t object) const { return hides_all_[object]; }
     /// Returns the texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a
     /// mirror outside the picture. The first update computes them and later updates keep them,
     /// because cubes that change size lose the contents of the frame before.
     const std::vector<double>& face_needs() const { return face_needs_; }
     /// Discards the results of face_needs(), so that the next update computes the needed cube edges
     /// again.
-    void forget_face_needs() { face_needs_.clear(); }
-    bool knows_face_needs() const { return face_needs_.size() == mirror_objects_.size(); }
+    void clear_face_needs() { face_needs_.clear(); }
+    bool has_face_needs() const { return face_needs_.size() == mirror_objects_.size(); }
     /// Replaces the face needs by those of another sequence of frames.
-    void put_face_needs(std::vector<double> needs) { face_needs_ = std::move(needs); }
+    void set_face_needs(std::vector<double> needs) { face_needs_ = std::move(needs); }
     /// Returns one edge for all cubes: the largest need, limited by the device.
-    std::uint32_t common_face() const;
+    std::uint32_t common_face_edge() const;
     /// Returns the most cubes in one array on this device.
-    std::uint32_t most_cubes() const { return device_.limits().maxImageArrayLayers / 6; }
+    std::uint32_t max_cube_count() const { return device_.limits().maxImageArrayLayers / 6; }
     /// Returns whether some object has an object space (DrawRange::own).
     bool has_object_spaces() const { return has_object_spaces_; }
     /// Returns the constants for building shaders that show this view. Features that the scene
     /// lacks cost nothing.
-    gpu::ShaderConstants features(std::uint32_t view = kCameraView) const;
-    /// Returns `features` for the tracer, plus the device's choices that are not the default
+    gpu::ShaderConstants shader_features(std::uint32_t view = kCameraViewIndex) const;
+    /// Returns `shader_features` for the tracer, plus the device's choices that are not the default
     /// (gpu/variants.hpp). Call it after `bind_tracing` with the same spheres.
     gpu::ShaderConstants tracing_features(SphereMode spheres) const;
     /// Returns whether some surface has more than one colour.
     bool has_details() const { return details_.any(); }
     /// Returns whether rays that leave the scene can see an environment.
-    bool has_sky() const { return sky_.kind() != 0; }
+    bool has_sky() const { return sky_.environment_kind() != 0; }
 
-    static constexpr std::uint32_t kCameraView = 0;
+    static constexpr std::uint32_t kCameraViewIndex = 0;
     /// Removes the views that the frame before added. Call it before a frame declares its passes.
     void begin_frame() const;
     /// Adds a view for passes of this frame and returns its number. If it differs from the frame
     /// before, all views are written again.
     std::uint32_t add_view(const shared::View& view) const;
-    /// Returns whether `prepare` will write views. No frame may then be in flight in this slot.
-    /// Call it after the passes are declared.
+    /// Returns whether `prepare_frame` will write views. No frame may then be in flight in this
+    /// slot. Call it after the passes are declared.
     bool has_new_views() const;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
     std::uint32_t shadow_view(std::uint32_t light) const {
@@ -127,33 +127,33 @@ public:
     /// Announces that a pass traces rays. Call it when the pass is declared.
     /// `first_hits`: the rays start at triangles that the rasteriser has drawn
     /// (shaders/lib/first_hit.glsl).
-    void want_tracing(SphereMode spheres = SphereMode::mesh, bool first_hits = false) const {
+    void request_ray_tracing(SphereMode spheres = SphereMode::mesh, bool first_hits = false) const {
         wants_tracing_[static_cast<std::size_t>(spheres)] = true;
         wants_first_hits_ = wants_first_hits_ || first_hits;
     }
     /// Writes the views that `add_view` added to device memory, and updates the bounding volume
     /// hierarchies that passes of this frame read. Call it after the frame's passes are declared.
-    void prepare() const;
-    /// Binds the hierarchy. Updates it first if `prepare` has not.
+    void prepare_frame() const;
+    /// Binds the hierarchy. Updates it first if `prepare_frame` has not.
     void bind_tracing(graph::PassCommands& commands, SphereMode spheres = SphereMode::mesh) const;
 
     /// Returns the host milliseconds of the last update, and of hierarchies since it began.
     double update_ms() const { return update_ms_; }
-    double hierarchy_ms() const { return tracing_->ms() - hierarchy_ms_before_; }
+    double hierarchy_ms() const { return tracing_->update_ms() - hierarchy_ms_before_; }
     /// Returns the host milliseconds of the first update and of the first write of a hierarchy.
     /// Building that hierarchy is counted apart: `first_build_ms`, 0 if nothing traces.
     double first_upload_ms() const { return first_update_ms_ + tracing_->first_write_ms(); }
     double first_build_ms() const { return tracing_->first_build_ms(); }
     /// Returns counts since construction: writes to device memory, hierarchies built, hierarchies
     /// refitted.
-    std::size_t uploads() const { return uploads_ + tracing_->writes(); }
-    std::size_t hierarchies_built() const { return tracing_->built(); }
-    std::size_t hierarchies_refitted() const { return tracing_->refitted(); }
+    std::size_t uploads() const { return uploads_ + tracing_->write_count(); }
+    std::size_t hierarchies_built() const { return tracing_->built_tree_count(); }
+    std::size_t hierarchies_refitted() const { return tracing_->refitted_tree_count(); }
 
 private:
-    void lay_out(const scene::Scene& now);
-    void find_shells(const scene::Scene& now);
-    void move(const scene::Scene& now, const std::vector<std::size_t>& objects);
+    void rebuild_layout(const scene::Scene& now);
+    void find_closed_shells(const scene::Scene& now);
+    void move_objects(const scene::Scene& now, const std::vector<std::size_t>& objects);
     void fill_surfaces(const scene::Scene& now);
     void fill_placements();
     void fill_lights(const scene::Scene& now, bool others);
@@ -162,7 +162,7 @@ private:
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
-    void write(std::size_t slot);
+    void write_buffers(std::size_t slot);
 
     gpu::Device& device_;
     SceneUnits space_;
@@ -183,7 +183,7 @@ private:
     std::vector<std::vector<std::uint8_t>> backdrops_; ///< result of find_backdrops for each light
     std::vector<std::size_t> mirror_objects_;
     std::vector<InnerBall> inner_balls_; ///< ball inside each mirror
-    std::vector<bool> hides_all_;        ///< result of hides_all_from_camera for each object
+    std::vector<bool> hides_all_;        ///< result of hides_everything_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};

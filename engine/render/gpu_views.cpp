@@ -9,7 +9,7 @@ namespace catoptric::render {
 /// Fills the list of views: the camera's first, then those of mirrors and lights.
 void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
     eye_ = space_.to_scene_units(camera.eye);
-    const float gap = nearest_.distance(
+    const float gap = nearest_.distance_to_nearest(
         geometry_, eye_, [](std::size_t, const DrawRange& range) { return !range.seen_by_camera; });
     added_views_ = 0;
     views_ = {make_camera_view(camera, space_, size, gap, geometry_bounds(geometry_))};
@@ -21,11 +21,11 @@ void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
         hides_all_.push_back(range.mirror && !is_parallel &&
                              encloses_point(geometry_, range, eye_));
     camera_ = camera, size_ = size;
-    view_buffer_.set(views_);
+    view_buffer_.set_contents(views_);
 }
 
 MirroredEye GpuScene::eye() const {
-    return {views_[kCameraView], eye_, geometry_bounds(geometry_)};
+    return {views_[kCameraViewIndex], eye_, geometry_bounds(geometry_)};
 }
 
 void GpuScene::begin_frame() const {
@@ -39,6 +39,8 @@ std::uint32_t GpuScene::add_view(const shared::View& view) const {
     return static_cast<std::uint32_t>(views_.size() - 1);
 }
 
-bool GpuScene::has_new_views() const { return added_views_ > 0 && view_buffer_.set(views_); }
+bool GpuScene::has_new_views() const {
+    return added_views_ > 0 && view_buffer_.set_contents(views_);
+}
 
 } // namespace catoptric::render

@@ -11,7 +11,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint64_t kTexelBytes = 16, kTexelsOfTriangle = 3, kTexelsOfNode = 4;
+constexpr std::uint64_t kBytesPerTexel = 16, kTexelsPerTriangle = 3, kTexelsPerNode = 4;
 
 } // namespace
 
@@ -42,22 +42,22 @@ void check_geometry_limits(const std::string& scene, const SceneAmounts& amounts
     };
     const std::uint64_t vertex_bytes = amounts.vertices * sizeof(shared::Vertex),
                         index_bytes = 3 * amounts.triangles * sizeof(std::uint32_t),
-                        texels = kTexelsOfTriangle * amounts.triangles,
-                        node_texels = kTexelsOfNode * (amounts.triangles / bvh::kMaxLeaf);
-    check(amounts.mirrors <= shared::kMostMirrors, Failure::exhausted, "scene '", scene, "' has ",
-          amounts.mirrors, " mirrors, ", shared::kMostMirrors, " are allowed");
+                        texels = kTexelsPerTriangle * amounts.triangles,
+                        node_texels = kTexelsPerNode * (amounts.triangles / bvh::kMaxLeafTriangles);
+    check(amounts.mirrors <= shared::kMaxMirrors, Failure::exhausted, "scene '", scene, "' has ",
+          amounts.mirrors, " mirrors, ", shared::kMaxMirrors, " are allowed");
     within(amounts.vertices, std::numeric_limits<std::uint32_t>::max(), "vertices");
     within(3 * amounts.triangles, std::numeric_limits<std::uint32_t>::max(), "indices");
     within(texels, limits.texels, "texels of triangles");
     within(amounts.environment_texels, limits.texels, "texels of the environment");
-    within(amounts.objects * shared::kSurfaceTexels, limits.texels, "texels of surfaces");
-    within(amounts.mirrors * shared::kProbeTexels, limits.texels, "texels of mirrors");
+    within(amounts.objects * shared::kTexelsPerSurface, limits.texels, "texels of surfaces");
+    within(amounts.mirrors * shared::kTexelsPerProbe, limits.texels, "texels of mirrors");
     within((1 + 6 * amounts.mirrors) * sizeof(shared::View), limits.storage_bytes,
            "bytes of views");
     within(vertex_bytes, limits.piece_bytes, "bytes of vertices");
     within(index_bytes, limits.piece_bytes, "bytes of indices");
     // The sum includes triangles, their normals, and the nodes above them.
-    within(vertex_bytes + index_bytes + (2 * texels + node_texels) * kTexelBytes,
+    within(vertex_bytes + index_bytes + (2 * texels + node_texels) * kBytesPerTexel,
            limits.memory_bytes, "bytes");
 }
 

@@ -27,15 +27,14 @@ const std::vector<std::uint32_t>& lobe_albedo_table() {
     static const std::vector<std::uint32_t> table = [] {
         constexpr std::uint32_t kEdge = shared::kLobeTableEdge;
         constexpr int kSampleEdge = 32;
-        constexpr float kLeastCosine = 1e-3f; // at a cosine of 0 no direction is sampled
+        constexpr float kMinCosine = 1e-3f; // at a cosine of 0 no direction is sampled
         std::vector<std::uint32_t> words;
         for (std::uint32_t y = 0; y < kEdge; ++y)
             for (std::uint32_t x = 0; x < kEdge; ++x) {
                 float head_on, grazing;
-                f32::lobe_albedo_terms(
-                    f32::alpha_of_roughness(static_cast<float>(y) / (kEdge - 1)),
-                    std::max(static_cast<float>(x) / (kEdge - 1), kLeastCosine), kSampleEdge,
-                    head_on, grazing);
+                f32::lobe_albedo_terms(f32::roughness_to_alpha(static_cast<float>(y) / (kEdge - 1)),
+                                       std::max(static_cast<float>(x) / (kEdge - 1), kMinCosine),
+                                       kSampleEdge, head_on, grazing);
                 const auto fraction = [](float value) {
                     return static_cast<std::uint32_t>(std::clamp(value, 0.f, 1.f) * 65535 + .5f);
                 };
@@ -51,11 +50,11 @@ std::uint32_t flag_if(bool is_set, std::uint32_t flag) { return is_set ? flag : 
 shared::MaterialParameters make_material_parameters(const scene::Material& material,
                                                     const DrawRange& range) {
     shared::MaterialParameters detail{};
-    detail.flags = flag_if(range.varies, shared::kMaterialVaries) |
-                   flag_if(range.first_attribute.has_value(), shared::kMaterialAttributes) |
-                   flag_if(material.mirror, shared::kMaterialConstant) |
-                   flag_if(material.unlit, shared::kMaterialUnlit) |
-                   flag_if(range.turns, shared::kMaterialTurns);
+    detail.flags = flag_if(range.varies, shared::kMaterialVariesFlag) |
+                   flag_if(range.first_attribute.has_value(), shared::kMaterialHasAttributesFlag) |
+                   flag_if(material.mirror, shared::kMaterialConstantReflectanceFlag) |
+                   flag_if(material.unlit, shared::kMaterialUnlitFlag) |
+                   flag_if(range.turns, shared::kMaterialTwoSidedFlag);
 #define COPY_FACTOR(name) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
@@ -80,9 +79,9 @@ MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) con
     use.size = texture->image->size.x | texture->image->size.y << 16;
     use.how = static_cast<std::uint32_t>(texture->wrap_u) |
               static_cast<std::uint32_t>(texture->wrap_v) << 2 |
-              flag_if(texture->nearest, shared::kTextureNearest) |
-              flag_if(texture->srgb, shared::kTextureSrgb) |
-              flag_if(texture->uv_set == 1, shared::kTextureSecondUv);
+              flag_if(texture->nearest, shared::kTextureNearestFlag) |
+              flag_if(texture->srgb, shared::kTextureSrgbFlag) |
+              flag_if(texture->uv_set == 1, shared::kTextureSecondUvFlag);
     use.u_row = texture->u_row, use.v_row = texture->v_row;
     return use;
 }
@@ -119,7 +118,7 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, bool is_rough,
         texels.insert(texels.end(), image->texels.begin(), image->texels.end());
     }
     images_ = std::move(images);
-    texels_.set(texels);
+    texels_.set_contents(texels);
 }
 
 void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geometry,
@@ -147,11 +146,11 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
             const std::size_t mesh = now.objects[i].mesh;
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
             if (is_new) entry->second = normals_differ_from_facets(now.meshes[mesh]);
-            detail.flags |= flag_if(entry->second, shared::kMaterialFacets);
+            detail.flags |= flag_if(entry->second, shared::kMaterialTestsFacetSideFlag);
             any_ = any_ || entry->second;
         }
         masks_ = masks_ || range.masked;
-        std::array<char, 4 * shared::kMaterialWords> bytes{}; // all but the padding
+        std::array<char, 4 * shared::kWordsPerMaterial> bytes{}; // all but the padding
         std::memcpy(bytes.data(), &detail, bytes.size());
         const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()),
                                                        static_cast<std::uint32_t>(details.size()));
@@ -159,20 +158,21 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
         indices_.push_back(entry->second);
     }
     if (details.empty()) details.emplace_back(); // buffers must not be empty
-    details_.set(details);
-    attributes_.set(geometry.attributes.empty() ? std::vector<shared::VertexAttribute>(1)
-                                                : geometry.attributes);
+    details_.set_contents(details);
+    attributes_.set_contents(geometry.attributes.empty() ? std::vector<shared::VertexAttribute>(1)
+                                                         : geometry.attributes);
 }
 
 std::size_t MaterialParameterLists::write(gpu::Device& device, std::size_t slot) {
-    return details_.write(device, slot) + attributes_.write(device, slot) +
-           texels_.write(device, slot);
+    return details_.write_changed_pages(device, slot) +
+           attributes_.write_changed_pages(device, slot) +
+           texels_.write_changed_pages(device, slot);
 }
 
 void MaterialParameterLists::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind("detail_quads", details_.at(slot));
-    commands.bind("attribute_texels", attributes_.at(slot));
-    commands.bind("texture_words", texels_.at(slot));
+    commands.bind("detail_quads", details_.buffer_of_copy(slot));
+    commands.bind("attribute_texels", attributes_.buffer_of_copy(slot));
+    commands.bind("texture_words", texels_.buffer_of_copy(slot));
 }
 
 } // namespace catoptric::render

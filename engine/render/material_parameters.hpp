@@ -1,8 +1,8 @@
 #pragma once
 
 #include "graph/commands.hpp"
+#include "render/device_list.hpp"
 #include "render/geometry.hpp"
-#include "render/resident.hpp"
 #include "render/vertices.hpp"
 
 namespace catoptric::render {
@@ -18,7 +18,7 @@ public:
     /// `most` texels.
     void fill(const scene::Scene& now, const Geometry& geometry, const DeviceVertices& vertices,
               std::uint64_t most);
-    /// Writes the changes, like DeviceList::write.
+    /// Writes the changes, like DeviceList::write_changed_pages.
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 

@@ -34,9 +34,9 @@ struct MirrorPartShader {
 
 /// The shader of each mirror, chosen from a list.
 struct MirrorShaders {
-    static constexpr std::uint32_t kInParts = ~0u;
+    static constexpr std::uint32_t kShadedByParts = ~0u;
     std::vector<MirrorShader> looks;
-    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kInParts: see `parts`
+    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kShadedByParts: see `parts`
     std::vector<MirrorPartShader> parts;  ///< triangles in no part are not drawn
 };
 

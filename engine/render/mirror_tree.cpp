@@ -25,7 +25,7 @@ std::vector<vec4> build_mirror_tree(std::span<const shared::Probe> probes) {
     std::vector<Bounds<float>> boxes;
     for (const shared::Probe& probe : probes) boxes.push_back(mirror_bounds(probe));
     std::vector<vec4> texels;
-    for (const BoxTree::WalkStep& step : BoxTree(boxes, 1).steps()) {
+    for (const BoxTree::WalkStep& step : BoxTree(boxes, 1).list_nodes()) {
         texels.emplace_back(step.box.lo, bvh::id_to_float_word(step.only ? *step.only + 1 : 0));
         texels.emplace_back(step.box.hi, bvh::id_to_float_word(step.past));
     }

@@ -10,7 +10,7 @@ namespace catoptric::render {
 
 /// Largest number of mirrors that rays test one by one. For so few mirrors a tree would not be
 /// faster.
-inline constexpr std::size_t kFewMirrors = 8;
+inline constexpr std::size_t kMaxMirrorsWithoutTree = 8;
 
 /// Returns a tree over the exact spheres or bounds of mirrors, which shaders walk without a stack
 /// (shaders/lib/next_mirror.glsl). The tree has 2 n - 1 nodes for n mirrors, parents before

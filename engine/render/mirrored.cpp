@@ -14,7 +14,7 @@ using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 
 /// An eye nearer than this to a mirror's plane, in scene units, sees the mirror edge-on. The value
 /// is a few roundings of a coordinate near 1.
-constexpr double kEdgeOn = 1e-7;
+constexpr double kEdgeOnCosine = 1e-7;
 
 /// Returns the part of a polygon in front of the plane (Sutherland and Hodgman 1974).
 Polygon clip_polygon(const Polygon& polygon, const dvec4& plane) {
@@ -114,14 +114,14 @@ MirroredView view_behind_plane(const MirroredView& from, const scene::FlatFace& 
 std::optional<MirroredView> view_in_mirror(const MirroredView& from, const scene::FlatFace& mirror,
                                            uvec2 size, const Bounds<float>& everything) {
     const double height = dot(from.eye - mirror.point, mirror.normal);
-    if (std::abs(height) < kEdgeOn || (mirror.is_one_sided && height < 0)) return {};
+    if (std::abs(height) < kEdgeOnCosine || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
     for (const dvec3& corner : mirror.corners) polygon.push_back(corner - from.eye);
     // A mirror that touches the plane of the view's own mirror, or lies in it, is not in front of
     // it.
     const dvec4 clip(from.view.clip);
     if (clip != dvec4(0) && std::ranges::all_of(polygon, [&](const dvec3& corner) {
-            return dot(dvec3(clip), corner) + clip.w <= kEdgeOn;
+            return dot(dvec3(clip), corner) + clip.w <= kEdgeOnCosine;
         }))
         return {};
     ClipPlanes planes = view_side_planes(from.view, picture_part_of_area(from.area, size));
@@ -155,7 +155,7 @@ bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& fr
         std::optional<MirroredView> made = view_in_mirror(from, flat, mirrors.size,
                                                           mirrors.everything);
         if (!made) continue;
-        if (views.size() == kMostMirroredViews) return false;
+        if (views.size() == kMaxMirroredViews) return false;
         made->mirror = mirror, made->within = within;
         views.push_back(*made);
         if (!add_mirrored_views(views, *made, views.size() - 1, mirrors, deep - 1)) return false;
@@ -184,7 +184,7 @@ bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>
     const dvec3 middle = dvec3(box.centre()) - view.eye, half(dvec3(box.extent()) * .5);
     return std::ranges::all_of(planes, [&](const dvec4& plane) {
         const double reach = dot(dvec3(plane), middle) + dot(abs(dvec3(plane)), half) + plane.w;
-        return reach >= -kEdgeOn * length(dvec3(plane));
+        return reach >= -kEdgeOnCosine * length(dvec3(plane));
     });
 }
 

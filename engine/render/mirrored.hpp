@@ -36,14 +36,14 @@ struct MirrorPlane {
     int bounces = 0;
 };
 
-inline constexpr std::size_t kMostMirroredViews = 1000;
+inline constexpr std::size_t kMaxMirroredViews = 1000;
 
 /// Returns a view for each mirror that the picture shows in part, then for each mirror that these
 /// views show, and so on. A view precedes the views that it shows.
 ///
 /// Each view has the pixels that its mirror covers in the picture: the basis of the eye is
 /// mirrored, and the projection stays (Diefenbach and Badler 1997). If this gives more than
-/// kMostMirroredViews, reduces `most`, the greatest depth, until the views fit; else `most` stays.
+/// kMaxMirroredViews, reduces `most`, the greatest depth, until the views fit; else `most` stays.
 /// Ignores occlusion. Costs O(views * mirrors).
 std::vector<MirroredView>
 find_mirrored_views(const MirroredEye& camera,

@@ -8,7 +8,8 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kFew = 16; // the most triangles that are tested one by one
+constexpr std::uint32_t kMaxLinearSearchTriangles =
+    16; // the most triangles that are tested one by one
 
 Bounds<float> triangle_bounds(const Geometry& geometry, std::uint32_t first_index) {
     Bounds<float> box;
@@ -84,7 +85,7 @@ void BoxTree::refit(std::span<const Bounds<float>> boxes) {
     }
 }
 
-std::vector<BoxTree::WalkStep> BoxTree::steps() const {
+std::vector<BoxTree::WalkStep> BoxTree::list_nodes() const {
     std::vector<WalkStep> steps(nodes_.size());
     for (std::size_t i = nodes_.size(); i-- > 0;) {
         const BoxNode& node = nodes_[i];
@@ -96,13 +97,15 @@ std::vector<BoxTree::WalkStep> BoxTree::steps() const {
     return steps;
 }
 
-void NearestTriangleQuery::lay_out(const Geometry& geometry) {
+void NearestTriangleQuery::set_geometry(const Geometry& geometry) {
     objects_ = BoxTree(list_object_boxes(geometry));
     moved_ = false;
     parts_.assign(geometry.ranges.size(), {});
 }
 
-void NearestTriangleQuery::move(std::size_t object) { moved_ = parts_[object].moved = true; }
+void NearestTriangleQuery::record_moved_object(std::size_t object) {
+    moved_ = parts_[object].moved = true;
+}
 
 void NearestTriangleQuery::visit_scene_triangle(const Geometry& geometry, std::size_t object,
                                                 const vec3& point, float& squared) {
@@ -115,7 +118,7 @@ void NearestTriangleQuery::visit_scene_triangle(const Geometry& geometry, std::s
         squared = std::min(squared,
                            squared_distance_to_triangle(point, corner(0), corner(1), corner(2)));
     };
-    if (range.index_count <= 3 * kFew) {
+    if (range.index_count <= 3 * kMaxLinearSearchTriangles) {
         for (std::uint32_t i = 0; i < range.index_count / 3; ++i) look(i);
         return;
     }
@@ -125,29 +128,30 @@ void NearestTriangleQuery::visit_scene_triangle(const Geometry& geometry, std::s
     else if (part.moved)
         part.tree->refit(list_triangle_boxes(geometry, range));
     part.moved = false;
-    part.tree->nearest(point, squared, look);
+    part.tree->find_nearest(point, squared, look);
 }
 
 void NearestTriangleQuery::visit_own_triangle(const Geometry& geometry, std::size_t object,
                                               const dvec3& point, float& squared) {
-    constexpr double kRoundings = 1e-5; // above the error of the transform there and back
+    constexpr double kTransformRoundingError =
+        1e-5; // above the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
     // Starts from the known distance, so that farther triangles are skipped.
-    const double known = std::sqrt(double{squared}) / own.least * (1 + kRoundings);
+    const double known = std::sqrt(double{squared}) / own.least * (1 + kTransformRoundingError);
     float own_squared = static_cast<float>(known * known);
-    visit_scene_triangle(geometry, object, vec3(own.point(point)), own_squared);
+    visit_scene_triangle(geometry, object, vec3(own.to_object_point(point)), own_squared);
     const double gap = std::sqrt(double{own_squared}) * own.least;
     squared = std::min(squared, static_cast<float>(gap * gap));
 }
 
-float NearestTriangleQuery::distance(
+float NearestTriangleQuery::distance_to_nearest(
     const Geometry& geometry, const dvec3& at,
     const std::function<bool(std::size_t, const DrawRange&)>& skip) {
     if (moved_) objects_.refit(list_object_boxes(geometry));
     moved_ = false;
     const vec3 point(at);
     float squared = std::numeric_limits<float>::infinity();
-    objects_.nearest(point, squared, [&](std::uint32_t object) {
+    objects_.find_nearest(point, squared, [&](std::uint32_t object) {
         if (skip(object, geometry.ranges[object])) return;
         if (geometry.ranges[object].own)
             visit_own_triangle(geometry, object, at, squared);

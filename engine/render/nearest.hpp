@@ -16,10 +16,10 @@ public:
     explicit BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf = 4);
     /// Updates the tree for moved boxes. Costs O(n).
     void refit(std::span<const Bounds<float>> boxes);
-    /// Calls visit(box) for every box that may hold a point nearer to `point` than sqrt(`squared`).
-    /// `visit` lowers `squared`.
+    /// Calls visit(box) for every box that may hold a point nearer to `point` than
+    /// sqrt(`squared`). `visit` lowers `squared`.
     template <typename Visit>
-    void nearest(const vec3& point, const float& squared, Visit&& visit) const;
+    void find_nearest(const vec3& point, const float& squared, Visit&& visit) const;
 
     /// A node of a walk without a stack. If the ray misses the box, the walk goes on at `past`.
     struct WalkStep {
@@ -28,7 +28,7 @@ public:
         std::optional<std::uint32_t> only; ///< index of the box, if the node holds a single one
     };
     /// Returns all nodes, parents before their children.
-    std::vector<WalkStep> steps() const;
+    std::vector<WalkStep> list_nodes() const;
 
 private:
     struct BoxNode {
@@ -49,16 +49,16 @@ private:
 class NearestTriangleQuery {
 public:
     /// Prepares for a new geometry layout.
-    void lay_out(const Geometry& geometry);
+    void set_geometry(const Geometry& geometry);
     /// Records that the object's triangles have moved.
-    void move(std::size_t object);
+    void record_moved_object(std::size_t object);
 
     /// Returns the distance from a point to the nearest triangle, scene units. The result equals
     /// that of testing all triangles. Leaves out objects for which `skip(index, range)` holds.
     /// Returns infinity if none is left. For an object with an object space, the distance is a
     /// lower bound.
-    float distance(const Geometry& geometry, const dvec3& point,
-                   const std::function<bool(std::size_t, const DrawRange&)>& skip);
+    float distance_to_nearest(const Geometry& geometry, const dvec3& point,
+                              const std::function<bool(std::size_t, const DrawRange&)>& skip);
 
 private:
     struct ObjectTree {
@@ -80,7 +80,7 @@ private:
 float min_distance_to_box(const vec3& point, const Bounds<float>& box);
 
 template <typename Visit>
-void BoxTree::nearest(const vec3& point, const float& squared, Visit&& visit) const {
+void BoxTree::find_nearest(const vec3& point, const float& squared, Visit&& visit) const {
     const auto may_be_nearer = [&](std::uint32_t node) {
         const float gap = min_distance_to_box(point, nodes_[node].box);
         return !(gap * gap >= squared);

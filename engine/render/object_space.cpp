@@ -12,7 +12,7 @@ namespace catoptric::render {
 namespace {
 
 /// The largest stretch of a matrix that may transform rays in float.
-constexpr double kWorstStretch = 64;
+constexpr double kMaxMatrixStretch = 64;
 
 /// Returns the power of two that scales `size` to about 1.
 double power_of_two_unit(double size) { return std::exp2(-std::ceil(std::log2(size))); }
@@ -34,7 +34,7 @@ std::vector<bool> find_shared_meshes(const scene::Scene& scene) {
         const scene::Mesh& mesh = scene.meshes[i];
         if (uses[i] < 2 || mesh.triangles.empty()) continue;
         const std::uint64_t wanted = copied + (uses[i] - 1) * mesh.triangles.size();
-        if (wanted <= kMostCopied)
+        if (wanted <= kMaxCopiedTriangles)
             copied = wanted;
         else
             shared[i] = largest_component(mesh_bounds(mesh).extent()) > 0;
@@ -49,7 +49,7 @@ bool may_share_mesh(const scene::Scene& now, const scene::Object& object) {
     const bool is_lamp = scene::is_one_sided(material) &&
                          scene::emitted_radiance(material) != vec3(0);
     return !is_lamp &&
-           bvh::bound_rounding_amplification(dmat3(object.world_from_object)) <= kWorstStretch;
+           bvh::bound_rounding_amplification(dmat3(object.world_from_object)) <= kMaxMatrixStretch;
 }
 
 std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene) {
@@ -95,13 +95,13 @@ ObjectSpace make_object_space(const scene::Scene& now, const scene::Object& obje
 }
 
 Bounds<float> bounds_in_scene_units(const ObjectSpace& own, const Bounds<double>& box) {
-    constexpr double kRoundings = 0x1p-22;
+    constexpr double kFloatRoundingError = 0x1p-22;
     Bounds<double> result;
     for (int corner = 0; corner < 8; ++corner)
         result.add(own.centre + own.scene_from_own * dvec3((corner & 1 ? box.lo : box.hi).x,
                                                            (corner & 2 ? box.lo : box.hi).y,
                                                            (corner & 4 ? box.lo : box.hi).z));
-    const dvec3 pad = kRoundings * glm::max(glm::abs(result.lo), glm::abs(result.hi));
+    const dvec3 pad = kFloatRoundingError * glm::max(glm::abs(result.lo), glm::abs(result.hi));
     return {vec3(result.lo - pad), vec3(result.hi + pad)};
 }
 

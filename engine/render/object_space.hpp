@@ -17,14 +17,14 @@ struct ObjectSpace {
     double least = 1; ///< each length in object space is at least this many scene units a unit
     /// Radius of the exact sphere around the middle, in object space; 0: no exact sphere.
     float radius = 0;
-    dvec3 point(const dvec3& scene) const {
+    dvec3 to_object_point(const dvec3& scene) const {
         return glm::inverse(scene_from_own) * (scene - centre);
     }
 };
 
 /// Copies of meshes are stored in scene units up to this many triangles (some 50 MB). Copies beyond
 /// it keep the space of their mesh and share one set of vertices.
-inline constexpr std::uint64_t kMostCopied = 1u << 18;
+inline constexpr std::uint64_t kMaxCopiedTriangles = 1u << 18;
 
 /// Returns, by object, whether it shares the vertices of its mesh. An object does not share in
 /// three cases: it is a one-sided lamp, whose corners may have to be swapped; its mesh has no
@@ -34,8 +34,8 @@ std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene);
 /// Returns whether a copy may share its mesh in its present state.
 bool may_share_mesh(const scene::Scene& now, const scene::Object& object);
 
-/// Returns whether the object is smaller than kSmallPart of its distance from the origin. Costs
-/// O(triangles).
+/// Returns whether the object is smaller than kSmallObjectRatio of its distance from the origin.
+/// Costs O(triangles).
 bool is_small_for_distance(const scene::Scene& now, const scene::Object& object,
                            const SceneUnits& space);
 

@@ -8,8 +8,9 @@
 /// Definitions that the passes of captures and of shadow maps share.
 namespace catoptric::render {
 
-inline constexpr graph::ClearValue kBlack{0, 0, 0, 1};
-inline constexpr graph::ClearValue kFarthest{0, 0, 0, 0}; ///< 0, because depth is reversed
+inline constexpr graph::ClearValue kClearToBlack{0, 0, 0, 1};
+inline constexpr graph::ClearValue kClearToFarthestDepth{0, 0, 0,
+                                                         0}; ///< 0, because depth is reversed
 
 /// A range of faces of a mirror's capture or of a light's shadow map.
 struct FaceRange {

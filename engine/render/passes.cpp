@@ -19,13 +19,13 @@ using graph::ResourceUse;
 MirrorShaders remove_error_causes(MirrorShaders looks, const FrameInputs& inputs,
                                   const Lighting& lighting) {
     if (!inputs.ablated) return looks;
-    inputs.scene.want_tracing();
+    inputs.scene.request_ray_tracing();
     for (MirrorShader& look : looks.looks) {
         if (!look.captures) continue;
         look.ablated = inputs.ablated;
         for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x},
                                           {"picture_height", inputs.size.y},
-                                          {"max_depth", kReferenceDepth},
+                                          {"max_depth", kReferenceBounces},
                                           {"shadow", lighting.shadow_map ? 1u : 0u}})
             look.constants.emplace_back(name, value);
     }
@@ -38,22 +38,24 @@ CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
                               const Lighting& lighting, MirrorShaders looks, bool is_traced,
                               std::uint32_t completing_tracer) {
     const uvec2 size = inputs.size;
-    const ImageHandle hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
-    const ImageHandle depth = graph.image(
+    const ImageHandle hdr = graph.add_image(
+        {inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
+    const ImageHandle depth = graph.add_image(
         {inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
-    graph::PassBuilder pass = graph.pass(inputs.prefix + "view", PassTag::scene);
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "view", PassTag::scene);
     declare_shader_reads(pass, lighting, looks);
     CameraOutputs view{hdr, {}, {}};
-    pass.writes(hdr, ResourceUse::colour, kBlack);
+    pass.writes(hdr, ResourceUse::colour, kClearToBlack);
     if ((is_traced && completing_tracer == 0) || inputs.with_lookup) {
         // The order of attachments is that of the shaders' outputs. `tracers` takes the location
         // that captures use for distance. The lookup follows.
-        view.tracers = graph.image({inputs.prefix + "view.tracers", Format::r32f, size.x, size.y});
-        view.lookup = graph.image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
+        view.tracers = graph.add_image(
+            {inputs.prefix + "view.tracers", Format::r32f, size.x, size.y});
+        view.lookup = graph.add_image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
         pass.writes(*view.tracers, ResourceUse::colour, ClearValue{})
             .writes(*view.lookup, ResourceUse::colour, ClearValue{});
     }
-    DrawSettings drawing{.first_view = GpuScene::kCameraView,
+    DrawSettings drawing{.first_view = GpuScene::kCameraViewIndex,
                          .layers = 1,
                          .lighting = lighting,
                          .looks = std::make_shared<const MirrorShaders>(
@@ -62,10 +64,11 @@ CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
                          .completing_tracer = completing_tracer,
                          .peeled = {}};
     if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
-    pass.writes(depth, ResourceUse::depth, kFarthest)
+    pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .record([&scene = inputs.scene, drawing = std::move(drawing)](PassCommands& commands) {
-            draw_scene(commands, scene, drawing,
-                       [&](std::size_t object) { return scene.ranges()[object].seen_by_camera; });
+            draw_scene(commands, scene, drawing, [&](std::size_t object) {
+                return scene.draw_ranges()[object].seen_by_camera;
+            });
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
     return view;
@@ -76,10 +79,11 @@ ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                               std::uint32_t number, const Lighting& lighting, MirrorShaders looks,
                               std::optional<std::uint32_t> left_out) {
     const uvec2 size = inputs.size;
-    const ImageHandle hdr = graph.image({inputs.prefix + name, Format::rgba32f, size.x, size.y});
-    const ImageHandle depth = graph.image(
+    const ImageHandle hdr = graph.add_image(
+        {inputs.prefix + name, Format::rgba32f, size.x, size.y});
+    const ImageHandle depth = graph.add_image(
         {inputs.prefix + name + ".depth", Format::d32f, size.x, size.y});
-    graph::PassBuilder pass = graph.pass(inputs.prefix + name, PassTag::scene);
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + name, PassTag::scene);
     declare_shader_reads(pass, lighting, looks);
     const DrawSettings drawing{.first_view = number,
                                .layers = 1,
@@ -87,16 +91,16 @@ ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                                .looks = std::make_shared<const MirrorShaders>(std::move(looks)),
                                .store = {},
                                .peeled = {}};
-    pass.writes(hdr, ResourceUse::colour, kBlack)
-        .writes(depth, ResourceUse::depth, kFarthest)
-        .area(view.area)
+    pass.writes(hdr, ResourceUse::colour, kClearToBlack)
+        .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+        .set_area(view.area)
         .record([&scene = inputs.scene, drawing, view, size, left_out](PassCommands& commands) {
             const auto is_left_out = [&](std::size_t object) {
                 return left_out && object == scene.mirror_object(*left_out);
             };
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 return !is_left_out(object) &&
-                       may_view_show_box(view, size, scene.ranges()[object].bounds);
+                       may_view_show_box(view, size, scene.draw_ranges()[object].bounds);
             });
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
@@ -106,15 +110,15 @@ ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
 ImageHandle add_compose_pass(graph::Graph& graph, const FrameInputs& inputs, ImageHandle hdr,
                              double exposure_stops) {
     const uvec2 size = inputs.size;
-    const ImageHandle picture = graph.image(
+    const ImageHandle picture = graph.add_image(
         {inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
-    graph.pass(inputs.prefix + "compose")
+    graph.add_pass(inputs.prefix + "compose")
         .reads(hdr, ResourceUse::sampled)
-        .writes(picture, ResourceUse::colour, kBlack)
+        .writes(picture, ResourceUse::colour, kClearToBlack)
         .record([=](PassCommands& commands) {
-            commands.use(gpu::RasterState{"screen.vert", "compose.frag", {}});
+            commands.bind_pipeline(gpu::RasterState{"screen.vert", "compose.frag", {}});
             commands.bind("hdr", hdr);
-            commands.push(static_cast<float>(std::exp2(exposure_stops)));
+            commands.push_constants(static_cast<float>(std::exp2(exposure_stops)));
             commands.draw_covering_triangle();
         });
     return picture;

@@ -14,7 +14,7 @@ namespace catoptric::render {
 
 /// Default number of mirror bounces of ray tracing, for the reference and for techniques that trace
 /// rays for single pixels.
-inline constexpr std::uint32_t kReferenceDepth = 16;
+inline constexpr std::uint32_t kReferenceBounces = 16;
 
 /// Declares one pass for each light, which draws the depth around it: layers [shadow_faces * l,
 /// ...) of a 2D array. Returns nothing if the scene has no light. `suffix` tells several maps of a

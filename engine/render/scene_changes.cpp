@@ -32,7 +32,7 @@ bool is_drawn_alike(const scene::Material& a, scene::Material b) {
 
 } // namespace
 
-SceneChanges SceneChangeTracker::take_over(const scene::Scene& now, bool report_all) {
+SceneChanges SceneChangeTracker::update_and_compare(const scene::Scene& now, bool report_all) {
     SceneChanges changes;
     changes.layout = report_all || objects_.size() != now.objects.size();
     const std::size_t known = objects_.size();
@@ -59,7 +59,7 @@ SceneChanges SceneChangeTracker::take_over(const scene::Scene& now, bool report_
                 object.sphere, object.seen_by_camera, object.mirror};
     }
     if (materials_ != now.materials) materials_ = now.materials;
-    const bool other_lights = !std::ranges::equal(punctual_, now.punctual, scene::shine_alike);
+    const bool other_lights = !std::ranges::equal(punctual_, now.punctual, scene::emit_alike);
     if (other_lights) punctual_ = now.punctual;
     changes.lights = changes.lights || changes.layout || other_lights;
     return changes;

@@ -13,7 +13,7 @@ struct SceneChanges {
     bool materials = false; ///< materials or exact spheres changed
     bool lights = false;
     std::vector<std::size_t> moved;
-    bool shapes() const { return layout || !moved.empty(); }
+    bool has_shape_changes() const { return layout || !moved.empty(); }
 };
 
 /// The state of a scene's objects at the last update.
@@ -21,7 +21,7 @@ class SceneChangeTracker {
 public:
     /// Returns the differences from the scene of the last call, then stores `now` in its place.
     /// `report_all`: reports all data of the scene as changed.
-    SceneChanges take_over(const scene::Scene& now, bool report_all);
+    SceneChanges update_and_compare(const scene::Scene& now, bool report_all);
 
 private:
     struct ObjectState {

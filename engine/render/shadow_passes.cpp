@@ -24,14 +24,14 @@ std::uint64_t hash_shadow_face(const GpuScene& scene, const require::Model& mode
     const require::LightNeeds& needs = model.lights[light];
     ContentHash content_hash;
     content_hash.add(needs.has_map);
-    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return content_hash.value();
+    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return content_hash.hash_value();
     const shared::View& view = scene.views()[scene.shadow_view(light) + face];
     content_hash.add(needs.content_hash).add(view);
     content_hash.add_all(std::span(scene.backdrops(light)));
     for (const require::ShadowCaster& caster : model.casters)
-        if (may_view_show_box(view, scene.ranges()[caster.object]))
+        if (may_view_show_box(view, scene.draw_ranges()[caster.object]))
             content_hash.add(caster.object).add(caster.content_hash);
-    return content_hash.value();
+    return content_hash.hash_value();
 }
 
 /// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears
@@ -39,9 +39,9 @@ std::uint64_t hash_shadow_face(const GpuScene& scene, const require::Model& mode
 void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
                      const FaceRange& faces, bool has_map, const std::string& name,
                      ImageHandle part) {
-    graph.pass(name, PassTag::scene)
-        .writes(part, ResourceUse::depth, kFarthest)
-        .layers(faces.count)
+    graph.add_pass(name, PassTag::scene)
+        .writes(part, ResourceUse::depth, kClearToFarthestDepth)
+        .set_layer_count(faces.count)
         .record([&scene, light, faces, has_map](PassCommands& commands) {
             const std::uint32_t drawn = scene.drawn_shadow_faces(light);
             if (!has_map || faces.first >= drawn) return;
@@ -51,7 +51,7 @@ void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t l
                                            scene.shadow_view(light) + faces.first,
                                            std::min(faces.count, drawn - faces.first), 0,
                                            [&](std::size_t i) {
-                                               const DrawRange& range = scene.ranges()[i];
+                                               const DrawRange& range = scene.draw_ranges()[i];
                                                return range.casts_shadow &&
                                                       range.masked == masked &&
                                                       !scene.backdrops(light)[i];
@@ -69,7 +69,8 @@ std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInp
     const std::uint32_t faces = scene.shadow_faces();
     const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, Format::d32f, edge, edge,
                                 faces * scene.light_count()};
-    const ImageHandle map = model.is_everything ? graph.image(desc) : graph.persistent(desc);
+    const ImageHandle map = model.is_everything ? graph.add_image(desc)
+                                                : graph.add_persistent_image(desc);
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         const bool has_map = model.is_everything || model.lights[light].has_map;
         const std::string name = scene.light_count() == 1 ? "shadow"

@@ -13,9 +13,9 @@ namespace {
 
 /// A hidden object must lie farther away by this factor than what hides it. The factor exceeds the
 /// errors of interpolated depths, which are largest in triangles seen almost from the side.
-constexpr float kBehind = 1 + 0x1p-6f;
+constexpr float kHiddenDepthFactor = 1 + 0x1p-6f;
 /// Slack of cosines and slopes against roundings.
-constexpr float kRoundings = 0x1p-18f;
+constexpr float kSlopeRoundingError = 0x1p-18f;
 
 /// Returns a bound of the rounding errors of a place relative to the eye.
 float rounding_error_from(const shared::View& view, const vec3& place) {
@@ -58,9 +58,9 @@ SlopeRange find_sphere_slopes(const SeenSphere& sphere, float across) {
                 below_high = ahead * tangent - across * sphere.radius;
     SlopeRange range;
     if (below_low > 0)
-        range.low = (across * tangent - ahead * sphere.radius) / below_low - kRoundings;
+        range.low = (across * tangent - ahead * sphere.radius) / below_low - kSlopeRoundingError;
     if (below_high > 0)
-        range.high = (across * tangent + ahead * sphere.radius) / below_high + kRoundings;
+        range.high = (across * tangent + ahead * sphere.radius) / below_high + kSlopeRoundingError;
     return range;
 }
 
@@ -68,7 +68,7 @@ SlopeRange find_sphere_slopes(const SeenSphere& sphere, float across) {
 class FaceCells {
 public:
     explicit FaceCells(const FaceRaster& raster)
-        : edge_(raster.edge), texels_((edge_ + kShownCells - 1) / kShownCells),
+        : edge_(raster.edge), texels_((edge_ + kFaceCellsPerEdge - 1) / kFaceCellsPerEdge),
           cells_((edge_ + texels_ - 1) / texels_),
           // Twice the step of the device's grid, to which a rasteriser moves each corner.
           snap_(std::ldexp(4 / static_cast<float>(edge_), -static_cast<int>(raster.subtexel_bits))),
@@ -92,20 +92,20 @@ public:
             for (const vec2& corner : {vec2(x.low, y.low), vec2(x.high, y.low), vec2(x.low, y.high),
                                        vec2(x.high, y.high)}) {
                 const float cosine = cosine_to(ball, corner);
-                if (cosine < ball.cosine + kRoundings) return false;
+                if (cosine < ball.cosine + kSlopeRoundingError) return false;
                 const float along = ball.distance * cosine;
                 const float inside = ball.radius * ball.radius -
                                      ball.distance * ball.distance * (1 - cosine * cosine);
                 farthest = std::max(farthest, along - std::sqrt(std::max(0.f, inside)));
                 if (texels_ == 1) break; // the corners are the same
             }
-            hidden_beyond_[cell] = std::min(hidden_beyond_[cell], farthest * kBehind);
+            hidden_beyond_[cell] = std::min(hidden_beyond_[cell], farthest * kHiddenDepthFactor);
             return false;
         });
     }
 
     /// Returns whether the face may show something in the sphere.
-    bool may_show(const SeenSphere& sphere) const {
+    bool may_show_ball(const SeenSphere& sphere) const {
         const float nearest = sphere.distance - sphere.radius;
         // An angle is smaller than the way on the face that it spans.
         const float around = std::numbers::sqrt2_v<float> *
@@ -115,7 +115,7 @@ public:
         visit_cells(sphere, snap_, [&](std::size_t cell, const SlopeRange& x, const SlopeRange& y) {
             if (nearest > hidden_beyond_[cell]) return false;
             const vec2 middle((x.low + x.high) / 2, (y.low + y.high) / 2);
-            return shows = cosine_to(sphere, middle) > least - kRoundings;
+            return shows = cosine_to(sphere, middle) > least - kSlopeRoundingError;
         });
         return shows;
     }
@@ -195,8 +195,8 @@ std::vector<std::uint8_t> find_shown_faces(std::span<const shared::View> faces,
             const vec3 from_eye = ranges[i].bounds.centre() - view.eye;
             const float radius = ranges[i].radius +
                                  rounding_error_from(view, ranges[i].bounds.centre());
-            if (!(length(from_eye) > radius * (1 + kRoundings)) ||
-                cells.may_show(make_seen_sphere(view, from_eye, radius)))
+            if (!(length(from_eye) > radius * (1 + kSlopeRoundingError)) ||
+                cells.may_show_ball(make_seen_sphere(view, from_eye, radius)))
                 shown[i] |= static_cast<std::uint8_t>(1u << face);
         }
     }

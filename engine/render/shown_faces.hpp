@@ -29,14 +29,14 @@ struct FaceRaster {
 /// centre by one of the `balls`.
 /// `faces`: perspective views from one eye, a right angle wide.
 /// `wanted`: the objects that the capture draws; others get 0 and hide nothing.
-/// Costs O(objects * faces) plus the texels that objects cover. Above kShownCells texels an edge,
-/// several texels form one cell of the search.
+/// Costs O(objects * faces) plus the texels that objects cover. Above kFaceCellsPerEdge texels an
+/// edge, several texels form one cell of the search.
 std::vector<std::uint8_t> find_shown_faces(std::span<const shared::View> faces,
                                            const FaceRaster& raster,
                                            std::span<const DrawRange> ranges,
                                            std::span<const InnerBall> balls,
                                            const std::function<bool(std::size_t)>& wanted);
 
-inline constexpr std::uint32_t kShownCells = 64;
+inline constexpr std::uint32_t kFaceCellsPerEdge = 64;
 
 } // namespace catoptric::render

@@ -11,7 +11,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0, kMap = 1, kStudio = 2;
+constexpr std::uint32_t kNoEnvironment = 0, kMapEnvironment = 1, kStudioEnvironment = 2;
 
 shared::Sky make_sky_entry(const scene::Environment& environment) {
     shared::Sky sky{};
@@ -31,10 +31,11 @@ EnvironmentOnDevice::EnvironmentOnDevice(std::size_t slots)
       texels_("sky.texels", gpu::BufferUsage::texels, slots),
       vertices_("sky.vertices", gpu::BufferUsage::vertex, slots),
       indices_("sky.indices", gpu::BufferUsage::index, slots) {
-    sky_.set(std::vector(1, shared::Sky{}));
+    sky_.set_contents(std::vector(1, shared::Sky{}));
 }
 
-void EnvironmentOnDevice::set(const std::shared_ptr<const scene::Environment>& environment) {
+void EnvironmentOnDevice::set_environment(
+    const std::shared_ptr<const scene::Environment>& environment) {
     if (environment_ == environment) return;
     if (environment && !environment->studio) {
         const auto [width, height] = std::pair(environment->size.x, environment->size.y);
@@ -43,42 +44,44 @@ void EnvironmentOnDevice::set(const std::shared_ptr<const scene::Environment>& e
               height, " texels, at least one, found ", environment->texels.size());
     }
     environment_ = environment;
-    kind_ = !environment ? kNone : environment->studio ? kStudio : kMap;
-    sky_.set(std::vector(1, environment ? make_sky_entry(*environment) : shared::Sky{}));
+    kind_ = !environment          ? kNoEnvironment
+            : environment->studio ? kStudioEnvironment
+                                  : kMapEnvironment;
+    sky_.set_contents(std::vector(1, environment ? make_sky_entry(*environment) : shared::Sky{}));
     std::vector<vec4> texels;
-    if (kind_ == kMap)
+    if (kind_ == kMapEnvironment)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
-    texels_.set(texels);
-    if (kind_ == kNone) return;
-    vertices_.set(
+    texels_.set_contents(texels);
+    if (kind_ == kNoEnvironment) return;
+    vertices_.set_contents(
         std::vector<shared::Vertex>{{{-1, -1, 0}, {}}, {{3, -1, 0}, {}}, {{-1, 3, 0}, {}}});
-    indices_.set(std::vector<std::uint32_t>{0, 1, 2});
+    indices_.set_contents(std::vector<std::uint32_t>{0, 1, 2});
 }
 
 std::size_t EnvironmentOnDevice::write(gpu::Device& device, std::size_t slot) {
     std::size_t writes = 0;
     for (DeviceList* buffer : {&sky_, &texels_, &vertices_, &indices_})
-        writes += buffer->write(device, slot);
+        writes += buffer->write_changed_pages(device, slot);
     return writes;
 }
 
 void EnvironmentOnDevice::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind("sky", sky_.at(slot));
-    commands.bind("sky_texels", texels_.at(slot));
+    commands.bind("sky", sky_.buffer_of_copy(slot));
+    commands.bind("sky_texels", texels_.buffer_of_copy(slot));
 }
 
 void EnvironmentOnDevice::bind_vertices(graph::PassCommands& commands, std::size_t slot) const {
-    commands.geometry(vertices_.at(slot), indices_.at(slot));
+    commands.bind_geometry(vertices_.buffer_of_copy(slot), indices_.buffer_of_copy(slot));
 }
 
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
               std::uint32_t layers, const gpu::ShaderConstants& store) {
     if (!scene.has_sky()) return;
-    commands.use(gpu::RasterState{.vertex = "sky.vert",
-                                  .fragment = "sky.frag",
-                                  .constants = store,
-                                  .features = scene.features(first_view)});
-    commands.push(shared::DrawParameters{.first_view = first_view});
+    commands.bind_pipeline(gpu::RasterState{.vertex = "sky.vert",
+                                            .fragment = "sky.frag",
+                                            .constants = store,
+                                            .features = scene.shader_features(first_view)});
+    commands.push_constants(shared::DrawParameters{.first_view = first_view});
     scene.bind_sky_vertices(commands);
     commands.draw(0, 3, 0, layers);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graph/commands.hpp"
-#include "render/resident.hpp"
+#include "render/device_list.hpp"
 #include "scene/scene.hpp"
 
 #include <memory>
@@ -18,14 +18,14 @@ public:
 
     /// Sets the environment; null: black. Costs O(texels) if the environment differs from the last
     /// one.
-    void set(const std::shared_ptr<const scene::Environment>& environment);
-    /// Writes the changes, like DeviceList::write.
+    void set_environment(const std::shared_ptr<const scene::Environment>& environment);
+    /// Writes the changes, like DeviceList::write_changed_pages.
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the triangle that covers the picture.
     void bind_vertices(graph::PassCommands& commands, std::size_t slot) const;
     /// Returns the kind of environment, numbered as in shaders/lib/environment.glsl; 0: none.
-    std::uint32_t kind() const { return kind_; }
+    std::uint32_t environment_kind() const { return kind_; }
 
 private:
     std::shared_ptr<const scene::Environment> environment_;

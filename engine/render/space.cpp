@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/shader_math.hpp"
-#include "scene/core.hpp"
+#include "scene/scene_core.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin) {
     const double size = largest_component(box.extent()),
                  distance = largest_component(
                      glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
-    return size > 0 && size < kSmallPart * distance;
+    return size > 0 && size < kSmallObjectRatio * distance;
 }
 
 SceneUnits make_scene_units(const scene::Scene& scene) {
@@ -48,15 +48,15 @@ SceneUnits make_scene_units(const scene::Scene& scene) {
     space.origin_world = choose_scene_origin(scene, core);
     if (const double extent = largest_component(core.extent()); extent > 0)
         space.scale = std::exp2(-std::ceil(std::log2(extent)));
-    space.core = {space.point(core.lo), space.point(core.hi)};
+    space.core = {space.to_scene_point(core.lo), space.to_scene_point(core.hi)};
     return space;
 }
 
 void check_object_distance(const Bounds<float>& box, const std::string& object) {
     const float farthest = f32::largest(max(abs(box.lo), abs(box.hi)));
     // Written so that infinity and NaN fail too. An empty box has no position and passes.
-    check(box.empty() || farthest <= scene::kFarthestReach, Failure::exhausted, "object '", object,
-          "': wanted every corner within ", scene::kFarthestReach,
+    check(box.empty() || farthest <= scene::kMaxSceneRadius, Failure::exhausted, "object '", object,
+          "': wanted every corner within ", scene::kMaxSceneRadius,
           " sizes of the scene's core, found one at ", farthest,
           "; floats cannot square such a distance");
 }

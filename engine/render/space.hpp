@@ -7,8 +7,8 @@
 namespace catoptric::render {
 
 /// Scene units: world positions minus an origin, times a power of two. With that scale, the largest
-/// extent of the scene's core (scene/core.hpp) is about 1. The conversion uses double, before any
-/// position becomes a float. Therefore neither the scale of a scene nor its distance from the
+/// extent of the scene's core (scene/scene_core.hpp) is about 1. The conversion uses double, before
+/// any position becomes a float. Therefore neither the scale of a scene nor its distance from the
 /// world's origin reaches the device. Distant objects do not reduce the precision of the core.
 struct SceneUnits {
     dvec3 origin_world{0};
@@ -17,13 +17,13 @@ struct SceneUnits {
 
     bool operator==(const SceneUnits&) const = default;
     dvec3 to_scene_units(const dvec3& world) const { return (world - origin_world) * scale; }
-    vec3 point(const dvec3& world) const { return vec3(to_scene_units(world)); }
-    float length(double world) const { return static_cast<float>(world * scale); }
+    vec3 to_scene_point(const dvec3& world) const { return vec3(to_scene_units(world)); }
+    float to_scene_length(double world) const { return static_cast<float>(world * scale); }
 };
 
 /// An object smaller than this fraction of its distance from the origin loses half of a float's
 /// digits.
-inline constexpr double kSmallPart = 0x1p-12;
+inline constexpr double kSmallObjectRatio = 0x1p-12;
 
 /// Returns whether the box is small in that sense; world units. The distance is that of its
 /// farthest corner. Empty boxes and points are not small.
@@ -40,7 +40,7 @@ bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin);
 SceneUnits make_scene_units(const scene::Scene& scene);
 
 /// Throws `exhausted` with the object's name if a corner of `box` (scene units) is farther away
-/// than scene::kFarthestReach.
+/// than scene::kMaxSceneRadius.
 void check_object_distance(const Bounds<float>& box, const std::string& object);
 
 inline double largest_component(const dvec3& v) { return std::max({v.x, v.y, v.z}); }

@@ -6,7 +6,7 @@ namespace catoptric::render {
 
 std::vector<vec4> pack_into_texels(std::span<const shared::Surface> surfaces) {
     std::vector<vec4> texels;
-    texels.reserve(shared::kSurfaceTexels * surfaces.size());
+    texels.reserve(shared::kTexelsPerSurface * surfaces.size());
     for (const shared::Surface& surface : surfaces)
         texels.insert(texels.end(),
                       {vec4(surface.albedo, bvh::id_to_float_word(surface.mirror)),
@@ -17,7 +17,7 @@ std::vector<vec4> pack_into_texels(std::span<const shared::Surface> surfaces) {
 
 std::vector<vec4> pack_into_texels(std::span<const shared::Probe> probes) {
     std::vector<vec4> texels;
-    texels.reserve(shared::kProbeTexels * probes.size());
+    texels.reserve(shared::kTexelsPerProbe * probes.size());
     for (const shared::Probe& probe : probes)
         texels.insert(texels.end(),
                       {vec4(probe.sphere, probe.radius),

@@ -17,9 +17,10 @@ namespace catoptric::render {
 namespace {
 
 std::uint32_t ray_mask_of_range(const DrawRange& range) {
-    return (range.seen_by_camera ? 0 : bvh::kHidden) | (range.casts_shadow ? 0 : bvh::kShadowless) |
-           (range.exact_sphere ? bvh::kSphere : 0) | (range.one_sided ? bvh::kOneSided : 0) |
-           (range.masked ? bvh::kMasked : 0);
+    return (range.seen_by_camera ? 0 : bvh::kHiddenFromCamera) |
+           (range.casts_shadow ? 0 : bvh::kCastsNoShadow) |
+           (range.exact_sphere ? bvh::kStandsForSphere : 0) |
+           (range.one_sided ? bvh::kOneSided : 0) | (range.masked ? bvh::kAlphaMasked : 0);
 }
 
 /// Reads an object's triangles, as rays see them. Also reads the normal and the attribute number of
@@ -66,9 +67,9 @@ std::vector<bvh::Triangle> replace_by_exact_spheres(std::span<const bvh::Triangl
         if (!range.exact_sphere || range.own || range.index_count == 0) continue;
         const auto own = std::span(triangles).subspan(range.first_index / 3, range.index_count / 3);
         std::ranges::fill(own, nothing);
-        own.front() = bvh::make_sphere_primitive(surfaces[i].centre, surfaces[i].radius, i,
-                                                 ray_mask_of_range(range) &
-                                                     (bvh::kHidden | bvh::kShadowless));
+        own.front() = bvh::make_sphere_primitive(
+            surfaces[i].centre, surfaces[i].radius, i,
+            ray_mask_of_range(range) & (bvh::kHiddenFromCamera | bvh::kCastsNoShadow));
     }
     return triangles;
 }
@@ -86,7 +87,7 @@ std::array<double, 15> object_space_key(const DrawRange& range) {
     return place;
 }
 
-constexpr std::string_view kInStorage = "bvh_in_storage";
+constexpr std::string_view kBvhInStorageConstant = "bvh_in_storage";
 
 /// Returns the list with which shaders find a triangle of the rasteriser in the hierarchy
 /// (known_hit in shaders/lib/whitted.glsl). `count`: the number of stored triangles.
@@ -102,7 +103,8 @@ std::vector<std::uint32_t> list_first_hits(const bvh::Bvh& shown,
         list[2 * i + 1] = first + geometry.ranges[i].first_index / 3;
     }
     for (std::uint32_t i = 0; i < instances.size(); ++i)
-        list[2 * std::size_t{instances[i].object}] = shown.first_record + f32::kBvhRecordNodes * i;
+        list[2 * std::size_t{instances[i].object}] = shown.first_record +
+                                                     f32::kBvhNodesPerInstance * i;
     for (std::uint32_t place = 0; place < bvh::count_triangles(shown); ++place)
         list[first + bvh::float_word_to_integer(shown.triangles[3 * std::size_t{place} + 1].w)] =
             place;
@@ -116,30 +118,31 @@ gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, s
     gpu::ShaderConstants constants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
         const std::string_view constant = gpu::list_shader_variants()[i].constant;
-        if (choices[i] == 0 || (constant == kInStorage && bytes > most_of_storage)) continue;
+        if (choices[i] == 0 || (constant == kBvhInStorageConstant && bytes > most_of_storage))
+            continue;
         constants.emplace_back(constant, choices[i]);
     }
     return constants;
 }
 
 RayTracingTrees::RayTracingTrees(std::size_t slots)
-    : hierarchies_{Hierarchy(slots), Hierarchy(slots)},
+    : hierarchies_{DeviceHierarchy(slots), DeviceHierarchy(slots)},
       normals_buffer_("normals", gpu::BufferUsage::texels, slots) {}
 
 void RayTracingTrees::set_backdrops(std::vector<std::uint8_t> backdrops) {
     if (backdrops == backdrops_) return;
     backdrops_ = std::move(backdrops);
-    lay_out();
+    record_layout_change();
 }
 
-void RayTracingTrees::lay_out() {
+void RayTracingTrees::record_layout_change() {
     is_read_ = false;
     moved_.clear();
 }
 
-void RayTracingTrees::build(Hierarchy& hierarchy, const Geometry& geometry,
-                            std::span<const bvh::Triangle> flat) {
-    hierarchy.tree = bvh::build_bvh(flat, geometry.core, bvh::CopyHandling::of_all);
+void RayTracingTrees::build_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+                                  std::span<const bvh::Triangle> flat) {
+    hierarchy.tree = bvh::build_bvh(flat, geometry.core, bvh::DuplicateScope::across_objects);
     hierarchy.reached.clear();
     hierarchy.lists_first_hits = false;
     hierarchy.cost_when_built = hierarchy.tree.cost;
@@ -147,8 +150,8 @@ void RayTracingTrees::build(Hierarchy& hierarchy, const Geometry& geometry,
     ++built_;
 }
 
-void RayTracingTrees::refit(Hierarchy& hierarchy, const Geometry& geometry,
-                            std::span<const bvh::Triangle> flat) {
+void RayTracingTrees::refit_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+                                  std::span<const bvh::Triangle> flat) {
     if (hierarchy.moved != hierarchy.reached) { // mostly the same objects move from frame to frame
         hierarchy.reach = bvh::find_refit_region(hierarchy.tree, hierarchy.moved);
         hierarchy.reached = hierarchy.moved;
@@ -156,11 +159,11 @@ void RayTracingTrees::refit(Hierarchy& hierarchy, const Geometry& geometry,
     hierarchy.changed = bvh::refit_bvh(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
     ++refitted_;
     // Written so that NaN rebuilds too.
-    if (!(hierarchy.tree.cost <= kWorstRefit * hierarchy.cost_when_built))
-        build(hierarchy, geometry, flat);
+    if (!(hierarchy.tree.cost <= kMaxRefitCostRatio * hierarchy.cost_when_built))
+        build_trees(hierarchy, geometry, flat);
 }
 
-void RayTracingTrees::build_own(const Geometry& geometry, std::size_t object) {
+void RayTracingTrees::build_object_space_tree(const Geometry& geometry, std::size_t object) {
     const DrawRange& range = geometry.ranges[object];
     bvh::Bvh& tree = own_trees_[object];
     tree = bvh::build_bvh(
@@ -179,13 +182,13 @@ void RayTracingTrees::read_moved_objects(const Geometry& geometry) {
             changed = {std::min<std::size_t>(changed.first, range.first_index),
                        std::max<std::size_t>(changed.end, range.first_index + range.index_count)};
         }
-        if (vertices && own) build_own(geometry, object);
-        for (Hierarchy& hierarchy : hierarchies_) {
+        if (vertices && own) build_object_space_tree(geometry, object);
+        for (DeviceHierarchy& hierarchy : hierarchies_) {
             hierarchy.moved.resize(geometry.ranges.size());
             if (!own) hierarchy.moved[object] = 1;
         }
     }
-    normals_buffer_.set(normals_, changed.first, changed.end);
+    normals_buffer_.set_contents(normals_, changed.first, changed.end);
 }
 
 /// Reads a new layout, or the objects that have moved.
@@ -204,15 +207,15 @@ void RayTracingTrees::read_geometry_changes(const Geometry& geometry) {
             if (geometry.ranges[i].storage == i)
                 read_object_triangles(geometry, i, backdrop_flag(i), triangles_, normals_);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
-            if (has_object_space(geometry, i)) build_own(geometry, i);
-        normals_buffer_.set(normals_);
+            if (has_object_space(geometry, i)) build_object_space_tree(geometry, i);
+        normals_buffer_.set_contents(normals_);
     }
     is_read_ = true;
     moved_.clear();
 }
 
 /// Returns the objects in object space that rays can meet. Checks the number of triangles.
-std::vector<bvh::BvhInstance> RayTracingTrees::instances(const Geometry& geometry) const {
+std::vector<bvh::BvhInstance> RayTracingTrees::list_bvh_instances(const Geometry& geometry) const {
     std::vector<bvh::BvhInstance> instances;
     std::set<std::array<double, 15>> places; // rays never meet a copy in the same place as another
     auto next = static_cast<std::uint32_t>(triangles_.size());
@@ -234,77 +237,82 @@ std::vector<bvh::BvhInstance> RayTracingTrees::instances(const Geometry& geometr
 }
 
 /// Assembles the trees that the device walks. `first_hits`: lists the places of triangles, too.
-void RayTracingTrees::assemble_trees(Hierarchy& hierarchy, const Geometry& geometry,
+void RayTracingTrees::assemble_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
                                      bool first_hits) const {
-    const std::vector<bvh::BvhInstance> instances = this->instances(geometry);
+    const std::vector<bvh::BvhInstance> instances = this->list_bvh_instances(geometry);
     const bvh::Bvh whole = instances.empty()
                                ? bvh::Bvh()
                                : bvh::assemble_two_level_bvh(hierarchy.tree, instances);
     const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
-    hierarchy.nodes.set(shown.nodes);
+    hierarchy.nodes.set_contents(shown.nodes);
     if (instances.empty())
-        hierarchy.triangles.set(shown.triangles, hierarchy.changed.first, hierarchy.changed.end);
+        hierarchy.triangles.set_contents(shown.triangles, hierarchy.changed.first,
+                                         hierarchy.changed.end);
     else
-        hierarchy.triangles.set(shown.triangles);
+        hierarchy.triangles.set_contents(shown.triangles);
     // A refit keeps the places of triangles, but assembling may change them.
     hierarchy.lists_first_hits = hierarchy.lists_first_hits && instances.empty();
     if (!first_hits || hierarchy.lists_first_hits) return;
-    hierarchy.first_hits.set(list_first_hits(shown, instances, geometry, triangles_.size()));
+    hierarchy.first_hits.set_contents(
+        list_first_hits(shown, instances, geometry, triangles_.size()));
     hierarchy.lists_first_hits = true;
 }
 
 /// `flat`: the triangles and spheres in scene units.
-void RayTracingTrees::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
+void RayTracingTrees::rebuild_or_refit(DeviceHierarchy& hierarchy, const Geometry& geometry,
                                        std::span<const bvh::Triangle> flat, bool first_hits) {
     // Triangles left out as copies may no longer coincide after a move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
     hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call fills everything
     if (is_new)
-        build(hierarchy, geometry, flat);
+        build_trees(hierarchy, geometry, flat);
     else if (std::ranges::find(hierarchy.moved, 1) != hierarchy.moved.end())
-        refit(hierarchy, geometry, flat);
+        refit_trees(hierarchy, geometry, flat);
     assemble_trees(hierarchy, geometry, first_hits);
     hierarchy.moved.clear();
     hierarchy.seen = version_;
 }
 
-void RayTracingTrees::prepare(gpu::Device& device, const Geometry& geometry,
-                              std::span<const shared::Surface> surfaces, SphereMode spheres,
-                              bool first_hits, std::size_t slot) {
+void RayTracingTrees::prepare_trees(gpu::Device& device, const Geometry& geometry,
+                                    std::span<const shared::Surface> surfaces, SphereMode spheres,
+                                    bool first_hits, std::size_t slot) {
     const Stopwatch watch(ms_);
     const bool is_first = built_ == 0;
     read_geometry_changes(geometry);
-    Hierarchy& hierarchy = hierarchy_of(spheres);
+    DeviceHierarchy& hierarchy = hierarchy_of(spheres);
     if (hierarchy.seen != version_) {
         const std::size_t count = geometry.flat_indices / 3;
         if (spheres == SphereMode::mesh)
-            bring_up_to_date(hierarchy, geometry, std::span(triangles_).first(count), first_hits);
+            rebuild_or_refit(hierarchy, geometry, std::span(triangles_).first(count), first_hits);
         else
-            bring_up_to_date(
+            rebuild_or_refit(
                 hierarchy, geometry,
                 replace_by_exact_spheres(std::span(triangles_).first(count), geometry, surfaces),
                 first_hits);
     }
     if (first_hits && !hierarchy.lists_first_hits) assemble_trees(hierarchy, geometry, true);
-    const double build_ms = watch.ms();
+    const double build_ms = watch.elapsed_ms();
     for (DeviceList* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})
-        writes_ += buffer->write(device, slot);
-    if (hierarchy.lists_first_hits) writes_ += hierarchy.first_hits.write(device, slot);
-    if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.ms() - build_ms;
+        writes_ += buffer->write_changed_pages(device, slot);
+    if (hierarchy.lists_first_hits)
+        writes_ += hierarchy.first_hits.write_changed_pages(device, slot);
+    if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.elapsed_ms() - build_ms;
 }
 
 std::uint64_t RayTracingTrees::largest_bytes(SphereMode spheres, std::size_t slot) const {
-    const Hierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
-    return std::max(hierarchy.nodes.at(slot).bytes(), hierarchy.triangles.at(slot).bytes());
+    const DeviceHierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
+    return std::max(hierarchy.nodes.buffer_of_copy(slot).bytes(),
+                    hierarchy.triangles.buffer_of_copy(slot).bytes());
 }
 
 void RayTracingTrees::bind(graph::PassCommands& commands, SphereMode spheres,
                            std::size_t slot) const {
-    const Hierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
-    commands.bind("bvh_nodes", hierarchy.nodes.at(slot));
-    commands.bind("bvh_triangles", hierarchy.triangles.at(slot));
-    commands.bind("normals", normals_buffer_.at(slot));
-    if (hierarchy.lists_first_hits) commands.bind("first_hits", hierarchy.first_hits.at(slot));
+    const DeviceHierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
+    commands.bind("bvh_nodes", hierarchy.nodes.buffer_of_copy(slot));
+    commands.bind("bvh_triangles", hierarchy.triangles.buffer_of_copy(slot));
+    commands.bind("normals", normals_buffer_.buffer_of_copy(slot));
+    if (hierarchy.lists_first_hits)
+        commands.bind("first_hits", hierarchy.first_hits.buffer_of_copy(slot));
 }
 
 } // namespace catoptric::render

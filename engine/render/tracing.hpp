@@ -2,8 +2,8 @@
 
 #include "bvh/tlas.hpp"
 #include "graph/commands.hpp"
+#include "render/device_list.hpp"
 #include "render/geometry.hpp"
-#include "render/resident.hpp"
 
 #include <array>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace catoptric::render {
 
 /// A refitted hierarchy is rebuilt once its cost (bvh::compute_sah_cost) exceeds this many times
 /// the cost when built.
-inline constexpr double kWorstRefit = 2;
+inline constexpr double kMaxRefitCostRatio = 2;
 
 /// The two ways in which rays intersect an exact sphere: as the triangles of its mesh (`mesh`), or
 /// as a sphere (`exact`). Each way has a hierarchy of its own.
@@ -34,31 +34,33 @@ public:
     explicit RayTracingTrees(std::size_t slots);
 
     /// Records that the layout of objects changed.
-    void lay_out();
+    void record_layout_change();
     /// Records which objects cast a shadow on nothing for any light, by object (see backdrop.hpp).
     /// Shadow rays pass through such objects. Another set needs new hierarchies.
     void set_backdrops(std::vector<std::uint8_t> backdrops);
     /// Records that an object moved. `vertices`: its vertices changed, not only the placement of
     /// its object space.
-    void move(std::size_t object, bool vertices) { moved_.push_back({object, vertices}); }
+    void record_moved_object(std::size_t object, bool vertices) {
+        moved_.push_back({object, vertices});
+    }
     /// Brings a hierarchy up to date for slot `slot`. Does nothing if nothing changed since the
     /// last call. `surfaces`: by object, scene units. `first_hits`: the list that finds a triangle
     /// of the rasteriser in the hierarchy is needed, too. A build costs O(n log^2 n), a refit O(n).
-    void prepare(gpu::Device& device, const Geometry& geometry,
-                 std::span<const shared::Surface> surfaces, SphereMode spheres, bool first_hits,
-                 std::size_t slot);
+    void prepare_trees(gpu::Device& device, const Geometry& geometry,
+                       std::span<const shared::Surface> surfaces, SphereMode spheres,
+                       bool first_hits, std::size_t slot);
     void bind(graph::PassCommands& commands, SphereMode spheres, std::size_t slot) const;
     /// Returns the bytes of the nodes or of the triangles, whichever is more, as written for the
     /// slot.
     std::uint64_t largest_bytes(SphereMode spheres, std::size_t slot) const;
 
-    std::size_t built() const { return built_; }
-    std::size_t refitted() const { return refitted_; }
+    std::size_t built_tree_count() const { return built_; }
+    std::size_t refitted_tree_count() const { return refitted_; }
     /// Number of writes to device memory since construction.
-    std::size_t writes() const { return writes_; }
-    double ms() const { return ms_; } ///< host time in ms since construction
-    /// Returns the host milliseconds of the first use, which `ms` includes: for building the trees,
-    /// and for writing them to the device.
+    std::size_t write_count() const { return writes_; }
+    double update_ms() const { return ms_; } ///< host time in ms since construction
+    /// Returns the host milliseconds of the first use, which `update_ms` includes: for building the
+    /// trees, and for writing them to the device.
     double first_build_ms() const { return first_build_ms_; }
     double first_write_ms() const { return first_write_ms_; }
 
@@ -72,8 +74,8 @@ private:
         std::size_t layouts = 0, moves = 0;
         friend bool operator==(const GeometryVersion&, const GeometryVersion&) = default;
     };
-    struct Hierarchy {
-        explicit Hierarchy(std::size_t slots)
+    struct DeviceHierarchy {
+        explicit DeviceHierarchy(std::size_t slots)
             : nodes("bvh_nodes", gpu::BufferUsage::texels, slots),
               triangles("bvh_triangles", gpu::BufferUsage::texels, slots),
               first_hits("first_hits", gpu::BufferUsage::words, slots) {}
@@ -91,21 +93,24 @@ private:
         /// shaders/lib/whitted.glsl.
         DeviceList first_hits;
     };
-    Hierarchy& hierarchy_of(SphereMode spheres) {
+    DeviceHierarchy& hierarchy_of(SphereMode spheres) {
         return hierarchies_[static_cast<std::size_t>(spheres)];
     }
     std::uint32_t backdrop_flag(std::size_t object) const {
-        return object < backdrops_.size() && backdrops_[object] != 0 ? bvh::kShadowless : 0;
+        return object < backdrops_.size() && backdrops_[object] != 0 ? bvh::kCastsNoShadow : 0;
     }
     void read_geometry_changes(const Geometry& geometry);
-    void bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
+    void rebuild_or_refit(DeviceHierarchy& hierarchy, const Geometry& geometry,
                           std::span<const bvh::Triangle> flat, bool first_hits);
-    void build(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
-    void refit(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
+    void build_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+                     std::span<const bvh::Triangle> flat);
+    void refit_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+                     std::span<const bvh::Triangle> flat);
     void read_moved_objects(const Geometry& geometry);
-    void build_own(const Geometry& geometry, std::size_t object);
-    std::vector<bvh::BvhInstance> instances(const Geometry& geometry) const;
-    void assemble_trees(Hierarchy& hierarchy, const Geometry& geometry, bool first_hits) const;
+    void build_object_space_tree(const Geometry& geometry, std::size_t object);
+    std::vector<bvh::BvhInstance> list_bvh_instances(const Geometry& geometry) const;
+    void assemble_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+                        bool first_hits) const;
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<std::uint8_t> backdrops_;  ///< see set_backdrops
@@ -115,7 +120,7 @@ private:
     GeometryVersion version_{1, 0};
     bool is_read_ = false;          ///< the present layout has been read
     std::vector<ObjectMove> moved_; ///< moves since the triangles were read
-    std::array<Hierarchy, 2> hierarchies_;
+    std::array<DeviceHierarchy, 2> hierarchies_;
     DeviceList normals_buffer_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
     double ms_ = 0, first_build_ms_ = 0, first_write_ms_ = 0;

@@ -12,7 +12,7 @@ DeviceVertices::DeviceVertices(const std::vector<bool>& moves, std::size_t slots
     for (const bool one : moves) places_.push_back({one, 0});
 }
 
-void DeviceVertices::lay_out(const Geometry& geometry) {
+void DeviceVertices::set_geometry(const Geometry& geometry) {
     ++layouts_;
     places_.resize(geometry.ranges.size());
     std::vector<shared::Vertex> still, moving;
@@ -29,12 +29,12 @@ void DeviceVertices::lay_out(const Geometry& geometry) {
             indices[k] = geometry.indices[k] - range.first_vertex + places_[i].first;
     }
     anything_moves_ = std::ranges::any_of(places_, &VertexRange::moves);
-    still_.set(still);
-    moving_.set(moving);
-    indices_.set(indices);
+    still_.set_contents(still);
+    moving_.set_contents(moving);
+    indices_.set_contents(indices);
 }
 
-bool DeviceVertices::move(std::size_t object) {
+bool DeviceVertices::record_moved_object(std::size_t object) {
     return !std::exchange(places_[object].moves, true);
 }
 
@@ -46,22 +46,23 @@ void DeviceVertices::copy_moved_vertices(const Geometry& geometry) {
         if (places_[i].moves && range.storage == i)
             moving.insert(moving.end(), first, first + range.vertex_count);
     }
-    moving_.set(moving);
+    moving_.set_contents(moving);
 }
 
 std::size_t DeviceVertices::write(gpu::Device& device, std::size_t slot) {
-    return still_.write(device, slot) + moving_.write(device, slot) + indices_.write(device, slot);
+    return still_.write_changed_pages(device, slot) + moving_.write_changed_pages(device, slot) +
+           indices_.write_changed_pages(device, slot);
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.geometry(still_.at(slot), indices_.at(slot));
+    commands.bind_geometry(still_.buffer_of_copy(slot), indices_.buffer_of_copy(slot));
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot,
                           std::size_t object) const {
     if (!anything_moves_) return;
     const DeviceList& vertices = places_[object].moves ? moving_ : still_;
-    commands.geometry(vertices.at(slot), indices_.at(slot));
+    commands.bind_geometry(vertices.buffer_of_copy(slot), indices_.buffer_of_copy(slot));
 }
 
 } // namespace catoptric::render

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "graph/commands.hpp"
+#include "render/device_list.hpp"
 #include "render/geometry.hpp"
-#include "render/resident.hpp"
 
 namespace catoptric::render {
 
@@ -14,17 +14,17 @@ public:
     DeviceVertices(const std::vector<bool>& moves, std::size_t slots);
 
     /// Stores a new geometry layout, or one whose indices changed. Costs O(n).
-    void lay_out(const Geometry& geometry);
+    void set_geometry(const Geometry& geometry);
     /// Records that the object's vertices changed. Returns true if the object was expected to be
     /// static; the caller must then lay out everything again.
-    bool move(std::size_t object);
+    bool record_moved_object(std::size_t object);
     /// Copies the moved vertices. Nothing else may have changed.
     void copy_moved_vertices(const Geometry& geometry);
-    /// Returns how often `lay_out` ran.
+    /// Returns how often `set_geometry` ran.
     std::size_t layouts() const { return layouts_; }
     /// Returns the index of the object's first vertex in the buffer that it is drawn from.
     std::uint32_t first_of(std::size_t object) const { return places_[object].first; }
-    /// Writes the changes, like DeviceList::write.
+    /// Writes the changes, like DeviceList::write_changed_pages.
     std::size_t write(gpu::Device& device, std::size_t slot);
     /// Binds the static vertices and all indices.
     void bind(graph::PassCommands& commands, std::size_t slot) const;

@@ -3,7 +3,7 @@
 #include "bvh/tlas.hpp"
 #include "core/error.hpp"
 #include "core/shader_math.hpp"
-#include "scene/core.hpp"
+#include "scene/scene_core.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,14 +16,14 @@ namespace {
 // Depth is a float with reversed range, so its relative precision does not depend on the near
 // plane. Near only has to be above 0 and below everything. 2^-24 is the rounding of a coordinate
 // near 1.
-constexpr float kSmallestNear = 0x1p-24f;
+constexpr float kMinNearPlane = 0x1p-24f;
 
 /// Margin around the contents of a parallel view, as a fraction of their size. It far exceeds
 /// roundings.
-constexpr double kRoom = 1e-3;
+constexpr double kDepthRangeMargin = 1e-3;
 /// If the window over everything is at most this many times larger than the window over the core,
 /// the large window serves as both.
-constexpr double kHardlyLarger = 1.5;
+constexpr double kSharedWindowFactor = 1.5;
 
 /// Returns the axes of a cube whose face +Z looks along `forward`, as columns.
 glm::mat3 turned_cube_axes(vec3 forward) {
@@ -49,7 +49,7 @@ AxisRange project_box_on_axis(const dvec3& axis, const Bounds<float>& box) {
 /// Returns where all geometry begins and ends along an axis, with a margin.
 AxisRange depth_range_along(const dvec3& forward, const Bounds<float>& everything) {
     const auto [low, high] = project_box_on_axis(forward, everything);
-    const double room = kRoom * std::max(high - low, 1.0);
+    const double room = kDepthRangeMargin * std::max(high - low, 1.0);
     return {low - room, high + room};
 }
 
@@ -58,7 +58,7 @@ AxisRange depth_range_along(const dvec3& forward, const Bounds<float>& everythin
 void make_parallel_view(shared::View& view, dvec3& eye, const dvec3& forward,
                         const AxisRange& depth) {
     eye += forward * (depth.low - dot(forward, eye));
-    view.near = static_cast<float>(1 / std::max(depth.high - depth.low, kRoom));
+    view.near = static_cast<float>(1 / std::max(depth.high - depth.low, kDepthRangeMargin));
     view.parallel = 1;
 }
 
@@ -84,7 +84,7 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& spa
     view.right = vec3(right / (tangent * aspect));
     view.down = vec3(down / tangent);
     view.forward = vec3(forward);
-    view.near = std::max(kSmallestNear, 0.5f * gap * static_cast<float>(along));
+    view.near = std::max(kMinNearPlane, 0.5f * gap * static_cast<float>(along));
     if (camera.orthographic_height > 0) {
         const double half = camera.orthographic_height * space.scale / 2;
         view.right = vec3(right / (half * aspect));
@@ -96,10 +96,10 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& spa
     view.eye = vec3(eye);
     view.eye_low = bvh::float_rounding_error(eye);
     // Written so that NaN fails too.
-    check(length(view.eye) <= scene::kFarthestReach && length(view.forward) > .5f &&
+    check(length(view.eye) <= scene::kMaxSceneRadius && length(view.forward) > .5f &&
               length(view.right) > 0 && length(view.down) > 0,
           Failure::usage, "camera '", camera.name, "': wanted an eye within ",
-          scene::kFarthestReach,
+          scene::kMaxSceneRadius,
           " sizes of the scene, a target away from it and an up that is not along, found eye ",
           camera.eye.x, ",", camera.eye.y, ",", camera.eye.z);
     return view;
@@ -133,7 +133,7 @@ std::vector<shared::View> make_turned_cube_views(vec3 eye, const glm::mat3& worl
         // The nearest surface may lie in a corner, at 1 / sqrt(3) of its distance along the axis. A
         // power of two seldom changes as something approaches, and a change alters only the
         // exponent of depths.
-        view.near = std::max(kSmallestNear, power_of_two_below(0.5f * gap));
+        view.near = std::max(kMinNearPlane, power_of_two_below(0.5f * gap));
         views.push_back(view);
     }
     return views;
@@ -148,7 +148,7 @@ std::array<shared::View, 2> make_sun_views(vec3 forward, const Bounds<float>& co
     const auto half_of = [&](const dvec3& axis, const Bounds<float>& box) {
         const auto [low, high] = project_box_on_axis(axis, box);
         const double at = dot(axis, eye);
-        return std::max({high - at, at - low, 1e-6}) * (1 + kRoom);
+        return std::max({high - at, at - low, 1e-6}) * (1 + kDepthRangeMargin);
     };
     const double core_width = half_of(right, middle), core_height = half_of(down, middle),
                  width = half_of(right, everything), height = half_of(down, everything);
@@ -158,7 +158,7 @@ std::array<shared::View, 2> make_sun_views(vec3 forward, const Bounds<float>& co
     view.eye = vec3(eye);
     view.right = vec3(right / width), view.down = vec3(down / height);
     std::array<shared::View, 2> views{view, view};
-    if (std::max(width, height) > kHardlyLarger * std::max(core_width, core_height))
+    if (std::max(width, height) > kSharedWindowFactor * std::max(core_width, core_height))
         views[0].right = vec3(right / core_width), views[0].down = vec3(down / core_height);
     return views;
 }
@@ -198,11 +198,11 @@ bool may_view_show_box(const shared::View& view, const Bounds<float>& box) {
 
 bool may_view_show_box(const shared::View& view, const DrawRange& range) {
     // Fraction of the distance, for the roundings of positions and planes.
-    constexpr float kRoom = 0x1p-20f;
+    constexpr float kDepthRangeMargin = 0x1p-20f;
     if (!may_view_show_box(view, range.bounds)) return false;
     if (view.parallel != 0) return true;
     const vec3 towards = range.bounds.centre() - view.eye;
-    const float radius = range.radius + kRoom * (range.radius + length(towards));
+    const float radius = range.radius + kDepthRangeMargin * (range.radius + length(towards));
     return std::ranges::all_of(inward_view_planes(view), [&](const vec3& plane) {
         return dot(plane, towards) >= -radius * length(plane);
     });

@@ -111,10 +111,10 @@ struct BenchmarkEntry {
         return json.contains(member) ? std::optional(measured(member)) : std::nullopt;
     }
     double milliseconds_a_unit() const {
-        constexpr std::array<std::pair<const char*, double>, 4> kUnits{
+        constexpr std::array<std::pair<const char*, double>, 4> kTimeUnits{
             {{"ns", 1e-6}, {"us", 1e-3}, {"ms", 1}, {"s", 1e3}}};
         const std::string unit = text("time_unit");
-        for (const auto& [name, ms] : kUnits)
+        for (const auto& [name, ms] : kTimeUnits)
             if (unit == name) return ms;
         fail(Failure::bad_data, place, ".time_unit: wanted ns, us, ms or s, found ",
              quote_printable(unit));
@@ -126,11 +126,11 @@ struct BenchmarkEntry {
     }
 };
 
-constexpr std::array kKnown{"family_index", "per_family_instance_index",
-                            "repetitions",  "repetition_index",
-                            "threads",      "iterations",
-                            "real_time",    "cpu_time",
-                            "cycles",       "instructions"};
+constexpr std::array kIgnoredBenchmarkKeys{"family_index", "per_family_instance_index",
+                                           "repetitions",  "repetition_index",
+                                           "threads",      "iterations",
+                                           "real_time",    "cpu_time",
+                                           "cycles",       "instructions"};
 
 BenchmarkRound read_round(const BenchmarkEntry& entry) {
     const double unit = entry.milliseconds_a_unit();
@@ -143,7 +143,8 @@ BenchmarkRound read_round(const BenchmarkEntry& entry) {
     if (const Json count = entry.at("iterations"); count.is_number_unsigned())
         round.iterations = count.get<std::uint64_t>();
     for (const auto& [name, value] : entry.json.items())
-        if (value.is_number() && std::ranges::find(kKnown, name) == kKnown.end())
+        if (value.is_number() &&
+            std::ranges::find(kIgnoredBenchmarkKeys, name) == kIgnoredBenchmarkKeys.end())
             round.counters[name] = value.get<double>();
     return round;
 }

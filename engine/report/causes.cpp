@@ -3,7 +3,7 @@
 
 #include "core/error.hpp"
 #include "measure/causes.hpp"
-#include "report/part.hpp"
+#include "report/report_part.hpp"
 #include "report/text.hpp"
 
 #include <algorithm>
@@ -18,15 +18,15 @@ constexpr vec3 rgb_from_bytes(int red, int green, int blue) {
     return vec3(red, green, blue) / 255.0F;
 }
 
-const CauseColour kColours[] = {{"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
-                                {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
-                                {"direction", "blue", rgb_from_bytes(0, 114, 178)},
-                                {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
-                                {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
-                                {"mirror in mirror", "green", rgb_from_bytes(0, 158, 115)},
-                                {"shadow map", "pink", rgb_from_bytes(204, 121, 167)},
-                                {"silhouettes", "white", vec3(1)},
-                                {"rest", "light grey", rgb_from_bytes(190, 190, 190)}};
+const CauseColour kCauseColours[] = {{"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
+                                     {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
+                                     {"direction", "blue", rgb_from_bytes(0, 114, 178)},
+                                     {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
+                                     {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
+                                     {"mirror in mirror", "green", rgb_from_bytes(0, 158, 115)},
+                                     {"shadow map", "pink", rgb_from_bytes(204, 121, 167)},
+                                     {"silhouettes", "white", vec3(1)},
+                                     {"rest", "light grey", rgb_from_bytes(190, 190, 190)}};
 
 /// Kind of line in the table: its name, and the function that computes its cells as shares of the
 /// row's error.
@@ -36,7 +36,7 @@ struct CauseTableLine {
     bool adds_up;
 };
 
-constexpr CauseTableLine kLines[] = {
+constexpr CauseTableLine kCauseTableLines[] = {
     {"all", [](const Cause& cause, double) { return cause.share; }, true},
     {"first order", [](const Cause& cause, double) { return cause.share_first_order; }, true},
     {"mirror in mirror", [](const Cause& cause, double) { return cause.share_mirror_in_mirror; },
@@ -58,7 +58,7 @@ std::vector<std::string> format_cause_cells(const CauseTableLine& line, const Ca
     return cells;
 }
 
-const RegisteredPart kCausesPart{
+const RegisteredReportPart kCausesPart{
     {.name = "causes",
      .order = 400,
      .tables =
@@ -67,10 +67,10 @@ const RegisteredPart kCausesPart{
 
 } // namespace
 
-std::span<const CauseColour> list_cause_colours() { return kColours; }
+std::span<const CauseColour> list_cause_colours() { return kCauseColours; }
 
 measure::Picture make_cause_picture(const Row& row) {
-    constexpr float kDim = .35F;
+    constexpr float kUncolouredBrightness = .35F;
     measure::Picture picture = row.display;
     check(row.causes != nullptr, Failure::internal, "row '", row.label, "' has no causes");
     const std::vector<std::uint8_t>& largest = row.causes->largest;
@@ -79,8 +79,9 @@ measure::Picture make_cause_picture(const Row& row) {
           largest.size());
     for (std::size_t i = 0; i < largest.size(); ++i) {
         vec3& pixel = picture.pixels[i];
-        pixel = largest[i] > 0 ? list_cause_colours()[largest[i] - 1U].colour
-                               : vec3(kDim * glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
+        pixel = largest[i] > 0
+                    ? list_cause_colours()[largest[i] - 1U].colour
+                    : vec3(kUncolouredBrightness * glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
     }
     return picture;
 }
@@ -109,10 +110,10 @@ ReportTable make_cause_table(const Comparison& comparison) {
     table.columns.emplace_back("At light edges");
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
-        for (const CauseTableLine& line : kLines) {
+        for (const CauseTableLine& line : kCauseTableLines) {
             std::vector<std::string> cells = format_cause_cells(line, *row.causes);
-            cells.insert(cells.begin(), &line == kLines ? row.label : std::string());
-            if (&line == kLines)
+            cells.insert(cells.begin(), &line == kCauseTableLines ? row.label : std::string());
+            if (&line == kCauseTableLines)
                 cells.back() = format_fixed(row.light_edges ? 100 * row.light_edges->share : NAN,
                                             1);
             table.rows.push_back(std::move(cells));

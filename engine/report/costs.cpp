@@ -15,9 +15,9 @@ namespace catoptric::report {
 namespace {
 
 constexpr const char* kCostsSchema = "catoptric/costs/1";
-constexpr const char* kTimesSchema = "catoptric/times/1";
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{16} << 20;
-constexpr measure::CostOrigin kOrigins[] = {
+constexpr const char* kMeasuredTimesSchema = "catoptric/times/1";
+constexpr std::uintmax_t kMaxCostFileBytes = std::uintmax_t{16} << 20;
+constexpr measure::CostOrigin kCostOrigins[] = {
     measure::CostOrigin::fitted, measure::CostOrigin::literature, measure::CostOrigin::given};
 
 /// A value of a document, with its place for messages: "costs.json: costs[2].ns".
@@ -68,7 +68,7 @@ WorkKind read_kind(const CostValue& value) {
 
 measure::CostOrigin read_origin(const CostValue& value) {
     const std::string name = value.text();
-    for (const measure::CostOrigin origin : kOrigins)
+    for (const measure::CostOrigin origin : kCostOrigins)
         if (measure::name_of(origin) == name) return origin;
     value.fail_wanted("fitted, literature or given");
 }
@@ -77,8 +77,9 @@ measure::Interval read_range(const CostValue& value, double ns) {
     if (value.json.is_null()) return {};
     const std::vector<CostValue> ends = value.elements();
     if (ends.size() != 2) value.fail_wanted("two numbers");
-    constexpr const char* kNumber = "a number of at least 0";
-    const measure::Interval range{ends[0].number(0, kNumber), ends[1].number(0, kNumber)};
+    constexpr const char* kCostNumberText = "a number of at least 0";
+    const measure::Interval range{ends[0].number(0, kCostNumberText),
+                                  ends[1].number(0, kCostNumberText)};
     if (!(range.low <= ns && ns <= range.high))
         value.fail_wanted("a range around ns, " + std::to_string(ns));
     return range;
@@ -102,8 +103,8 @@ void check_schema(const CostValue& document, const char* wanted, const char* wha
 Json read_document(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    check(error || bytes <= kMostBytes, Failure::bad_data, file.string(),
-          ": wanted a file of at most ", kMostBytes, " bytes, found ", bytes);
+    check(error || bytes <= kMaxCostFileBytes, Failure::bad_data, file.string(),
+          ": wanted a file of at most ", kMaxCostFileBytes, " bytes, found ", bytes);
     return parse_json<Json>(file.string(), read_file(file));
 }
 
@@ -127,8 +128,8 @@ measure::DeviceCosts read_costs_document(const Json& json, const std::string& fi
 
 Json to_json(const measure::CostFit& fit) {
     Json json{{"rows", fit.samples.size()},
-              {"within_20_percent", number_json(fit.share_within(1.2))},
-              {"within_50_percent", number_json(fit.share_within(1.5))},
+              {"within_20_percent", number_json(fit.fraction_within(1.2))},
+              {"within_50_percent", number_json(fit.fraction_within(1.5))},
               {"left_out", Json::array()}};
     for (std::size_t i = 0; i < fit.samples.size(); ++i)
         json["left_out"].push_back({{"row", fit.samples[i].name},
@@ -166,7 +167,7 @@ measure::DeviceCosts read_costs_file(const std::filesystem::path& file) {
 TimesElsewhere read_times_file(const std::filesystem::path& file) {
     const Json json = read_document(file);
     const CostValue document{json, file.string() + ":"};
-    check_schema(document, kTimesSchema, "times of rows");
+    check_schema(document, kMeasuredTimesSchema, "times of rows");
     TimesElsewhere times;
     times.device = document.member("device").text();
     times.note = document.member("note").optional_text();

@@ -20,8 +20,9 @@ namespace {
 /// Returns whether a cell is a formula. Spreadsheet programs execute a cell that begins with one of
 /// these characters. Numbers may begin with them.
 bool is_spreadsheet_formula(const std::string& text) {
-    constexpr std::string_view kNumbers = "0123456789.eE+- ";
-    return text.find_first_of("=+-@") == 0 && text.find_first_not_of(kNumbers) != text.npos;
+    constexpr std::string_view kNumberCharacters = "0123456789.eE+- ";
+    return text.find_first_of("=+-@") == 0 &&
+           text.find_first_not_of(kNumberCharacters) != text.npos;
 }
 
 /// Returns a cell with escaped text from any source. All text enters the table through this
@@ -81,9 +82,9 @@ struct CsvFieldAdder {
     void operator()(double value) const { line.add(name, value, in_table); }
     void operator()(const dvec3& colour) const { line.add(name, "rgb", colour, in_table); }
     void operator()(const measure::PixelPosition& place) const {
-        constexpr double kNone = measure::Difference::kNone;
-        line.add(name + "_x", place.x < 0 ? kNone : place.x, in_table);
-        line.add(name + "_y", place.x < 0 ? kNone : place.y, in_table);
+        constexpr double kMissingDifference = measure::Difference::kNone;
+        line.add(name + "_x", place.x < 0 ? kMissingDifference : place.x, in_table);
+        line.add(name + "_y", place.x < 0 ? kMissingDifference : place.y, in_table);
     }
     void operator()(const measure::SampleSummary& times) const {
         line.add(name + "_median", times.median, in_table);

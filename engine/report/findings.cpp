@@ -28,7 +28,7 @@ std::string format_both_times(const Row& a, const Row& b) {
     return format_ms(a.time_ms().median) + " against " + format_ms(b.time_ms().median) + " ms";
 }
 /// Text for rows whose times cannot be told apart.
-constexpr const char* kTie = ": round by round neither is the faster, they are not told apart";
+constexpr const char* kTieText = ": round by round neither is the faster, they are not told apart";
 
 /// Returns " (95 %: 1.10 to 1.25)", for example, or an empty text if the interval is not known.
 std::string format_ratio_interval(const measure::Interval& ratio) {
@@ -132,7 +132,7 @@ OptionalSentence describe_correction_price(const Comparison& comparison) {
         measure::kSeedPartThree.ms, measure::kSeedPartTwo.ms);
     const std::string times = format_both_times(*finding->three, *finding->two);
     if (finding->tie)
-        text += "as long as part two (" + times + kTie + ")";
+        text += "as long as part two (" + times + kTieText + ")";
     else
         text += format_percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
                 " time than part two (" + times + "), " + format_ms(1 + finding->more) +
@@ -154,7 +154,7 @@ OptionalSentence describe_ray_tracing_time(const Comparison& comparison) {
                                    traced.label);
     const std::string times = format_both_times(traced, three);
     if (finding->tie)
-        text += "as long as " + three.label + " (" + times + kTie + ")";
+        text += "as long as " + three.label + " (" + times + kTieText + ")";
     else
         text += format_ms(finding->ratio) + " times as long" +
                 format_ratio_interval(finding->ratio_ci95) + " as " + three.label + " (" + times +

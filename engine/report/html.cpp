@@ -2,8 +2,8 @@
 #include "report/html.hpp"
 #include "measure/heat.hpp"
 #include "measure/judge.hpp"
-#include "report/part.hpp"
 #include "report/plot.hpp"
+#include "report/report_part.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 #include "report/writer.hpp"
@@ -186,7 +186,7 @@ std::string html_pictures(const Comparison& comparison, const EncodedPictures& e
 
 /// Returns the tables, sentences and pictures of a part.
 std::string part_of(const Comparison& comparison, const EncodedPictures& encoded,
-                    const Part& part) {
+                    const ReportPart& part) {
     std::string html;
     for (const ReportTable& table : part.tables(comparison))
         html += to_html(table, std::string(part.look), part.links_rows ? &comparison : nullptr);
@@ -249,8 +249,8 @@ std::string make_html_page(const std::string& title, const std::string& content)
     return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
            "<title>Reflections compared: " +
-           escape_html(title) + "</title><style>" + kStyle + "</style></head>\n<body>" + content +
-           "</body></html>\n";
+           escape_html(title) + "</title><style>" + kStyleSheet + "</style></head>\n<body>" +
+           content + "</body></html>\n";
 }
 
 std::string make_html_section(const Comparison& comparison, const EncodedPictures& encoded) {
@@ -271,7 +271,7 @@ std::string make_html_section(const Comparison& comparison, const EncodedPicture
                                     "</p>") +
             to_html(make_rows_table(comparison), "all", &comparison) +
             to_html(make_plan_table(comparison), "plans", &comparison);
-    for (const Part& part : parts()) html += part_of(comparison, encoded, part);
+    for (const ReportPart& part : list_report_parts()) html += part_of(comparison, encoded, part);
     html += html_pictures(comparison, encoded) +
             to_html(make_unsupported_table(comparison.scene), "gaps") +
             html_circumstances(comparison);

@@ -21,7 +21,7 @@ std::string html_figure(int width, int height, const std::string& png, const std
 std::string html_titled_section(const std::string& title, const std::string& content);
 
 /// CSS style sheet of report.html and stress.html.
-extern const char* const kStyle;
+extern const char* const kStyleSheet;
 
 /// Returns the whole report.html of one comparison.
 std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);

@@ -10,7 +10,8 @@ namespace catoptric::report {
 namespace {
 
 std::string encode_base64(std::string_view bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr char kBase64Digits[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -19,7 +20,7 @@ std::string encode_base64(std::string_view bytes) {
             group = group << 8 |
                     (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
         for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
+            text += i + k <= bytes.size() ? kBase64Digits[group >> (18 - 6 * k) & 63U] : '=';
     }
     return text;
 }
@@ -46,7 +47,7 @@ std::string png_data_uri(std::string_view png) {
     return "data:image/png;base64," + encode_base64(png);
 }
 
-const char* const kStyle = R"(
+const char* const kStyleSheet = R"(
 :root { color-scheme: light dark; --paper: #fbfaf8; --card: #fff; --ink: #1c1b1a; --soft: #5d5954;
   --line: #e2ddd6; --accent: #9a3412; --tint: #fdf1e7; --other: #6f6a64; }
 @media (prefers-color-scheme: dark) { :root { --paper: #151413; --card: #1e1c1b; --ink: #ece8e3;

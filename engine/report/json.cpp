@@ -15,8 +15,8 @@ namespace catoptric::report {
 
 Json number_json(double value) {
     if (!std::isfinite(value)) return nullptr;
-    constexpr double kExact = 9007199254740992; // 2^53
-    if (std::abs(value) < kExact && value == std::trunc(value) && !std::signbit(value))
+    constexpr double kMaxExactInteger = 9007199254740992; // 2^53
+    if (std::abs(value) < kMaxExactInteger && value == std::trunc(value) && !std::signbit(value))
         return static_cast<std::int64_t>(value);
     return value;
 }

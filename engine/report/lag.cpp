@@ -2,8 +2,8 @@
 #include "measure/lag.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
-#include "report/part.hpp"
 #include "report/plot.hpp"
+#include "report/report_part.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 using measure::Difference;
 using measure::metric_percentile;
 
-constexpr auto kFlip = &Difference::flip;
+constexpr auto kFlipMember = &Difference::flip;
 
 Json to_json(const SettlingAfterCut& settling) {
     return {{"rmse_settled", number_json(settling.rmse_settled)},
@@ -85,9 +85,9 @@ std::string describe_lag_limits(const LagResults& lag) {
 
 /// Returns the FLIP of the instants: mean, median and largest.
 std::array<std::string, 3> format_flip_values(const LagAtSpeed& at) {
-    return {format_error(measure::mean_of(at.errors, kFlip)),
-            format_error(metric_percentile(at.errors, kFlip, .5)),
-            format_error(metric_percentile(at.errors, kFlip, 1))};
+    return {format_error(measure::mean_of(at.errors, kFlipMember)),
+            format_error(metric_percentile(at.errors, kFlipMember, .5)),
+            format_error(metric_percentile(at.errors, kFlipMember, 1))};
 }
 
 std::vector<std::string> make_lag_line(const LagResults& lag, const LagRow& row,
@@ -96,7 +96,7 @@ std::vector<std::string> make_lag_line(const LagResults& lag, const LagRow& row,
         return measure::mean_of(at.errors, figure);
     };
     const auto flip_to_reference = [](const std::vector<Difference>& errors) {
-        return format_error(measure::mean_of(errors, kFlip));
+        return format_error(measure::mean_of(errors, kFlipMember));
     };
     const auto [flip, median, largest] = format_flip_values(at);
     return {row.label,
@@ -143,7 +143,7 @@ std::string html_lag_along_path(const LagResults& lag, const LagRow& row) {
     std::erase_if(plot.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (const LagAtSpeed& at : row.speeds)
         plot.lines.push_back(
-            {format_speed(at.speed), measure::list_metric_values(at.errors, kFlip)});
+            {format_speed(at.speed), measure::list_metric_values(at.errors, kFlipMember)});
     return make_line_plot(plot);
 }
 
@@ -157,19 +157,19 @@ std::string html_lag_against_speed(const LagResults& lag) {
     for (const LagRow& row : lag.rows) {
         PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, {}});
         for (const LagAtSpeed& at : row.speeds)
-            line.y.push_back(measure::mean_of(at.errors, kFlip));
+            line.y.push_back(measure::mean_of(at.errors, kFlipMember));
     }
     return make_line_plot(plot);
 }
 
 std::string html_settling_curves(const LagResults& lag) {
-    constexpr std::size_t kShown = 10; // number of frames shown
+    constexpr std::size_t kMaxShownFrames = 10; // number of frames shown
     LinePlot plot{.x_name = "frame after a jump of half the path",
                   .y_name = "rmse to the still picture",
                   .says = "Error of the frames after a jump, one line a row"};
     for (const LagRow& row : lag.rows) {
         PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, row.after_jump.rmse});
-        line.y.resize(std::min(kShown, line.y.size()));
+        line.y.resize(std::min(kMaxShownFrames, line.y.size()));
         for (std::size_t i = plot.x.size(); i < line.y.size(); ++i)
             plot.x.push_back(static_cast<double>(i + 1));
     }
@@ -261,7 +261,7 @@ std::string make_lag_plots(const Comparison& comparison) {
                   "instant, over the mirrors. The lane below is 0.</p></section>\n";
 }
 
-const RegisteredPart kLagPart{
+const RegisteredReportPart kLagPart{
     {.name = "lag",
      .order = 500,
      .tables =

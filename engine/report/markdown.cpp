@@ -1,5 +1,5 @@
 #include "core/text.hpp"
-#include "report/part.hpp"
+#include "report/report_part.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 #include "report/writer.hpp"
@@ -47,7 +47,7 @@ std::string markdown_list(const std::vector<std::string>& sentences) {
 }
 
 /// Returns the tables and sentences of a part, or nothing if its tables have no rows.
-std::string part_of(const Comparison& comparison, const Part& part) {
+std::string part_of(const Comparison& comparison, const ReportPart& part) {
     std::string text;
     for (const ReportTable& table : part.tables(comparison)) text += to_markdown(table);
     if (text.empty() || part.sentences == nullptr) return text;
@@ -92,7 +92,7 @@ std::string to_markdown(const Comparison& comparison) {
             "**Set-up**, once: " + escape_markdown(describe_setup_times(comparison.setup)) +
             "\n\n" + to_markdown(make_rows_table(comparison)) +
             to_markdown(make_plan_table(comparison));
-    for (const Part& part : parts()) text += part_of(comparison, part);
+    for (const ReportPart& part : list_report_parts()) text += part_of(comparison, part);
     text += to_markdown(make_unsupported_table(comparison.scene));
     text += "## The Pareto front: time against FLIP\n\n" +
             markdown_list(describe_front(comparison));

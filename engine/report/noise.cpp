@@ -1,7 +1,7 @@
 // The part of a report on errors against a reference with noise.
 #include "measure/halves.hpp"
 #include "measure/metric.hpp"
-#include "report/part.hpp"
+#include "report/report_part.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 /// Returns a squared error with two significant digits, or words for a negative estimate.
 std::string format_squared_error(double square) {
-    if (!std::isfinite(square)) return std::string(kNothing);
+    if (!std::isfinite(square)) return std::string(kEmptyCellText);
     return square < 0 ? std::string(kBelowNoise) : fmt::format("{:.2e}", square);
 }
 
@@ -40,7 +40,7 @@ std::string format_interval(const measure::ValueParts& parts) {
     for (const auto& [what, value] : parts.values)
         if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
             return fmt::format("{:.2e} to {:.2e}", list->front(), list->back());
-    return std::string(kNothing);
+    return std::string(kEmptyCellText);
 }
 
 ReportTable make_noise_table(const Comparison& comparison) {
@@ -56,7 +56,7 @@ ReportTable make_noise_table(const Comparison& comparison) {
         "half exceeds 1 and the other does not, which clamping biases. FLIP: the mean of FLIP "
         "against A and against B. Floor: FLIP between A and B."};
     for (const Row& row : comparison.rows) {
-        const measure::MetricValue value = measure::studied(row, measure::kNoise);
+        const measure::MetricValue value = measure::studied_value(row, measure::kNoise);
         const measure::ValueParts* noise = find_mirror_noise(value);
         if (noise == nullptr) continue;
         const double square = find_number(*noise, "squared_error");
@@ -72,7 +72,7 @@ ReportTable make_noise_table(const Comparison& comparison) {
     return table;
 }
 
-const RegisteredPart kNoisePart{
+const RegisteredReportPart kNoisePart{
     {.name = "noise",
      .order = 50,
      .tables =

@@ -17,7 +17,7 @@ namespace catoptric::report {
 namespace {
 
 /// Approximate letter width and line height of an 11 px label, pixels.
-constexpr double kLetter = 6.6, kLine = 13;
+constexpr double kLetterWidth = 6.6, kTextLineHeight = 13;
 
 /// Mapping from the logarithm of a value to pixels.
 struct LogScale {
@@ -103,22 +103,22 @@ std::string ChartFrame::axes(const std::vector<AxisTick>& x_ticks,
 }
 
 // width, height, left, right, top, lane, bottom, tick_gap, y_name_at
-constexpr ChartFrame kChart{500, 300, 66, 340, 12, 226, 250, 6, 12};
-constexpr std::size_t kMostTicks = 8;
+constexpr ChartFrame kLinePlotFrame{500, 300, 66, 340, 12, 226, 250, 6, 12};
+constexpr std::size_t kMaxAxisTicks = 8;
 
 double x_pixel(const LinePlot& plot, double x) {
     const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
     const double first = along(plot.x.front()), last = along(plot.x.back());
-    return last > first
-               ? kChart.left + (along(x) - first) / (last - first) * (kChart.right - kChart.left)
-               : kChart.left;
+    return last > first ? kLinePlotFrame.left + (along(x) - first) / (last - first) *
+                                                    (kLinePlotFrame.right - kLinePlotFrame.left)
+                        : kLinePlotFrame.left;
 }
 
-double y_pixel(const LogScale& scale, double y) { return y > 0 ? scale(y) : kChart.zero(); }
+double y_pixel(const LogScale& scale, double y) { return y > 0 ? scale(y) : kLinePlotFrame.zero(); }
 
 std::vector<double> list_y_ticks(const LogScale& scale) {
     std::vector<double> values = list_ticks(scale);
-    if (values.size() > kMostTicks) // too many ticks: keep only powers of ten
+    if (values.size() > kMaxAxisTicks) // too many ticks: keep only powers of ten
         std::erase_if(values, [](double value) {
             const double place = std::log10(value);
             return std::abs(place - std::round(place)) > 0.01;
@@ -144,16 +144,16 @@ std::string svg_line_names(const LinePlot& plot, const LogScale& y) {
             places.emplace_back(y_pixel(y, line.y.back()), line.name);
     std::ranges::stable_sort(places, std::greater(), &std::pair<double, std::string>::first);
     std::string drawn;
-    double free = kChart.bottom + kLine;
+    double free = kLinePlotFrame.bottom + kTextLineHeight;
     for (const auto& [place, name] : places) {
-        free = std::min(place, free - kLine);
-        drawn += svg_text(kChart.right + 6, free + 4, "start", escape_html(name));
+        free = std::min(place, free - kTextLineHeight);
+        drawn += svg_text(kLinePlotFrame.right + 6, free + 4, "start", escape_html(name));
     }
     return drawn;
 }
 
 // width, height, left, right, top, lane, bottom, tick_gap, y_name_at
-constexpr ChartFrame kFrame{860, 470, 64, 836, 16, 380, 424, 8, 14};
+constexpr ChartFrame kComparisonPlotFrame{860, 470, 64, 836, 16, 380, 424, 8, 14};
 
 struct PlotPoint {
     double x, y;
@@ -164,7 +164,7 @@ struct PlotPoint {
 
 struct LabelBox {
     double x0, y0, x1, y1;
-    bool meets(const LabelBox& other) const {
+    bool intersects_box(const LabelBox& other) const {
         return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
     }
 };
@@ -180,9 +180,10 @@ std::string svg_front_staircase(std::vector<PlotPoint> points) {
         return a.x != b.x ? a.x < b.x : a.y > b.y;
     });
     if (points.empty()) return "";
-    std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kFrame.top);
+    std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kComparisonPlotFrame.top);
     for (const PlotPoint& point : points) path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
-    return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kFrame.right) + "\"/>";
+    return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kComparisonPlotFrame.right) +
+           "\"/>";
 }
 
 /// Returns the interval of a row's time as a line.
@@ -211,17 +212,20 @@ std::string svg_row_mark(const PlotPoint& point) {
 /// Returns the first of several places around the point where the label overlaps no earlier label,
 /// or the last place. Points on the front try the left side first, because no stairs lie there.
 LabelBox place_label(const PlotPoint& point, const std::vector<LabelBox>& taken) {
-    const double width = kLetter * static_cast<double>(point.row->label.size());
+    const double width = kLetterWidth * static_cast<double>(point.row->label.size());
     LabelBox box{};
     for (const double rise : {0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0})
         for (const bool first : {true, false}) {
             const double x = first != point.front ? point.x + 9 : point.x - 9 - width;
-            const double y = point.y + rise * kLine;
-            box = {x, y - kLine / 2, x + width, y + kLine / 2};
-            const bool inside = box.x0 >= kFrame.left && box.x1 <= kFrame.right &&
-                                box.y0 >= kFrame.top && box.y1 <= kFrame.bottom;
-            if (inside && std::ranges::none_of(
-                              taken, [&](const LabelBox& other) { return box.meets(other); }))
+            const double y = point.y + rise * kTextLineHeight;
+            box = {x, y - kTextLineHeight / 2, x + width, y + kTextLineHeight / 2};
+            const bool inside = box.x0 >= kComparisonPlotFrame.left &&
+                                box.x1 <= kComparisonPlotFrame.right &&
+                                box.y0 >= kComparisonPlotFrame.top &&
+                                box.y1 <= kComparisonPlotFrame.bottom;
+            if (inside && std::ranges::none_of(taken, [&](const LabelBox& other) {
+                    return box.intersects_box(other);
+                }))
                 return box;
         }
     return box;
@@ -232,9 +236,9 @@ LabelBox place_label(const PlotPoint& point, const std::vector<LabelBox>& taken)
 std::string svg_noise_floor(const Comparison& comparison, const LogScale& y) {
     if (!comparison.noise || !(comparison.noise->flip_floor > 0)) return "";
     const double at = y(comparison.noise->flip_floor);
-    return fmt::format(R"(<path class="noise" d="M{:.1f} {:.1f}H{:.1f}"/>)", kFrame.left, at,
-                       kFrame.right) +
-           svg_text(kFrame.right - 4, at - 4, "end", kBelowNoise);
+    return fmt::format(R"(<path class="noise" d="M{:.1f} {:.1f}H{:.1f}"/>)",
+                       kComparisonPlotFrame.left, at, kComparisonPlotFrame.right) +
+           svg_text(kComparisonPlotFrame.right - 4, at - 4, "end", kBelowNoise);
 }
 
 std::string svg_labels(const std::vector<PlotPoint>& points) {
@@ -262,12 +266,14 @@ std::string make_line_plot(const LinePlot& plot) {
             if (std::isfinite(y) && y > 0) positive.push_back(y);
         }
     if (!any) return "";
-    const LogScale y = make_log_scale(positive, kChart.lane - 6, kChart.top);
+    const LogScale y = make_log_scale(positive, kLinePlotFrame.lane - 6, kLinePlotFrame.top);
     std::string drawn = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)",
-                                    kChart.width, kChart.height, escape_html(plot.says));
+                                    kLinePlotFrame.width, kLinePlotFrame.height,
+                                    escape_html(plot.says));
     std::vector<AxisTick> x_ticks;
     for (const double value : plot.x_ticks) x_ticks.push_back({value, x_pixel(plot, value)});
-    drawn += kChart.axes(x_ticks, place_ticks(y, list_y_ticks(y)), plot.x_name, plot.y_name);
+    drawn += kLinePlotFrame.axes(x_ticks, place_ticks(y, list_y_ticks(y)), plot.x_name,
+                                 plot.y_name);
     const double count = static_cast<double>(plot.lines.size());
     for (std::size_t k = 0; k < plot.lines.size(); ++k)
         drawn += svg_path_of_line(plot, plot.lines[k], y,
@@ -285,26 +291,29 @@ std::string make_comparison_plot(const Comparison& comparison) {
     if (times.empty()) return "";
     if (comparison.noise && comparison.noise->flip_floor > 0)
         errors.push_back(comparison.noise->flip_floor);
-    const LogScale x = make_log_scale(times, kFrame.left, kFrame.right);
-    const LogScale y = make_log_scale(errors, kFrame.lane - 8, kFrame.top);
+    const LogScale x = make_log_scale(times, kComparisonPlotFrame.left, kComparisonPlotFrame.right);
+    const LogScale y = make_log_scale(errors, kComparisonPlotFrame.lane - 8,
+                                      kComparisonPlotFrame.top);
     std::vector<PlotPoint> points;
     for (const Row& row : comparison.rows) {
         if (!can_be_plotted(row)) continue;
         const measure::Interval& ci95 = row.time_ms().ci95;
         points.push_back({x(row.time_ms().median),
-                          row.error.flip > 0 ? y(row.error.flip) : kFrame.zero(),
-                          std::max(x(ci95.low), kFrame.left), std::min(x(ci95.high), kFrame.right),
-                          &row, measure::is_on_front(comparison, row)});
+                          row.error.flip > 0 ? y(row.error.flip) : kComparisonPlotFrame.zero(),
+                          std::max(x(ci95.low), kComparisonPlotFrame.left),
+                          std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
+                          measure::is_on_front(comparison, row)});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"
         R"(against FLIP; the figures are in the table of every row">)",
-        kFrame.width, kFrame.height);
-    svg += kFrame.axes(place_ticks(x, list_ticks(x)),
-                       place_ticks(y, errors.empty() ? std::vector<double>() : list_ticks(y)),
-                       points.front().row->moves ? "Time of a frame, host and GPU, median, ms"
-                                                 : "GPU time of a frame, median, ms",
-                       "FLIP over the mirrors") +
+        kComparisonPlotFrame.width, kComparisonPlotFrame.height);
+    svg += kComparisonPlotFrame.axes(
+               place_ticks(x, list_ticks(x)),
+               place_ticks(y, errors.empty() ? std::vector<double>() : list_ticks(y)),
+               points.front().row->moves ? "Time of a frame, host and GPU, median, ms"
+                                         : "GPU time of a frame, median, ms",
+               "FLIP over the mirrors") +
            svg_noise_floor(comparison, y) + svg_front_staircase(points);
     for (const PlotPoint& point : points) svg += svg_time_interval(point);
     for (const PlotPoint& point : points) svg += svg_row_mark(point);

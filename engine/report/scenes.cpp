@@ -14,9 +14,9 @@ bool SceneReports::is_complete() const {
 }
 
 std::string scene_images_folder(std::size_t index, const std::string& scene) {
-    constexpr std::size_t kLongest = 40;
+    constexpr std::size_t kMaxFolderNameLength = 40;
     std::string name;
-    for (const char c : scene.substr(0, kLongest)) {
+    for (const char c : scene.substr(0, kMaxFolderNameLength)) {
         const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                               (c >= '0' && c <= '9') || c == '-' || c == '_';
         name += is_plain ? c : '_';

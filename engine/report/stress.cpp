@@ -19,14 +19,14 @@ Json to_json(const StressRow& row) {
               {"property", row.property},
               {"verdict", name_of(row.verdict)},
               {"remark", row.remark}};
-    const StressCase* worst = row.worst();
+    const StressCase* worst = row.worst_case();
     json["measured"] = worst ? number_json(worst->measured) : Json();
     json["threshold"] = worst ? number_json(worst->limit) : Json();
     json["cases"] = list_json(row.cases, [](const StressCase& one) {
         return Json{{"what", one.what},
                     {"measured", number_json(one.measured)},
                     {"threshold", number_json(one.limit)},
-                    {"holds", one.holds()},
+                    {"holds", one.is_within_limit()},
                     {"quality", one.is_quality}};
     });
     json["pictures"] = list_json(row.pictures, [](const StressPicture& picture) {
@@ -45,7 +45,7 @@ std::string format_short_number(double value) { return fmt::format("{:.3g}", val
 /// Returns the worst case, the parts that are not covered and those that could not be run. If
 /// nothing was run, returns the reason.
 std::string describe_stress_row(const StressRow& row) {
-    const StressCase* worst = row.worst();
+    const StressCase* worst = row.worst_case();
     std::string words = worst ? worst->what : "";
     const auto add = [&](const std::string& more) {
         if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
@@ -64,7 +64,7 @@ ReportTable make_stress_table(const StressResults& stress) {
                        make_text_column("Worst case"), make_text_column("Turned red by")},
                       ""};
     for (const StressRow& row : stress.rows) {
-        const StressCase* worst = row.worst();
+        const StressCase* worst = row.worst_case();
         table.rows.push_back({row.id, name_of(row.verdict),
                               worst ? format_short_number(worst->measured) : "–",
                               worst ? format_short_number(worst->limit) : "–", row.stimulus,
@@ -114,7 +114,7 @@ std::string to_html(const StressResults& stress) {
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Rendering at the "
         "extremes</title><style>" +
-        std::string(kStyle) +
+        std::string(kStyleSheet) +
         "</style></head>\n<body><header><p class=\"kicker\">Rendering at the "
         "extremes</p><h1>Stress</h1>" +
         "<p class=\"lede\">" + escape_html(describe_stress_result(stress)) + "</p>" +

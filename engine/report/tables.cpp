@@ -7,7 +7,7 @@
 #include "measure/row_notes.hpp"
 #include "measure/rows.hpp"
 #include "measure/seed_report.hpp"
-#include "report/part.hpp"
+#include "report/report_part.hpp"
 #include "report/text.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace catoptric::report {
 
 namespace {
 
-std::string empty_cell() { return std::string(kNothing); }
+std::string empty_cell() { return std::string(kEmptyCellText); }
 
 /// Returns the interval of the median.
 std::string format_median_interval(const measure::SampleSummary& times, int decimals) {
@@ -182,7 +182,7 @@ struct CellTextWriter {
     std::string_view id, text;
 };
 
-constexpr CellTextWriter kWords[] = {
+constexpr CellTextWriter kCellTextWriters[] = {
     {"normal-texture", "surfaces are as smooth as their triangles"},
     {"occlusion-texture", "left out"},
     {"clearcoat", "left out"},
@@ -332,14 +332,14 @@ ReportTable make_plan_table(const Comparison& comparison) {
     return table;
 }
 
-const RegisteredPart kMirrorsPart{
+const RegisteredReportPart kMirrorsPart{
     {.name = "mirrors",
      .order = 200,
      .tables =
          [](const Comparison& comparison) { return std::vector{make_mirror_table(comparison)}; },
      .look = "mirrors",
      .links_rows = true}};
-const RegisteredPart kLookupsPart{
+const RegisteredReportPart kLookupsPart{
     {.name = "lookups",
      .order = 300,
      .tables =
@@ -348,8 +348,8 @@ const RegisteredPart kLookupsPart{
      .links_rows = true}};
 
 std::string describe_unsupported_feature(const std::string& id) {
-    const auto* const known = std::ranges::find(kWords, id, &CellTextWriter::id);
-    return known == std::end(kWords) ? "" : std::string(known->text);
+    const auto* const known = std::ranges::find(kCellTextWriters, id, &CellTextWriter::id);
+    return known == std::end(kCellTextWriters) ? "" : std::string(known->text);
 }
 
 ReportTable make_unsupported_table(const SceneFacts& scene) {

@@ -20,7 +20,7 @@ int decimals_for(double value) {
 } // namespace
 
 std::string format_fixed(double value, int decimals) {
-    if (!std::isfinite(value)) return std::string(kNothing);
+    if (!std::isfinite(value)) return std::string(kEmptyCellText);
     std::string text = fmt::format("{:.{}f}", value, decimals);
     if (text.find_first_of("123456789") == std::string::npos && text.front() == '-')
         text.erase(0, 1); // avoids -0.0
@@ -50,7 +50,7 @@ int choose_ms_decimals(const Comparison& comparison) {
 
 std::string format_fps(double ms) {
     return ms > 0 ? format_fixed(1000 / ms, std::min(decimals_for(1000 / ms), 2))
-                  : std::string(kNothing);
+                  : std::string(kEmptyCellText);
 }
 
 std::string format_mebibytes(std::uint64_t bytes) {

@@ -9,7 +9,7 @@
 // Number formats of the report, the same in Markdown and HTML. A missing value reads "–".
 namespace catoptric::report {
 
-inline constexpr std::string_view kNothing = "–";
+inline constexpr std::string_view kEmptyCellText = "–";
 /// Words for an error that the noise of the reference hides (measure/halves.hpp).
 inline constexpr std::string_view kBelowNoise = "below the noise";
 

@@ -3,7 +3,7 @@
 
 #include "report/html.hpp"
 #include "report/json.hpp"
-#include "report/part.hpp"
+#include "report/report_part.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
@@ -87,7 +87,7 @@ std::string worst_pictures(const Comparison& comparison, const EncodedPictures& 
     return html_titled_section("Worst views", html);
 }
 
-const RegisteredPart kViewsPart{
+const RegisteredReportPart kViewsPart{
     {.name = "views",
      .order = 100,
      .tables =
@@ -139,9 +139,9 @@ ReportTable make_views_table(const Comparison& comparison) {
         std::vector<std::string> cells{row.label};
         for (const ViewMetric& figure : columns) cells.push_back(format_view_cell(row, figure));
         cells.push_back(row.worst ? format_flip(row.views[row.worst->view].error)
-                                  : std::string(kNothing));
+                                  : std::string(kEmptyCellText));
         cells.push_back(row.worst ? describe_worst_view(comparison, *row.worst)
-                                  : std::string(kNothing));
+                                  : std::string(kEmptyCellText));
         table.rows.push_back(std::move(cells));
     }
     return table;

@@ -18,39 +18,39 @@ bool may_look_small(const VisibilityWorld& world, const WorldObject& thing) {
     Bounds<double> around = world.static_bounds();
     around.add(thing.box);
     const auto largest = [](const dvec3& v) { return std::max({v.x, v.y, v.z}); };
-    return largest(thing.tight.extent()) < kSmall * largest(around.extent());
+    return largest(thing.tight.extent()) < kSmallObjectRatio * largest(around.extent());
 }
 
 } // namespace
 
 void ContentHashes::move_to_instant(const VisibilityWorld& world, std::uint32_t shadow_edge) {
-    const bool is_anew = layout_ != world.layouts();
+    const bool is_anew = layout_ != world.layout_count();
     if (!world.has_changed() && !is_anew && shadow_edge_ == shadow_edge) return;
     if (is_anew) mirrors_.assign(world.mirrors().size(), {});
     ++changes_;
-    layout_ = world.layouts(), epoch_ = world.epoch(), shadow_edge_ = shadow_edge;
+    layout_ = world.layout_count(), epoch_ = world.epoch(), shadow_edge_ = shadow_edge;
     ContentHash all(epoch_);
-    for (const std::size_t mover : world.movers()) all.add(world.things()[mover].content_hash);
-    all_ = all.value();
+    for (const std::size_t mover : world.movers()) all.add(world.objects()[mover].content_hash);
+    all_ = all.hash_value();
     const std::size_t movers = world.movers().size(), mirrors = world.mirrors().size();
-    is_much_ = movers * world.lights().size() * world.things().size() > kMostPairs ||
-               movers * mirrors > kMostPairs;
+    is_much_ = movers * world.lights().size() * world.objects().size() > kMaxVisibilityPairs ||
+               movers * mirrors > kMaxVisibilityPairs;
     landings_.clear();
     if (is_much_) return;
     find_shadow_receivers(world, shadow_edge, landings_);
-    is_much_ = landings_.size() * mirrors > kMostLandings;
+    is_much_ = landings_.size() * mirrors > kMaxShadowLandingTests;
 }
 
 const ContentHashes::FaceHashes& ContentHashes::face_hashes_of_mirror(const VisibilityWorld& world,
                                                                       std::size_t mirror) {
     FaceHashes& faces = mirrors_[mirror];
     const std::size_t object = world.mirrors()[mirror];
-    const WorldObject& own = world.things()[object];
+    const WorldObject& own = world.objects()[object];
     if (faces.made_at == changes_) return faces;
     faces.made_at = changes_;
     faces.pieces = nullptr;
     if (is_much_ || own.has_moved || own.box.empty())
-        faces.content_hashes.fill(ContentHash(all_).add(mirror).value());
+        faces.content_hashes.fill(ContentHash(all_).add(mirror).hash_value());
     else
         combine_face_hashes(world, faces, mirror);
     return faces;
@@ -59,7 +59,7 @@ const ContentHashes::FaceHashes& ContentHashes::face_hashes_of_mirror(const Visi
 void ContentHashes::combine_face_hashes(const VisibilityWorld& world, FaceHashes& faces,
                                         std::size_t mirror) const {
     const std::size_t object = world.mirrors()[mirror];
-    const WorldObject& own = world.things()[object];
+    const WorldObject& own = world.objects()[object];
     const dvec3 centre = own.tight.centre();
     // Hashes are summed, because the order of the movers has no meaning.
     std::array<std::uint64_t, 6> sums{};
@@ -69,12 +69,12 @@ void ContentHashes::combine_face_hashes(const VisibilityWorld& world, FaceHashes
         for (int face = 0; face < 6; ++face) {
             if ((which >> face & 1) == 0) continue;
             sums[face] += content_hash;
-            are_many = are_many || pieces->faces[face].size() == kMostPieces;
+            are_many = are_many || pieces->faces[face].size() == kMaxPiecesPerFace;
             if (!are_many) pieces->faces[face].push_back({content_hash, part_of(face)});
         }
     };
     for (const std::size_t mover : world.movers()) {
-        const WorldObject& thing = world.things()[mover];
+        const WorldObject& thing = world.objects()[mover];
         if (mover == object || thing.box.empty()) continue;
         const Bounds<double> box = bounds_relative_to(centre, thing.box);
         if (may_look_small(world, thing))
@@ -90,7 +90,9 @@ void ContentHashes::combine_face_hashes(const VisibilityWorld& world, FaceHashes
                              from = bounds_relative_to(centre, landing.shade.from),
                              to = bounds_relative_to(centre, landing.shade.to);
         add(faces_that_may_show_box(box) & faces_that_may_show_box(from, to),
-            ContentHash(world.things()[landing.caster].content_hash).add(landing.receiver).value(),
+            ContentHash(world.objects()[landing.caster].content_hash)
+                .add(landing.receiver)
+                .hash_value(),
             [&](int face) {
                 return intersect_face_parts(face_part_containing(face, box),
                                             face_part_containing(face, from, to));
@@ -98,18 +100,18 @@ void ContentHashes::combine_face_hashes(const VisibilityWorld& world, FaceHashes
     }
     for (std::size_t face = 0; face < 6; ++face) {
         faces.settings[face] =
-            ContentHash(epoch_).add(own.content_hash).add(mirror).add(face).value();
-        faces.content_hashes[face] = ContentHash(faces.settings[face]).add(sums[face]).value();
+            ContentHash(epoch_).add(own.content_hash).add(mirror).add(face).hash_value();
+        faces.content_hashes[face] = ContentHash(faces.settings[face]).add(sums[face]).hash_value();
     }
     if (are_many) return;
-    pieces->sort();
+    pieces->sort_pieces();
     faces.pieces = pieces;
 }
 
-std::vector<ShadowCaster> ContentHashes::casters(const VisibilityWorld& world) const {
+std::vector<ShadowCaster> ContentHashes::list_shadow_casters(const VisibilityWorld& world) const {
     std::vector<ShadowCaster> casters;
     for (const std::size_t mover : world.movers())
-        if (const WorldObject& thing = world.things()[mover]; thing.casts_shadow)
+        if (const WorldObject& thing = world.objects()[mover]; thing.casts_shadow)
             casters.push_back({static_cast<std::uint32_t>(mover), thing.content_hash});
     return casters;
 }

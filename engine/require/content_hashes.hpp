@@ -10,12 +10,13 @@
 namespace catoptric::require {
 
 /// World objects may get a coordinate space of their own on the device if they are small
-/// (render::kSmallPart). This is the limit, as a part of their largest possible distance from the
-/// scene's origin. When such an object comes or goes, the shaders of other objects change as well.
-inline constexpr double kSmall = 0x1p-12;
+/// (render::kSmallObjectRatio). This is the limit, as a part of their largest possible distance
+/// from the scene's origin. When such an object comes or goes, the shaders of other objects change
+/// as well.
+inline constexpr double kSmallObjectRatio = 0x1p-12;
 /// Largest number of tests per frame of whether a capture shows the place where a mover's shadow
 /// falls.
-inline constexpr std::size_t kMostLandings = 1 << 17;
+inline constexpr std::size_t kMaxShadowLandingTests = 1 << 17;
 
 /// Content hashes of the faces of captures. The hash of a face stands for:
 /// - the epoch: all objects that never moved, materials, environment and lights;
@@ -29,7 +30,8 @@ inline constexpr std::size_t kMostLandings = 1 << 17;
 /// depend on the nearest and outermost objects. The owner of the views must compare these.
 ///
 /// A capture whose mirror moved since the previous instant gets one hash of everything on all its
-/// faces. All captures do if more than kMostPairs pairs of objects would have to be tested.
+/// faces. All captures do if more than kMaxVisibilityPairs pairs of objects would have to be
+/// tested.
 class ContentHashes {
 public:
     /// Takes over an instant, after VisibilityWorld::move_to_instant. O(movers * (lights * objects
@@ -45,7 +47,7 @@ public:
     /// nothing has changed since the last call.
     const FaceHashes& face_hashes_of_mirror(const VisibilityWorld& world, std::size_t mirror);
     /// Returns the movers that cast shadows.
-    std::vector<ShadowCaster> casters(const VisibilityWorld& world) const;
+    std::vector<ShadowCaster> list_shadow_casters(const VisibilityWorld& world) const;
 
 private:
     void combine_face_hashes(const VisibilityWorld& world, FaceHashes& faces,

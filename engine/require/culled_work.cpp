@@ -155,10 +155,11 @@ std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::
 }
 
 std::string list_face_names(FaceBits faces) {
-    constexpr const char* kNames[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+    constexpr const char* kFaceNames[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
     std::string text;
     for (std::size_t face = 0; face < 6; ++face)
-        if ((faces >> face & 1) != 0) text += (text.empty() ? "" : " ") + std::string(kNames[face]);
+        if ((faces >> face & 1) != 0)
+            text += (text.empty() ? "" : " ") + std::string(kFaceNames[face]);
     return text;
 }
 

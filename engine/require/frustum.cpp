@@ -34,16 +34,17 @@ PictureFrustum::PictureFrustum(const scene::Camera& camera, uvec2 size) : eye_(c
     planes_[4] = {half * along - down, beyond * half};
 }
 
-bool PictureFrustum::may_hold(const Bounds<double>& box) const {
+bool PictureFrustum::may_contain_box(const Bounds<double>& box) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
         return dot(plane.first, farthest_box_corner(box, plane.first) - eye_) < -plane.second;
     });
 }
 
 /// Clips the triangle by one plane after the other (Sutherland and Hodgman 1974).
-bool PictureFrustum::may_hold_triangle(const std::array<dvec3, 3>& triangle, double margin) const {
-    constexpr std::size_t kMostCorners = 3 + 5; // each plane adds at most one corner
-    std::array<dvec3, kMostCorners> corners{triangle[0], triangle[1], triangle[2]}, kept;
+bool PictureFrustum::may_contain_triangle(const std::array<dvec3, 3>& triangle,
+                                          double margin) const {
+    constexpr std::size_t kMaxClippedCorners = 3 + 5; // each plane adds at most one corner
+    std::array<dvec3, kMaxClippedCorners> corners{triangle[0], triangle[1], triangle[2]}, kept;
     std::size_t count = 3;
     for (const auto& [normal, beyond] : planes_) {
         const double room = beyond + margin * length(normal);
@@ -62,7 +63,7 @@ bool PictureFrustum::may_hold_triangle(const std::array<dvec3, 3>& triangle, dou
     return true;
 }
 
-bool PictureFrustum::may_hold_ball(const dvec3& centre, double radius) const {
+bool PictureFrustum::may_contain_ball(const dvec3& centre, double radius) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
         return dot(plane.first, centre - eye_) + plane.second < -radius * length(plane.first);
     });

@@ -18,12 +18,12 @@ public:
     bool is_parallel() const { return is_parallel_; }
     /// Returns whether the camera's view volume may contain a part of the box. Returns false if all
     /// corners of the box lie beyond one of the five planes that bound the view volume.
-    bool may_hold(const Bounds<double>& box) const;
+    bool may_contain_box(const Bounds<double>& box) const;
     /// Returns false if no point of the triangle is inside. The planes are moved outwards by
     /// `margin`, in world units.
-    bool may_hold_triangle(const std::array<dvec3, 3>& triangle, double margin) const;
+    bool may_contain_triangle(const std::array<dvec3, 3>& triangle, double margin) const;
     /// Returns false if the ball is certainly outside.
-    bool may_hold_ball(const dvec3& centre, double radius) const;
+    bool may_contain_ball(const dvec3& centre, double radius) const;
     /// Returns the angle between neighbouring pixels on the axis, in radians. In an orthographic
     /// picture, this is the angle of a pixel's width at `distance`.
     double pixel_angle(double distance) const;

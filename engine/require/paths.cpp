@@ -27,7 +27,7 @@ public:
                                   question.camera.eye);
         }
         std::vector<bvh::Triangle> triangles;
-        for (std::size_t i = 0; i < now.objects.size(); ++i) add(question, i, triangles);
+        for (std::size_t i = 0; i < now.objects.size(); ++i) add_path(question, i, triangles);
         tree_ = bvh::build_bvh(triangles);
     }
 
@@ -40,24 +40,26 @@ public:
     };
     MirrorPath follow_ray(f32::Ray ray) const {
         MirrorPath path;
-        auto hit = bvh::find_closest_hit<float>(tree_, ray, kFar, bvh::kHidden | bvh::kOneSided);
-        while (hit && number_[hit->object] > 0 && path.mirrors.size() < kLongestPath) {
+        auto hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance,
+                                                bvh::kHiddenFromCamera | bvh::kOneSided);
+        while (hit && number_[hit->object] > 0 && path.mirrors.size() < kMaxPathMirrors) {
             const std::uint32_t mirror = number_[hit->object] - 1;
             path.mirrors.push_back(mirror);
-            ray = reflected(ray, *hit);
-            hit = bvh::find_closest_hit<float>(tree_, ray, kFar, bvh::kOneSided);
+            ray = reflect_ray(ray, *hit);
+            hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance, bvh::kOneSided);
             path.is_hidden.push_back(!capture_shows_hit(mirror, ray, hit));
         }
         return path;
     }
 
 private:
-    void add(const ModelInput& question, std::size_t index, std::vector<bvh::Triangle>& triangles) {
+    void add_path(const ModelInput& question, std::size_t index,
+                  std::vector<bvh::Triangle>& triangles) {
         const scene::Object& object = question.now.objects[index];
         const scene::Mesh& mesh = question.now.meshes[object.mesh];
         const scene::Material& material = question.now.materials[object.material];
         const bool is_mirror = number_[index] > 0;
-        const std::uint32_t flags = (object.seen_by_camera ? 0 : bvh::kHidden) |
+        const std::uint32_t flags = (object.seen_by_camera ? 0 : bvh::kHiddenFromCamera) |
                                     (!is_mirror && scene::is_one_sided(material) ? bvh::kOneSided
                                                                                  : 0);
         const dmat3 turns = scene::normal_matrix(object.world_from_object);
@@ -76,7 +78,7 @@ private:
         }
     }
 
-    f32::Ray reflected(const f32::Ray& ray, const bvh::RayHit<float>& hit) const {
+    f32::Ray reflect_ray(const f32::Ray& ray, const bvh::RayHit<float>& hit) const {
         const vec4* corner = &tree_.triangles[3 * std::size_t{hit.place}];
         const vec3 a(corner[0]), b(corner[1]), c(corner[2]), w = hit.barycentric;
         const vec3* normals = &normals_[3 * std::size_t{hit.triangle}];
@@ -92,14 +94,15 @@ private:
     /// The capture does not contain the mirror itself.
     bool capture_shows_hit(std::uint32_t mirror, const f32::Ray& ray,
                            const std::optional<bvh::RayHit<float>>& met) const {
-        constexpr int kMostOwn = 64; // most of the mirror's own triangles that the ray passes
-        constexpr float kBefore = 1 - 0x1p-10f;
+        constexpr int kMaxOwnTriangles =
+            64; // most of the mirror's own triangles that the ray passes
+        constexpr float kRayEndFactor = 1 - 0x1p-10f;
         if (met && number_[met->object] == mirror + 1) return false;
         const vec3 centre = centres_[mirror],
                    way = met ? ray.origin + met->t * ray.direction - centre : ray.direction;
-        float left = met ? length(way) * kBefore : kFar;
+        float left = met ? length(way) * kRayEndFactor : kUnlimitedDistance;
         f32::Ray from{centre, normalize(way), 0};
-        for (int i = 0; i < kMostOwn; ++i) {
+        for (int i = 0; i < kMaxOwnTriangles; ++i) {
             const auto hit = bvh::find_closest_hit<float>(tree_, from, left, bvh::kOneSided);
             if (!hit) return true;
             if (number_[hit->object] != mirror + 1) return false;
@@ -110,17 +113,18 @@ private:
         return false;
     }
 
-    static constexpr float kFar = std::numeric_limits<float>::max();
+    static constexpr float kUnlimitedDistance = std::numeric_limits<float>::max();
     std::vector<vec3> centres_;         ///< centres of the mirrors' captures
     std::vector<std::uint32_t> number_; ///< mirror number of each object, from 1; 0: no mirror
     std::vector<vec3> normals_;         ///< three per triangle, up to the last mirror's triangles
     bvh::Bvh tree_;
 };
 
-/// Returns the size of the picture, or of a grid of the same shape with at most kMostPaths cells.
+/// Returns the size of the picture, or of a grid of the same shape with at most kMaxMirrorPaths
+/// cells.
 uvec2 choose_path_grid(uvec2 size) {
     const double pixels = 1.0 * size.x * size.y,
-                 scale = std::min(1.0, std::sqrt(static_cast<double>(kMostPaths) / pixels));
+                 scale = std::min(1.0, std::sqrt(static_cast<double>(kMaxMirrorPaths) / pixels));
     return max(uvec2(1), uvec2(dvec2(size) * scale));
 }
 

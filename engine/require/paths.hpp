@@ -10,9 +10,9 @@ namespace catoptric::require {
 
 /// Largest number of camera rays that are followed in a picture. A larger picture is sampled on a
 /// coarser grid.
-inline constexpr std::size_t kMostPaths = 65536;
+inline constexpr std::size_t kMaxMirrorPaths = 65536;
 /// Largest number of mirrors through which a camera ray is followed.
-inline constexpr std::size_t kLongestPath = 8;
+inline constexpr std::size_t kMaxPathMirrors = 8;
 
 /// Statistics of rays from the eye through the centre of each pixel (or each cell of a grid),
 /// followed from mirror to mirror. Entry n-1 of a list belongs to mirror n.
@@ -34,8 +34,8 @@ struct MirrorPathCounts {
     count_paths_on_mirrors() const; ///< Returns the number of rays whose first hit is a mirror.
 };
 
-/// Builds a BVH over all triangles (bvh::build_bvh) and follows at most kMostPaths rays, in floats
-/// relative to the eye. Each reflection costs one more ray, from a capture's centre.
+/// Builds a BVH over all triangles (bvh::build_bvh) and follows at most kMaxMirrorPaths rays, in
+/// floats relative to the eye. Each reflection costs one more ray, from a capture's centre.
 MirrorPathCounts trace_mirror_paths(const ModelInput& question);
 
 } // namespace catoptric::require

@@ -11,7 +11,7 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kUnboundedSlope = std::numeric_limits<double>::infinity();
 
 /// The least s in [-1, 1] with aside <= s * ahead for all points. It is 1 if no such s exists.
 class HullSlope {
@@ -22,14 +22,14 @@ public:
         else if (ahead < 0)
             most_ = std::min(most_, aside / ahead);
         else if (aside > 0)
-            most_ = -kUnbounded;
+            most_ = -kUnboundedSlope;
     }
     double value() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
     /// Returns whether the hull ahead lies entirely beyond the opposite edge of the face, at -1.
     bool is_outside() const { return least_ <= most_ && least_ < -1; }
 
 private:
-    double least_ = -kUnbounded, most_ = kUnbounded;
+    double least_ = -kUnboundedSlope, most_ = kUnboundedSlope;
 };
 
 auto sort_key_of_piece(const FacePiece& piece) {
@@ -59,7 +59,7 @@ FacePart face_part_containing(int face, std::span<const dvec3> places) {
         slopes[0].add(x, ahead), slopes[1].add(-x, ahead);
         slopes[2].add(y, ahead), slopes[3].add(-y, ahead);
     }
-    if (std::ranges::any_of(slopes, &HullSlope::is_outside)) return kNoPart;
+    if (std::ranges::any_of(slopes, &HullSlope::is_outside)) return kEmptyFacePart;
     return {dvec2(-slopes[1].value(), -slopes[3].value()),
             dvec2(slopes[0].value(), slopes[2].value())};
 }
@@ -75,12 +75,12 @@ FacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<do
     return face_part_containing(face, corners);
 }
 
-void FacePieces::sort() {
+void FacePieces::sort_pieces() {
     for (std::vector<FacePiece>& pieces : faces) std::ranges::sort(pieces, {}, sort_key_of_piece);
 }
 
 FacePart find_differing_part(std::span<const FacePiece> before, std::span<const FacePiece> after) {
-    FacePart part = kNoPart;
+    FacePart part = kEmptyFacePart;
     for (std::size_t i = 0, k = 0; i < before.size() || k < after.size();) {
         const bool ends = i == before.size() || k == after.size();
         if (!ends && sort_key_of_piece(before[i]) == sort_key_of_piece(after[k])) {

@@ -18,7 +18,7 @@ struct FacePart {
     bool empty() const { return !(low.x <= high.x && low.y <= high.y); }
     bool is_whole() const { return *this == FacePart(); }
 };
-inline constexpr FacePart kNoPart{dvec2(1), dvec2(-1)};
+inline constexpr FacePart kEmptyFacePart{dvec2(1), dvec2(-1)};
 
 /// Returns the intersection.
 FacePart intersect_face_parts(const FacePart& a, const FacePart& b);
@@ -44,12 +44,12 @@ struct FacePiece {
 
 /// Largest number of pieces (moving objects and shadows) that are stored per face. If a face has
 /// more pieces, none are stored for the capture.
-inline constexpr std::size_t kMostPieces = 64;
+inline constexpr std::size_t kMaxPiecesPerFace = 64;
 
 /// The pieces in each face of a capture.
 struct FacePieces {
     std::array<std::vector<FacePiece>, 6> faces;
-    void sort(); ///< sorts the pieces in the order that `find_differing_part` needs
+    void sort_pieces(); ///< sorts the pieces in the order that `find_differing_part` needs
 };
 
 /// Compares the moving objects and shadows (pieces) that a face shows in two frames. Returns a

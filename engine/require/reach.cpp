@@ -10,7 +10,7 @@
 namespace catoptric::require {
 
 dvec3 normal_of_flat_mesh(const scene::Mesh& mesh) {
-    const double least = std::cos(kLean / 2);
+    const double least = std::cos(kMaxNormalDeviation / 2);
     dvec3 normal(0);
     const auto agrees = [&](const dvec3& other) {
         if (normal == dvec3(0)) normal = other;
@@ -41,7 +41,7 @@ FaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& 
         back = back && viewer_high < low;
     }
     if (front == back) return kAllFaces; // no viewer, or viewers on both sides
-    return faces_in_front_of_plane(front ? normal : -normal, 2 * kLean);
+    return faces_in_front_of_plane(front ? normal : -normal, 2 * kMaxNormalDeviation);
 }
 
 bool may_light_box(const scene::PointLight& light, const Bounds<double>& box, double margin) {

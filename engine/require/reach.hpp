@@ -12,10 +12,10 @@ namespace catoptric::require {
 
 /// Most angle by which facets and normals of a flat mirror may lean, in radians. Filtered lookups
 /// may also read texels up to this angle beside their direction.
-inline constexpr double kLean = .05;
+inline constexpr double kMaxNormalDeviation = .05;
 
 /// Returns the unit normal of a flat mesh in its own space; zero for other meshes. In a flat mesh,
-/// all facets and vertex normals point one way within kLean / 2. O(vertices).
+/// all facets and vertex normals point one way within kMaxNormalDeviation / 2. O(vertices).
 dvec3 normal_of_flat_mesh(const scene::Mesh& mesh);
 
 /// Returns the needed faces of the capture of a flat mirror. `normal` is in world space. `viewers`

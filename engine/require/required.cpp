@@ -47,7 +47,7 @@ void ModelBuilder::Impl::find_seen(const PictureFrustum& picture, const scene::S
     for (std::size_t next = 0; next < waiting.size() && waiting.size() < count; ++next)
         for (std::size_t i = 0; i < count; ++i) {
             MirrorNeeds& needs = model.mirrors[i];
-            if (needs.is_seen || !sight.reaches(world, waiting[next], i)) continue;
+            if (needs.is_seen || !sight.may_reach_object(world, waiting[next], i)) continue;
             needs.is_seen = true;
             needs.seen_in = MirrorId::at(waiting[next]);
             waiting.push_back(i);
@@ -72,11 +72,12 @@ void ModelBuilder::Impl::find_captured(std::size_t mirror, bool asks_all) {
     listed[mirror] = true;
     needs.sees.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
-        if (sight.shows(world, mirror, i)) needs.sees.push_back(static_cast<std::uint32_t>(i));
+        if (sight.capture_may_show(world, mirror, i))
+            needs.sees.push_back(static_cast<std::uint32_t>(i));
 }
 
 FaceBits ModelBuilder::Impl::faces_of(const PictureFrustum& picture, std::size_t mirror) {
-    const WorldObject& thing = world.things()[world.mirrors()[mirror]];
+    const WorldObject& thing = world.objects()[world.mirrors()[mirror]];
     const dvec3 flat = world.meshes()[thing.mesh].flat_normal;
     if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaces;
     viewers.clear();
@@ -84,25 +85,27 @@ FaceBits ModelBuilder::Impl::faces_of(const PictureFrustum& picture, std::size_t
     if (!findings.camera[mirror] && picture.is_parallel()) return kAllFaces;
     if (!findings.camera[mirror]) viewers.push_back({picture.eye(), picture.eye()});
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
-        if (model.mirrors[i].is_captured && sight.reaches(world, i, mirror))
-            viewers.push_back(world.things()[world.mirrors()[i]].box);
+        if (model.mirrors[i].is_captured && sight.may_reach_object(world, i, mirror))
+            viewers.push_back(world.objects()[world.mirrors()[i]].box);
     const dvec3 normal = scene::world_normal(scene::normal_matrix(thing.place), flat);
-    return needed_faces_of_flat_mirror(thing.box, normal, 4 * world.rounding(), viewers);
+    return needed_faces_of_flat_mirror(thing.box, normal, 4 * world.position_rounding_error(),
+                                       viewers);
 }
 
 /// Finds whether each light may shine on something that is seen. If any capture is made, all
 /// objects count as seen; else only those that the camera may see.
 void ModelBuilder::Impl::find_lights(const PictureFrustum& picture) {
     model.lights.resize(world.lights().size());
-    model.casters = content_hashes.casters(world);
+    model.casters = content_hashes.list_shadow_casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorNeeds::is_captured);
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        model.lights[i].content_hash = ContentHash(world.epoch()).add(i).value();
+        model.lights[i].content_hash = ContentHash(world.epoch()).add(i).hash_value();
         model.lights[i].has_map = std::ranges::any_of(
-            world.things(), [&](const WorldObject& thing) {
+            world.objects(), [&](const WorldObject& thing) {
                 return !thing.box.empty() &&
-                       may_light_box(world.lights()[i], thing.box, world.rounding()) &&
-                       (all_around || (thing.seen_by_camera && picture.may_hold(thing.box)));
+                       may_light_box(world.lights()[i], thing.box,
+                                     world.position_rounding_error()) &&
+                       (all_around || (thing.seen_by_camera && picture.may_contain_box(thing.box)));
             });
     }
 }

@@ -8,12 +8,12 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNeverReached = std::numeric_limits<double>::infinity();
 
 /// Returns how many times further from the light than the box a shaded point can be.
 double max_shading_factor(const dvec3& light, const Bounds<double>& box,
                           const Bounds<double>& everything) {
-    double times = kNever;
+    double times = kNeverReached;
     for (int axis = 0; axis < 3; ++axis) {
         // (wall - L) / (b - L) is largest for the b nearest to the light.
         const double above = box.lo[axis] - light[axis], below = light[axis] - box.hi[axis];
@@ -25,7 +25,7 @@ double max_shading_factor(const dvec3& light, const Bounds<double>& box,
 
 double max_distance_along(const dvec3& axis, const Bounds<double>& box,
                           const Bounds<double>& everything) {
-    double times = kNever;
+    double times = kNeverReached;
     for (int i = 0; i < 3; ++i) {
         if (axis[i] > 0) times = std::min(times, (everything.hi[i] - box.lo[i]) / axis[i]);
         if (axis[i] < 0) times = std::min(times, (everything.lo[i] - box.hi[i]) / axis[i]);
@@ -38,14 +38,14 @@ double max_distance_to_box(const dvec3& place, const Bounds<double>& box) {
     return glm::length(glm::max(abs(box.lo - place), abs(box.hi - place)));
 }
 
-/// Returns the length of kShadowTexels at the box, in world units.
+/// Returns the length of kShadowFilterTexels at the box, in world units.
 double shadow_texel_length(const scene::PointLight& light, const Bounds<double>& box,
                            const Bounds<double>& everything, std::uint32_t edge) {
     // A face at depth d is 2 d wide. The windows of a directional light are at most slightly wider
     // than everything (render::make_sun_views).
     const double span = light.directional ? 1.5 * glm::length(everything.extent())
                                           : 2 * max_distance_to_box(light.position, box);
-    return kShadowTexels * span / std::max(edge, 1u);
+    return kShadowFilterTexels * span / std::max(edge, 1u);
 }
 
 Bounds<double> grow_box(const Bounds<double>& box, double by) { return {box.lo - by, box.hi + by}; }
@@ -60,11 +60,11 @@ ShadeVolume compute_shade_volume(const scene::PointLight& light, const Bounds<do
                                  const Bounds<double>& everything) {
     if (light.directional) {
         const double far = max_distance_along(light.axis, caster, everything);
-        if (far == kNever) return {everything, everything};
+        if (far == kNeverReached) return {everything, everything};
         return {caster, {caster.lo + far * light.axis, caster.hi + far * light.axis}};
     }
     const double times = max_shading_factor(light.position, caster, everything);
-    if (times == kNever) return {everything, everything};
+    if (times == kNeverReached) return {everything, everything};
     return {caster,
             {light.position + times * (caster.lo - light.position),
              light.position + times * (caster.hi - light.position)}};
@@ -74,16 +74,16 @@ void find_shadow_receivers(const VisibilityWorld& world, std::uint32_t edge,
                            std::vector<ShadowReceiver>& landings) {
     landings.clear();
     Bounds<double> everything;
-    for (const WorldObject& thing : world.things()) everything.add(thing.box);
+    for (const WorldObject& thing : world.objects()) everything.add(thing.box);
     for (const std::size_t mover : world.movers()) {
-        const WorldObject& caster = world.things()[mover];
+        const WorldObject& caster = world.objects()[mover];
         if (!caster.casts_shadow || caster.box.empty()) continue;
         for (const scene::PointLight& light : world.lights()) {
             const auto [from, to] = compute_shade_volume(light, caster.box, everything);
             Bounds<double> shade = from;
             shade.add(to);
-            for (std::size_t i = 0; i < world.things().size(); ++i) {
-                const Bounds<double>& receiver = world.things()[i].box;
+            for (std::size_t i = 0; i < world.objects().size(); ++i) {
+                const Bounds<double>& receiver = world.objects()[i].box;
                 if (receiver.empty()) continue;
                 const double room = shadow_texel_length(light, receiver, everything, edge);
                 const Bounds<double> box = intersect_boxes(grow_box(shade, room), receiver);

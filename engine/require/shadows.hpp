@@ -11,7 +11,7 @@ namespace catoptric::require {
 /// Most texels by which a shadow lookup may miss the geometric shadow. 1.5 come from lifting the
 /// receiver along its normal, 1 from the four taps, and .5 from the caster's outline. The error is
 /// along both axes: 3 * sqrt(2) (shaders/lib/shadow.glsl).
-inline constexpr double kShadowTexels = 5;
+inline constexpr double kShadowFilterTexels = 5;
 
 /// The volume that a caster in box B may shade within a box E of everything. The shade is the hull
 /// of two boxes, `from` and `to`.
@@ -35,7 +35,7 @@ struct ShadowReceiver {
 
 /// Finds, for each light and each mover that casts a shadow, the receivers that the shadow may
 /// meet. The result is the receiver's box cut by the box of the shade. The shade is enlarged by
-/// kShadowTexels of a map whose faces have `edge` texels. O(movers * lights * objects).
+/// kShadowFilterTexels of a map whose faces have `edge` texels. O(movers * lights * objects).
 void find_shadow_receivers(const VisibilityWorld& world, std::uint32_t edge,
                            std::vector<ShadowReceiver>& landings);
 

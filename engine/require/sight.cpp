@@ -9,9 +9,9 @@ namespace catoptric::require {
 
 namespace {
 
-/// Returns the margin to the edges and planes of walls: four times VisibilityWorld::rounding, in
-/// world units.
-double wall_margin(const VisibilityWorld& world) { return 4 * world.rounding(); }
+/// Returns the margin to the edges and planes of walls: four times
+/// VisibilityWorld::position_rounding_error, in world units.
+double wall_margin(const VisibilityWorld& world) { return 4 * world.position_rounding_error(); }
 
 } // namespace
 
@@ -19,11 +19,12 @@ std::optional<UnseenReason> why_hidden_from_camera(const VisibilityWorld& world,
                                                    const PictureFrustum& picture,
                                                    std::size_t mirror) {
     const std::size_t object = world.mirrors()[mirror];
-    const WorldObject& thing = world.things()[object];
+    const WorldObject& thing = world.objects()[object];
     if (thing.box.empty()) return UnseenReason{UnseenReason::UnseenCause::empty, 0};
     if (!thing.seen_by_camera)
         return UnseenReason{UnseenReason::UnseenCause::hidden_from_camera, 0};
-    if (!picture.may_hold(thing.box)) return UnseenReason{UnseenReason::UnseenCause::outside, 0};
+    if (!picture.may_contain_box(thing.box))
+        return UnseenReason{UnseenReason::UnseenCause::outside, 0};
     const double margin = wall_margin(world);
     for (const Wall& wall : world.walls()) {
         if (wall.object == object || !wall.seen_by_camera) continue;
@@ -37,40 +38,42 @@ std::optional<UnseenReason> why_hidden_from_camera(const VisibilityWorld& world,
     return std::nullopt;
 }
 
-bool has_few_triangles(const scene::Mesh& mesh) { return mesh.triangles.size() <= kMostPairs; }
+bool has_few_triangles(const scene::Mesh& mesh) {
+    return mesh.triangles.size() <= kMaxVisibilityPairs;
+}
 
 bool may_picture_show_mirror(const PictureFrustum& picture, const VisibilityWorld& world,
                              std::size_t mirror, const scene::Scene& now) {
-    const WorldObject& thing = world.things()[world.mirrors()[mirror]];
+    const WorldObject& thing = world.objects()[world.mirrors()[mirror]];
     const double margin = wall_margin(world);
     if (thing.sphere)
-        return picture.may_hold_ball(thing.sphere->centre, thing.sphere->radius + margin);
+        return picture.may_contain_ball(thing.sphere->centre, thing.sphere->radius + margin);
     const scene::Mesh& mesh = now.meshes[thing.mesh];
     return !has_few_triangles(mesh) || std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
         const auto corner = [&](std::uint32_t i) {
             return scene::transform_point(thing.place, mesh.positions[i]);
         };
-        return picture.may_hold_triangle({corner(t.x), corner(t.y), corner(t.z)}, margin);
+        return picture.may_contain_triangle({corner(t.x), corner(t.y), corner(t.z)}, margin);
     });
 }
 
 std::uint8_t MirrorVisibility::classify_visibility(const VisibilityWorld& world, std::size_t viewer,
                                                    std::size_t target) const {
     const std::size_t from = world.mirrors()[viewer], to = world.mirrors()[target];
-    const Bounds<double>&here = world.things()[from].box, &there = world.things()[to].box;
+    const Bounds<double>&here = world.objects()[from].box, &there = world.objects()[to].box;
     if (viewer == target || here.empty() || there.empty()) return 0;
-    const dvec3 centre = world.things()[from].tight.centre();
+    const dvec3 centre = world.objects()[from].tight.centre();
     const double margin = wall_margin(world);
     const auto [front, back] = places_[viewer].centre;
     const auto [far_front, far_back] = places_[target].box;
-    std::uint8_t seen = kReaches | kShows;
+    std::uint8_t seen = kReachesFlag | kShowsFlag;
     for (std::uint32_t between = (front & far_back) | (back & far_front & two_sided_); between != 0;
          between &= between - 1) {
         const Wall& wall = world.walls()[static_cast<std::size_t>(std::countr_zero(between))];
         if (wall.object == from || wall.object == to) continue;
         // If the wall does not hide the target from the centre, it cannot hide it from all points.
         if (!wall_hides_box(wall, {centre, centre}, there, margin)) continue;
-        seen &= static_cast<std::uint8_t>(~kShows);
+        seen &= static_cast<std::uint8_t>(~kShowsFlag);
         if (wall_hides_box(wall, here, there, margin)) return 0;
     }
     return seen;
@@ -78,7 +81,7 @@ std::uint8_t MirrorVisibility::classify_visibility(const VisibilityWorld& world,
 
 MirrorVisibility::WallSideBits MirrorVisibility::sides_of(const VisibilityWorld& world,
                                                           const Bounds<double>& box) const {
-    static_assert(kMostWalls <= 32);
+    static_assert(kMaxWalls <= 32);
     WallSideBits sides;
     for (std::size_t i = 0; i < world.walls().size(); ++i) {
         const Wall& wall = world.walls()[i];
@@ -92,7 +95,7 @@ MirrorVisibility::WallSideBits MirrorVisibility::sides_of(const VisibilityWorld&
 
 MirrorVisibility::MirrorSides MirrorVisibility::mirror_sides_of(const VisibilityWorld& world,
                                                                 std::size_t mirror) const {
-    const WorldObject& thing = world.things()[world.mirrors()[mirror]];
+    const WorldObject& thing = world.objects()[world.mirrors()[mirror]];
     if (thing.box.empty()) return {};
     const dvec3 centre = thing.tight.centre();
     return {sides_of(world, thing.box), sides_of(world, {centre, centre})};
@@ -107,8 +110,8 @@ void MirrorVisibility::update_visibility_from(const VisibilityWorld& world, std:
 
 void MirrorVisibility::move_to_instant(const VisibilityWorld& world) {
     count_ = world.mirrors().size();
-    if (layout_ != world.layouts()) {
-        layout_ = world.layouts();
+    if (layout_ != world.layout_count()) {
+        layout_ = world.layout_count();
         rows_.assign(count_, {});
         changed_.assign(count_, true);
         places_.clear(), two_sided_ = 0;
@@ -120,11 +123,11 @@ void MirrorVisibility::move_to_instant(const VisibilityWorld& world) {
     changed_.assign(count_, false);
     std::vector<std::size_t> moved;
     for (std::size_t i = 0; i < count_; ++i)
-        if (world.things()[world.mirrors()[i]].has_moved) {
+        if (world.objects()[world.mirrors()[i]].has_moved) {
             moved.push_back(i);
             places_[i] = mirror_sides_of(world, i);
         }
-    const bool is_much = moved.size() * count_ > kMostPairs;
+    const bool is_much = moved.size() * count_ > kMaxVisibilityPairs;
     for (std::size_t viewer = 0; viewer < count_ && !moved.empty(); ++viewer) {
         std::vector<std::uint8_t>& row = rows_[viewer];
         if (row.empty()) continue;
@@ -133,25 +136,26 @@ void MirrorVisibility::move_to_instant(const VisibilityWorld& world) {
             row[target] = seen;
         };
         const auto answer = [&](std::size_t target) -> std::uint8_t {
-            if (is_much) return viewer == target ? 0 : kReaches | kShows;
+            if (is_much) return viewer == target ? 0 : kReachesFlag | kShowsFlag;
             return classify_visibility(world, viewer, target);
         };
-        if (world.things()[world.mirrors()[viewer]].has_moved)
+        if (world.objects()[world.mirrors()[viewer]].has_moved)
             for (std::size_t target = 0; target < count_; ++target) put(target, answer(target));
         else
             for (const std::size_t target : moved) put(target, answer(target));
     }
 }
 
-bool MirrorVisibility::reaches(const VisibilityWorld& world, std::size_t viewer,
-                               std::size_t target) {
+bool MirrorVisibility::may_reach_object(const VisibilityWorld& world, std::size_t viewer,
+                                        std::size_t target) {
     if (rows_[viewer].empty()) update_visibility_from(world, viewer);
-    return (rows_[viewer][target] & kReaches) != 0;
+    return (rows_[viewer][target] & kReachesFlag) != 0;
 }
 
-bool MirrorVisibility::shows(const VisibilityWorld& world, std::size_t viewer, std::size_t target) {
+bool MirrorVisibility::capture_may_show(const VisibilityWorld& world, std::size_t viewer,
+                                        std::size_t target) {
     if (rows_[viewer].empty()) update_visibility_from(world, viewer);
-    return (rows_[viewer][target] & kShows) != 0;
+    return (rows_[viewer][target] & kShowsFlag) != 0;
 }
 
 } // namespace catoptric::require

@@ -10,7 +10,7 @@ namespace catoptric::require {
 
 /// Largest number of pairs of objects that are tested for visibility per frame. With more pairs,
 /// the rules assume the safe answer without a test.
-inline constexpr std::size_t kMostPairs = 1 << 14;
+inline constexpr std::size_t kMaxVisibilityPairs = 1 << 14;
 
 /// Reason why the camera does not see a mirror.
 struct UnseenReason {
@@ -37,20 +37,20 @@ bool may_picture_show_mirror(const PictureFrustum& picture, const VisibilityWorl
 class MirrorVisibility {
 public:
     /// Takes over an instant, after VisibilityWorld::move_to_instant. O(1) if no mirror has moved;
-    /// O(mirrors * walls) for each mirror that has. With more than kMostPairs pairs, moved mirrors
-    /// are assumed to see all mirrors and to be seen by all.
+    /// O(mirrors * walls) for each mirror that has. With more than kMaxVisibilityPairs pairs, moved
+    /// mirrors are assumed to see all mirrors and to be seen by all.
     void move_to_instant(const VisibilityWorld& world);
 
     /// Returns whether a ray from some point of mirror `viewer` may reach `target`.
-    bool reaches(const VisibilityWorld& world, std::size_t viewer, std::size_t target);
+    bool may_reach_object(const VisibilityWorld& world, std::size_t viewer, std::size_t target);
     /// Returns whether the capture of `viewer`, made at the centre of its bounds, may show
     /// `target`.
-    bool shows(const VisibilityWorld& world, std::size_t viewer, std::size_t target);
+    bool capture_may_show(const VisibilityWorld& world, std::size_t viewer, std::size_t target);
     /// Returns whether any answer about `viewer` may differ from the previous instant.
     bool has_changed(std::size_t viewer) const { return changed_[viewer]; }
 
 private:
-    enum : std::uint8_t { kReaches = 1, kShows = 2 };
+    enum : std::uint8_t { kReachesFlag = 1, kShowsFlag = 2 };
     /// One bit per wall: whether a box lies wholly in front of the wall, or wholly behind it.
     struct WallSideBits {
         std::uint32_t front = 0, back = 0;

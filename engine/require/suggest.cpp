@@ -17,10 +17,10 @@ namespace {
 
 constexpr PictureCostTable kCosts;
 constexpr TechniqueErrorTable kErrors;
-constexpr double kAsGood = 1.1;    // errors within this factor count as equal
-constexpr int kFewestBounces = 2;  // smallest `bounces` of `planar`
-constexpr int kMostBounces = 6;    // largest `bounces` that is suggested
-constexpr double kLeftBlack = .01; // share of mirror pixels that may need more bounces
+constexpr double kEqualErrorFactor = 1.1;   // errors within this factor count as equal
+constexpr int kMinPlanarBounces = 2;        // smallest `bounces` of `planar`
+constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggested
+constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may need more bounces
 
 /// Facts about a picture's mirrors that the choice depends on.
 struct MirrorFacts {
@@ -29,7 +29,7 @@ struct MirrorFacts {
     double triangles = 0;               ///< number of triangles in the scene
     double pixels = 0;                  ///< number of pixels in the picture
     double on_mirrors = 0;              ///< paths whose first hit is a mirror; at least 1
-    int bounces = kFewestBounces;       ///< knob `bounces` of `planar`
+    int bounces = kMinPlanarBounces;    ///< knob `bounces` of `planar`
 
     std::size_t count() const { return is_flat.size(); }
     /// Returns how many pixels of the picture this number of paths stands for.
@@ -40,8 +40,8 @@ struct MirrorFacts {
 
 bool is_flat_mirror(const ModelInput& question, const scene::Object& object) {
     const scene::FlatFaces flats = scene::find_flat_faces(question.now, object);
-    return flats.share(scene::compute_flat_tolerance(question.camera, question.size)) >=
-           1 - kMostBent;
+    return flats.flat_area_share(scene::compute_flat_tolerance(question.camera, question.size)) >=
+           1 - kMaxBentShare;
 }
 
 /// Returns how many mirrors with `of` the path meets before another mirror.
@@ -54,15 +54,15 @@ std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
 
 /// Returns how many flat mirrors one behind the other the picture shows, ignoring few pixels.
 int count_flat_bounces(const MirrorFacts& known) {
-    for (int bounces = kFewestBounces; bounces < kMostBounces; ++bounces) {
+    for (int bounces = kMinPlanarBounces; bounces < kMaxSuggestedBounces; ++bounces) {
         double more = 0;
         for (const auto& [path, count] : known.paths.through)
             if (path.size() == static_cast<std::size_t>(bounces) + 1 &&
                 count_leading_mirrors(path, known.is_flat) == path.size())
                 more += static_cast<double>(count);
-        if (more <= kLeftBlack * known.on_mirrors) return bounces;
+        if (more <= kMaxBlackPixelShare * known.on_mirrors) return bounces;
     }
-    return kMostBounces;
+    return kMaxSuggestedBounces;
 }
 
 MirrorFacts gather_mirror_facts(const ModelInput& question) {
@@ -74,7 +74,8 @@ MirrorFacts gather_mirror_facts(const ModelInput& question) {
     known.on_mirrors = static_cast<double>(
         std::max<std::size_t>(1, known.paths.count_paths_on_mirrors()));
     for (const std::size_t reached : known.paths.reached)
-        known.is_seen.push_back(static_cast<double>(reached) > kHardlySeen * known.on_mirrors);
+        known.is_seen.push_back(static_cast<double>(reached) >
+                                kHardlySeenPixelShare * known.on_mirrors);
     // Without any visible mirror, treat all as visible.
     if (std::ranges::none_of(known.is_seen, std::identity()))
         known.is_seen.assign(known.count(), true);
@@ -94,7 +95,8 @@ enum class DrawingMethod { planes, hybrid, march, small };
 bool should_trace(const MirrorFacts& known, std::size_t mirror) {
     const auto first = static_cast<double>(known.paths.first[mirror]),
                hidden = static_cast<double>(known.paths.hidden[mirror]);
-    return hidden * (kErrors.unknown - kErrors.search) > (kAsGood - 1) * kErrors.search * first;
+    return hidden * (kErrors.unknown - kErrors.search) >
+           (kEqualErrorFactor - 1) * kErrors.search * first;
 }
 
 /// Adds cost and error of a mirror that is seen in flat mirrors with mirrored views. `path` lists
@@ -121,8 +123,8 @@ void add_cost_and_error(PlanCandidate& candidate, const MirrorFacts& known,
     candidate.cost = cost_of_pass(known, known.pixels);
     for (std::size_t i = 0; i < known.count() && face > 0; ++i) {
         const double edge = by_planes[i]                      ? face
-                            : ways[i] == DrawingMethod::small ? kSmallFace
-                                                              : kUsualFace,
+                            : ways[i] == DrawingMethod::small ? kSmallFaceEdge
+                                                              : kUsualFaceEdge,
                      pixels = 6 * edge * edge;
         candidate.cost += cost_of_pass(known, pixels);
         if (ways[i] == DrawingMethod::hybrid) candidate.cost += kCosts.bounds * pixels;
@@ -190,19 +192,19 @@ PlanCandidate make_candidate(const MirrorFacts& known, bool planes) {
     const auto add = [&](const std::string& setting) {
         planar += between + setting, between = ",";
     };
-    if (known.bounces != kFewestBounces) add("bounces=" + std::to_string(known.bounces));
-    if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallFace));
+    if (known.bounces != kMinPlanarBounces) add("bounces=" + std::to_string(known.bounces));
+    if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallFaceEdge));
     PlanCandidate candidate{.name = name_candidate(ways)};
     for (const DrawingMethod way : ways)
         candidate.techniques.push_back(way == DrawingMethod::planes   ? planar
                                        : way == DrawingMethod::hybrid ? "hybrid"
                                        : way == DrawingMethod::march
                                            ? "march"
-                                           : "reuse:face=" + std::to_string(kSmallFace));
+                                           : "reuse:face=" + std::to_string(kSmallFaceEdge));
     add_cost_and_error(candidate, known, ways,
                        !has_captures ? 0
-                       : is_searched ? kUsualFace
-                                     : kSmallFace);
+                       : is_searched ? kUsualFaceEdge
+                                     : kSmallFaceEdge);
     return candidate;
 }
 
@@ -273,9 +275,10 @@ PlanSuggestion suggest_plan(const ModelInput& question) {
         searched.techniques != suggestion.candidates.front().techniques) {
         const PlanCandidate& planes = suggestion.candidates.front();
         const bool is_cheaper = searched.cost < planes.cost,
-                   is_better = searched.error *
-                               kAsGood<planes.error, is_worse = searched.error> planes.error *
-                               kAsGood;
+                   is_better =
+                       searched.error *
+                       kEqualErrorFactor<planes.error, is_worse = searched.error> planes.error *
+                       kEqualErrorFactor;
         const bool wins = is_better || (!is_worse && is_cheaper);
         suggestion.candidates.insert(wins ? suggestion.candidates.begin()
                                           : suggestion.candidates.end(),

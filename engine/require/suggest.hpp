@@ -10,11 +10,11 @@
 namespace catoptric::require {
 
 /// A mirror is hardly seen if at most this share of all mirror pixels show it, directly or in other
-/// mirrors. Such a mirror gets `reuse` with a capture of edge kSmallFace, the cheapest lookup.
-inline constexpr double kHardlySeen = .002;
-inline constexpr std::uint32_t kSmallFace = 64, kUsualFace = 256;
+/// mirrors. Such a mirror gets `reuse` with a capture of edge kSmallFaceEdge, the cheapest lookup.
+inline constexpr double kHardlySeenPixelShare = .002;
+inline constexpr std::uint32_t kSmallFaceEdge = 64, kUsualFaceEdge = 256;
 /// A mirror with a larger share of bent surface than this is not drawn by `planar`.
-inline constexpr double kMostBent = .1;
+inline constexpr double kMaxBentShare = .1;
 
 /// Cost model of a picture, in drawn pixels: weights of passes and pixels. Measured on llvmpipe;
 /// docs/require.md has the figures.

@@ -14,8 +14,8 @@ bool is_convex_quad(const Quad& quad) {
     if (!(size > 0)) return false;
     for (std::size_t i = 0; i < 4; ++i) {
         const dvec3 along = quad[(i + 1) % 4] - quad[i], on = quad[(i + 2) % 4] - quad[i];
-        if (!(dot(cross(along, on), normal) > kFlat * size * size)) return false;
-        if (std::abs(dot(along, normal)) > kFlat * size * length(along)) return false;
+        if (!(dot(cross(along, on), normal) > kCoplanarTolerance * size * size)) return false;
+        if (std::abs(dot(along, normal)) > kCoplanarTolerance * size * length(along)) return false;
     }
     return true;
 }
@@ -49,8 +49,9 @@ struct WallDistances {
     std::array<double, 4> inside; ///< distance inside each edge
 };
 WallDistances distances_to_wall(const Wall& wall, const dvec3& place) {
-    WallDistances side{std::abs(wall.height(place)), {}};
-    for (std::size_t edge = 0; edge < 4; ++edge) side.inside[edge] = wall.inside(edge, place);
+    WallDistances side{std::abs(wall.height_above_plane(place)), {}};
+    for (std::size_t edge = 0; edge < 4; ++edge)
+        side.inside[edge] = wall.distance_inside_edge(edge, place);
     return side;
 }
 
@@ -72,7 +73,7 @@ std::array<double, 2> project_box_on_axis(const dvec3& axis, const Bounds<double
 std::vector<Quad> find_convex_quads(const scene::Mesh& mesh) {
     std::vector<Quad> quads;
     const std::size_t count = mesh.triangles.size();
-    if (count > kMostTriangles) return quads;
+    if (count > kMaxWallMeshTriangles) return quads;
     std::vector<bool> is_used(count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = i + 1; j < count && !is_used[i]; ++j) {
@@ -125,11 +126,12 @@ bool wall_hides_from_orthographic(const Wall& wall, const dvec3& eye, const dvec
     const double slant = dot(wall.normal, direction);
     if (wall.front_only && slant >= 0) return false;
     for (const dvec3& corner : list_box_corners(target)) {
-        const double depth = dot(corner - eye, direction), height = wall.height(corner);
+        const double depth = dot(corner - eye, direction), height = wall.height_above_plane(corner);
         const double back = height / slant; // distance back to the wall, against the direction
         if (!(back > margin && depth - back > margin)) return false;
         for (std::size_t edge = 0; edge < 4; ++edge)
-            if (!(wall.inside(edge, corner - back * direction) >= margin)) return false;
+            if (!(wall.distance_inside_edge(edge, corner - back * direction) >= margin))
+                return false;
     }
     return true;
 }

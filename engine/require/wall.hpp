@@ -19,12 +19,12 @@ std::array<dvec3, 8> list_box_corners(const Bounds<double>& box);
 std::array<double, 2> project_box_on_axis(const dvec3& axis, const Bounds<double>& box);
 
 /// Returns the pairs of triangles that form convex quadrilaterals, in the mesh's own space. The two
-/// triangles share an edge, lie in one plane (within kFlat of their extent) and have one
-/// orientation, and every corner is convex. Each triangle is in at most one pair. Returns none for
-/// a mesh with more than kMostTriangles. O(triangles^2).
+/// triangles share an edge, lie in one plane (within kCoplanarTolerance of their extent) and have
+/// one orientation, and every corner is convex. Each triangle is in at most one pair. Returns none
+/// for a mesh with more than kMaxWallMeshTriangles. O(triangles^2).
 std::vector<Quad> find_convex_quads(const scene::Mesh& mesh);
-inline constexpr double kFlat = 1e-9;
-inline constexpr std::size_t kMostTriangles = 64;
+inline constexpr double kCoplanarTolerance = 1e-9;
+inline constexpr std::size_t kMaxWallMeshTriangles = 64;
 
 /// An opaque quadrilateral in world space.
 struct Wall {
@@ -37,8 +37,8 @@ struct Wall {
         inward{}; ///< unit, in the plane, normal of the edge that starts at corner i
     double area = 0;
 
-    double height(const dvec3& place) const { return dot(normal, place - corners[0]); }
-    double inside(std::size_t edge, const dvec3& place) const {
+    double height_above_plane(const dvec3& place) const { return dot(normal, place - corners[0]); }
+    double distance_inside_edge(std::size_t edge, const dvec3& place) const {
         return dot(inward[edge], place - corners[edge]);
     }
 };

@@ -71,10 +71,10 @@ VisibilityWorld::VisibilityWorld(const scene::Scene& rest) {
     things_.resize(rest.objects.size());
     for (std::size_t i = 0; i < things_.size(); ++i)
         things_[i].is_mover = !std::holds_alternative<std::monostate>(rest.objects[i].motion);
-    lay_out(rest);
+    set_layout(rest);
 }
 
-void VisibilityWorld::lay_out(const scene::Scene& now) {
+void VisibilityWorld::set_layout(const scene::Scene& now) {
     ++layouts_;
     materials_ = now.materials, environment_ = now.environment, punctual_ = now.punctual;
     materials_stamp_ = hash_mesh(now.materials);
@@ -98,8 +98,8 @@ void VisibilityWorld::lay_out(const scene::Scene& now) {
     const Bounds<double> around = still_.empty() ? scene::bounds(now) : still_;
     const dvec3 extent = around.empty() ? dvec3(0) : around.extent();
     middle_ = around.empty() ? dvec3(0) : around.centre();
-    rounding_ = kRounding * std::max({extent.x, extent.y, extent.z});
-    for (std::size_t i = 0; i < things_.size(); ++i) move(now, i);
+    rounding_ = kPositionRoundingError * std::max({extent.x, extent.y, extent.z});
+    for (std::size_t i = 0; i < things_.size(); ++i) move_object(now, i);
     lights_ = scene::list_lights(now);
     find_walls();
     find_epoch();
@@ -123,7 +123,7 @@ bool VisibilityWorld::has_same_layout(const scene::Scene& now) const {
 }
 
 /// Moves an object to its current place.
-void VisibilityWorld::move(const scene::Scene& now, std::size_t index) {
+void VisibilityWorld::move_object(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
     WorldObject& thing = things_[index];
     thing.place = object.world_from_object, thing.sphere = object.sphere;
@@ -136,7 +136,7 @@ void VisibilityWorld::move(const scene::Scene& now, std::size_t index) {
                       : transform_bounds(meshes_[thing.mesh].box, thing.place);
     // The device stores positions as floats relative to the middle of the scene.
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
-    const double room = rounding_ + kRounding * std::max({away.x, away.y, away.z});
+    const double room = rounding_ + kPositionRoundingError * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
     const MeshFacts& mesh = meshes_[thing.mesh];
     if (!mesh.box.empty()) thing.middle = scene::transform_point(thing.place, mesh.box.centre());
@@ -147,7 +147,7 @@ void VisibilityWorld::move(const scene::Scene& now, std::size_t index) {
         .add(thing.material)
         .add(thing.place);
     if (thing.sphere) content_hash.add(thing.sphere->centre).add(thing.sphere->radius);
-    thing.content_hash = content_hash.value();
+    thing.content_hash = content_hash.hash_value();
 }
 
 void VisibilityWorld::move_to_instant(const scene::Scene& now) {
@@ -155,19 +155,19 @@ void VisibilityWorld::move_to_instant(const scene::Scene& now) {
     if (!has_same_layout(now)) {
         for (std::size_t i = 0; i < std::min(things_.size(), now.objects.size()); ++i)
             if (now.objects[i].world_from_object != things_[i].rest) things_[i].is_mover = true;
-        lay_out(now);
+        set_layout(now);
         for (WorldObject& thing : things_) thing.has_moved = thing.is_mover;
         has_changed_ = true;
         return;
     }
-    bool lights_moved = !std::ranges::equal(punctual_, now.punctual, scene::shine_alike);
+    bool lights_moved = !std::ranges::equal(punctual_, now.punctual, scene::emit_alike);
     for (const std::size_t mover : movers_) {
         WorldObject& thing = things_[mover];
         const scene::Object& object = now.objects[mover];
         thing.has_moved = object.world_from_object != thing.place ||
                           !is_equal(object.sphere, thing.sphere);
         if (!thing.has_moved) continue;
-        move(now, mover);
+        move_object(now, mover);
         has_changed_ = true;
         lights_moved = lights_moved || !thing.casts_shadow;
     }
@@ -182,9 +182,10 @@ void VisibilityWorld::find_walls() {
     walls_.clear();
     const auto keep_largest = [&] { // keeps the first of equal walls
         std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
-        if (walls_.size() > kMostWalls) walls_.resize(kMostWalls);
+        if (walls_.size() > kMaxWalls) walls_.resize(kMaxWalls);
     };
-    const double extent = rounding_ / kRounding, least = kLeastWall * extent * extent;
+    const double extent = rounding_ / kPositionRoundingError,
+                 least = kMinWallAreaShare * extent * extent;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const WorldObject& thing = things_[i];
         const scene::Material& material = materials_[thing.material];
@@ -196,7 +197,7 @@ void VisibilityWorld::find_walls() {
             wall.seen_by_camera = thing.seen_by_camera;
             if (wall.area > 0 && wall.area >= least) walls_.push_back(wall);
         }
-        if (walls_.size() >= 8 * kMostWalls) keep_largest();
+        if (walls_.size() >= 8 * kMaxWalls) keep_largest();
     }
     keep_largest();
 }
@@ -207,7 +208,7 @@ void VisibilityWorld::find_epoch() {
     for (const WorldObject& thing : things_)
         content_hash.add(thing.is_mover ? 0 : thing.content_hash);
     for (const scene::PointLight& light : lights_) content_hash.add(hash_mesh(light));
-    epoch_ = content_hash.value();
+    epoch_ = content_hash.hash_value();
 }
 
 } // namespace catoptric::require

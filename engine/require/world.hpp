@@ -16,12 +16,12 @@ namespace catoptric::require {
 /// Relative enlargement of boxes, as a part of two lengths: the extent of all objects that stand
 /// still, and the distance from their middle. Device and rules round differently, by at most 2^-24
 /// of these lengths.
-inline constexpr double kRounding = 0x1p-20;
+inline constexpr double kPositionRoundingError = 0x1p-20;
 /// Largest number of walls that are tested. Only the largest quadrilaterals that never moved are
 /// walls.
-inline constexpr std::size_t kMostWalls = 32;
+inline constexpr std::size_t kMaxWalls = 32;
 /// Least area of a wall, as a part of the square of the extent of all objects that never moved.
-inline constexpr double kLeastWall = 1e-3;
+inline constexpr double kMinWallAreaShare = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
 struct MeshFacts {
@@ -62,7 +62,7 @@ public:
     /// begins a new `epoch`.
     void move_to_instant(const scene::Scene& now);
 
-    const std::vector<WorldObject>& things() const { return things_; }
+    const std::vector<WorldObject>& objects() const { return things_; }
     const std::vector<std::size_t>& mirrors() const { return mirrors_; } ///< indices of objects
     const std::vector<std::size_t>& movers() const { return movers_; }   ///< indices of objects
     const std::vector<Wall>& walls() const { return walls_; }            ///< the largest first
@@ -72,11 +72,11 @@ public:
         return still_;
     } ///< bounds of all that never moved
     /// Largest rounding error of a position, in world units.
-    double rounding() const { return rounding_; }
+    double position_rounding_error() const { return rounding_; }
     std::uint64_t epoch() const {
         return epoch_;
     } ///< content hash of all that is no mover, and of the lights
-    std::uint64_t layouts() const {
+    std::uint64_t layout_count() const {
         return layouts_;
     } ///< number of layouts; grows when other objects stand still
     bool has_changed() const {
@@ -84,9 +84,9 @@ public:
     } ///< whether anything changed since the previous instant
 
 private:
-    void lay_out(const scene::Scene& now);
+    void set_layout(const scene::Scene& now);
     bool has_same_layout(const scene::Scene& now) const;
-    void move(const scene::Scene& now, std::size_t object);
+    void move_object(const scene::Scene& now, std::size_t object);
     void find_walls();
     void find_epoch();
 

@@ -25,7 +25,7 @@ public:
         ContentHash content_hash;
         content_hash.add(image->size);
         hash_values(content_hash, image->texels);
-        return entry->second = content_hash.value();
+        return entry->second = content_hash.hash_value();
     }
 
 private:
@@ -49,7 +49,7 @@ std::uint64_t hash_mesh(const scene::Mesh& mesh) {
         hash_values(content_hash, mesh.triangles);
     hash_values(content_hash, mesh.uv[0]), hash_values(content_hash, mesh.uv[1]),
         hash_values(content_hash, mesh.colours);
-    return content_hash.value();
+    return content_hash.hash_value();
 }
 
 std::uint64_t hash_mesh(const std::vector<scene::Material>& materials) {
@@ -65,7 +65,7 @@ std::uint64_t hash_mesh(const std::vector<scene::Material>& materials) {
             content_hash.add(member);
     };
     for (const scene::Material& material : materials) scene::visit_members(material, add_member);
-    return content_hash.value();
+    return content_hash.hash_value();
 }
 
 std::uint64_t hash_mesh(const scene::Environment* environment) {
@@ -74,13 +74,13 @@ std::uint64_t hash_mesh(const scene::Environment* environment) {
     content_hash.add(environment->studio).add(environment->size);
     hash_values(content_hash, environment->texels);
     content_hash.add(environment->scale).add(environment->rotation_degrees);
-    return content_hash.value();
+    return content_hash.hash_value();
 }
 
 std::uint64_t hash_mesh(const scene::PointLight& light) {
     ContentHash content_hash;
     scene::visit_members(light, [&](const auto& member) { content_hash.add(member); });
-    return content_hash.value();
+    return content_hash.hash_value();
 }
 
 } // namespace catoptric::require

@@ -46,18 +46,18 @@ struct BudgetAccount {
     explicit BudgetAccount(const LoadBudget& of) : budget(of) {}
 
     const LoadBudget budget;
-    static constexpr std::string_view kMoreBytes = "; --max-bytes allows more",
-                                      kMoreTriangles = "; --max-triangles allows more";
-    LimitedSum file_bytes{"bytes in its files", budget.file_bytes, kMoreBytes};
+    static constexpr std::string_view kMaxBytesHint = "; --max-bytes allows more",
+                                      kMaxTrianglesHint = "; --max-triangles allows more";
+    LimitedSum file_bytes{"bytes in its files", budget.file_bytes, kMaxBytesHint};
     LimitedSum files{"names of files", budget.files};
     LimitedSum json_bytes{"bytes of JSON", budget.json_bytes};
     LimitedSum json_memory{"bytes of memory for its JSON", budget.json_memory};
-    LimitedSum positions{"positions", budget.vertices, kMoreTriangles};
-    LimitedSum normals{"normals", budget.vertices, kMoreTriangles};
+    LimitedSum positions{"positions", budget.vertices, kMaxTrianglesHint};
+    LimitedSum normals{"normals", budget.vertices, kMaxTrianglesHint};
     LimitedSum attributes{"texture coordinates, colours and weights", 4 * budget.vertices};
-    LimitedSum mesh_vertices{"vertices in meshes", budget.vertices, kMoreTriangles};
+    LimitedSum mesh_vertices{"vertices in meshes", budget.vertices, kMaxTrianglesHint};
     LimitedSum shown_vertices{"vertices shown by objects", budget.shown};
-    LimitedSum mesh_triangles{"triangles in meshes", budget.triangles, kMoreTriangles};
+    LimitedSum mesh_triangles{"triangles in meshes", budget.triangles, kMaxTrianglesHint};
     LimitedSum shown_triangles{"triangles shown by objects", budget.shown};
     LimitedSum nodes{"nodes", budget.objects};
     LimitedSum meshes{"meshes", budget.objects};

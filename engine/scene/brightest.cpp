@@ -27,7 +27,7 @@ double light_strength_at(const dvec3& point, const PointLight& light) {
     const double part = std::isinf(light.range) ? 0 : std::pow(distance / light.range, 4);
     const double window = std::clamp(1 - part, 0.0, 1.0);
     double cone = 1;
-    if (const LightKind& kind = kind_of(light.kind); !light.is_lamp && kind.share != nullptr)
+    if (const LightKind& kind = light_kind_of(light.kind); !light.is_lamp && kind.share != nullptr)
         cone = kind.share(light, glm::dot(light.axis, along));
     return emitted * facing * window * cone / square;
 }
@@ -95,13 +95,13 @@ void drop_weakest_lights(Scene& scene, std::size_t most) {
     if (list_lights(scene).size() <= most) return;
     std::vector<LightSource> sources = list_light_sources(scene);
     std::ranges::stable_sort(sources, std::ranges::greater(), &LightSource::strength);
-    struct Thing {
+    struct LightOwner {
         std::vector<std::size_t> kept;
         std::size_t points = 0;
     };
-    std::map<std::size_t, Thing> things; // by index
+    std::map<std::size_t, LightOwner> things; // by index
     for (std::size_t i = 0; i < sources.size(); ++i) {
-        Thing& thing = things[sources[i].index];
+        LightOwner& thing = things[sources[i].index];
         ++thing.points;
         if (i < most) thing.kept.push_back(sources[i].point);
     }

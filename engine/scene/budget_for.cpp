@@ -11,14 +11,14 @@ namespace catoptric::scene {
 
 LoadBudget choose_load_budget(const std::filesystem::path& scene, const BudgetOverride& wish,
                               std::uint64_t free_bytes) {
-    constexpr std::uint64_t kShareOfFiles = 8, kStoredBytes = 6;
+    constexpr std::uint64_t kFileByteFraction = 8, kStoredBytesPerFileByte = 6;
     LoadBudget budget;
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(scene, none);
-    const std::uint64_t stored = none ? 0 : size / kStoredBytes;
+    const std::uint64_t stored = none ? 0 : size / kStoredBytesPerFileByte;
     const std::uint64_t fitting = std::min(stored, free_bytes / kBytesPerTriangle);
     budget.file_bytes = wish.bytes.value_or(
-        std::max(budget.file_bytes, free_bytes / kShareOfFiles));
+        std::max(budget.file_bytes, free_bytes / kFileByteFraction));
     const std::uint64_t triangles = wish.triangles.value_or(std::max(budget.triangles, fitting));
     if (triangles > budget.triangles) {
         budget.vertices = std::max(budget.vertices, 3 * triangles);
@@ -29,8 +29,8 @@ LoadBudget choose_load_budget(const std::filesystem::path& scene, const BudgetOv
 }
 
 std::uint64_t read_free_memory() {
-    constexpr std::uint64_t kUnknown = std::uint64_t{1} << 32;
-    std::uint64_t bytes = kUnknown;
+    constexpr std::uint64_t kAssumedFreeMemory = std::uint64_t{1} << 32;
+    std::uint64_t bytes = kAssumedFreeMemory;
     std::ifstream facts("/proc/meminfo");
     for (std::string line; std::getline(facts, line);)
         if (line.starts_with("MemAvailable:"))

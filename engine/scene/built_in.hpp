@@ -22,7 +22,7 @@ struct RegisteredScene {
     explicit RegisteredScene(BuiltInScene scene);
 };
 /// Returns every built-in scene, sorted by `order`, then by name.
-const std::vector<BuiltInScene>& built_in_scenes();
+const std::vector<BuiltInScene>& list_built_in_scenes();
 
 /// Builds the Cornell box with four mirror balls (contract: "The built-in scene").
 Scene make_cornell_mirrors();

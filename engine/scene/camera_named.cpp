@@ -54,12 +54,12 @@ Camera parse_placed_camera(const std::string& text, const SettingOrigin& by) {
 }
 
 std::string list_camera_names(const std::vector<Camera>& cameras) {
-    constexpr std::size_t kMostListed = 20;
+    constexpr std::size_t kMaxListedCameras = 20;
     std::string list;
-    for (std::size_t i = 0; i < std::min(cameras.size(), kMostListed); ++i)
+    for (std::size_t i = 0; i < std::min(cameras.size(), kMaxListedCameras); ++i)
         list += (i ? ", " : "") + std::to_string(i) + " " + quote_printable(cameras[i].name);
-    if (cameras.size() > kMostListed)
-        list += " and " + std::to_string(cameras.size() - kMostListed) + " more";
+    if (cameras.size() > kMaxListedCameras)
+        list += " and " + std::to_string(cameras.size() - kMaxListedCameras) + " more";
     return list.empty() ? "none" : list;
 }
 

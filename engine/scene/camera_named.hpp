@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/said_by.hpp"
 #include "scene/scene.hpp"
+#include "scene/setting_origin.hpp"
 
 #include <string>
 

@@ -19,10 +19,10 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr std::size_t kSamples = 4096;
-constexpr const char* kSpecular = "specular-left-out";
-constexpr const char* kIndirect = "indirect-left-out";
-constexpr const char* kUnshadowed = "environment-unshadowed";
+constexpr std::size_t kMaterialSampleCount = 4096;
+constexpr const char* kSpecularGapId = "specular-left-out";
+constexpr const char* kIndirectGapId = "indirect-left-out";
+constexpr const char* kUnshadowedGapId = "environment-unshadowed";
 
 /// Values of a material at one place.
 struct MaterialSample {
@@ -46,7 +46,7 @@ struct SurfaceAreaSums {
             return;
         }
         const vec3 f0 = compute_f0(material, vec3(spot.colour), spot.metallic);
-        if (largest_channel(f0) >= kLeastMirrorF0)
+        if (largest_channel(f0) >= kMinMirrorF0)
             mirror += 1, mirror_f0 += dvec3(f0);
         else
             smooth_dielectric += f0 != vec3(0) || material.dielectric_f90 != vec3(0);
@@ -98,8 +98,9 @@ MaterialSample sample_material(const Material& material, const Mesh& mesh, const
 /// Returns barycentric weights of the sample, spread evenly over a triangle by the plastic number's
 /// sequence (Roberts 2018).
 vec3 sample_barycentrics(std::size_t sample) {
-    constexpr double kX = .7548776662466927, kY = .5698402909980532;
-    double x = .5 + kX * static_cast<double>(sample), y = .5 + kY * static_cast<double>(sample);
+    constexpr double kSequenceStepX = .7548776662466927, kSequenceStepY = .5698402909980532;
+    double x = .5 + kSequenceStepX * static_cast<double>(sample),
+           y = .5 + kSequenceStepY * static_cast<double>(sample);
     x -= std::floor(x), y -= std::floor(y);
     const double root = std::sqrt(x);
     return {1 - root, root * (1 - y), root * y};
@@ -132,8 +133,8 @@ SurfaceAreaSums sample_texture(const Scene& scene, const Object& object) {
     const double whole = areas.empty() ? 0 : areas.back();
     if (!(whole > 0) || !std::isfinite(whole)) return sums;
     auto triangle = areas.begin();
-    for (std::size_t i = 0; i < kSamples; ++i) {
-        const double wanted = whole * (static_cast<double>(i) + .5) / kSamples;
+    for (std::size_t i = 0; i < kMaterialSampleCount; ++i) {
+        const double wanted = whole * (static_cast<double>(i) + .5) / kMaterialSampleCount;
         while (triangle + 1 != areas.end() && *triangle < wanted) ++triangle;
         const auto index = static_cast<std::size_t>(triangle - areas.begin());
         sums.add(scene, material,
@@ -145,12 +146,13 @@ SurfaceAreaSums sample_texture(const Scene& scene, const Object& object) {
 /// Returns whether the matrix scales all directions alike. Shares of areas are then those of the
 /// mesh itself.
 bool scales_uniformly(const dmat3& m) {
-    constexpr double kSimilar = 1e-9;
+    constexpr double kUniformScaleTolerance = 1e-9;
     const dmat3 square = glm::transpose(m) * m;
     const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            if (!(std::abs(square[column][row] - (column == row ? scale : 0)) <= kSimilar * scale))
+            if (!(std::abs(square[column][row] - (column == row ? scale : 0)) <=
+                  kUniformScaleTolerance * scale))
                 return false;
     return true;
 }
@@ -208,8 +210,8 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
         } else {
             surface = measure_surface_kinds(scene, object);
         }
-        object.mirror = surface.mirror >= kLeastMirrorShare;
-        if (!object.mirror && surface.smooth_dielectric >= kLeastMirrorShare) {
+        object.mirror = surface.mirror >= kMinMirrorAreaShare;
+        if (!object.mirror && surface.smooth_dielectric >= kMinMirrorAreaShare) {
             object.mirror = dielectric_mirrors;
             if (!dielectric_mirrors) dielectrics.insert(object.material);
         }
@@ -223,9 +225,9 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
 void sort_unsupported_features(Scene& scene) {
     std::set<std::size_t> glossy, diffuse; // materials
     for (const UnsupportedFeature& gap : scene.unsupported)
-        if (gap.id == kSpecular) glossy.insert(gap.materials.begin(), gap.materials.end());
+        if (gap.id == kSpecularGapId) glossy.insert(gap.materials.begin(), gap.materials.end());
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
-        return gap.id == kSpecular || gap.id == kIndirect || gap.id == kUnshadowed;
+        return gap.id == kSpecularGapId || gap.id == kIndirectGapId || gap.id == kUnshadowedGapId;
     });
     std::set<std::size_t> without_lobe;
     std::set<std::pair<std::size_t, std::size_t>> known; // mesh and material
@@ -241,9 +243,9 @@ void sort_unsupported_features(Scene& scene) {
     // Features with equal shares of the picture keep this order. These come first because they cost
     // most.
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
-    if (has_light(scene)) add_unsupported_materials(scene, kIndirect, diffuse);
-    add_unsupported_materials(scene, kSpecular, without_lobe);
-    if (scene.environment) add_unsupported_materials(scene, kUnshadowed, diffuse);
+    if (has_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
+    add_unsupported_materials(scene, kSpecularGapId, without_lobe);
+    if (scene.environment) add_unsupported_materials(scene, kUnshadowedGapId, diffuse);
     scene.unsupported.insert(scene.unsupported.end(), others.begin(), others.end());
 }
 

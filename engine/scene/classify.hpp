@@ -7,9 +7,9 @@ namespace catoptric::scene {
 
 /// Least F0 of a mirror, in its largest channel. A sharp surface with a lower F0 is a smooth
 /// dielectric.
-inline constexpr float kLeastMirrorF0 = .2f;
+inline constexpr float kMinMirrorF0 = .2f;
 /// Least share of an object's area that makes the object a mirror or a smooth dielectric.
-inline constexpr double kLeastMirrorShare = .05;
+inline constexpr double kMinMirrorAreaShare = .05;
 
 /// Returns F0, the reflectance seen head-on, by channel, for this base colour and metallic value.
 vec3 compute_f0(const Material& material, const vec3& colour, float metallic);
@@ -19,7 +19,7 @@ float largest_channel(const vec3& colour);
 /// Shares of an object's area by kind of surface, 0 to 1. Textures are sampled at about 4000
 /// places, the same ones each time. Area that an alpha mask cuts out does not count.
 struct SurfaceShares {
-    double mirror = 0;            ///< sharp, F0 at least kLeastMirrorF0
+    double mirror = 0;            ///< sharp, F0 at least kMinMirrorF0
     double smooth_dielectric = 0; ///< sharp, F0 below that
     double rough_metal = 0;       ///< not sharp, metallic above 0
     double rough_dielectric = 0;  ///< not sharp, metallic below 1

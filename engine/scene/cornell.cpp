@@ -96,10 +96,10 @@ Scene make_rough_cornell() {
 
 namespace {
 
-const RegisteredScene kOpen{{"cornell-mirrors",
-                             "Cornell box with four mirror balls, one of them moving; front open",
-                             make_cornell_mirrors, 0}};
-const RegisteredScene kClosed{
+const RegisteredScene kOpenCornellScene{
+    {"cornell-mirrors", "Cornell box with four mirror balls, one of them moving; front open",
+     make_cornell_mirrors, 0}};
+const RegisteredScene kClosedCornellScene{
     {"cornell-mirrors-closed",
      "Cornell box with four mirror balls, and a white front wall that camera rays ignore",
      make_closed_cornell_mirrors, 1}};

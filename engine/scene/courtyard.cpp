@@ -13,7 +13,7 @@ namespace catoptric::scene {
 
 namespace {
 
-const dvec3 kToSun = glm::normalize(dvec3(-.5, .75, .45));
+const dvec3 kDirectionToSun = glm::normalize(dvec3(-.5, .75, .45));
 
 /// Returns the sky: blue above, haze at the horizon, ground below. The sun is a separate light.
 std::shared_ptr<const Environment> make_courtyard_sky() {
@@ -29,7 +29,7 @@ std::shared_ptr<const Environment> make_courtyard_sky() {
                             -std::cos(angle) * std::cos(elevation));
             const dvec3 blue = glm::mix(dvec3(.75, .82, .9), dvec3(.16, .32, .75),
                                         std::pow(std::max(up, 0.0), .6));
-            const double glow = .6 * std::pow(std::max(dot(way, kToSun), 0.0), 6);
+            const double glow = .6 * std::pow(std::max(dot(way, kDirectionToSun), 0.0), 6);
             sky->texels.push_back(
                 vec3(up < 0 ? dvec3(.2, .18, .15) : blue + glow * dvec3(1, .85, .6)));
         }
@@ -77,7 +77,7 @@ void add_mirror_dish(Scene& scene, std::size_t mirror, std::size_t stone) {
     scene.objects.back().world_from_object = place;
     add_mesh(scene, lathe("back of the dish", back, 64), stone);
     scene.objects.back().world_from_object = place;
-    add_mesh(scene, box("foot", {-1.2, kStandingGap, -1.5}, {-.6, .7, -.9}), stone);
+    add_mesh(scene, box("foot", {-1.2, kFloorGap, -1.5}, {-.6, .7, -.9}), stone);
 }
 
 } // namespace
@@ -107,9 +107,9 @@ Scene make_courtyard() {
     scene.objects.back().mirror = true;
     PunctualLight sun{
         .name = "sun", .kind = PunctualLight::Kind::directional, .intensity = {3.2f, 2.9f, 2.4f}};
-    const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), kToSun));
-    sun.world_from_light = dmat4(dvec4(right, 0), dvec4(glm::cross(kToSun, right), 0),
-                                 dvec4(kToSun, 0), dvec4(0, 0, 0, 1));
+    const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), kDirectionToSun));
+    sun.world_from_light = dmat4(dvec4(right, 0), dvec4(glm::cross(kDirectionToSun, right), 0),
+                                 dvec4(kDirectionToSun, 0), dvec4(0, 0, 0, 1));
     scene.punctual.push_back(sun);
     scene.environment = make_courtyard_sky();
     scene.cameras.push_back(
@@ -123,7 +123,7 @@ Scene make_courtyard() {
 
 namespace {
 
-const RegisteredScene kCourtyard{
+const RegisteredScene kCourtyardScene{
     {"courtyard", "open court under a sky: hollow dish, ball and ring, sun", make_courtyard, 5}};
 
 } // namespace

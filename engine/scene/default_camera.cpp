@@ -18,17 +18,19 @@ dvec3 round_to_short_number(const dvec3& point, double distance) {
 } // namespace
 
 Camera make_default_camera(const Scene& scene, double aspect) {
-    constexpr double kShare = .9, kAcross = 30, kAbove = 20; // degrees
+    constexpr double kFilledPictureShare = .9, kAzimuthDegrees = 30,
+                     kElevationDegrees = 20; // degrees
     Bounds<double> box = bounds(scene);
     if (box.empty()) box.lo = dvec3(-1), box.hi = dvec3(1);
-    const double across = glm::radians(kAcross), above = glm::radians(kAbove);
+    const double across = glm::radians(kAzimuthDegrees), above = glm::radians(kElevationDegrees);
     const dvec3 to_eye(std::sin(across) * std::cos(above), std::sin(above),
                        std::cos(across) * std::cos(above));
     Camera camera{.name = "default", .vertical_fov_degrees = 40};
     const dvec3 right = glm::normalize(glm::cross(-to_eye, camera.up));
     const dvec3 upward = glm::cross(right, -to_eye);
 
-    const double slope = kShare * std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    const double slope = kFilledPictureShare *
+                         std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     double distance = 0; // least distance at which all corners lie within the margin
     for (int i = 0; i < 8; ++i) {
         const dvec3 sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);

@@ -2,7 +2,7 @@
 
 #include "scene/budget.hpp"
 #include "scene/load.hpp"
-#include "scene/said_by.hpp"
+#include "scene/setting_origin.hpp"
 
 #include <filesystem>
 #include <string>

@@ -79,7 +79,7 @@ SceneFiles::SceneFiles(const fs::path& scene, const fs::path& root, BudgetAccoun
           "--root: wanted a folder, found '", root.string(), "'");
 }
 
-void SceneFiles::add(const fs::path& real) {
+void SceneFiles::add_file(const fs::path& real) {
     if (known_.insert(real.string()).second) found_.push_back(real);
 }
 
@@ -87,7 +87,7 @@ std::string SceneFiles::read_scene() {
     const fs::path real = resolve_links(scene_);
     std::string bytes = read_regular_file(real.empty() ? scene_ : real, scene_.string(),
                                           account_.file_bytes);
-    add(real);
+    add_file(real);
     return bytes;
 }
 
@@ -99,9 +99,9 @@ void SceneFiles::check_place(const fs::path& real, const std::string& name,
           real.string(), "'");
 }
 
-fs::path SceneFiles::find(const std::string& name, const std::string& place) {
+fs::path SceneFiles::find_file(const std::string& name, const std::string& place) {
     account_.files.add(1, place);
-    check(!name.empty() && name.size() <= kLongestName && name.find('\0') == name.npos,
+    check(!name.empty() && name.size() <= kMaxFileNameLength && name.find('\0') == name.npos,
           Failure::bad_data, place, ": wanted the name of a file, found ", quote_printable(name));
     const fs::path path = folder_ / name;
     fs::path real = resolve_links(path);
@@ -118,12 +118,12 @@ fs::path SceneFiles::find(const std::string& name, const std::string& place) {
     check(fs::is_regular_file(status), Failure::bad_data, place, ": wanted a regular file, found ",
           quote_printable(name), ", which is ",
           fs::is_directory(status) ? "a folder" : "a device or a pipe");
-    add(real);
+    add_file(real);
     return real;
 }
 
 fs::path SceneFiles::find_required(const std::string& name, const std::string& place) {
-    fs::path real = find(name, place);
+    fs::path real = find_file(name, place);
     const int error = errno; // from realpath(3), if the path was not found
     check(!real.empty(), Failure::missing_input, place, ": ", quote_printable(name),
           error == ENOENT || error == ENOTDIR
@@ -132,7 +132,7 @@ fs::path SceneFiles::find_required(const std::string& name, const std::string& p
     return real;
 }
 
-std::string SceneFiles::read(const fs::path& real, const std::string& place) {
+std::string SceneFiles::read_file_content(const fs::path& real, const std::string& place) {
     return read_regular_file(real, place + ": " + quote_printable(real.filename().string()),
                              account_.file_bytes);
 }

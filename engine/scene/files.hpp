@@ -16,7 +16,7 @@ class SceneFiles {
 public:
     /// Longest file name in bytes. Names are limited because each step of a path costs a system
     /// call.
-    static constexpr std::size_t kLongestName = 1024;
+    static constexpr std::size_t kMaxFileNameLength = 1024;
 
     /// Takes the path of the scene, and a second folder or an empty path. Throws `missing_input` if
     /// `root` is not a folder.
@@ -30,20 +30,20 @@ public:
     /// Returns the real path of a file that the scene names, or an empty path if it does not exist.
     /// Throws `bad_data` beginning with `place` for a file outside the allowed folders, a file that
     /// is not regular, or a name longer than 1024 bytes.
-    std::filesystem::path find(const std::string& name, const std::string& place);
+    std::filesystem::path find_file(const std::string& name, const std::string& place);
 
-    /// Does the same as `find`, but throws `missing_input` if the file does not exist.
+    /// Does the same as `find_file`, but throws `missing_input` if the file does not exist.
     std::filesystem::path find_required(const std::string& name, const std::string& place);
 
-    /// Returns the bytes of a file that `find` has found. Throws `missing_input` or `io`.
-    std::string read(const std::filesystem::path& real, const std::string& place);
+    /// Returns the bytes of a file that `find_file` has found. Throws `missing_input` or `io`.
+    std::string read_file_content(const std::filesystem::path& real, const std::string& place);
 
     /// Returns the real paths of the scene and of all files found, each once, in order of the
     /// calls.
-    const std::vector<std::filesystem::path>& found() const { return found_; }
+    const std::vector<std::filesystem::path>& found_files() const { return found_; }
 
 private:
-    void add(const std::filesystem::path& real);
+    void add_file(const std::filesystem::path& real);
     void check_place(const std::filesystem::path& real, const std::string& name,
                      const std::string& place) const;
 

@@ -23,14 +23,14 @@ Scene make_flat_mirror_room() {
                              : white);
     add_quad(scene, "mirror", add_material(scene, {.name = "mirror", .mirror = true}),
              {1.3, .5, 2.98}, {-1.3, .5, 2.98}, {-1.3, 2.1, 2.98}, {1.3, 2.1, 2.98});
-    add_mesh(scene, box("cupboard", {-1.95, kStandingGap, -1.5}, {-1.4, 1.6, .2}), wood);
-    add_mesh(scene, box("stool", {.5, kStandingGap, .9}, {1, .5, 1.4}), red);
+    add_mesh(scene, box("cupboard", {-1.95, kFloorGap, -1.5}, {-1.4, 1.6, .2}), wood);
+    add_mesh(scene, box("stool", {.5, kFloorGap, .9}, {1, .5, 1.4}), red);
     const std::size_t clay = paint("clay", {.65f, .4f, .25f});
     scene.materials[clay].two_sided = true;
     add_mesh(scene,
              lathe("vase", {{0, .5}, {.09, .5}, {.14, .6}, {.12, .74}, {.05, .84}, {.07, .9}}, 32),
              clay);
-    scene.objects.back().world_from_object[3] = dvec4(.75, kStandingGap, 1.15, 1);
+    scene.objects.back().world_from_object[3] = dvec4(.75, kFloorGap, 1.15, 1);
     add_quad(scene, "lamp", add_material(scene, {.name = "lamp", .emission = {30, 27, 22}}),
              {-.4, 2.59, -.4}, {.4, 2.59, -.4}, {.4, 2.59, .4}, {-.4, 2.59, .4});
     scene.cameras.push_back({.name = "standing",
@@ -46,7 +46,7 @@ Scene make_flat_mirror_room() {
 
 namespace {
 
-const RegisteredScene kFlat{
+const RegisteredScene kFlatMirrorScene{
     {"flat", "closed room with one flat wall mirror", make_flat_mirror_room, 2}};
 
 } // namespace

@@ -58,8 +58,9 @@ std::vector<dvec3> convex_hull_in_plane(std::vector<dvec3> points, const dvec3& 
     return corners;
 }
 
-constexpr std::size_t kMostPlanes = 64, kMostFlatTriangles = 65536;
-constexpr double kSamePlane = 1e-4; // radians between normals; share of the extent for distances
+constexpr std::size_t kMaxMirrorPlanes = 64, kMaxFlatTriangles = 65536;
+constexpr double kCoplanarTolerance =
+    1e-4; // radians between normals; share of the extent for distances
 
 /// Triangles of a mesh in the world.
 struct MeshTriangles {
@@ -95,26 +96,26 @@ struct FacePlane {
 };
 
 /// Returns the planes of the triangles whose normals agree; nothing if there are more than
-/// kMostPlanes.
+/// kMaxMirrorPlanes.
 std::optional<std::vector<FacePlane>> group_triangles_by_plane(const MeshTriangles& triangles,
                                                                double extent) {
     std::vector<FacePlane> planes;
     for (std::uint32_t i = 0; i < triangles.mesh.triangles.size(); ++i) {
         const dvec3 along = triangles.cross_of(i), normal = normalized_or_zero(along);
-        if (normal == dvec3(0) || !(triangles.off(i, normal) <= kFarFromFlat)) continue;
+        if (normal == dvec3(0) || !(triangles.off(i, normal) <= kMaxPlaneDeviation)) continue;
         const uvec3& t = triangles.mesh.triangles[i];
         const auto holds = [&](const FacePlane& plane) {
             if (!(dot(plane.normal, normal) > 0 &&
-                  sine_between(plane.normal, normal) <= kSamePlane))
+                  sine_between(plane.normal, normal) <= kCoplanarTolerance))
                 return false;
             return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t corner) {
                 return std::abs(dot(triangles.places[corner] - plane.point, plane.normal)) <=
-                       kSamePlane * extent;
+                       kCoplanarTolerance * extent;
             });
         };
         auto plane = std::ranges::find_if(planes, holds);
         if (plane == planes.end()) {
-            if (planes.size() == kMostPlanes) return std::nullopt;
+            if (planes.size() == kMaxMirrorPlanes) return std::nullopt;
             planes.push_back({.point = triangles.places[t.x], .normal = normal, .triangles = {}});
             plane = planes.end() - 1;
         }
@@ -171,7 +172,7 @@ FlatFace make_flat_face(const MeshTriangles& triangles, const FacePlane& plane, 
 
 } // namespace
 
-double FlatFaces::share(double tolerance) const {
+double FlatFaces::flat_area_share(double tolerance) const {
     double sum = 0;
     for (const FlatFace& face : faces)
         if (face.off <= tolerance) sum += face.share;
@@ -196,7 +197,7 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
         return found;
     }
     if (count > 0) found.bent = {{0, count}};
-    if (count > kMostFlatTriangles) return found;
+    if (count > kMaxFlatTriangles) return found;
     const MeshTriangles triangles(mesh, world_from_object);
     Bounds<double> box;
     for (const dvec3& place : triangles.places) box.add(place);
@@ -206,9 +207,10 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     if (!box.empty() && area > 0)
         planes = group_triangles_by_plane(triangles, length(box.extent()));
     if (!planes) return found;
-    std::erase_if(*planes, [&](const FacePlane& plane) { return plane.area < kLeastFace * area; });
+    std::erase_if(*planes,
+                  [&](const FacePlane& plane) { return plane.area < kMinFaceAreaShare * area; });
     std::ranges::stable_sort(*planes, std::ranges::greater(), &FacePlane::area);
-    if (planes->size() > kMostFaces) planes->resize(kMostFaces);
+    if (planes->size() > kMaxFlatFaces) planes->resize(kMaxFlatFaces);
     if (planes->empty()) return found;
     // The normals of a closed body with negative volume point inwards: it is inside out. They are
     // turned below.
@@ -238,7 +240,7 @@ std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& wor
     };
     for (const uvec3& triangle : mesh.triangles)
         if (sine_between(normal_of(triangle.x), normal_of(mesh.triangles.front().x)) >
-            2 * kFarFromFlat)
+            2 * kMaxPlaneDeviation)
             return {};
     FlatFace found;
     found.normal = normal_of_largest_triangle(mesh, world_from_object);
@@ -258,7 +260,7 @@ std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& wor
     for (const dvec3& p : points)
         found.off = std::max(found.off, std::abs(dot(p - found.point, found.normal)) / size);
     // This form of the comparison also rejects NaN.
-    return found.off <= kFarFromFlat ? std::optional(found) : std::nullopt;
+    return found.off <= kMaxPlaneDeviation ? std::optional(found) : std::nullopt;
 }
 
 double compute_flat_tolerance(const Camera& camera, uvec2 size) {

@@ -32,37 +32,37 @@ struct FlatFace {
 
 /// Flat faces of a surface.
 struct FlatFaces {
-    std::vector<FlatFace> faces;   ///< largest first, at most kMostFaces
+    std::vector<FlatFace> faces;   ///< largest first, at most kMaxFlatFaces
     std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
     /// Whether the surface reflects by a lobe, which no mirrored view shows. It then has no faces.
     bool is_rough = false;
     /// Returns the share of the area in faces whose `off` is at most `tolerance`.
-    double share(double tolerance) const;
+    double flat_area_share(double tolerance) const;
     /// Returns whether the whole surface lies in one plane.
-    bool is_one() const { return faces.size() == 1 && bent.empty(); }
+    bool is_single_plane() const { return faces.size() == 1 && bent.empty(); }
 };
 
 /// Largest number of faces of a surface, and least share of the surface's area that is a face.
-inline constexpr std::size_t kMostFaces = 8;
-inline constexpr double kLeastFace = 1e-3;
+inline constexpr std::size_t kMaxFlatFaces = 8;
+inline constexpr double kMinFaceAreaShare = 1e-3;
 /// Least share of a surface's area that must lie in flat faces before planes may draw the surface.
-inline constexpr double kFlatEnough = .5;
+inline constexpr double kMinFlatAreaShare = .5;
 
 /// Largest value of `FlatFace::off`. A surface that deviates more from a plane is not flat at any
 /// picture size.
-inline constexpr double kFarFromFlat = .01;
+inline constexpr double kMaxPlaneDeviation = .01;
 
-/// Returns the plane of a mesh. Returns nothing if a vertex is off by more than kFarFromFlat, or if
-/// no triangle has an area. O(vertices). O(1) for most curved meshes, because the test ends at the
-/// first vertex that is off.
+/// Returns the plane of a mesh. Returns nothing if a vertex is off by more than kMaxPlaneDeviation,
+/// or if no triangle has an area. O(vertices). O(1) for most curved meshes, because the test ends
+/// at the first vertex that is off.
 std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& world_from_object);
 
 /// Returns the flat faces of a mirror, each of which a plane can replace. If the mesh is
 /// `make_flat_mirror_room`, the whole mesh is one face. Otherwise a face is a set of triangles that
 /// lie in one plane within 1e-4 of the extent. The normals at their corners differ from the plane's
-/// by at most kFarFromFlat. A board modelled as a thin closed box has six faces. Returns no faces
-/// for more than 64 such planes or 65,536 triangles, because so many planes are never drawn one by
-/// one. O(triangles), plus O(n log n) for a surface that has faces.
+/// by at most kMaxPlaneDeviation. A board modelled as a thin closed box has six faces. Returns no
+/// faces for more than 64 such planes or 65,536 triangles, because so many planes are never drawn
+/// one by one. O(triangles), plus O(n log n) for a surface that has faces.
 FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object);
 /// Returns the flat faces of an object that is a mirror; none for a rough mirror.
 FlatFaces find_flat_faces(const Scene& scene, const Object& object);

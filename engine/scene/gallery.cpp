@@ -14,7 +14,7 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kLength = 14;
+constexpr double kGalleryLength = 14;
 
 /// Mirror on a plinth of height `plinth`: a mesh or a ball.
 struct GalleryExhibit {
@@ -23,7 +23,7 @@ struct GalleryExhibit {
     double plinth, size;
     enum { ball, box, vase, ring, bell, drum } shape;
 };
-constexpr std::array<GalleryExhibit, 12> kExhibits{{
+constexpr std::array<GalleryExhibit, 12> kGalleryExhibits{{
     {"large ball", {-1.3, 0, 1.8}, .4, .45, GalleryExhibit::ball},
     {"ring", {1.3, 0, 2.6}, .9, .3, GalleryExhibit::ring},
     {"cube", {-1.4, 0, 3.8}, .8, .3, GalleryExhibit::box},
@@ -77,7 +77,7 @@ void add_gallery_exhibit(Scene& scene, const GalleryExhibit& exhibit, std::size_
                          std::size_t mirror) {
     const double half = .8 * std::max(exhibit.size, .2);
     Mesh plinth = box(std::string("plinth of ") + exhibit.name,
-                      exhibit.at + dvec3(-half, kStandingGap, -half),
+                      exhibit.at + dvec3(-half, kFloorGap, -half),
                       exhibit.at + dvec3(half, exhibit.plinth, half));
     for (vec2& uv : plinth.uv[0]) uv *= 2;
     add_mesh(scene, std::move(plinth), stone);
@@ -104,8 +104,9 @@ void add_wall_mirrors(Scene& scene, std::size_t mirror) {
     for (int k = 12; k >= 0; --k) bowl.push_back({k / 12.0, .35 * (k / 12.0) * (k / 12.0)});
     add_mesh(scene, lathe("dish", bowl, 48), mirror);
     // The dish's axis, +y, turns to -z.
-    scene.objects.back().world_from_object = dmat4(
-        dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0, 1.7, kLength - .05, 1));
+    scene.objects.back().world_from_object = dmat4(dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0),
+                                                   dvec4(0, 1, 0, 0),
+                                                   dvec4(0, 1.7, kGalleryLength - .05, 1));
 }
 
 /// Returns a walk to the far end and back in twelve seconds, slow at the turns.
@@ -113,7 +114,7 @@ RigAttachment make_camera_walk() {
     NodeRig rig{.repeats = true};
     const TranslationTrack keys{.interpolation = Interpolation::cubic,
                                 .times = {0, 6, 12},
-                                .values = {{0, 0, 0}, {.3, 0, kLength - 5}, {0, 0, 0}},
+                                .values = {{0, 0, 0}, {.3, 0, kGalleryLength - 5}, {0, 0, 0}},
                                 .in_tangents = {{}, {}, {}},
                                 .out_tangents = {{}, {}, {}}};
     rig.nodes.push_back({.translations = std::make_shared<const TranslationTrack>(keys)});
@@ -137,13 +138,13 @@ Scene make_gallery() {
                                             .albedo_texture = make_cloth_texture({188, 184, 172})});
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = {15, 14, 12}});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
-    const dvec3 lo(-2.5, 0, 0), hi(2.5, 3.2, kLength);
+    const dvec3 lo(-2.5, 0, 0), hi(2.5, 3.2, kGalleryLength);
     for (const int face : {0, 1, 4, 5}) add_mesh(scene, wall(face, lo, hi), wall_paint);
     add_mesh(scene, wall(2, lo, hi), ceiling);
     Mesh ground = wall(3, lo, hi);
     for (const dvec3& p : ground.positions) ground.uv[0].push_back(vec2(dvec2(p.x, p.z) / 2.0));
     add_mesh(scene, std::move(ground), floor);
-    for (const GalleryExhibit& exhibit : kExhibits)
+    for (const GalleryExhibit& exhibit : kGalleryExhibits)
         add_gallery_exhibit(scene, exhibit, stone, mirror);
     add_wall_mirrors(scene, mirror);
     for (const double z : {2.5, 7.0, 11.5})
@@ -163,10 +164,10 @@ Scene make_gallery() {
 
 namespace {
 
-const RegisteredScene kGallery{{"gallery",
-                                "hall with sixteen mirrors of different shape and size; the "
-                                "camera walks",
-                                make_gallery, 4}};
+const RegisteredScene kGalleryScene{{"gallery",
+                                     "hall with sixteen mirrors of different shape and size; the "
+                                     "camera walks",
+                                     make_gallery, 4}};
 
 } // namespace
 

@@ -142,7 +142,7 @@ void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, s
     context.account.shown_triangles.add(mesh.triangles.size(), place);
     if (marks.sphere) {
         const RigAttachment* follows = find_followed_node(object.motion);
-        if (!follows || keeps_spheres(*follows))
+        if (!follows || preserves_spheres(*follows))
             object.sphere = sphere_in_world_space(*marks.sphere, mesh, placed.world_from_node);
         if (!object.sphere)
             context.notes.add("nodes marked as a sphere whose mesh or scale is not one",
@@ -257,7 +257,7 @@ Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
     }
     builder.check_unshown();
     finish_loading(builder.scene, file, notes, std::move(unsupported));
-    builder.scene.files = files.found();
+    builder.scene.files = files.found_files();
     return std::move(builder.scene);
 }
 

@@ -50,13 +50,14 @@ Track<Value> read_track(const tinygltf::AnimationSampler& sampler, const std::st
     check(sampler.input >= 0, Failure::bad_data, place, ": input: wanted an index, found none");
     check(sampler.output >= 0, Failure::bad_data, place, ": output: wanted an index, found none");
     BudgetAccount& account = context.account;
-    constexpr bool kTurns = std::is_same_v<Value, dvec4>;
+    constexpr bool kIsRotationTrack = std::is_same_v<Value, dvec4>;
     const AccessorElements input = context.floats(sampler.input, TINYGLTF_TYPE_SCALAR,
                                                   account.key_times, place + ": input");
     const AccessorElements output = context.floats(
-        sampler.output, kTurns ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, account.key_values,
-        place + ": output",
-        kTurns ? GltfContext::AllowedIntegers::normalised : GltfContext::AllowedIntegers::nothing);
+        sampler.output, kIsRotationTrack ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
+        account.key_values, place + ": output",
+        kIsRotationTrack ? GltfContext::AllowedIntegers::normalised
+                         : GltfContext::AllowedIntegers::nothing);
     check(output.count == each * input.count, Failure::bad_data, place, ": output: wanted ", each,
           " values for each of ", input.count, " keys, found ", output.count);
     account.keys.add(input.count, place);

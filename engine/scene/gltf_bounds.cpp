@@ -8,8 +8,9 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::string_view kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-constexpr std::size_t kWidths[] = {1, 2, 3, 4, 4, 9, 16}; // components per element
+constexpr std::string_view kAccessorTypeNames[] = {"SCALAR", "VEC2", "VEC3", "VEC4",
+                                                   "MAT2",   "MAT3", "MAT4"};
+constexpr std::size_t kAccessorComponents[] = {1, 2, 3, 4, 4, 9, 16}; // components per element
 
 struct StridedView {
     std::uint64_t length, stride; ///< bytes; a stride of 0 means tightly packed
@@ -62,11 +63,11 @@ void check_sparse_accessor(const JsonObject& sparse, const std::vector<StridedVi
 }
 
 void check_accessor(const JsonObject& item, const std::vector<StridedView>& views) {
-    const auto* const type = std::ranges::find(kTypes, item.text("type"));
-    item.require(type != std::end(kTypes),
+    const auto* const type = std::ranges::find(kAccessorTypeNames, item.text("type"));
+    item.require(type != std::end(kAccessorTypeNames),
                  "type: wanted SCALAR, VEC2 .. VEC4 or MAT2 .. MAT4, found ",
                  item.has("type") ? describe_json_value(*item.find("type")) : "none");
-    const std::size_t size = kWidths[type - kTypes] * component_bytes(item);
+    const std::size_t size = kAccessorComponents[type - kAccessorTypeNames] * component_bytes(item);
     const std::uint64_t count = item.whole("count", 0);
     item.require(count >= 1, "count: wanted at least 1, found ", count);
     if (item.has("bufferView")) check_elements_in_view(item, views, count, size);
@@ -77,8 +78,8 @@ void check_accessor(const JsonObject& item, const std::vector<StridedView>& view
 } // namespace
 
 std::size_t element_bytes(const JsonObject& accessor) {
-    const auto* const type = std::ranges::find(kTypes, accessor.text("type"));
-    return kWidths[type - kTypes] * component_bytes(accessor);
+    const auto* const type = std::ranges::find(kAccessorTypeNames, accessor.text("type"));
+    return kAccessorComponents[type - kAccessorTypeNames] * component_bytes(accessor);
 }
 
 void check_view_bounds(const JsonObject& root, const std::vector<GltfBuffer>& buffers) {

@@ -15,7 +15,7 @@
 /// its bytes, and members that we do not read are removed.
 namespace catoptric::scene::gltf {
 
-inline constexpr std::string_view kEmissiveStrength = "KHR_materials_emissive_strength";
+inline constexpr std::string_view kEmissiveStrengthExtension = "KHR_materials_emissive_strength";
 /// Returns whether the material extension holds factors that are read.
 inline bool is_factor_extension(std::string_view name) {
     return std::ranges::find(kMaterialFactors, name, &MaterialFactor::extension) !=

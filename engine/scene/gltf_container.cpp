@@ -19,7 +19,7 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 /// Extensions that a file may require, besides KHR_materials_*. They are read, or the scene can be
 /// shown without them.
-constexpr std::string_view kWithout[] = {
+constexpr std::string_view kIgnoredRequiredExtensions[] = {
     "KHR_mesh_quantization", "KHR_lights_punctual",  "KHR_texture_transform", "EXT_texture_webp",
     "KHR_xmp_json_ld",       "KHR_techniques_webgl", "KHR_technique_webgl"};
 /// Extensions that store geometry or images in a form that is not read. A file that requires one is
@@ -27,7 +27,7 @@ constexpr std::string_view kWithout[] = {
 struct UnreadCompression {
     std::string_view extension, sentence;
 };
-constexpr UnreadCompression kSqueezed[] = {
+constexpr UnreadCompression kUnreadCompressions[] = {
     {"KHR_draco_mesh_compression", ": meshes compressed by Draco are not read: wanted a file "
                                    "without it (gltf-transform copy, or export without Draco)"},
     {"EXT_meshopt_compression", ": buffers compressed by meshopt are not read: wanted a file "
@@ -90,13 +90,14 @@ void check_required_extensions(const JsonObject& root) {
                  describe_json_value(*required));
     for (const Json& extension : *required) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "";
-        const auto* const squeezed = std::ranges::find(kSqueezed, name,
+        const auto* const squeezed = std::ranges::find(kUnreadCompressions, name,
                                                        &UnreadCompression::extension);
-        root.require(squeezed == std::end(kSqueezed),
+        root.require(squeezed == std::end(kUnreadCompressions),
                      "extensionsRequired: ", describe_json_value(extension),
-                     squeezed == std::end(kSqueezed) ? "" : squeezed->sentence);
+                     squeezed == std::end(kUnreadCompressions) ? "" : squeezed->sentence);
         const bool is_drawn = name.starts_with("KHR_materials_") ||
-                              std::ranges::find(kWithout, name) != std::end(kWithout);
+                              std::ranges::find(kIgnoredRequiredExtensions, name) !=
+                                  std::end(kIgnoredRequiredExtensions);
         root.require(is_drawn,
                      "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
                      "KHR_mesh_quantization or KHR_lights_punctual, found ",
@@ -132,7 +133,7 @@ private:
                                                    buffer.place());
         const auto [entry, is_new] = read_.try_emplace(real, container_.files.size());
         if (is_new) {
-            const std::string bytes = files_.read(real, buffer.place());
+            const std::string bytes = files_.read_file_content(real, buffer.place());
             keep({bytes.begin(), bytes.end()});
         }
         return entry->second;

@@ -64,8 +64,8 @@ std::optional<double> read_exposure(const JsonObject& root) {
         root.at("scenes", root.index("scene", count).value_or(0)));
     if (!ours || !ours->has("exposure")) return std::nullopt;
     const double stops = ours->number("exposure", 0);
-    ours->require(std::abs(stops) <= kMostStops, "exposure: wanted ", -kMostStops, " to ",
-                  kMostStops, ", found ", stops);
+    ours->require(std::abs(stops) <= kMaxExposureStops, "exposure: wanted ", -kMaxExposureStops,
+                  " to ", kMaxExposureStops, ", found ", stops);
     return stops;
 }
 

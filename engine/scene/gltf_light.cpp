@@ -10,17 +10,18 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::string_view kLights = "KHR_lights_punctual";
+constexpr std::string_view kPunctualLightsExtension = "KHR_lights_punctual";
 
 /// Returns the kind that the type names, or that the light's own mark names.
 const LightKind& kind_of(const JsonObject& light) {
     const std::optional<JsonObject> ours = find_catoptric_extras(light);
     const std::string type = light.text("type");
     const std::string name = ours && ours->has("light") ? ours->text("light") : type;
-    const auto kind = std::ranges::find_if(light_kinds(), [&](const LightKind& row) {
+    const auto kind = std::ranges::find_if(list_light_kinds(), [&](const LightKind& row) {
         return row.name == name && gltf_type_of(row) == type;
     });
-    light.require(kind != light_kinds().end(), "type: wanted point, spot or directional, found ",
+    light.require(kind != list_light_kinds().end(),
+                  "type: wanted point, spot or directional, found ",
                   describe_json_value(Json(type)));
     return *kind;
 }
@@ -45,14 +46,16 @@ PunctualLight read_punctual_light(const JsonObject& light) {
 PunctualLights read_lights(const MaterialSource& source) {
     PunctualLights result;
     const std::optional<JsonObject> extensions = source.root.object("extensions");
-    const std::optional<JsonObject> all = extensions ? extensions->object(kLights) : std::nullopt;
+    const std::optional<JsonObject> all = extensions ? extensions->object(kPunctualLightsExtension)
+                                                     : std::nullopt;
     if (all)
         all->each("lights", [&](const JsonObject& item) {
             result.lights.push_back(read_punctual_light(item));
         });
     source.root.each("nodes", [&](const JsonObject& node) {
         const std::optional<JsonObject> its = node.object("extensions");
-        const std::optional<JsonObject> use = its ? its->object(kLights) : std::nullopt;
+        const std::optional<JsonObject> use = its ? its->object(kPunctualLightsExtension)
+                                                  : std::nullopt;
         result.of_node.push_back(
             use ? std::optional(use->needed_index("light", result.lights.size())) : std::nullopt);
     });

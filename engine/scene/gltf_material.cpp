@@ -20,20 +20,21 @@ struct UnreadExtension {
     std::string_view extension, factor;
     std::string_view gap;
 };
-constexpr UnreadExtension kUnread[] = {
+constexpr UnreadExtension kUnreadMaterialExtensions[] = {
     {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
     {"KHR_materials_sheen", "", "sheen"},
     {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
     {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
-constexpr std::string_view kTransmission = "KHR_materials_transmission";
-constexpr std::string_view kVolume = "KHR_materials_volume"; // no effect without transmission
-constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrength,
-                                                    kTransmission,
+constexpr std::string_view kTransmissionExtension = "KHR_materials_transmission";
+constexpr std::string_view kVolumeExtension =
+    "KHR_materials_volume"; // no effect without transmission
+constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrengthExtension,
+                                                    kTransmissionExtension,
                                                     "KHR_materials_ior",
                                                     "KHR_materials_specular",
                                                     "KHR_materials_unlit",
                                                     "KHR_materials_pbrSpecularGlossiness",
-                                                    kVolume};
+                                                    kVolumeExtension};
 
 dvec3 read_vector_member(const JsonObject& item, std::string_view key, double otherwise) {
     const std::vector<double> list = item.numbers(key, 3);
@@ -61,7 +62,7 @@ private:
     }
     std::optional<Texture> texture(const JsonObject& item, std::string_view key, bool srgb) {
         const std::optional<JsonObject> use = item.object(key);
-        return use ? textures_.of(*use, srgb) : std::nullopt;
+        return use ? textures_.find_or_read_texture(*use, srgb) : std::nullopt;
     }
     void report_unsupported(std::string_view id) {
         add_unsupported_material(source_.unsupported, std::string(id), from_.label(), index_);
@@ -140,7 +141,7 @@ void MaterialReader::dielectric() {
 }
 
 void MaterialReader::emission() {
-    const std::optional<JsonObject> strength = extension(kEmissiveStrength);
+    const std::optional<JsonObject> strength = extension(kEmissiveStrengthExtension);
     material_.emission = vec3((strength ? strength->number("emissiveStrength", 1) : 1) *
                               read_vector_member(from_, "emissiveFactor", 0));
     from_.require(is_valid_radiance(material_.emission),
@@ -170,10 +171,10 @@ bool MaterialReader::is_metal_everywhere() const {
 /// Reports transmission as unsupported. Only the dielectric part transmits light, so a material
 /// that is metal everywhere is not reported.
 void MaterialReader::transmission() {
-    const std::optional<JsonObject> glass = extension(kTransmission);
+    const std::optional<JsonObject> glass = extension(kTransmissionExtension);
     if (!glass || glass->number("transmissionFactor", 0) == 0 || is_metal_everywhere()) return;
     report_unsupported("glass-as-diffuse"), report_unsupported("glass-shadow");
-    for (const std::string_view name : {kTransmission, kVolume})
+    for (const std::string_view name : {kTransmissionExtension, kVolumeExtension})
         if (extension(name))
             source_.notes.add("extension " + quote_printable(name) + ", not read", from_.label());
 }
@@ -197,7 +198,7 @@ void MaterialReader::other_properties() {
         }
         bool is_known = std::ranges::find(kMaterialExtensions, name) !=
                         std::end(kMaterialExtensions);
-        for (const auto& [extension, factor, id] : kUnread) {
+        for (const auto& [extension, factor, id] : kUnreadMaterialExtensions) {
             if (name != extension) continue;
             is_known = true;
             if (factor.empty() || extensions_->object(name)->number(factor, 0) != 0)

@@ -70,7 +70,7 @@ constexpr MemberRule unread_member_rule(MemberRule member, std::string_view note
 using enum GltfObjectKind;
 using enum MemberKind;
 
-constexpr MemberRule kMembers[] = {
+constexpr MemberRule kMemberRules[] = {
     {file, "asset", object, asset},
     {asset, "version", text},
 
@@ -178,7 +178,7 @@ public:
         : root_(root), account_(account), notes_(notes) {}
 
     void object(const JsonObject& item, GltfObjectKind in) {
-        for (const MemberRule& member : kMembers)
+        for (const MemberRule& member : kMemberRules)
             if (member.in == in) check_member(item, member);
     }
 
@@ -234,7 +234,7 @@ Json read_member(Json& value, const MemberRule& member) {
 /// Returns the members of an object that are read. Adds placeholders that tinygltf needs.
 Json read_members(Json& from, GltfObjectKind in) {
     Json to = Json::object();
-    for (const MemberRule& member : kMembers) {
+    for (const MemberRule& member : kMemberRules) {
         if (member.in != in || member.unread) continue;
         const auto at = from.find(member.key);
         if (at != from.end()) {

@@ -11,7 +11,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::size_t kDeepest = 4096; // levels of nested nodes
+constexpr std::size_t kMaxNodeDepth = 4096; // levels of nested nodes
 
 double read_positive_number(const JsonObject& item, const Json& value, std::string_view what) {
     item.require(value.is_number() && value.get<double>() > 0, what,
@@ -99,23 +99,23 @@ void check_nodes_form_forest(const GltfDocument& document) {
     const auto require = [&](bool ok, std::size_t node, const auto&... parts) {
         if (!ok) fail(Failure::bad_data, document.file, ": ", document.label(node), parts...);
     };
-    constexpr std::size_t kNone = ~std::size_t(0);
-    std::vector<std::size_t> parent(nodes.size(), kNone), depth(nodes.size(), 0);
+    constexpr std::size_t kNoParent = ~std::size_t(0);
+    std::vector<std::size_t> parent(nodes.size(), kNoParent), depth(nodes.size(), 0);
     for (std::size_t i = 0; i < nodes.size(); ++i)
         for (const int child : nodes[i].children) {
             std::size_t& its = parent[std::size_t(child)];
-            if (its != kNone)
+            if (its != kNoParent)
                 require(false, std::size_t(child), ": wanted one parent at most, found ",
                         document.label(its), " and ", document.label(i));
             its = i;
         }
     std::vector<std::size_t> waiting; // nodes with known depth, children not yet visited
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (parent[i] == kNone) depth[i] = 1, waiting.push_back(i);
+        if (parent[i] == kNoParent) depth[i] = 1, waiting.push_back(i);
     while (!waiting.empty()) {
         const std::size_t i = waiting.back();
         waiting.pop_back();
-        require(depth[i] <= kDeepest, i, ": wanted at most ", kDeepest,
+        require(depth[i] <= kMaxNodeDepth, i, ": wanted at most ", kMaxNodeDepth,
                 " nodes one in another, found more");
         for (const int child : nodes[i].children)
             depth[std::size_t(child)] = depth[i] + 1, waiting.push_back(std::size_t(child));

@@ -30,17 +30,17 @@ struct AttributeRule {
     int type, other_type;
     GltfContext::AllowedIntegers also;
 };
-constexpr AttributeRule kWanted[] = {{"NORMAL", "normals", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3,
-                                      GltfContext::AllowedIntegers::quantised},
-                                     {"TEXCOORD_0", "texture coordinates", TINYGLTF_TYPE_VEC2,
-                                      TINYGLTF_TYPE_VEC2, GltfContext::AllowedIntegers::quantised},
-                                     {"TEXCOORD_1", "texture coordinates", TINYGLTF_TYPE_VEC2,
-                                      TINYGLTF_TYPE_VEC2, GltfContext::AllowedIntegers::quantised},
-                                     {"COLOR_0", "colours", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4,
-                                      GltfContext::AllowedIntegers::normalised},
-                                     {"WEIGHTS_0", "weights", TINYGLTF_TYPE_VEC4,
-                                      TINYGLTF_TYPE_VEC4,
-                                      GltfContext::AllowedIntegers::normalised}};
+constexpr AttributeRule kReadAttributes[] = {
+    {"NORMAL", "normals", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3,
+     GltfContext::AllowedIntegers::quantised},
+    {"TEXCOORD_0", "texture coordinates", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2,
+     GltfContext::AllowedIntegers::quantised},
+    {"TEXCOORD_1", "texture coordinates", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2,
+     GltfContext::AllowedIntegers::quantised},
+    {"COLOR_0", "colours", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4,
+     GltfContext::AllowedIntegers::normalised},
+    {"WEIGHTS_0", "weights", TINYGLTF_TYPE_VEC4, TINYGLTF_TYPE_VEC4,
+     GltfContext::AllowedIntegers::normalised}};
 
 void check_element_count(std::size_t found, std::size_t wanted, std::string_view what,
                          const std::string& place) {
@@ -50,7 +50,7 @@ void check_element_count(std::size_t found, std::size_t wanted, std::string_view
 
 void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
                       const std::string& place, GltfContext& context) {
-    for (const auto& [name, what, type, other, also] : kWanted) {
+    for (const auto& [name, what, type, other, also] : kReadAttributes) {
         const int accessor = find_attribute(primitive.attributes, name);
         if (accessor < 0) continue;
         const int its = context.document.model.accessors[std::size_t(accessor)].type;
@@ -60,8 +60,8 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
                                                          ? GltfContext::AllowedIntegers::normalised
                                                          : also;
         BudgetAccount& account = context.account;
-        LimitedSum& total = also == kWanted[0].also && !is_uv ? account.normals
-                                                              : account.attributes;
+        LimitedSum& total = also == kReadAttributes[0].also && !is_uv ? account.normals
+                                                                      : account.attributes;
         const AccessorElements found = context.floats(accessor, its == other ? other : type, total,
                                                       place + ": " + name, allowed);
         check_element_count(found.count, count, what, place);

@@ -37,7 +37,7 @@ public:
             rest_.push_back(node_transform_to_parent(document, i));
     }
 
-    std::vector<PlacedNode> run() {
+    std::vector<PlacedNode> place_all_nodes() {
         std::vector<std::pair<std::size_t, NodeState>> waiting; // node, and state of its parent
         for (const int root : list_root_nodes(document_.model))
             waiting.push_back({std::size_t(root), {}});
@@ -131,7 +131,7 @@ void NodePlacer::finish() {
 } // namespace
 
 std::vector<PlacedNode> place_nodes(const GltfDocument& document, const NodeAnimation& animation) {
-    return NodePlacer(document, animation).run();
+    return NodePlacer(document, animation).place_all_nodes();
 }
 
 std::vector<dmat4> compute_rest_transforms(const GltfDocument& document) {

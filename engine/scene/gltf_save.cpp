@@ -170,7 +170,7 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
 }
 
 void add_light(GltfWriter& writer, const PunctualLight& light) {
-    const LightKind& kind = kind_of(light.kind);
+    const LightKind& kind = light_kind_of(light.kind);
     const std::string extension = "KHR_lights_punctual";
     const double largest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     tinygltf::Light to;

@@ -44,7 +44,7 @@ void write_emission(GltfWriter& writer, const Material& material, tinygltf::Mate
     to.emissiveFactor = matrix_to_numbers(is_common ? emission : emission / largest);
     if (material.emission_texture) to.emissiveTexture = writer.texture(*material.emission_texture);
     if (is_common) return;
-    const std::string extension(kEmissiveStrength);
+    const std::string extension(kEmissiveStrengthExtension);
     to.extensions[extension] = Value(Value::Object{{"emissiveStrength", Value(largest)}});
     writer.use(extension);
 }
@@ -56,10 +56,11 @@ void write_dielectric(GltfWriter& writer, const Material& material, tinygltf::Ma
     if (material.dielectric_f0 == usual.dielectric_f0 &&
         material.dielectric_f90 == usual.dielectric_f90)
         return;
-    constexpr double kUsual = .04; // F0 of the default index of refraction, 1.5
+    constexpr double kDefaultDielectricF0 = .04; // F0 of the default index of refraction, 1.5
     const double strength = material.dielectric_f90.x;
-    const dvec3 colour = strength > 0 ? dvec3(material.dielectric_f0) / (kUsual * strength)
-                                      : dvec3(0);
+    const dvec3 colour = strength > 0
+                             ? dvec3(material.dielectric_f0) / (kDefaultDielectricF0 * strength)
+                             : dvec3(0);
     to.extensions["KHR_materials_specular"] = Value(
         Value::Object{{"specularFactor", Value(strength)},
                       {"specularColorFactor", make_number_list(matrix_to_numbers(colour))}});

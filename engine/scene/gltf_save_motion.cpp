@@ -12,11 +12,11 @@ namespace {
 /// Returns one period as 64 Hermite pieces with the exact derivative at each key. The error is
 /// below (2 pi / 64)^4 / 384 = 2.5e-7 of the amplitude.
 TranslationTrack motion_to_keys(const HarmonicMotion& motion) {
-    constexpr int kPieces = 64;
+    constexpr int kHarmonicKeyCount = 64;
     TranslationTrack keys{.interpolation = Interpolation::cubic};
-    for (int i = 0; i <= kPieces; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kPieces;
-        keys.times.push_back(motion.period * i / kPieces);
+    for (int i = 0; i <= kHarmonicKeyCount; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kHarmonicKeyCount;
+        keys.times.push_back(motion.period * i / kHarmonicKeyCount);
         keys.values.push_back(motion.amplitude * (1 - std::cos(angle)));
         keys.in_tangents.push_back(motion.amplitude * std::sin(angle) *
                                    (2 * std::numbers::pi / motion.period));

@@ -13,20 +13,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kNearest = 9728, kRepeat = 10497, kClamp = 33071, kMirrored = 33648;
+constexpr std::uint64_t kGltfNearestFilter = 9728, kGltfRepeatWrap = 10497, kGltfClampWrap = 33071,
+                        kGltfMirroredWrap = 33648;
 
 Texture::Wrap read_wrap_mode(const JsonObject& sampler, std::string_view key) {
-    const std::uint64_t mode = sampler.whole(key, kRepeat);
-    sampler.require(mode == kRepeat || mode == kClamp || mode == kMirrored, key,
-                    ": wanted 10497, 33071 or 33648, found ", mode);
-    if (mode == kClamp) return Texture::Wrap::clamp;
-    return mode == kMirrored ? Texture::Wrap::mirrored : Texture::Wrap::repeat;
+    const std::uint64_t mode = sampler.whole(key, kGltfRepeatWrap);
+    sampler.require(mode == kGltfRepeatWrap || mode == kGltfClampWrap || mode == kGltfMirroredWrap,
+                    key, ": wanted 10497, 33071 or 33648, found ", mode);
+    if (mode == kGltfClampWrap) return Texture::Wrap::clamp;
+    return mode == kGltfMirroredWrap ? Texture::Wrap::mirrored : Texture::Wrap::repeat;
 }
 
 void read_sampler(const JsonObject& sampler, Texture& texture) {
     texture.wrap_u = read_wrap_mode(sampler, "wrapS"),
     texture.wrap_v = read_wrap_mode(sampler, "wrapT");
-    texture.nearest = sampler.whole("magFilter", 0) == kNearest;
+    texture.nearest = sampler.whole("magFilter", 0) == kGltfNearestFilter;
 }
 
 /// Reads KHR_texture_transform: scale, then rotation, then translation, as in Khronos'
@@ -58,8 +59,9 @@ std::optional<std::size_t> find_texture_image(const JsonObject& texture, std::si
 
 } // namespace
 
-std::shared_ptr<const Image> TextureReader::missing(const JsonObject& image, const std::string& why,
-                                                    const JsonObject& use) {
+std::shared_ptr<const Image> TextureReader::report_missing_image(const JsonObject& image,
+                                                                 const std::string& why,
+                                                                 const JsonObject& use) {
     source_.notes.add("images that are not there or of a kind that is not read, drawn without",
                       image.label() + why);
     add_unsupported(source_.unsupported, "missing-image", use.entry());
@@ -69,13 +71,15 @@ std::shared_ptr<const Image> TextureReader::missing(const JsonObject& image, con
 std::shared_ptr<const Image> TextureReader::from_file(const JsonObject& image,
                                                       const JsonObject& use) {
     const std::string name = file_name_from_uri(image.text("uri"), image.place());
-    const fs::path real = source_.files.find(name, image.place());
-    if (real.empty()) return missing(image, ": " + quote_printable(name) + " is not there", use);
+    const fs::path real = source_.files.find_file(name, image.place());
+    if (real.empty())
+        return report_missing_image(image, ": " + quote_printable(name) + " is not there", use);
     const auto [entry, is_new] = files_.try_emplace(real.string());
     if (is_new)
-        entry->second = decode_image(source_.files.read(real, image.place()), name,
+        entry->second = decode_image(source_.files.read_file_content(real, image.place()), name,
                                      image.place() + ": " + quote_printable(name), source_.account);
-    return entry->second ? entry->second : missing(image, ": " + quote_printable(name), use);
+    return entry->second ? entry->second
+                         : report_missing_image(image, ": " + quote_printable(name), use);
 }
 
 std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,
@@ -84,7 +88,7 @@ std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,
     const auto decode = [&](const unsigned char* bytes, std::size_t size) {
         auto result = decode_image({reinterpret_cast<const char*>(bytes), size},
                                    image.name() + kind, image.place(), source_.account);
-        return result ? result : missing(image, "", use);
+        return result ? result : report_missing_image(image, "", use);
     };
     if (image.has("uri")) {
         const std::string uri = image.text("uri");
@@ -93,7 +97,7 @@ std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,
         return decode(bytes.data(), bytes.size());
     }
     const auto number = image.index("bufferView", source_.root.size("bufferViews"));
-    if (!number) return missing(image, "", use);
+    if (!number) return report_missing_image(image, "", use);
     const JsonObject view = source_.root.at("bufferViews", *number);
     const GltfBuffer& buffer =
         source_.container.buffers[view.needed_index("buffer", source_.container.buffers.size())];
@@ -107,7 +111,7 @@ std::shared_ptr<const Image> TextureReader::image(std::size_t index, const JsonO
     return entry->second;
 }
 
-std::optional<Texture> TextureReader::of(const JsonObject& use, bool srgb) {
+std::optional<Texture> TextureReader::find_or_read_texture(const JsonObject& use, bool srgb) {
     const JsonObject& root = source_.root;
     const JsonObject from = root.at("textures", use.needed_index("index", root.size("textures")));
     Texture texture{.srgb = srgb};
@@ -126,7 +130,7 @@ std::optional<Texture> TextureReader::of(const JsonObject& use, bool srgb) {
     if (const auto sampler = from.index("sampler", root.size("samplers")))
         read_sampler(root.at("samplers", *sampler), texture);
     const auto source = find_texture_image(from, root.size("images"));
-    texture.image = source ? image(*source, use) : missing(from, "", use);
+    texture.image = source ? image(*source, use) : report_missing_image(from, "", use);
     return texture.image ? std::optional(texture) : std::nullopt;
 }
 

@@ -34,14 +34,14 @@ public:
     /// the image is missing or has an unsupported format, or if `use` names a third set of texture
     /// coordinates. Then adds a note and an unsupported feature. Throws `bad_data` for an image
     /// that cannot be decoded, or for an invalid sampler.
-    std::optional<Texture> of(const JsonObject& use, bool srgb);
+    std::optional<Texture> find_or_read_texture(const JsonObject& use, bool srgb);
 
 private:
     std::shared_ptr<const Image> image(std::size_t index, const JsonObject& use);
     std::shared_ptr<const Image> decoded(const JsonObject& image, const JsonObject& use);
     std::shared_ptr<const Image> from_file(const JsonObject& image, const JsonObject& use);
-    std::shared_ptr<const Image> missing(const JsonObject& image, const std::string& why,
-                                         const JsonObject& use);
+    std::shared_ptr<const Image>
+    report_missing_image(const JsonObject& image, const std::string& why, const JsonObject& use);
 
     const MaterialSource& source_;
     std::map<std::size_t, std::shared_ptr<const Image>> images_;

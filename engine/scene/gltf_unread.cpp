@@ -7,12 +7,13 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::size_t kLongestName = 1024; // attribute name in bytes; messages quote it in full
+constexpr std::size_t kMaxAttributeNameLength =
+    1024; // attribute name in bytes; messages quote it in full
 /// Extensions that are read, or that only change how other members are stored.
 constexpr std::string_view kReadExtensions[] = {
-    kEmissiveStrength, "KHR_lights_punctual", "KHR_materials_ior", "KHR_materials_specular",
-    "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform",
-    "KHR_mesh_quantization", "EXT_texture_webp",
+    kEmissiveStrengthExtension, "KHR_lights_punctual", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
+    "KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp",
     // The material reader notes these two if they change the picture.
     "KHR_materials_transmission", "KHR_materials_volume"};
 
@@ -25,10 +26,10 @@ bool is_read_extension(std::string_view extension) {
 struct AttributeSemantic {
     std::string_view name, type, other_type;
 };
-constexpr AttributeSemantic kSemantics[] = {{"POSITION", "VEC3", ""},    {"NORMAL", "VEC3", ""},
-                                            {"TANGENT", "VEC4", "VEC3"}, {"TEXCOORD_", "VEC2", ""},
-                                            {"COLOR_", "VEC3", "VEC4"},  {"JOINTS_", "VEC4", ""},
-                                            {"WEIGHTS_", "VEC4", ""}};
+constexpr AttributeSemantic kAttributeSemantics[] = {
+    {"POSITION", "VEC3", ""},  {"NORMAL", "VEC3", ""},     {"TANGENT", "VEC4", "VEC3"},
+    {"TEXCOORD_", "VEC2", ""}, {"COLOR_", "VEC3", "VEC4"}, {"JOINTS_", "VEC4", ""},
+    {"WEIGHTS_", "VEC4", ""}};
 
 /// Notes the unread extensions of `value` and of all values inside it. The recursion is at most 64
 /// deep, because `parse_json` limits nesting.
@@ -68,7 +69,7 @@ void check_alpha_mode(const JsonObject& material) {
 void check_image_source(const JsonObject& image, SceneFiles& files) {
     const std::string uri = image.text("uri");
     if (!uri.empty() && !is_data_uri(uri))
-        files.find(file_name_from_uri(uri, image.place()), image.place());
+        files.find_file(file_name_from_uri(uri, image.place()), image.place());
 }
 
 void check_camera_type(const JsonObject& camera) {
@@ -80,12 +81,12 @@ void check_camera_type(const JsonObject& camera) {
 void check_attributes(const JsonObject& attributes, const JsonObject& root) {
     const std::size_t count = root.size("accessors");
     for (const auto& [name, value] : attributes.json().items()) {
-        attributes.require(name.size() <= kLongestName, "attribute ", quote_printable(name),
-                           ": wanted a name of at most ", kLongestName, " bytes, found ",
-                           name.size());
+        attributes.require(name.size() <= kMaxAttributeNameLength, "attribute ",
+                           quote_printable(name), ": wanted a name of at most ",
+                           kMaxAttributeNameLength, " bytes, found ", name.size());
         const std::string type =
             root.at("accessors", attributes.needed_index(name, count)).text("type");
-        for (const AttributeSemantic& semantic : kSemantics)
+        for (const AttributeSemantic& semantic : kAttributeSemantics)
             attributes.require(!name.starts_with(semantic.name) || type == semantic.type ||
                                    type == semantic.other_type,
                                name, ": wanted an accessor of ", semantic.type, ", found ", type);

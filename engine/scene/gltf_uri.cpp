@@ -10,7 +10,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::string_view kBase64 =
+constexpr std::string_view kBase64Digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Decodes percent-encoded bytes such as "%20". A '%' without two hexadecimal digits stays.
@@ -52,7 +52,7 @@ ByteList decode_data_uri(std::string_view uri, const std::string& place) {
     std::string_view text = uri.substr(comma + 1);
     const int most = text.size() % 4 == 0 ? 2 : 0; // padding characters
     for (int i = 0; i < most && text.ends_with('='); ++i) text.remove_suffix(1);
-    const std::size_t wrong = std::min(text.find_first_not_of(kBase64), text.size());
+    const std::size_t wrong = std::min(text.find_first_not_of(kBase64Digits), text.size());
     check(wrong == text.size(), Failure::bad_data, place, ": uri: wanted digits of base64, found ",
           quote_printable(text.substr(wrong, 1)));
     check(text.size() % 4 != 1, Failure::bad_data, place,

@@ -61,10 +61,10 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
     };
     const MemoryByteSource source(bytes);
     ImageReader reader(source, format, place, [&](const ImageShape& shape) {
-        constexpr std::uint32_t kMostSide = 65535; // the renderer stores a side in 16 bits
-        check(shape.size.x <= kMostSide && shape.size.y <= kMostSide, Failure::bad_data, place,
-              ": wanted sides of at most ", kMostSide, " texels, found ", shape.size.x, "x",
-              shape.size.y);
+        constexpr std::uint32_t kMaxTextureSide = 65535; // the renderer stores a side in 16 bits
+        check(shape.size.x <= kMaxTextureSide && shape.size.y <= kMaxTextureSide, Failure::bad_data,
+              place, ": wanted sides of at most ", kMaxTextureSide, " texels, found ", shape.size.x,
+              "x", shape.size.y);
         account.texels.require(texels(shape), place);
     });
     const ImageShape& shape = reader.shape();

@@ -27,12 +27,12 @@ public:
     }
 
     /// Returns the first surface that a ray from a camera meets.
-    std::optional<SurfaceHit> first(const dvec3& origin, const dvec3& direction) const;
+    std::optional<SurfaceHit> find_first_hit(const dvec3& origin, const dvec3& direction) const;
     /// Returns whether a surface lies between the two places.
     bool is_blocked(const dvec3& from, const dvec3& to) const {
-        constexpr double kShort = 1 - 1e-6; // excludes the surface at `to`
-        const auto met = first(from, to - from);
-        return met && met->distance < kShort;
+        constexpr double kRayEndFactor = 1 - 1e-6; // excludes the surface at `to`
+        const auto met = find_first_hit(from, to - from);
+        return met && met->distance < kRayEndFactor;
     }
 
 private:
@@ -54,7 +54,8 @@ std::optional<double> distance_to_triangle(const dvec3& a, const dvec3& b, const
     return distance;
 }
 
-std::optional<SurfaceHit> RayCaster::first(const dvec3& origin, const dvec3& direction) const {
+std::optional<SurfaceHit> RayCaster::find_first_hit(const dvec3& origin,
+                                                    const dvec3& direction) const {
     std::optional<SurfaceHit> nearest;
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
         const Object& object = scene_.objects[i];
@@ -90,42 +91,45 @@ std::vector<dvec3> spread_directions(int count) {
 }
 
 bool is_closed_around(const RayCaster& rays, const dvec3& centre) {
-    constexpr int kRays = 64, kMostMisses = 3;
+    constexpr int kEnclosureRays = 64, kMaxMissedRays = 3;
     int misses = 0;
-    for (const dvec3& direction : spread_directions(kRays))
-        if (!rays.first(centre, direction) && ++misses > kMostMisses) return false;
+    for (const dvec3& direction : spread_directions(kEnclosureRays))
+        if (!rays.find_first_hit(centre, direction) && ++misses > kMaxMissedRays) return false;
     return true;
 }
 
 /// Returns whether nearly all surfaces that the camera sees turn their backs, over a grid of its
 /// picture.
 bool sees_mostly_back_faces(const RayCaster& rays, const Camera& camera) {
-    constexpr int kSide = 12;
-    constexpr double kMost = .9;
+    constexpr int kRaysPerSide = 12;
+    constexpr double kMaxBackFaceShare = .9;
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), upward = cross(right, forward);
     const double slope = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     int all = 0, backs = 0;
-    for (int i = 0; i < kSide * kSide; ++i) {
-        const double x = 2 * (i % kSide + .5) / kSide - 1, y = 2 * (i / kSide + .5) / kSide - 1;
-        const auto met = rays.first(camera.eye, forward + slope * (x * right + y * upward));
+    for (int i = 0; i < kRaysPerSide * kRaysPerSide; ++i) {
+        const double x = 2 * (i % kRaysPerSide + .5) / kRaysPerSide - 1,
+                     y = 2 * (i / kRaysPerSide + .5) / kRaysPerSide - 1;
+        const auto met = rays.find_first_hit(camera.eye,
+                                             forward + slope * (x * right + y * upward));
         all += met.has_value();
         backs += met && !met->is_front;
     }
-    return all > 0 && backs >= kMost * all;
+    return all > 0 && backs >= kMaxBackFaceShare * all;
 }
 
 /// Returns some places on the objects that matter most in a picture: mirrors and lamps.
 std::vector<dvec3> list_places_of_interest(const Scene& scene) {
-    constexpr std::size_t kMostObjects = 16, kMostPlaces = 8;
+    constexpr std::size_t kMaxInterestObjects = 16, kMaxInterestPlaces = 8;
     std::vector<dvec3> places;
     std::size_t objects = 0;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
         const bool counts = is_mirror(scene, object) ||
                             is_visibly_emissive(scene.materials[object.material]);
-        if (!counts || mesh.triangles.empty() || objects++ == kMostObjects) continue;
-        const std::size_t step = (mesh.triangles.size() + kMostPlaces - 1) / kMostPlaces;
+        if (!counts || mesh.triangles.empty() || objects++ == kMaxInterestObjects) continue;
+        const std::size_t step = (mesh.triangles.size() + kMaxInterestPlaces - 1) /
+                                 kMaxInterestPlaces;
         for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
             const uvec3& t = mesh.triangles[i];
             places.push_back(transform_point(
@@ -163,7 +167,7 @@ double visible_share(const RayCaster& rays, const std::vector<dvec3>& places,
 double sum_free_distances(const RayCaster& rays, const dvec3& place) {
     double sum = 0;
     for (const dvec3& direction : spread_directions(24)) {
-        const auto met = rays.first(place, direction);
+        const auto met = rays.find_first_hit(place, direction);
         sum += met ? met->distance : 0;
     }
     return sum;
@@ -180,7 +184,7 @@ dvec3 rounded_to_thousandth(const dvec3& point, double extent) {
 
 std::optional<Camera> find_inside_camera(const Scene& scene, const Camera& outside) {
     const Bounds<double> box = bounds(scene);
-    if (box.empty() || triangle_count(scene) > kMostTested) return std::nullopt;
+    if (box.empty() || triangle_count(scene) > kMaxTestedTriangles) return std::nullopt;
     const RayCaster rays(scene);
     const double extent = length(box.extent());
     const dvec3 centre = rounded_to_thousandth(box.centre(), extent);
@@ -191,9 +195,11 @@ std::optional<Camera> find_inside_camera(const Scene& scene, const Camera& outsi
         return std::nullopt;
     Camera camera{.name = "default", .target = centre, .vertical_fov_degrees = 60}, tried = camera;
     double best = -1;
-    constexpr double kAside = .35, kAbove = .15; // offset from the centre, in extents of the bounds
+    constexpr double kSidewaysOffset = .35,
+                     kUpwardOffset = .15; // offset from the centre, in extents of the bounds
     for (int i = 0; i < 8; ++i) {
-        const dvec3 side(i & 1 ? -kAside : kAside, i & 4 ? 0 : kAbove, i & 2 ? -kAside : kAside);
+        const dvec3 side(i & 1 ? -kSidewaysOffset : kSidewaysOffset, i & 4 ? 0 : kUpwardOffset,
+                         i & 2 ? -kSidewaysOffset : kSidewaysOffset);
         tried.eye = rounded_to_thousandth(centre + side * box.extent(), extent);
         const double worth = sum_free_distances(rays, tried.eye) *
                              (1 + visible_share(rays, places, tried));

@@ -8,7 +8,7 @@ namespace catoptric::scene {
 
 /// Largest number of triangles of a scene that is tested for a closed room. Each ray is tested
 /// against every triangle, so larger scenes would take too long.
-inline constexpr std::size_t kMostTested = std::size_t{1} << 17;
+inline constexpr std::size_t kMaxTestedTriangles = std::size_t{1} << 17;
 
 /// Returns a camera inside the scene at rest, if the scene is a closed room that `outside` does not
 /// show. The room is closed if nearly every ray from the centre of the bounds meets a surface.

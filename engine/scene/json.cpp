@@ -48,7 +48,8 @@ std::string JsonObject::entry() const {
 }
 
 JsonObject JsonObject::to(const JsonPathStep& step) const {
-    if (steps_ == kMostSteps) fail(Failure::internal, place(), ": ", step.key, ": lies too deep");
+    if (steps_ == kMaxPathSteps)
+        fail(Failure::internal, place(), ": ", step.key, ": lies too deep");
     JsonObject item = *this;
     item.way_[item.steps_++] = step;
     item.json_ = step.json;
@@ -89,9 +90,10 @@ JsonObject JsonObject::at(std::string_view key, std::size_t index) const {
 }
 
 std::uint64_t JsonObject::whole_of(const Json& value, std::string_view key) const {
-    constexpr double kMost = 9007199254740992; // 2^53: doubles hold every integer up to it
+    constexpr double kMaxExactInteger =
+        9007199254740992; // 2^53: doubles hold every integer up to it
     const double number = value.is_number_float() ? value.get<double>() : -1;
-    if (number >= 0 && number <= kMost && number == std::floor(number))
+    if (number >= 0 && number <= kMaxExactInteger && number == std::floor(number))
         return static_cast<std::uint64_t>(number);
     require(value.is_number_unsigned(), key, ": wanted a whole number of at least 0, found ",
             describe_json_value(value));

@@ -85,7 +85,7 @@ private:
         std::optional<std::size_t> index;
         const Json* json = nullptr; ///< the value that the step leads to
     };
-    static constexpr std::size_t kMostSteps = 8; // nested extensions need no more steps
+    static constexpr std::size_t kMaxPathSteps = 8; // nested extensions need no more steps
 
     JsonObject to(const JsonPathStep& step) const;
     std::string label(std::string_view before, std::size_t steps) const;
@@ -95,7 +95,7 @@ private:
 
     const Json* json_;
     const std::string* file_;
-    std::array<JsonPathStep, kMostSteps> way_{};
+    std::array<JsonPathStep, kMaxPathSteps> way_{};
     std::size_t steps_ = 0; ///< 0 for the document itself
 };
 

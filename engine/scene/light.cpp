@@ -23,11 +23,11 @@ public:
     explicit VertexIslands(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), std::size_t(0));
     }
-    std::size_t find(std::size_t vertex) {
+    std::size_t find_root(std::size_t vertex) {
         while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
         return vertex;
     }
-    void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
+    void join_islands(std::size_t a, std::size_t b) { parent_[find_root(a)] = find_root(b); }
 
 private:
     std::vector<std::size_t> parent_;
@@ -55,8 +55,9 @@ bool has_zero_mean_normal(const LightSums& sums) {
 
 /// Rotates the columns of `axes` until the symmetric `matrix` is diagonal along them (Jacobi 1846).
 void diagonalise_matrix(dmat3& matrix, dmat3& axes) {
-    constexpr int kSweeps = 12; // each sweep squares the error; a float's precision takes four
-    for (int turn = 0; turn < 3 * kSweeps; ++turn) {
+    constexpr int kJacobiSweeps =
+        12; // each sweep squares the error; a float's precision takes four
+    for (int turn = 0; turn < 3 * kJacobiSweeps; ++turn) {
         const int i = turn % 3, j = (i + 1) % 3;
         if (matrix[i][j] == 0) continue;
         const double angle = std::atan2(2 * matrix[i][j], matrix[j][j] - matrix[i][i]) / 2;
@@ -71,15 +72,16 @@ void diagonalise_matrix(dmat3& matrix, dmat3& axes) {
 
 /// Returns the mean over all directions of the length of `cosines * direction`.
 double mean_projected_length(const dvec3& cosines) {
-    constexpr int kSteps = 64; // steps across an octant, in each direction
+    constexpr int kOctantSteps = 64; // steps across an octant, in each direction
     double sum = 0;
-    for (int i = 0; i < kSteps; ++i)
-        for (int j = 0; j < kSteps; ++j) {
-            const double z = (i + .5) / kSteps, turn = (j + .5) / kSteps * std::numbers::pi / 2;
+    for (int i = 0; i < kOctantSteps; ++i)
+        for (int j = 0; j < kOctantSteps; ++j) {
+            const double z = (i + .5) / kOctantSteps,
+                         turn = (j + .5) / kOctantSteps * std::numbers::pi / 2;
             const double flat = std::sqrt(1 - z * z);
             sum += glm::length(cosines * dvec3(flat * std::cos(turn), flat * std::sin(turn), z));
         }
-    return sum / (kSteps * kSteps);
+    return sum / (kOctantSteps * kOctantSteps);
 }
 
 /// Sets `axes` and `cosines` of an open two-sided lamp. The mean |cosine| of its facets to a
@@ -145,8 +147,8 @@ MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_ob
         corners.push_back({first[t.x], first[t.y], first[t.z]});
         const double triangle_area = compute_triangle_area(world, t);
         if (!(triangle_area > 0)) continue;
-        islands.join(first[t.x], first[t.y]);
-        islands.join(first[t.x], first[t.z]);
+        islands.join_islands(first[t.x], first[t.y]);
+        islands.join_islands(first[t.x], first[t.z]);
         used[t.x] = used[t.y] = used[t.z] = true;
         area[t.x] += triangle_area;
         const dvec3 facet = normalized_or_zero(triangle_cross_product(world, t));
@@ -160,7 +162,7 @@ MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_ob
     std::vector<bool> counted(world.size(), false);
     for (std::size_t i = 0; i < world.size(); ++i) {
         if (!used[i]) continue;
-        const std::size_t root = islands.find(first[i]);
+        const std::size_t root = islands.find_root(first[i]);
         const std::size_t index = index_of_root.try_emplace(root, sums.size()).first->second;
         if (index == sums.size()) sums.emplace_back();
         const dvec3 normal = normalized_or_zero(normal_to_world * dvec3(mesh.normals[i]));
@@ -172,20 +174,20 @@ MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_ob
     for_each_edge(list_triangle_edges(corners), [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 2) return;
         for (const std::size_t end : {edge[0].low, edge[0].high})
-            if (const auto index = index_of_root.find(islands.find(end));
+            if (const auto index = index_of_root.find(islands.find_root(end));
                 index != index_of_root.end())
                 sums[index->second].closed = false;
     });
     for (const uvec3& t : mesh.triangles)
         components.of_triangles.push_back(
             compute_triangle_area(world, t) > 0
-                ? std::optional(index_of_root.at(islands.find(first[t.x])))
+                ? std::optional(index_of_root.at(islands.find_root(first[t.x])))
                 : std::nullopt);
     return components;
 }
 
 PointLight make_point_light(const PunctualLight& punctual) {
-    const LightKind& kind = kind_of(punctual.kind);
+    const LightKind& kind = light_kind_of(punctual.kind);
     PointLight light{.position = dvec3(punctual.world_from_light[3]),
                      .area = 1,
                      .emission = punctual.intensity,

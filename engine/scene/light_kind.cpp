@@ -17,20 +17,20 @@ std::vector<LightKind>& kind_table() {
 
 RegisteredLightKind::RegisteredLightKind(const LightKind& kind) { kind_table().push_back(kind); }
 
-const std::vector<LightKind>& light_kinds() {
-    static const std::vector<LightKind> kRows = [] {
+const std::vector<LightKind>& list_light_kinds() {
+    static const std::vector<LightKind> kSortedLightKinds = [] {
         std::vector<LightKind> rows = kind_table();
         std::ranges::sort(rows, {}, &LightKind::id);
         check(std::ranges::adjacent_find(rows, {}, &LightKind::id) == rows.end(), Failure::internal,
               "two kinds of light have one number");
         return rows;
     }();
-    return kRows;
+    return kSortedLightKinds;
 }
 
-const LightKind& kind_of(PunctualLight::Kind id) {
-    const auto kind = std::ranges::find(light_kinds(), id, &LightKind::id);
-    check(kind != light_kinds().end(), Failure::internal, "there is no kind of light ",
+const LightKind& light_kind_of(PunctualLight::Kind id) {
+    const auto kind = std::ranges::find(list_light_kinds(), id, &LightKind::id);
+    check(kind != list_light_kinds().end(), Failure::internal, "there is no kind of light ",
           static_cast<int>(id));
     return *kind;
 }
@@ -39,7 +39,7 @@ std::string_view gltf_type_of(const LightKind& kind) {
     return kind.gltf_type.empty() ? kind.name : kind.gltf_type;
 }
 
-bool shine_alike(const PunctualLight& a, const PunctualLight& b) {
+bool emit_alike(const PunctualLight& a, const PunctualLight& b) {
     const auto& [name, kind, intensity, range, cos_inner, cos_outer, world_from_light, motion] = a;
     return kind == b.kind && intensity == b.intensity && range == b.range &&
            cos_inner == b.cos_inner && cos_outer == b.cos_outer &&

@@ -54,9 +54,9 @@ struct RegisteredLightKind {
 };
 
 /// Returns all kinds by `id`.
-const std::vector<LightKind>& light_kinds();
+const std::vector<LightKind>& list_light_kinds();
 /// Returns the row of a kind. Throws `internal` for a kind that is not in the table.
-const LightKind& kind_of(PunctualLight::Kind id);
+const LightKind& light_kind_of(PunctualLight::Kind id);
 /// Returns the type of a kind in KHR_lights_punctual.
 std::string_view gltf_type_of(const LightKind& kind);
 
@@ -83,6 +83,6 @@ inline void visit_members(const PointLight& light, Visit&& visit) {
 
 /// Returns whether two lights shine in the same way. Compares lights as scene::scene_at_time leaves
 /// them: without motion. Names do not count.
-bool shine_alike(const PunctualLight& a, const PunctualLight& b);
+bool emit_alike(const PunctualLight& a, const PunctualLight& b);
 
 } // namespace catoptric::scene

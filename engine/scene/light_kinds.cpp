@@ -36,20 +36,20 @@ ShaderNumbers numbers_of_spot(const PointLight& light) {
     return {static_cast<float>(light.cos_outer), static_cast<float>(1 / width_of_edge(light))};
 }
 
-const RegisteredLightKind kPoint{{.id = PunctualLight::Kind::point,
-                                  .name = "point",
-                                  .shader_kind = shared::kLightAtPoint,
-                                  .is_aimed = false}};
-const RegisteredLightKind kSpot{{.id = PunctualLight::Kind::spot,
-                                 .name = "spot",
-                                 .shader_kind = shared::kLightAtPoint,
-                                 .share = share_of_spot,
-                                 .shader_numbers = numbers_of_spot,
-                                 .read = read_spot_cone}};
-const RegisteredLightKind kDirectional{{.id = PunctualLight::Kind::directional,
-                                        .name = "directional",
-                                        .shader_kind = shared::kLightDirectional,
-                                        .is_parallel = true}};
+const RegisteredLightKind kPointLightKind{{.id = PunctualLight::Kind::point,
+                                           .name = "point",
+                                           .shader_kind = shared::kLightKindPoint,
+                                           .is_aimed = false}};
+const RegisteredLightKind kSpotLightKind{{.id = PunctualLight::Kind::spot,
+                                          .name = "spot",
+                                          .shader_kind = shared::kLightKindPoint,
+                                          .share = share_of_spot,
+                                          .shader_numbers = numbers_of_spot,
+                                          .read = read_spot_cone}};
+const RegisteredLightKind kDirectionalLightKind{{.id = PunctualLight::Kind::directional,
+                                                 .name = "directional",
+                                                 .shader_kind = shared::kLightKindDirectional,
+                                                 .is_parallel = true}};
 
 } // namespace
 

@@ -42,7 +42,7 @@ void check_no_animation_chosen(const std::string& scene, const FileOptions& opti
 [[noreturn]] void fail_unknown_scene(const std::string& word) {
     std::vector<std::string> names;
     std::string list;
-    for (const BuiltInScene& scene : built_in_scenes()) {
+    for (const BuiltInScene& scene : list_built_in_scenes()) {
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
@@ -56,15 +56,15 @@ RegisteredScene::RegisteredScene(BuiltInScene scene) {
     built_in_scene_table().push_back(std::move(scene));
 }
 
-const std::vector<BuiltInScene>& built_in_scenes() {
-    static const std::vector<BuiltInScene> kScenes = [] {
+const std::vector<BuiltInScene>& list_built_in_scenes() {
+    static const std::vector<BuiltInScene> kSortedBuiltInScenes = [] {
         std::vector<BuiltInScene> scenes = built_in_scene_table();
         std::ranges::sort(scenes, {}, [](const BuiltInScene& scene) {
             return std::pair(scene.order, scene.name);
         });
         return scenes;
     }();
-    return kScenes;
+    return kSortedBuiltInScenes;
 }
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {
@@ -72,7 +72,7 @@ Scene load(const std::string& name_or_path, const LoadOptions& options) {
 }
 
 Scene load_file(const std::string& name_or_path, const FileOptions& options) {
-    for (const BuiltInScene& scene : built_in_scenes())
+    for (const BuiltInScene& scene : list_built_in_scenes())
         if (scene.name == name_or_path) {
             check_no_animation_chosen(name_or_path, options);
             return classify_mirrors(scene.make());

@@ -12,11 +12,11 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kFlatTolerance = 1e-4; // share of the extent
-constexpr double kRound = 1e-3;         // vertices: share of the radius
-constexpr double kMostly = .95;         // share of all bending (angle times length)
-constexpr double kFacets = .1;          // facets: share of the radius
-constexpr double kTurned = .01;         // normals: radians
+constexpr double kFlatTolerance = 1e-4;         // share of the extent
+constexpr double kSphereVertexTolerance = 1e-3; // vertices: share of the radius
+constexpr double kMostBendingShare = .95;       // share of all bending (angle times length)
+constexpr double kFacetRadiusTolerance = .1;    // facets: share of the radius
+constexpr double kNormalTolerance = .01;        // normals: radians
 
 /// Triangles of an object in the world, relative to the centre of its bounds. Each place has one
 /// number.
@@ -99,7 +99,7 @@ double max_distance_from_sphere(const Sphere& sphere, const CentredTriangles& so
     for (const TriangleCorners& t : soup.triangles) {
         const dvec3 normal = normalized_or_zero(soup.cross_of(t));
         const double height = std::abs(glm::dot(normal, soup.places[t[0]] - sphere.centre));
-        if (!(height >= (1 - kFacets) * sphere.radius)) return 1;
+        if (!(height >= (1 - kFacetRadiusTolerance) * sphere.radius)) return 1;
     }
     return farthest / sphere.radius;
 }
@@ -115,7 +115,7 @@ bool has_sphere_normals(const Sphere& sphere, const Scene& scene, const Object& 
                             transform_point(object.world_from_object, mesh.positions[i]) -
                             sphere.centre),
                         normal = world_normal(turns, dvec3(mesh.normals[i]));
-            return glm::length(glm::cross(out, normal)) <= kTurned;
+            return glm::length(glm::cross(out, normal)) <= kNormalTolerance;
         });
     });
 }
@@ -129,7 +129,7 @@ bool may_be_sphere(const Scene& scene, const Object& object) {
     const double radius = std::max({box.extent().x, box.extent().y, box.extent().z}) / 2;
     return std::ranges::all_of(scene.meshes[object.mesh].positions, [&](const dvec3& p) {
         const double far = glm::distance(transform_point(object.world_from_object, p), centre);
-        return std::abs(far - radius) <= kFacets * radius;
+        return std::abs(far - radius) <= kFacetRadiusTolerance * radius;
     });
 }
 
@@ -138,7 +138,7 @@ struct EdgeBendSums {
     bool closed = true;
     double outwards = 0, inwards = 0; ///< bend angles times lengths of the edges
 
-    bool is_mostly(double bends) const { return bends >= kMostly * (outwards + inwards); }
+    bool is_mostly(double bends) const { return bends >= kMostBendingShare * (outwards + inwards); }
 };
 
 /// Returns how the edges bend. An edge bends inwards if the tip of a triangle lies above the plane
@@ -189,7 +189,7 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
     if (std::optional<Sphere> fit = fit_sphere(soup)) {
         const double off = max_distance_from_sphere(*fit, soup);
         fit->centre += soup.centre;
-        if (off <= kRound) shape.fit = fit, shape.tolerance = off;
+        if (off <= kSphereVertexTolerance) shape.fit = fit, shape.tolerance = off;
     }
     if (object.sphere) {
         // The mesh stands for the sphere, whatever its vertices are.
@@ -212,8 +212,8 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
 void find_exact_spheres(Scene& scene) {
     for (Object& object : scene.objects) {
         const RigAttachment* follows = find_followed_node(object.motion);
-        if (object.sphere || !is_mirror(scene, object) || (follows && !keeps_spheres(*follows)) ||
-            !may_be_sphere(scene, object))
+        if (object.sphere || !is_mirror(scene, object) ||
+            (follows && !preserves_spheres(*follows)) || !may_be_sphere(scene, object))
             continue;
         const MirrorShape shape = classify_mirror_shape(scene, object);
         if (shape.kind == MirrorShape::Kind::sphere) object.sphere = shape.fit;

@@ -9,13 +9,14 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kSimilar = 1e-9; // rounding error of a similarity, share of a squared length
+constexpr double kSimilarityTolerance =
+    1e-9; // rounding error of a similarity, share of a squared length
 
 bool is_positive_and_uniform(const dvec3& scale) {
     return scale.x > 0 && scale.x == scale.y && scale.x == scale.z;
 }
 
-bool keeps_shapes(const dmat4& matrix) {
+bool preserves_shapes(const dmat4& matrix) {
     const std::optional<double> scale = uniform_scale(dmat3(matrix));
     return scale && *scale > 0;
 }
@@ -27,7 +28,8 @@ std::optional<double> uniform_scale(const dmat3& matrix) {
     const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            if (!(std::abs(square[column][row] - (column == row ? scale : 0)) <= kSimilar * scale))
+            if (!(std::abs(square[column][row] - (column == row ? scale : 0)) <=
+                  kSimilarityTolerance * scale))
                 return std::nullopt;
     return std::sqrt(scale);
 }
@@ -40,11 +42,11 @@ std::optional<Sphere> moved_sphere(const Object& object, const dmat4& world_from
     return Sphere{dvec3(change * dvec4(object.sphere->centre, 1)), object.sphere->radius * *scale};
 }
 
-bool keeps_spheres(const RigAttachment& follows) {
-    if (!keeps_shapes(follows.node_from_object)) return false;
+bool preserves_spheres(const RigAttachment& follows) {
+    if (!preserves_shapes(follows.node_from_object)) return false;
     for (std::optional<std::size_t> at = follows.node; at; at = follows.rig->nodes[*at].parent) {
         const NodeRig::RigNode& node = follows.rig->nodes[*at];
-        if (!keeps_shapes(node.parent_from_space)) return false;
+        if (!preserves_shapes(node.parent_from_space)) return false;
         if (!node.scales || node.scales->times.empty()) {
             if (!is_positive_and_uniform(node.scale)) return false;
         } else if (node.scales->interpolation == Interpolation::cubic ||

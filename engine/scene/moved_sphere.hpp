@@ -18,6 +18,6 @@ std::optional<Sphere> moved_sphere(const Object& object, const dmat4& world_from
 /// Returns whether a sphere that follows the node stays a sphere of positive radius at all times:
 /// all scales of the node and its ancestors are positive and the same along all axes. Returns false
 /// for cubic tracks of scales, which may reach zero between their keys. O(keys of scales).
-bool keeps_spheres(const RigAttachment& follows);
+bool preserves_spheres(const RigAttachment& follows);
 
 } // namespace catoptric::scene

@@ -4,7 +4,7 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr std::size_t kMostKinds = 40; // as many lines as a user may still read
+constexpr std::size_t kMaxNoteKinds = 40; // as many lines as a user may still read
 
 } // namespace
 
@@ -13,7 +13,7 @@ void LoaderNotes::add(std::string_view kind, std::string_view first, std::uint64
     const auto known = index_of_.find(std::string(kind));
     if (known != index_of_.end()) {
         kinds_[known->second].count += count;
-    } else if (kinds_.size() < kMostKinds) {
+    } else if (kinds_.size() < kMaxNoteKinds) {
         index_of_[std::string(kind)] = kinds_.size();
         kinds_.push_back({.text = std::string(kind), .first = std::string(first), .count = count});
     } else {

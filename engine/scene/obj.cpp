@@ -207,7 +207,7 @@ Scene load_obj(const std::filesystem::path& path, const FileOptions& options) {
                      .materials = make_library_materials(text.library, context),
                      .cameras = text.remarks.cameras,
                      .exposure = text.remarks.exposure,
-                     .files = files.found()};
+                     .files = files.found_files()};
     for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
     finish_loading(builder.scene, file, notes, std::move(unsupported));
     return std::move(builder.scene);

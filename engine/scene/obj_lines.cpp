@@ -8,13 +8,14 @@ namespace catoptric::scene::obj {
 
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\v\f";
-constexpr std::size_t kMostWords = 4096; // no valid statement that is split into words has more
+constexpr std::string_view kBlankCharacters = " \t\r\v\f";
+constexpr std::size_t kMaxWordsPerLine =
+    4096; // no valid statement that is split into words has more
 
 std::string_view trim_blanks(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(kSpace);
+    const std::size_t first = text.find_first_not_of(kBlankCharacters);
     if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
+    return text.substr(first, text.find_last_not_of(kBlankCharacters) + 1 - first);
 }
 
 /// Removes one line from the front of `text` and returns it, trimmed. Lines that end in a backslash
@@ -39,7 +40,7 @@ std::string_view take_line(std::string_view& text, std::size_t& number, std::str
 
 std::string_view take_word(std::string_view& text) {
     text = trim_blanks(text);
-    const std::string_view word = text.substr(0, text.find_first_of(kSpace));
+    const std::string_view word = text.substr(0, text.find_first_of(kBlankCharacters));
     text = trim_blanks(text.substr(word.size()));
     return word;
 }
@@ -67,7 +68,7 @@ void for_each_obj_line(const std::string& file, std::string_view text,
 std::vector<std::string_view> split_words(const ObjLine& line) {
     std::vector<std::string_view> list;
     std::string_view rest = line.rest;
-    while (!rest.empty() && rest.front() != '#' && list.size() < kMostWords)
+    while (!rest.empty() && rest.front() != '#' && list.size() < kMaxWordsPerLine)
         list.push_back(take_word(rest));
     return list;
 }
@@ -105,7 +106,7 @@ void UnreadStatements::add(const ObjLine& line) {
     if (at->second.lines++ == 0) at->second.first = line.number;
 }
 
-void UnreadStatements::tell(const std::string& file, LoaderNotes& notes) const {
+void UnreadStatements::report_unread(const std::string& file, LoaderNotes& notes) const {
     for (const auto& [keyword, count] : counts_)
         notes.add(keyword.empty() ? "other statements, not read"
                                   : "statements " + quote_printable(keyword) + ", not read",

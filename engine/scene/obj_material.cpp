@@ -18,8 +18,9 @@ namespace {
 
 /// Returns whether a statement names a texture map, such as "map_Kd", "bump", "norm" or "refl".
 bool is_map_statement(std::string_view keyword) {
-    constexpr std::string_view kMaps[] = {"bump", "disp", "decal", "refl", "norm"};
-    return keyword.starts_with("map_") || std::ranges::find(kMaps, keyword) != std::end(kMaps);
+    constexpr std::string_view kMapStatements[] = {"bump", "disp", "decal", "refl", "norm"};
+    return keyword.starts_with("map_") ||
+           std::ranges::find(kMapStatements, keyword) != std::end(kMapStatements);
 }
 
 bool is_bump_statement(std::string_view keyword) {
@@ -77,10 +78,10 @@ fs::path find_map_file(const std::string& name, const std::string& place, SceneF
     std::ranges::replace(slashed, '\\', '/');
     const bool is_absolute = slashed.starts_with('/') ||
                              (slashed.size() > 2 && slashed.substr(1, 2) == ":/");
-    fs::path real = is_absolute ? fs::path() : files.find(slashed, place);
+    fs::path real = is_absolute ? fs::path() : files.find_file(slashed, place);
     const std::size_t last = slashed.rfind('/');
     if (real.empty() && last != slashed.npos && last + 1 < slashed.size())
-        real = files.find(slashed.substr(last + 1), place);
+        real = files.find_file(slashed.substr(last + 1), place);
     return real;
 }
 
@@ -106,7 +107,7 @@ struct NumberStatement {
     std::string_view keyword;
     std::optional<double> MaterialDraft::*member;
 };
-constexpr NumberStatement kNumbers[] = {
+constexpr NumberStatement kNumberStatements[] = {
     {"Ns", &MaterialDraft::shininess}, {"Ni", &MaterialDraft::ior},
     {"Pr", &MaterialDraft::roughness}, {"Pm", &MaterialDraft::metallic},
     {"illum", &MaterialDraft::kind},   {"d", &MaterialDraft::alpha}};
@@ -120,8 +121,9 @@ void add_radiance_to_draft(const ObjLine& line, const dvec3& radiance, MaterialD
 
 /// Reads a statement into a member of the draft. Returns false if the draft has none for it.
 bool add_statement_to_draft(const ObjLine& line, MaterialDraft& draft) {
-    const auto* const number = std::ranges::find(kNumbers, line.keyword, &NumberStatement::keyword);
-    if (number != std::end(kNumbers)) {
+    const auto* const number = std::ranges::find(kNumberStatements, line.keyword,
+                                                 &NumberStatement::keyword);
+    if (number != std::end(kNumberStatements)) {
         // The number may follow an option: "d -halo .5".
         std::string_view rest = line.rest;
         const ObjLine of{line.file, line.number, line.keyword,
@@ -164,7 +166,7 @@ class MaterialMaps {
 public:
     explicit MaterialMaps(ObjContext& context) : context_(context) {}
 
-    std::optional<Texture> of(const ObjMapUse& map) {
+    std::optional<Texture> map_texture(const ObjMapUse& map) {
         const std::shared_ptr<const Image> image = image_of(map);
         if (!image) {
             context_.notes.add("images that are not there or of a kind that is not read, drawn "
@@ -190,8 +192,8 @@ private:
         if (map.real.empty()) return nullptr;
         const auto [entry, is_new] = images_.try_emplace(map.real.string());
         if (is_new)
-            entry->second = decode_image(context_.files.read(map.real, map.place), map.file,
-                                         map.place + ": " + quote_printable(map.file),
+            entry->second = decode_image(context_.files.read_file_content(map.real, map.place),
+                                         map.file, map.place + ": " + quote_printable(map.file),
                                          context_.account);
         return entry->second;
     }
@@ -209,7 +211,7 @@ public:
                   ObjContext& context)
         : draft_(draft), index_(index), maps_(maps), context_(context) {}
 
-    Material make() {
+    Material make_material() {
         kind_ = static_cast<int>(draft_.kind.value_or(0));
         material_ = {.name = draft_.name, .emission = draft_.emission};
         // Without Kd the albedo is white under a map, black if emissive or illum 3, else grey.
@@ -217,7 +219,7 @@ public:
         material_.albedo = clamp_to_fraction(draft_.diffuse.value_or(draft_.colour ? dvec3(1)
                                                                      : shines      ? dvec3(0)
                                                                                    : dvec3(0.8)));
-        if (draft_.colour) material_.albedo_texture = maps_.of(*draft_.colour);
+        if (draft_.colour) material_.albedo_texture = maps_.map_texture(*draft_.colour);
         set_sidedness();
         transparency();
         if (has_lobe()) report_unsupported("specular-left-out");
@@ -277,7 +279,7 @@ private:
         const vec3 f0 = clamp_to_fraction(draft_.specular.value_or(dvec3(0)));
         const double shininess = draft_.shininess.value_or(100);
         const bool is_sharp = shininess >= 100;
-        if (kind_ != 5 && is_sharp && largest_channel(f0) >= kLeastMirrorF0) {
+        if (kind_ != 5 && is_sharp && largest_channel(f0) >= kMinMirrorF0) {
             material_.mirror = true, material_.reflectance = f0;
             return;
         }
@@ -303,17 +305,17 @@ void read_material_library(const fs::path& real, const std::string& place, ObjCo
     UnreadStatements unread;
     bool is_in_material = false;
     const std::string file = real.string();
-    for_each_obj_line(file, context.files.read(real, place), [&](const ObjLine& line) {
+    for_each_obj_line(file, context.files.read_file_content(real, place), [&](const ObjLine& line) {
         add_library_statement(library, line, unread, context, is_in_material);
     });
-    unread.tell(file, context.notes);
+    unread.report_unread(file, context.notes);
 }
 
 std::vector<Material> make_library_materials(const MaterialLibrary& library, ObjContext& context) {
     std::vector<Material> materials;
     MaterialMaps maps(context);
     for (const MaterialDraft& draft : library.drafts)
-        materials.push_back(MaterialMaker(draft, materials.size(), maps, context).make());
+        materials.push_back(MaterialMaker(draft, materials.size(), maps, context).make_material());
     return materials;
 }
 

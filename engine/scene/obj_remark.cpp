@@ -99,8 +99,9 @@ void add_catoptric_remark(CatoptricRemarks& remarks, const ObjLine& line, Budget
           " wants a name, found none");
     if (line.keyword == "#exposure") {
         const double stops = parse_word_numbers(line, list, 0, 1)[0];
-        check(std::abs(stops) <= kMostStops, Failure::bad_data, line.where(), ": exposure wants ",
-              -kMostStops, " to ", kMostStops, ", found ", stops);
+        check(std::abs(stops) <= kMaxExposureStops, Failure::bad_data, line.where(),
+              ": exposure wants ", -kMaxExposureStops, " to ", kMaxExposureStops, ", found ",
+              stops);
         remarks.exposure = stops;
         return;
     }

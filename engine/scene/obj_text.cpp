@@ -53,7 +53,7 @@ private:
 
 void ObjReader::library_file(const ObjLine& line, const std::string& name) {
     const std::string place = line.where() + ": mtllib";
-    const fs::path real = context_.files.find(name, place);
+    const fs::path real = context_.files.find_file(name, place);
     if (real.empty()) {
         context_.notes.add("material libraries that are not there",
                            place + ": " + quote_printable(name));
@@ -69,8 +69,8 @@ void ObjReader::library(const ObjLine& line) {
     check(!names.empty(), Failure::bad_data, line.where(),
           ": mtllib wants a file name, found none");
     const std::string all(line.rest);
-    const bool is_one = names.size() > 1 && all.size() <= SceneFiles::kLongestName &&
-                        !context_.files.find(all, line.where() + ": mtllib").empty();
+    const bool is_one = names.size() > 1 && all.size() <= SceneFiles::kMaxFileNameLength &&
+                        !context_.files.find_file(all, line.where() + ": mtllib").empty();
     if (is_one) return library_file(line, all);
     for (const std::string_view name : names) library_file(line, std::string(name));
 }
@@ -140,7 +140,7 @@ ObjCorner ObjReader::corner(const ObjLine& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
     ObjCorner corner{parse_obj_index(line, word.substr(0, slash), positions_,
                                      text_.positions.size(), "positions"),
-                     kNone, kNone};
+                     kNoIndex, kNoIndex};
     if (last != slash && last + 1 != word.size())
         corner.normal = parse_obj_index(line, word.substr(last + 1), normals_, text_.normals.size(),
                                         "normals");
@@ -166,9 +166,9 @@ void ObjReader::face(const ObjLine& line) {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto [position, normal, uv] = triangles_[i];
         (text_.statements += i % 3 == 0 ? "f " : " ") += std::to_string(position + 1);
-        if (uv != kNone || normal != kNone) text_.statements += '/';
-        if (uv != kNone) text_.statements += std::to_string(uv + 1);
-        if (normal != kNone) (text_.statements += '/') += std::to_string(normal + 1);
+        if (uv != kNoIndex || normal != kNoIndex) text_.statements += '/';
+        if (uv != kNoIndex) text_.statements += std::to_string(uv + 1);
+        if (normal != kNoIndex) (text_.statements += '/') += std::to_string(normal + 1);
         if (i % 3 == 2) text_.statements += '\n';
     }
     has_faces_ = true;
@@ -225,7 +225,7 @@ void ObjReader::read_use_line(const ObjLine& line) {
 }
 
 ObjText ObjReader::finish() {
-    unread_.tell(file_, context_.notes);
+    unread_.report_unread(file_, context_.notes);
     if (!has_faces_) text_.names.pop_back();
     return std::move(text_);
 }

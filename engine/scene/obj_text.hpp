@@ -60,7 +60,7 @@ class UnreadStatements {
 public:
     void add(const ObjLine& line);
     /// Adds a note for each keyword. Keywords after the first 40 share one note.
-    void tell(const std::string& file, LoaderNotes& notes) const;
+    void report_unread(const std::string& file, LoaderNotes& notes) const;
 
 private:
     struct KeywordCount {
@@ -133,10 +133,10 @@ void add_catoptric_remark(CatoptricRemarks& remarks, const ObjLine& line, Budget
 /// A corner of a face, as indices from 0.
 struct ObjCorner {
     std::uint32_t position;
-    std::uint32_t normal; ///< `kNone` if absent
-    std::uint32_t uv;     ///< `kNone` if absent
+    std::uint32_t normal; ///< `kNoIndex` if absent
+    std::uint32_t uv;     ///< `kNoIndex` if absent
 };
-inline constexpr std::uint32_t kNone = ~0u;
+inline constexpr std::uint32_t kNoIndex = ~0u;
 
 /// An .obj file, rewritten for tinyobjloader.
 struct ObjText {

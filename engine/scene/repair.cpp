@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "scene/core.hpp"
+#include "scene/scene_core.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -14,10 +14,11 @@ namespace catoptric::scene {
 namespace {
 
 /// Range of lengths whose squares are finite, non-zero doubles.
-constexpr double kLongest = 1e150, kShortest = 1e-150;
+constexpr double kMaxEdgeLength = 1e150, kMinEdgeLength = 1e-150;
 
 bool is_coordinate_in_range(const dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kLongest && is_finite(v);
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kMaxEdgeLength &&
+           is_finite(v);
 }
 
 /// Returns a vector along the normal, of any length; zero if the triangle has no area. Edges are
@@ -25,7 +26,7 @@ bool is_coordinate_in_range(const dvec3& v) {
 dvec3 triangle_normal_direction(const dvec3& a, const dvec3& b, const dvec3& c) {
     const auto scaled = [](const dvec3& edge) {
         const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
-        return size >= kShortest ? edge / size : dvec3(0);
+        return size >= kMinEdgeLength ? edge / size : dvec3(0);
     };
     return glm::cross(scaled(b - a), scaled(c - a));
 }

@@ -73,14 +73,12 @@ void add_furniture(Scene& scene) {
                                                  {{.18, 0, -.22}, {.22, .42, -.18}},
                                                  {{-.22, 0, .18}, {-.18, .42, .22}},
                                                  {{.18, 0, .18}, {.22, .42, .22}}});
-    add_mesh_copies(scene, chair, oak,
-                    {place_and_turn({-.45, kStandingGap, .95}),
-                     place_and_turn({.45, kStandingGap, .95}),
-                     place_and_turn({-.45, kStandingGap, -.35}, 180),
-                     place_and_turn({.45, kStandingGap, -.35}, 180),
-                     place_and_turn({1.05, kStandingGap, .3}, 90),
-                     place_and_turn({1.9, kStandingGap, 1.7}, 130)});
-    Mesh cushion = box("cushion", {-.2, .46 + 2 * kStandingGap, -.2}, {.2, .5, .17});
+    add_mesh_copies(
+        scene, chair, oak,
+        {place_and_turn({-.45, kFloorGap, .95}), place_and_turn({.45, kFloorGap, .95}),
+         place_and_turn({-.45, kFloorGap, -.35}, 180), place_and_turn({.45, kFloorGap, -.35}, 180),
+         place_and_turn({1.05, kFloorGap, .3}, 90), place_and_turn({1.9, kFloorGap, 1.7}, 130)});
+    Mesh cushion = box("cushion", {-.2, .46 + 2 * kFloorGap, -.2}, {.2, .5, .17});
     for (vec2& uv : cushion.uv[0]) uv *= 4;
     add_mesh_copies(scene, cushion, linen,
                     {place_and_turn({-.45, 0, .95}), place_and_turn({.45, 0, .95}),
@@ -93,15 +91,14 @@ void add_furniture(Scene& scene) {
         {place_and_turn({-.7, 0, -.1}), place_and_turn({.7, 0, -.1}), place_and_turn({-.7, 0, .7}),
          place_and_turn({.7, 0, .7})});
     add_mesh_copies(scene, lathe("bowl", {{0, 0}, {.1, 0}, {.16, .07}, {.2, .16}}, 32), glaze,
-                    {place_and_turn({.15, .75 + kStandingGap, .3})});
+                    {place_and_turn({.15, .75 + kFloorGap, .3})});
     add_mesh_copies(
         scene,
         lathe("vase", {{0, 0}, {.07, 0}, {.11, .12}, {.08, .26}, {.03, .36}, {.05, .42}}, 32),
         glaze,
-        {place_and_turn({-.45, .75 + kStandingGap, .45}),
-         place_and_turn({2.2, .9 + kStandingGap, -1.2}),
-         place_and_turn({2.2, .9 + kStandingGap, -1.6})});
-    add_mesh(scene, box("sideboard", {1.95, kStandingGap, -2}, {2.45, .9, -.8}), oak);
+        {place_and_turn({-.45, .75 + kFloorGap, .45}), place_and_turn({2.2, .9 + kFloorGap, -1.2}),
+         place_and_turn({2.2, .9 + kFloorGap, -1.6})});
+    add_mesh(scene, box("sideboard", {1.95, kFloorGap, -2}, {2.45, .9, -.8}), oak);
 }
 
 void add_room_lights(Scene& scene) {
@@ -164,10 +161,11 @@ Scene furnished_room() {
 
 namespace {
 
-const RegisteredScene kRoom{{"room",
-                             "furnished room: textures, a wall mirror, a smooth floor, two lamps "
-                             "and a spot",
-                             furnished_room, 3}};
+const RegisteredScene kFurnishedRoomScene{
+    {"room",
+     "furnished room: textures, a wall mirror, a smooth floor, two lamps "
+     "and a spot",
+     furnished_room, 3}};
 
 } // namespace
 

@@ -29,10 +29,10 @@ bool reflects_by_lobe(const Scene& scene, const Object& object) {
     if (material.mirror || material.unlit) return false;
     const bool reflects = material.metallic > 0 || material.dielectric_f0 != vec3(0) ||
                           material.dielectric_f90 != vec3(0);
-    if (!reflects || !(material.roughness > shared::kMostSharpRoughness)) return false;
+    if (!reflects || !(material.roughness > shared::kMaxSharpRoughness)) return false;
     RoughnessRange factor;
     if (material.roughness_texture) factor = find_texture_range(*material.roughness_texture);
-    return factor.high * material.roughness > shared::kMostSharpRoughness &&
+    return factor.high * material.roughness > shared::kMaxSharpRoughness &&
            factor.low * material.roughness <= scene.mirror_max_roughness;
 }
 

@@ -6,7 +6,7 @@
 namespace catoptric::scene {
 
 /// Returns whether some part of the object may reflect by a lobe: rougher than
-/// shared::kMostSharpRoughness,
+/// shared::kMaxSharpRoughness,
 /// and not above Scene::mirror_max_roughness, from which on surfaces are Lambertian. Of a textured
 /// material, the whole range of the texture counts. A Material::mirror is never rough.
 bool reflects_by_lobe(const Scene& scene, const Object& object);

@@ -63,7 +63,7 @@ Scene make_roughness_room() {
         const std::size_t material = metal("metal", i == 2 ? vec3(.95f, .64f, .54f) : vec3(.92f));
         add_ball(scene, std::string("ball ") + kNames[i], material, {x, .29, -.4}, .28, 5);
         add_slanted_slab(scene, std::string("slab ") + kNames[i], metal("slab", vec3(.9f)),
-                         {x, kStandingGap, .9});
+                         {x, kFloorGap, .9});
     }
     scene.objects[scene.objects.size() - 6].motion = HarmonicMotion{.amplitude = {0, 0, .25},
                                                                     .period = 4};
@@ -75,14 +75,12 @@ Scene make_roughness_room() {
                                                    .roughness = 1,
                                                    .roughness_texture = worn});
     add_mesh(scene, box("worn plate", {-.9, .01, -1.5}, {.9, .06, -.9}), plate);
-    add_mesh(scene, box("post", {2.5, kStandingGap, -1.6}, {2.8, 1.4, -1.3}), orange);
-    add_mesh(scene, box("block", {-2.9, kStandingGap, -1.8}, {-2.4, .6, -1.3}), blue);
+    add_mesh(scene, box("post", {2.5, kFloorGap, -1.6}, {2.8, 1.4, -1.3}), orange);
+    add_mesh(scene, box("block", {-2.9, kFloorGap, -1.8}, {-2.4, .6, -1.3}), blue);
     add_quad(scene, "lamp", add_material(scene, {.name = "lamp", .emission = {22, 20, 17}}),
              {-.5, 2.99, -.9}, {.5, 2.99, -.9}, {.5, 2.99, .1}, {-.5, 2.99, .1});
-    scene.cameras.push_back({.name = "row",
-                             .eye = {0, 1.35, -2.9},
-                             .target = {0, .5, .2},
-                             .vertical_fov_degrees = 58});
+    scene.cameras.push_back(
+        {.name = "row", .eye = {0, 1.35, -2.9}, .target = {0, .5, .2}, .vertical_fov_degrees = 58});
     scene.cameras.push_back({.name = "side",
                              .eye = {-2.3, 1, -2.2},
                              .target = {.4, .5, .5},
@@ -92,9 +90,9 @@ Scene make_roughness_room() {
 
 namespace {
 
-const RegisteredScene kRoughness{
-    {"roughness", "room with balls and slabs of metal, of roughness 0.05 to 0.6",
-     make_roughness_room, 6}};
+const RegisteredScene kRoughness{{"roughness",
+                                  "room with balls and slabs of metal, of roughness 0.05 to 0.6",
+                                  make_roughness_room, 6}};
 
 } // namespace
 

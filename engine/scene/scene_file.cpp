@@ -51,8 +51,8 @@ double read_bounded_number(const JsonObject& file, const Json& value, const char
     return number;
 }
 
-/// Calls `read`, which is shared with the command line, and turns its errors into errors of the
-/// file.
+/// Calls `read`, which is shared with the command line, and turns its errors into
+/// errors of the file.
 template <typename Read>
 auto as_bad_data(const JsonObject& file, Read&& read) {
     try {
@@ -75,7 +75,7 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
-const std::array<SceneFileKey, 12> kKeys{
+const std::array<SceneFileKey, 12> kSceneFileKeys{
     {{"mirrors",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : read_texts(file, value, "mirrors"))
@@ -118,22 +118,22 @@ const std::array<SceneFileKey, 12> kKeys{
      {"environment_scale",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment_scale = read_bounded_number(file, value, "environment_scale", 0,
-                                                            kMostScale);
+                                                            kMaxLightScale);
       },
       [](const SceneOverrides& overrides) {
           return overrides_to_json(overrides.environment_scale);
       }},
      {"environment_rotate",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.environment_rotation = read_bounded_number(file, value, "environment_rotate",
-                                                               -kMostTurn, kMostTurn);
+          overrides.environment_rotation = read_bounded_number(
+              file, value, "environment_rotate", -kMaxRotationDegrees, kMaxRotationDegrees);
       },
       [](const SceneOverrides& overrides) {
           return overrides_to_json(overrides.environment_rotation);
       }},
      {"ambient",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.ambient = read_bounded_number(file, value, "ambient", 0, kMostScale);
+          overrides.ambient = read_bounded_number(file, value, "ambient", 0, kMaxLightScale);
       },
       [](const SceneOverrides& overrides) { return overrides_to_json(overrides.ambient); }},
      {"exposure",
@@ -141,8 +141,8 @@ const std::array<SceneFileKey, 12> kKeys{
           if (value == "auto")
               overrides.exposure = ExposureOverride{};
           else
-              overrides.exposure = ExposureOverride{
-                  read_bounded_number(file, value, "exposure", -kMostStops, kMostStops)};
+              overrides.exposure = ExposureOverride{read_bounded_number(
+                  file, value, "exposure", -kMaxExposureStops, kMaxExposureStops)};
       },
       [](const SceneOverrides& overrides) {
           if (!overrides.exposure) return Json();
@@ -175,11 +175,11 @@ SceneOverrides read_overrides(const std::string& file, const std::string& text,
     item.require(document.is_object(), "wanted an object, found ",
                  gltf::describe_json_value(document));
     std::vector<std::string> names;
-    for (const SceneFileKey& key : kKeys) names.emplace_back(key.name);
+    for (const SceneFileKey& key : kSceneFileKeys) names.emplace_back(key.name);
     SceneOverrides overrides;
     for (const auto& [name, value] : document.items()) {
-        const auto key = std::ranges::find(kKeys, name, &SceneFileKey::name);
-        if (key == kKeys.end()) {
+        const auto key = std::ranges::find(kSceneFileKeys, name, &SceneFileKey::name);
+        if (key == kSceneFileKeys.end()) {
             std::string list;
             for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
             item.require(false, quote_printable(name), ": wanted one of ", list,
@@ -206,14 +206,14 @@ std::optional<SceneFile> read_scene_file(const fs::path& scene, const FileOption
     const std::string place = found.path.string();
     BudgetAccount account(options.budget);
     SceneFiles files(scene, options.root, account);
-    if (found.path.filename().string().size() > SceneFiles::kLongestName) return std::nullopt;
-    const fs::path real = files.find(found.path.filename().string(), place);
+    if (found.path.filename().string().size() > SceneFiles::kMaxFileNameLength) return std::nullopt;
+    const fs::path real = files.find_file(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;
-    found.overrides = read_overrides(place, files.read(real, place), account);
+    found.overrides = read_overrides(place, files.read_file_content(real, place), account);
     if (std::optional<std::string>& picture = found.overrides.environment;
         picture && names_a_file(*picture))
         picture = files.find_required(*picture, place + ": environment").string();
-    found.files = files.found();
+    found.files = files.found_files();
     return found;
 }
 
@@ -229,7 +229,7 @@ std::string write_scene_file_text(const SceneOverrides& overrides, const fs::pat
         picture = name.string();
     }
     nlohmann::ordered_json document = nlohmann::ordered_json::object();
-    for (const SceneFileKey& key : kKeys)
+    for (const SceneFileKey& key : kSceneFileKeys)
         if (const Json value = key.written(relative); !value.is_null()) document[key.name] = value;
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -52,11 +52,11 @@ std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const Setti
     known.erase(std::ranges::unique(known).begin(), known.end());
     const std::string nearest = find_nearest_name(pattern, known);
     std::string list;
-    constexpr std::size_t kMostListed = 10;
-    for (std::size_t i = 0; i < std::min(known.size(), kMostListed); ++i)
+    constexpr std::size_t kMaxListedNames = 10;
+    for (std::size_t i = 0; i < std::min(known.size(), kMaxListedNames); ++i)
         list += (i ? ", " : "") + quote_printable(known[i]);
-    if (known.size() > kMostListed)
-        list += " and " + std::to_string(known.size() - kMostListed) + " more";
+    if (known.size() > kMaxListedNames)
+        list += " and " + std::to_string(known.size() - kMaxListedNames) + " more";
     fail(by.failure, by.where, " ", quote_printable(pattern),
          ": matches no object or material of scene ", quote_printable(scene.name),
          "; it has: ", list,
@@ -170,12 +170,13 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
         }
         if (all) {
             const bool is_colour = numbers.size() == 1 || numbers.size() == 3;
-            check(is_colour &&
-                      std::ranges::all_of(numbers, [](double n) { return n >= 0 && n <= 1; }),
-                  Failure::usage, option,
-                  ": wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], REFLECTANCE a number or "
-                  "r,g,b, all from 0 to 1, found ",
-                  quote_printable(text));
+            check(
+                is_colour &&
+                    std::ranges::all_of(numbers, [](double n) { return n >= 0 && n <= 1; }),
+                Failure::usage, option,
+                ": wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], REFLECTANCE a number or "
+                "r,g,b, all from 0 to 1, found ",
+                quote_printable(text));
             wish.pattern = text.substr(0, at);
             for (int i = 0; i < 3; ++i)
                 wish.reflectance[i] = static_cast<float>(
@@ -188,8 +189,8 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
 }
 
 std::string make_mirror_pattern(const std::string& name) {
-    constexpr std::size_t kLongest = 60; // bytes; a longer name is reduced to its beginning
-    std::size_t size = std::min(name.size(), kLongest);
+    constexpr std::size_t kMaxNameBytes = 60; // bytes; a longer name is reduced to its beginning
+    std::size_t size = std::min(name.size(), kMaxNameBytes);
     while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
         --size; // keeps UTF-8 characters whole
     const bool is_plain = escape_control_characters(name) == name;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/said_by.hpp"
 #include "scene/scene.hpp"
+#include "scene/setting_origin.hpp"
 
 #include <memory>
 #include <optional>
@@ -16,8 +16,8 @@ namespace catoptric::scene {
 /// dropped.
 struct MirrorOverride {
     std::string pattern; ///< as `matches_pattern` takes it
-    vec3 reflectance{1};  ///< in [0,1]; of a rough mirror, seen head-on
-    float roughness = 0;  ///< in [0,1]; 0: a perfect mirror at every angle, else a metal's lobe
+    vec3 reflectance{1}; ///< in [0,1]; of a rough mirror, seen head-on
+    float roughness = 0; ///< in [0,1]; 0: a perfect mirror at every angle, else a metal's lobe
     bool operator==(const MirrorOverride&) const = default;
 };
 
@@ -28,9 +28,11 @@ struct ExposureOverride {
 
 enum class UpAxis { y, z };
 
-inline constexpr double kMostStops = 64; ///< limit of exposure in either direction; 2^64 is finite
-inline constexpr double kMostTurn = 36000; ///< limit of an environment's rotation, degrees
-inline constexpr double kMostScale = 1e30; ///< limit of factors that scale light
+inline constexpr double kMaxExposureStops =
+    64; ///< limit of exposure in either direction; 2^64 is finite
+inline constexpr double kMaxRotationDegrees =
+    36000;                                     ///< limit of an environment's rotation, degrees
+inline constexpr double kMaxLightScale = 1e30; ///< limit of factors that scale light
 
 /// Overrides as the user gave them. An empty member was not given.
 struct SceneOverrides {

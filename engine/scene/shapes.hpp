@@ -7,7 +7,7 @@ namespace catoptric::scene {
 
 /// Height of a part of a built-in scene above its support, in metres. If two surfaces lie in one
 /// plane, chance decides which of them a picture shows.
-inline constexpr double kStandingGap = .001;
+inline constexpr double kFloorGap = .001;
 
 /// Returns the wall of the box [lo, hi] in direction `face`, facing in. The directions are +X -X +Y
 /// -Y +Z -Z, as the faces of a cube map.

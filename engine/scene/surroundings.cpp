@@ -44,8 +44,8 @@ std::array<double, 9> spherical_harmonics(const dvec3& d) {
 
 /// For each harmonic, its squared normalisation factor times the share of its band that a cosine
 /// lobe keeps: pi, 2 pi / 3, pi / 4.
-constexpr std::array<double, 9> kFactors{1. / 4,   1. / 2,  1. / 2,   1. / 2,  15. / 16,
-                                         15. / 16, 5. / 64, 15. / 16, 15. / 64};
+constexpr std::array<double, 9> kHarmonicFactors{1. / 4,   1. / 2,  1. / 2,   1. / 2,  15. / 16,
+                                                 15. / 16, 5. / 64, 15. / 16, 15. / 64};
 
 } // namespace
 
@@ -77,7 +77,8 @@ std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environm
             for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += solid_angle * of[i] * light;
         }
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] *= environment.scale * kFactors[i];
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        sums[i] *= environment.scale * kHarmonicFactors[i];
     return sums;
 }
 

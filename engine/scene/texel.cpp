@@ -33,7 +33,7 @@ std::uint32_t wrap_texel_index(Texture::Wrap wrap, double coordinate, std::uint3
 } // namespace
 
 float linear_from_srgb(std::uint32_t byte) {
-    static const std::array<float, 256> kTable = [] {
+    static const std::array<float, 256> kLinearFromSrgbTable = [] {
         std::array<float, 256> table;
         for (std::size_t i = 0; i < table.size(); ++i) { // IEC 61966-2-1
             const double c = static_cast<double>(i) / 255;
@@ -42,7 +42,7 @@ float linear_from_srgb(std::uint32_t byte) {
         }
         return table;
     }();
-    return kTable[byte & 255u];
+    return kLinearFromSrgbTable[byte & 255u];
 }
 
 vec4 read_texel(const Texture& texture, const vec2& uv) {

@@ -18,12 +18,13 @@ public:
         for (const dvec3& p : positions)
             scale_ = std::max({scale_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         if (scale_ == 0) scale_ = 1;
-        next_.resize(positions.size(), kNone);
+        next_.resize(positions.size(), kNoVertex);
     }
     /// Returns the first vertex at the same place, or `vertex` if there was none before.
     std::size_t first_at(std::size_t vertex) {
         const dvec3 p = positions_[vertex] / scale_;
-        const glm::i64vec3 low = cube_of(p - kNear), high = cube_of(p + kNear);
+        const glm::i64vec3 low = cube_of(p - kSamePlaceDistance),
+                           high = cube_of(p + kSamePlaceDistance);
         std::size_t first = vertex;
         for (std::int64_t x = low.x; x <= high.x; ++x)
             for (std::int64_t y = low.y; y <= high.y; ++y)
@@ -37,10 +38,12 @@ public:
     }
 
 private:
-    static constexpr double kNear = 0x1p-21, kCube = 8 * kNear;
-    static constexpr std::size_t kNone = ~std::size_t(0);
+    static constexpr double kSamePlaceDistance = 0x1p-21, kGridCellEdge = 8 * kSamePlaceDistance;
+    static constexpr std::size_t kNoVertex = ~std::size_t(0);
 
-    static glm::i64vec3 cube_of(const dvec3& p) { return glm::i64vec3(glm::floor(p / kCube)); }
+    static glm::i64vec3 cube_of(const dvec3& p) {
+        return glm::i64vec3(glm::floor(p / kGridCellEdge));
+    }
     static std::uint64_t key_of(const glm::i64vec3& cube) {
         std::uint64_t key = 0;
         for (int i = 0; i < 3; ++i)
@@ -51,10 +54,10 @@ private:
     std::size_t first_in(const glm::i64vec3& cube, const dvec3& p, std::size_t vertex) const {
         const auto newest = newest_.find(key_of(cube));
         std::size_t first = vertex;
-        for (std::size_t i = newest == newest_.end() ? kNone : newest->second; i != kNone;
+        for (std::size_t i = newest == newest_.end() ? kNoVertex : newest->second; i != kNoVertex;
              i = next_[i]) {
             const dvec3 way = glm::abs(positions_[i] / scale_ - p);
-            if (std::max({way.x, way.y, way.z}) <= kNear) first = std::min(first, i);
+            if (std::max({way.x, way.y, way.z}) <= kSamePlaceDistance) first = std::min(first, i);
         }
         return first;
     }

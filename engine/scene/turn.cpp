@@ -12,7 +12,7 @@ namespace catoptric::scene {
 namespace {
 
 /// Rotation from z up to y up. Its columns are the images of the x, y and z axes.
-const dmat3 kTurn{dvec3(1, 0, 0), dvec3(0, 0, -1), dvec3(0, 1, 0)};
+const dmat3 kYUpFromZUp{dvec3(1, 0, 0), dvec3(0, 0, -1), dvec3(0, 1, 0)};
 
 dvec3 turn_vector(const dvec3& v) { return {v.x, v.z, -v.y}; }
 
@@ -26,7 +26,9 @@ class MotionTurner {
 public:
     void operator()(std::monostate&) {}
     void operator()(HarmonicMotion& motion) { motion.amplitude = turn_vector(motion.amplitude); }
-    void operator()(Keyframes& motion) { motion.world_from_keys = kTurn * motion.world_from_keys; }
+    void operator()(Keyframes& motion) {
+        motion.world_from_keys = kYUpFromZUp * motion.world_from_keys;
+    }
     void operator()(RigAttachment& motion) {
         if (!motion.rig) return;
         std::shared_ptr<const NodeRig>& known = rigs_[motion.rig];
@@ -60,7 +62,7 @@ void turn_z_up_to_y_up(Scene& scene) {
         camera.up = turn_vector(camera.up);
         turner(camera.follows);
         // The camera's place at rest has turned, so the node must first undo this turn.
-        camera.follows.node_from_object *= dmat4(glm::transpose(kTurn));
+        camera.follows.node_from_object *= dmat4(glm::transpose(kYUpFromZUp));
     }
     for (PunctualLight& light : scene.punctual) {
         turn_transform(light.world_from_light);

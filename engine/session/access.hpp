@@ -55,8 +55,8 @@ struct EngineHooks {
 struct FrameHooks {
     /// Causes of error to remove from mirrors: a sum of shared::kAblate... (shaders/shared.h).
     std::uint32_t ablated = 0;
-    bool with_captures = false; ///< make captures readable (Access::captures)
-    bool counts_work = false;   ///< count the work (Access::work), which makes the frame slower
+    bool with_captures = false; ///< make captures readable (Access::read_captures)
+    bool counts_work = false; ///< count the work (Access::pass_work), which makes the frame slower
 };
 
 /// Pipelines that an engine has compiled so far. A software driver compiles more of a pipeline in
@@ -111,51 +111,52 @@ struct Access {
     using SessionImpl = Session::Impl;
 
     static Engine make_engine(const EngineOptions& options, const EngineHooks& hooks);
-    static CompiledPipelines compiled(const Engine& engine);
+    static CompiledPipelines compiled_pipelines(const Engine& engine);
     static PipelineCacheState cache_use(const Engine& engine);
     static EngineImpl& impl(const Engine& engine) { return *engine.impl_; }
 
     /// Returns whether a technique's picture depends on the frame before.
-    static bool remembers(const Frame& frame, std::size_t part = 0);
+    static bool depends_on_last_frame(const Frame& frame, std::size_t part = 0);
     /// Returns what was rendered, and what was left out.
-    static const require::Model& model(const Frame& frame);
+    static const require::Model& rendered_model(const Frame& frame);
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
     /// `internal` without `with_captures`.
-    static render::CapturedCubes captures(const Frame& frame, std::size_t part = 0);
+    static render::CapturedCubes read_captures(const Frame& frame, std::size_t part = 0);
     /// Returns the work of the frame's passes, in order of execution. Empty without `counts_work`.
-    static std::vector<PassWork> work(const Frame& frame);
+    static std::vector<PassWork> pass_work(const Frame& frame);
     /// Returns the linear pictures and all data that the next frame can read of this one, as bytes.
     /// If two successive frames of a still scene have equal states, the picture changes no more.
     /// Empty if nothing is remembered.
-    static std::vector<std::byte> state(const Frame& frame);
+    static std::vector<std::byte> next_frame_state(const Frame& frame);
 
-    /// Submits a frame as Session::frame does. `finish` adds passes that belong to no technique
-    /// before the frame is submitted.
-    static Frame frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks);
-    static Frame submit(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
-                        const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish);
+    /// Submits a frame as Session::frame does. `finish` adds passes that belong to no
+    /// technique before the frame is submitted.
+    static Frame render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks);
+    static Frame submit_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
+                              const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish);
     /// Submits a frame and shows it in a window. The screen must belong to the session's engine,
-    /// and WindowScreen::fit must have returned true. If the window has no image for the frame, the
-    /// frame is still rendered.
-    static Frame show(Session& session, const FrameSpec& spec, WindowScreen& screen,
-                      const WindowPictures& showing);
-    /// Makes a cut and returns the history of the frame sequence, which `resume` can continue.
-    /// Waits for frames in flight.
-    static FrameSequence suspend(Session& session);
+    /// and WindowScreen::fit_to_window must have returned true. If the window has no image for the
+    /// frame, the frame is still rendered.
+    static Frame show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
+                                const WindowPictures& showing);
+    /// Makes a cut and returns the history of the frame sequence, which `resume_sequence` can
+    /// continue. Waits for frames in flight.
+    static FrameSequence suspend_sequence(Session& session);
     /// Continues a suspended sequence: the next frame follows its last one. Discards the present
     /// history. If the scene's units changed in between (see Session::change), the next frame
     /// begins without history.
-    static void resume(Session& session, FrameSequence sequence);
+    static void resume_sequence(Session& session, FrameSequence sequence);
     /// Returns the plan, written out, of a frame that follows another frame. With
     /// RenderedWork::required, the scene is still and its captures no longer change.
-    static std::string plan(Session& session, const FrameSpec& spec, PlanFormat format);
+    static std::string format_frame_plan(Session& session, const FrameSpec& spec,
+                                         PlanFormat format);
     /// Renders a frame that clears the cubes of every mirror, 256 texels an edge, and draws
     /// nothing. The time of this frame is the least that any capture costs. The history of the
     /// session stays.
     static FrameTimes clear_cubes(Session& session);
-    static SessionCounters counts(const Session& session);
+    static SessionCounters session_counters(const Session& session);
     /// Returns the setup times of the scene as it is resident now.
-    static SetupTimes setup(const Session& session);
+    static SetupTimes setup_times(const Session& session);
 };
 
 /// Returns "everything" or "required".

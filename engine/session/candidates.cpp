@@ -34,10 +34,10 @@ std::string quote_for_shell(const std::string& text) {
 }
 
 std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::size_t most) {
-    constexpr std::size_t kMostObjects = 20'000; // objects that are examined
+    constexpr std::size_t kMaxExaminedObjects = 20'000; // objects that are examined
     std::vector<MirrorCandidate> candidates;
     std::map<std::pair<std::size_t, std::size_t>, float> smoothest; // by mesh and material
-    for (std::size_t i = 0; i < std::min(scene.objects.size(), kMostObjects); ++i) {
+    for (std::size_t i = 0; i < std::min(scene.objects.size(), kMaxExaminedObjects); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Material& material = scene.materials[object.material];
         const std::string& name = object.name.empty() ? material.name : object.name;

@@ -9,13 +9,14 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::size_t kFrames = 9; // odd, for the median; few, because motion changes the cost
+constexpr std::size_t kMedianFrames =
+    9; // odd, for the median; few, because motion changes the cost
 
 } // namespace
 
 void CaptureCost::add(double ms, std::uint32_t mirrors) {
     if (mirrors == 0) return;
-    if (each_ms_.size() == kFrames) each_ms_.erase(each_ms_.begin());
+    if (each_ms_.size() == kMedianFrames) each_ms_.erase(each_ms_.begin());
     each_ms_.push_back(ms / mirrors);
 }
 

@@ -16,7 +16,7 @@ namespace {
 struct PixelRectangle {
     ivec2 low{0}, high{0};
 
-    std::uint64_t count() const {
+    std::uint64_t pixel_count() const {
         const ivec2 side = max(high - low, ivec2(0));
         return std::uint64_t(side.x) * std::uint64_t(side.y);
     }
@@ -75,7 +75,7 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::Geomet
                 corners[j] = geometry.vertices[geometry.indices[k + j]].position;
             const auto& [a, b, c] = corners;
             const PixelRectangle box = compute_screen_bounds(view, size, corners);
-            tests += box.count();
+            tests += box.pixel_count();
             if (tests > most_tests) return std::nullopt;
             for (int y = box.low.y; y < box.high.y; ++y)
                 for (int x = box.low.x; x < box.high.x; ++x) {
@@ -83,7 +83,7 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::Geomet
                     Pixel& pixel = pixels[i];
                     float t = 0;
                     vec3 weights;
-                    if (range.one_sided && f32::is_from_behind(a, b, c, pixel.ray.direction))
+                    if (range.one_sided && f32::hits_back_face(a, b, c, pixel.ray.direction))
                         continue;
                     if (!f32::triangle_test(a, b, c, pixel.ray.origin, pixel.shear, t, weights) ||
                         !(t < pixel.t)) // between equal distances the first triangle wins

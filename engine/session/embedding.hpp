@@ -12,13 +12,13 @@ namespace catoptric::app {
 /// Access to the device of an engine and to the graph of a frame. embed/ adds passes to frames.
 /// Tuning chooses other shaders from the next frame on; Engine::device does not report this choice.
 struct EmbeddingAccess {
-    static void choose(Engine& engine, const gpu::VariantChoices& choices) {
-        Access::impl(engine).device.choose(choices);
+    static void choose_variants(Engine& engine, const gpu::VariantChoices& choices) {
+        Access::impl(engine).device.set_variant_choices(choices);
     }
     static gpu::Device& device(const Engine& engine) { return Access::impl(engine).device; }
     static Frame submit(Session& session, const FrameSpec& spec,
                         const std::function<void(FrameGraph&)>& finish) {
-        return Access::submit(session, spec, {}, [&](FrameGraph& frame) {
+        return Access::submit_frame(session, spec, {}, [&](FrameGraph& frame) {
             finish(frame);
             return graph::ExternalSemaphores{};
         });

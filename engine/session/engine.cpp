@@ -57,7 +57,7 @@ Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
     : device(to_device_options(options, hooks)),
       pipelines(device, hooks.shader_variants, options.cache),
       info(to_public_device_info(device.info())) {
-    device.choose(choose_shader_variants(options, info));
+    device.set_variant_choices(choose_shader_variants(options, info));
 }
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -73,9 +73,9 @@ void Engine::check_validation() const { impl_->device.check_validation(); }
 Engine Access::make_engine(const EngineOptions& options, const EngineHooks& hooks) {
     return Engine(options, hooks);
 }
-CompiledPipelines Access::compiled(const Engine& engine) {
+CompiledPipelines Access::compiled_pipelines(const Engine& engine) {
     const gpu::Pipelines& pipelines = engine.impl_->pipelines;
-    return {pipelines.made(), pipelines.ms()};
+    return {pipelines.made_pipeline_count(), pipelines.compile_ms()};
 }
 PipelineCacheState Access::cache_use(const Engine& engine) {
     const gpu::PipelineCache& cache = engine.impl_->pipelines.cache();

@@ -11,17 +11,20 @@
 namespace catoptric::app {
 
 double choose_exposure_for_picture(const measure::Picture& picture) {
-    constexpr double kPercentile = .95, kWanted = .8, kSteps = 3; // kSteps: per stop
+    constexpr double kExposurePercentile = .95, kTargetValue = .8,
+                     kStepsPerStop = 3; // kStepsPerStop: per stop
     std::vector<double> luminances;
     for (const vec3& pixel : picture.pixels) {
         const double its = compute_luminance(dvec3(pixel));
         if (std::isfinite(its)) luminances.push_back(its);
     }
     if (luminances.empty()) return 0;
-    const double bright = measure::compute_percentile(std::move(luminances), kPercentile);
+    const double bright = measure::compute_percentile(std::move(luminances), kExposurePercentile);
     if (!(bright > 0)) return 0;
-    const double stops = std::round(kSteps * std::log2(kWanted / bright)) / kSteps;
-    return std::clamp(stops, -scene::kMostStops, scene::kMostStops) + 0.0; // turns -0 into 0
+    const double stops = std::round(kStepsPerStop * std::log2(kTargetValue / bright)) /
+                         kStepsPerStop;
+    return std::clamp(stops, -scene::kMaxExposureStops, scene::kMaxExposureStops) +
+           0.0; // turns -0 into 0
 }
 
 double measure_auto_exposure(Session& session, const Request& request) {

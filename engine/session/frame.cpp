@@ -21,7 +21,7 @@ FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times) {
 
 const FrameTimes& Frame::times() const {
     if (!impl_->times) {
-        impl_->times = to_public_frame_times(impl_->runner().wait(impl_->ticket));
+        impl_->times = to_public_frame_times(impl_->runner().wait_for_frame(impl_->ticket));
         impl_->times->host.update = impl_->update_ms;
         impl_->times->host.hierarchy = impl_->hierarchy_ms;
         impl_->times->host.compile += impl_->declare_ms;
@@ -32,7 +32,7 @@ const FrameTimes& Frame::times() const {
 
 std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
-bool Access::remembers(const Frame& frame, std::size_t part) {
+bool Access::depends_on_last_frame(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
     return app::depends_on_previous_frame(self.frame, self.plan(), self.part(part));
 }
@@ -48,7 +48,7 @@ std::uint32_t Frame::waiting() const {
     return waiting;
 }
 
-const require::Model& Access::model(const Frame& frame) { return *frame.impl_->model; }
+const require::Model& Access::rendered_model(const Frame& frame) { return *frame.impl_->model; }
 
 measure::Picture Frame::hdr(std::size_t part) const {
     return read_hdr_picture(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
@@ -71,7 +71,7 @@ std::vector<TechniqueResult> Frame::read_all() const {
     return parts;
 }
 
-render::CapturedCubes Access::captures(const Frame& frame, std::size_t part) {
+render::CapturedCubes Access::read_captures(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
     const std::shared_ptr<const render::Captures>& captures = self.part(part).outputs.captures;
     check(
@@ -82,21 +82,21 @@ render::CapturedCubes Access::captures(const Frame& frame, std::size_t part) {
     self.check_last();
     graph::GraphRunner& runner = self.runner();
     const render::CubeArray& cubes = captures->arrays.front();
-    return {cubes.face, runner.read(self.ticket, cubes.colour),
-            runner.read(self.ticket, *cubes.distance), self.session->resident->space()};
+    return {cubes.face, runner.read_resource(self.ticket, cubes.colour),
+            runner.read_resource(self.ticket, *cubes.distance), self.session->resident->space()};
 }
 
-std::vector<PassWork> Access::work(const Frame& frame) {
-    return frame.impl_->runner().work(frame.impl_->ticket);
+std::vector<PassWork> Access::pass_work(const Frame& frame) {
+    return frame.impl_->runner().counted_work(frame.impl_->ticket);
 }
 
-std::vector<std::byte> Access::state(const Frame& frame) {
+std::vector<std::byte> Access::next_frame_state(const Frame& frame) {
     const Frame::Impl& self = *frame.impl_;
     self.check_last();
     graph::GraphRunner& runner = self.runner();
     std::vector<std::byte> bytes = runner.read_history();
     const auto add = [&](graph::ImageHandle image) {
-        const std::vector<std::byte> texels = runner.read(self.ticket, image);
+        const std::vector<std::byte> texels = runner.read_resource(self.ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };
     for (const TechniquePasses& part : self.frame.parts) {

@@ -57,8 +57,8 @@ std::vector<std::uint32_t> decode_mirror_hits(const std::vector<std::byte>& texe
     std::vector<std::uint32_t> hits;
     hits.reserve(texels.size() / sizeof(vec4));
     for (const vec4& texel : read_typed_values<vec4>(texels)) {
-        const std::uint32_t met = bvh::float_to_bits(texel.w) & ~f32::kBvhTag;
-        hits.push_back((met & shared::kMostMirrors) | met >> shared::kMetBits << 16);
+        const std::uint32_t met = bvh::float_to_bits(texel.w) & ~f32::kBvhNormalFloatBit;
+        hits.push_back((met & shared::kMaxMirrors) | met >> shared::kHitMirrorBits << 16);
     }
     return hits;
 }
@@ -182,7 +182,7 @@ bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& 
 
 measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
                                   const TechniquePasses& declared, uvec2 size) {
-    return to_picture(runner.read(ticket, declared.outputs.hdr), size, Format::rgba32f);
+    return to_picture(runner.read_resource(ticket, declared.outputs.hdr), size, Format::rgba32f);
 }
 
 /// Returns how each mirror was drawn, and which rule decided so.
@@ -208,7 +208,7 @@ std::vector<PlanEntry> list_plan_entries(const TechniquePasses& declared,
 /// same share a sentence, which names the first of them.
 std::vector<std::string> describe_unmet_requests(const TechniquePasses& declared,
                                                  const std::vector<std::string>& mirrors) {
-    constexpr std::size_t kMostNamed = 3;
+    constexpr std::size_t kMaxNamedMirrors = 3;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         const std::string& lack = declared.assignment.lacks[i];
@@ -220,11 +220,11 @@ std::vector<std::string> describe_unmet_requests(const TechniquePasses& declared
     std::vector<std::string> said;
     for (const auto& [lack, lacking] : groups) {
         std::string names;
-        for (std::size_t k = 0; k < std::min(kMostNamed, lacking.size()); ++k)
+        for (std::size_t k = 0; k < std::min(kMaxNamedMirrors, lacking.size()); ++k)
             names += (k ? ", " : "") + std::to_string(lacking[k] + 1) + " " +
                      quote_printable(mirrors[lacking[k]]);
-        if (lacking.size() > kMostNamed)
-            names += " and " + std::to_string(lacking.size() - kMostNamed) + " more";
+        if (lacking.size() > kMaxNamedMirrors)
+            names += " and " + std::to_string(lacking.size() - kMaxNamedMirrors) + " more";
         said.push_back((lacking.size() > 1 ? "mirrors " : "mirror ") + names + ": " + lack);
     }
     return said;
@@ -248,20 +248,21 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTi
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
         if (choice.shared.chooses_face)
-            part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
+            part.auto_face = AutoFace{scene.common_face_edge(), scene.face_needs()};
     for (const graph::BufferHandle counters : outputs.counters)
-        add_ray_counters(runner.read(ticket, counters), part);
-    const std::vector<std::byte> texels = runner.read(ticket, outputs.hdr);
+        add_ray_counters(runner.read_resource(ticket, counters), part);
+    const std::vector<std::byte> texels = runner.read_resource(ticket, outputs.hdr);
     part.hdr = to_picture(texels, spec.size, Format::rgba32f);
     if (outputs.has_hits) part.hits = decode_mirror_hits(texels);
-    part.display = to_picture(runner.read(ticket, declared.display), spec.size,
+    part.display = to_picture(runner.read_resource(ticket, declared.display), spec.size,
                               Format::rgba8_unorm);
     if (spec.with_lookup && outputs.captures)
         for (const render::CubeArray& cubes : outputs.captures->arrays)
             if (frame.graph.images()[cubes.colour.id].format == Format::rgba16f)
                 part.saturated = part.saturated.value_or(0) +
-                                 count_saturated_texels(runner.read(ticket, cubes.colour));
-    if (outputs.lookup) part.lookup = read_typed_values<vec4>(runner.read(ticket, *outputs.lookup));
+                                 count_saturated_texels(runner.read_resource(ticket, cubes.colour));
+    if (outputs.lookup)
+        part.lookup = read_typed_values<vec4>(runner.read_resource(ticket, *outputs.lookup));
     return part;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graph/graph_runner.hpp"
 #include "graph/plan.hpp"
-#include "graph/run.hpp"
 #include "reflect/frame.hpp"
 #include "session/access.hpp"
 #include "session/session.hpp"

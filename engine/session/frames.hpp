@@ -11,27 +11,27 @@ namespace catoptric::app {
 
 /// Number of the last frames of a run that keep the times of their passes. Older frames keep only
 /// their totals, so that a long run takes little memory.
-constexpr std::size_t kDetailedFrames = 1000;
+constexpr std::size_t kMaxDetailedFrames = 1000;
 
 /// The frames of a request, one after the other, from cold history:
-/// `for (Frames frames(session, request); frames.next();) ...`
-class Frames {
+/// `for (FrameLoop frames(session, request); frames.render_next();) ...`
+class FrameLoop {
 public:
     /// Begins with a cut. Throws `usage` for less than one frame or a negative warm-up. The session
     /// shows the request's scene; session and request must outlive this object.
-    Frames(Session& session, const Request& request, const FrameHooks& hooks = {});
+    FrameLoop(Session& session, const Request& request, const FrameHooks& hooks = {});
 
     /// Renders the next frame. Returns false after the last.
-    bool next();
-    /// Frees the session for other frames until the next call of `next`. That call continues the
-    /// sequence as if no other frames had been rendered. Results of the last frame that were not
-    /// read by then are lost.
-    void suspend() { aside_.emplace(Access::suspend(session_)); }
-    int number() const { return number_; } ///< number of the last frame, from 1
+    bool render_next();
+    /// Frees the session for other frames until the next call of `render_next`. That call continues
+    /// the sequence as if no other frames had been rendered. Results of the last frame that were
+    /// not read by then are lost.
+    void suspend() { aside_.emplace(Access::suspend_sequence(session_)); }
+    int rendered_frame_count() const { return number_; } ///< number of the last frame, from 1
     /// Returns the number of frames in all, if the picture does not settle earlier.
-    int most_frames() const;
+    int max_frame_count() const;
     const Frame& frame() const { return *frame_; }
-    bool settled() const { return settled_; }
+    bool has_settled() const { return settled_; }
     /// Returns the times of the measured frames so far.
     const std::vector<FrameTimes>& times() const { return times_; }
     /// Returns the results up to the frame rendered last.
@@ -46,7 +46,8 @@ private:
     std::optional<Frame> frame_;
     std::optional<FrameSequence> aside_;
     std::vector<FrameTimes> times_;
-    std::vector<std::byte> state_; ///< Access::state of the frame before, with `until_settled`
+    std::vector<std::byte>
+        state_; ///< Access::next_frame_state of the frame before, with `until_settled`
 };
 
 } // namespace catoptric::app

@@ -2,7 +2,7 @@
 #include "session/lanes.hpp"
 
 #include "gpu/instance.hpp"
-#include "graph/run.hpp"
+#include "graph/graph_runner.hpp"
 #include "session/embedding.hpp"
 #include "session/engine_impl.hpp"
 
@@ -12,24 +12,24 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kLaneBits = 32;
+constexpr int kBitsPerLane = 32;
 
 int measure_shader_lanes(gpu::Device& device) {
     gpu::Pipelines pipelines(device); // separate, so that the engine's counts do not change
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const graph::BufferHandle lanes = graph.buffer({"lanes", 16});
-    graph.pass("lanes")
+    const graph::BufferHandle lanes = graph.add_buffer({"lanes", 16});
+    graph.add_pass("lanes")
         .writes(lanes, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.use(gpu::ComputeState{"lanes.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"lanes.comp", {}});
             commands.bind("Lanes", lanes);
             commands.dispatch(1, 1);
         });
     graph.mark_output(lanes);
-    runner.run(graph, graph::PassTiming::isolated);
+    runner.run_and_wait(graph, graph::PassTiming::isolated);
     std::uint32_t count = 0;
-    std::memcpy(&count, runner.read(lanes).data(), sizeof count);
+    std::memcpy(&count, runner.read_resource(lanes).data(), sizeof count);
     return static_cast<int>(count);
 }
 
@@ -42,7 +42,7 @@ int count_shader_lanes(const Engine& engine) {
 std::string warn_of_vector_width(const Engine& engine) {
     const std::optional<long> asked = gpu::requested_vector_bits();
     if (!asked || engine.device().type != "cpu") return "";
-    const int bits = kLaneBits * count_shader_lanes(engine);
+    const int bits = kBitsPerLane * count_shader_lanes(engine);
     if (*asked == bits) return "";
     return "LP_NATIVE_VECTOR_WIDTH asks for vectors of " + std::to_string(*asked) +
            " bits, the driver runs code of " + std::to_string(bits) +

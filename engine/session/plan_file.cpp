@@ -14,14 +14,14 @@ namespace {
 
 using PlanJson = nlohmann::json;
 
-constexpr std::string_view kPrefix = "plan:";
-constexpr std::uintmax_t kMostPlanBytes = 16U << 20U;
+constexpr std::string_view kPlanFilePrefix = "plan:";
+constexpr std::uintmax_t kMaxPlanFileBytes = 16U << 20U;
 
 std::string format_json_value(const PlanJson& value) {
-    constexpr std::size_t kLongest = 60;
+    constexpr std::size_t kMaxQuotedBytes = 60;
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
     const std::string text = value.dump(-1, ' ', true, PlanJson::error_handler_t::replace);
-    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+    return text.size() <= kMaxQuotedBytes ? text : text.substr(0, kMaxQuotedBytes) + "...";
 }
 
 const PlanJson& find_plan_rules(const PlanJson& document, const std::string& file) {
@@ -61,24 +61,24 @@ reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place)
     for (const auto& [knob, value] : settings.items()) {
         check(value.is_string() || value.is_number(), Failure::bad_data, place, ".settings.", knob,
               ": wanted a number or text, found ", format_json_value(value));
-        choice.settings.set(choice.technique->name, knob,
-                            value.is_string() ? value.get<std::string>() : value.dump());
+        choice.settings.set_knob(choice.technique->name, knob,
+                                 value.is_string() ? value.get<std::string>() : value.dump());
     }
-    choice.settle();
+    choice.update_from_settings();
     return {std::move(pattern), std::move(choice)};
 }
 
 } // namespace
 
 reflect::TechniquePlan read_plan(const std::string& text) {
-    if (!text.starts_with(kPrefix)) return reflect::parse_plan(text);
-    const std::string file = text.substr(kPrefix.size());
+    if (!text.starts_with(kPlanFilePrefix)) return reflect::parse_plan(text);
+    const std::string file = text.substr(kPlanFilePrefix.size());
     std::error_code error;
     check(!std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error),
           Failure::bad_data, file, ": wanted a file with a plan, found something else");
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    check(error || bytes <= kMostPlanBytes, Failure::bad_data, file, ": wanted a plan of at most ",
-          kMostPlanBytes, " bytes, found ", bytes);
+    check(error || bytes <= kMaxPlanFileBytes, Failure::bad_data, file,
+          ": wanted a plan of at most ", kMaxPlanFileBytes, " bytes, found ", bytes);
     const PlanJson document = parse_json<PlanJson>(file, read_file(file));
     reflect::TechniquePlan plan{text, {}};
     const PlanJson& rules = find_plan_rules(document, file);

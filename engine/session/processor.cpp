@@ -16,10 +16,10 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr double kMostWaiting = .05; ///< share of the time that threads ran or were ready
-constexpr double kMostOthers = .25;  ///< number of processors
-constexpr double kLoadMemory = 60;   ///< seconds after which a load counts 1/e
-constexpr double kNanosecond = 1e-9;
+constexpr double kMaxWaitingShare = .05; ///< share of the time that threads ran or were ready
+constexpr double kMaxBusyOtherProcessors = .25; ///< number of processors
+constexpr double kLoadAverageSeconds = 60;      ///< seconds after which a load counts 1/e
+constexpr double kSecondsPerNanosecond = 1e-9;
 
 /// Returns the seconds that all processors worked, for any process.
 double read_busy_seconds() {
@@ -61,7 +61,8 @@ double read_process_seconds() {
     timespec used{};
     if (::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used) != 0)
         return std::numeric_limits<double>::quiet_NaN();
-    return static_cast<double>(used.tv_sec) + kNanosecond * static_cast<double>(used.tv_nsec);
+    return static_cast<double>(used.tv_sec) +
+           kSecondsPerNanosecond * static_cast<double>(used.tv_nsec);
 }
 
 double read_machine_load() {
@@ -77,7 +78,7 @@ std::optional<ProcessorUse> read_processor_use() {
         std::ifstream file(task.path() / "schedstat");
         ThreadTime time;
         if (!(file >> time.ran >> time.waited)) continue; // the thread has ended
-        time.ran *= kNanosecond, time.waited *= kNanosecond;
+        time.ran *= kSecondsPerNanosecond, time.waited *= kSecondsPerNanosecond;
         use.threads.emplace(std::stoi(task.path().filename().string()), time);
     }
     if (error || use.threads.empty()) return {};
@@ -109,13 +110,13 @@ double compute_waited_share(const WaitingTimes& waiting) {
     return others > 0 ? share * others / (waiting.ran + others) : 0;
 }
 
-bool is_timing_noisy(double waited_share) { return waited_share > kMostWaiting; }
+bool is_timing_noisy(double waited_share) { return waited_share > kMaxWaitingShare; }
 
 bool is_timing_noisy(double load, double used_seconds, double elapsed_seconds) {
     if (std::isnan(load) || !(elapsed_seconds > 0)) return false;
     const double own = used_seconds / elapsed_seconds *
-                       (1 - std::exp(-elapsed_seconds / kLoadMemory));
-    return load - own > kMostOthers;
+                       (1 - std::exp(-elapsed_seconds / kLoadAverageSeconds));
+    return load - own > kMaxBusyOtherProcessors;
 }
 
 PinnedThreads::PinnedThreads() : threads_(find_threads_by_prefix("llvmpipe-")) {

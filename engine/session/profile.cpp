@@ -16,8 +16,8 @@ using report::Json;
 
 namespace {
 
-constexpr const char* kSchema = "catoptric/device-profile/1";
-constexpr std::uintmax_t kMostProfileBytes = 1U << 20U;
+constexpr const char* kProfileSchema = "catoptric/device-profile/1";
+constexpr std::uintmax_t kMaxProfileBytes = 1U << 20U;
 
 /// Returns the value as text for messages, without JSON's quotes.
 std::string format_for_message(const Json& value) {
@@ -28,7 +28,7 @@ std::string format_for_message(const Json& value) {
 /// Returns the index of the variant, or throws `failure` with `place` in front.
 std::size_t find_variant_index(std::string_view name, Failure failure, const std::string& place) {
     std::string known;
-    for (std::size_t i = 0; i < gpu::kVariants; ++i) {
+    for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
         const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         if (variant.name == name) return i;
         known += (known.empty() ? "" : ", ") + std::string(variant.name);
@@ -55,8 +55,8 @@ std::string read_small_file(const fs::path& file) {
     check(!fs::exists(file, error) || fs::is_regular_file(file, error), Failure::bad_data,
           file.string(), ": wanted a file with a device profile, found something else");
     const std::uintmax_t bytes = fs::file_size(file, error);
-    check(error || bytes <= kMostProfileBytes, Failure::bad_data, file.string(),
-          ": wanted a device profile of at most ", kMostProfileBytes, " bytes, found ", bytes);
+    check(error || bytes <= kMaxProfileBytes, Failure::bad_data, file.string(),
+          ": wanted a device profile of at most ", kMaxProfileBytes, " bytes, found ", bytes);
     return read_file(file);
 }
 
@@ -102,7 +102,7 @@ std::string make_profile_file_name(const DeviceInfo& device) {
 
 std::string make_profile_text(const DeviceInfo& device,
                               const std::vector<measure::TriedVariant>& tried) {
-    Json document{{"schema", kSchema}, {"version", version()}, {"commit", commit()}};
+    Json document{{"schema", kProfileSchema}, {"version", version()}, {"commit", commit()}};
     document["device"] = make_device_json(device);
     document["variants"] = Json::object();
     document["measured"] = Json::array();
@@ -126,8 +126,8 @@ gpu::VariantChoices read_profile(const std::string& text, const std::string& fil
     const auto member = [](const Json& object, const char* name) {
         return object.is_object() ? object.value(name, Json()) : Json();
     };
-    check(member(document, "schema") == kSchema, Failure::bad_data, file,
-          ": wanted a device profile, schema '", kSchema, "', found ",
+    check(member(document, "schema") == kProfileSchema, Failure::bad_data, file,
+          ": wanted a device profile, schema '", kProfileSchema, "', found ",
           format_for_message(member(document, "schema")));
     const Json found = member(document, "device"), wanted = make_device_json(device);
     for (const auto& [name, value] : wanted.items())

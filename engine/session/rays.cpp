@@ -16,11 +16,11 @@ bvh::Bvh build_bvh_without_object(const render::Geometry& geometry, std::size_t 
             };
             triangles.push_back({corner(0), corner(1), corner(2),
                                  static_cast<std::uint32_t>(object),
-                                 (range.seen_by_camera ? 0 : bvh::kHidden) |
+                                 (range.seen_by_camera ? 0 : bvh::kHiddenFromCamera) |
                                      (range.one_sided ? bvh::kOneSided : 0)});
         }
     }
-    return bvh::build_bvh(triangles, geometry.core, bvh::CopyHandling::of_all);
+    return bvh::build_bvh(triangles, geometry.core, bvh::DuplicateScope::across_objects);
 }
 
 f32::Ray make_camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {

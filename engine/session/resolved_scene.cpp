@@ -23,21 +23,21 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::size_t kMostLights = 16;
-constexpr std::size_t kMostTexels = std::size_t{1} << 25; // 8192 x 4096
-constexpr std::size_t kManyMirrors = 64;                  // scenes with more mirrors get a message
+constexpr std::size_t kMaxLights = 16;
+constexpr std::size_t kMaxEnvironmentTexels = std::size_t{1} << 25; // 8192 x 4096
+constexpr std::size_t kManyMirrorsLimit = 64; // scenes with more mirrors get a message
 
 bool is_built_in_scene(const std::string& name) {
-    return std::ranges::any_of(scene::built_in_scenes(), [&](const scene::BuiltInScene& scene) {
-        return scene.name == name;
-    });
+    return std::ranges::any_of(
+        scene::list_built_in_scenes(),
+        [&](const scene::BuiltInScene& scene) { return scene.name == name; });
 }
 
 std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
     const measure::Picture picture = measure::read_picture(path, [&](int width, int height) {
-        check(std::size_t(width) * std::size_t(height) <= kMostTexels, Failure::bad_data, path,
-              ": wanted an environment of at most ", kMostTexels, " texels, found ", width, "x",
-              height);
+        check(std::size_t(width) * std::size_t(height) <= kMaxEnvironmentTexels, Failure::bad_data,
+              path, ": wanted an environment of at most ", kMaxEnvironmentTexels, " texels, found ",
+              width, "x", height);
     });
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         const vec3& texel = picture.pixels[i];
@@ -117,17 +117,18 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
 void warn_of_many_mirrors(scene::Scene& scene) {
     // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
     // it come distance and, for one frame, the number of the surface seen.
-    constexpr std::size_t kTexels = 6 * 256 * 256, kMebibyte = 1 << 20, kColours = kTexels * 2 * 8,
-                          kAll = kTexels * (2 * (8 + 4) + 8);
+    constexpr std::size_t kCubeTexels = 6 * 256 * 256, kBytesPerMebibyte = 1 << 20,
+                          kColourBytes = kCubeTexels * 2 * 8,
+                          kCaptureBytes = kCubeTexels * (2 * (8 + 4) + 8);
     const std::size_t count = scene::mirrors(scene).size();
-    if (count <= kManyMirrors) return;
+    if (count <= kManyMirrorsLimit) return;
     const std::string number = std::to_string(count);
     const auto mebibytes = [&](std::size_t bytes) {
-        return std::to_string(count * bytes / kMebibyte);
+        return std::to_string(count * bytes / kBytesPerMebibyte);
     };
     scene.warnings.push_back("scene " + quote_printable(scene.name) + " has " + number +
                              " mirrors: " + number + " captures of six faces a frame, " +
-                             mebibytes(kColours) + " to " + mebibytes(kAll) +
+                             mebibytes(kColourBytes) + " to " + mebibytes(kCaptureBytes) +
                              " MiB at face=256; a smaller face=, --plan and --model required "
                              "lessen that");
 }
@@ -196,7 +197,7 @@ ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& 
         load.animation_by = {filed->path.string() + ": animation", Failure::bad_data};
     wanted.scene = scene::load_file(name, load);
     apply_scene_overrides(wanted, options.overrides, filed);
-    if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMostLights);
+    if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMaxLights);
     apply_environment_overrides(wanted, options.overrides);
     scene::sort_unsupported_features(wanted.scene);
     warn_of_many_mirrors(wanted.scene);

@@ -12,7 +12,7 @@
 
 namespace catoptric::app {
 
-Frames::Frames(Session& session, const Request& request, const FrameHooks& hooks)
+FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks& hooks)
     : session_(session), request_(request), hooks_(hooks) {
     check(request.frames > 0 && request.warmup >= 0, Failure::usage,
           "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
@@ -20,25 +20,25 @@ Frames::Frames(Session& session, const Request& request, const FrameHooks& hooks
     session.forget();
 }
 
-bool Frames::next() {
-    if (settled_ || number_ >= most_frames()) return false;
-    if (aside_) Access::resume(session_, std::move(*aside_));
+bool FrameLoop::render_next() {
+    if (settled_ || number_ >= max_frame_count()) return false;
+    if (aside_) Access::resume_sequence(session_, std::move(*aside_));
     aside_.reset();
     ++number_;
     FrameSpec spec = request_;
     spec.time = request_.instant(number_);
     const double used_before = read_process_seconds();
-    frame_ = Access::frame(session_, spec, hooks_);
+    frame_ = Access::render_frame(session_, spec, hooks_);
     // The first measured frame must not wait for the frames before it.
     if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) {
         times_.push_back(frame_->times());
         times_.back().cpu_ms = 1e3 * (read_process_seconds() - used_before);
-        if (times_.size() > kDetailedFrames)
-            times_[times_.size() - kDetailedFrames - 1].passes = std::vector<PassTime>();
+        if (times_.size() > kMaxDetailedFrames)
+            times_[times_.size() - kMaxDetailedFrames - 1].passes = std::vector<PassTime>();
     }
     if (request_.until_settled) {
-        std::vector<std::byte> state = Access::state(*frame_);
+        std::vector<std::byte> state = Access::next_frame_state(*frame_);
         settled_ = state.empty() || (state == state_ && frame_->waiting() == 0);
         state_ = std::move(state);
     }
@@ -47,7 +47,7 @@ bool Frames::next() {
 
 /// Multiplies the frames by the rounds, because a limited still needs as many rounds as it needs
 /// frames without a limit.
-int Frames::most_frames() const {
+int FrameLoop::max_frame_count() const {
     std::uint32_t round = 1;
     for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)
         round = std::max(round, frame_->slices(i) ? frame_->slices(i)->frames_per_cycle() : 1);
@@ -55,12 +55,13 @@ int Frames::most_frames() const {
                                                    std::numeric_limits<int>::max()));
 }
 
-RunResult Frames::result() const { return {frame_->read_all(), times_, settled_}; }
+RunResult FrameLoop::result() const { return {frame_->read_all(), times_, settled_}; }
 
 RunResult run(Session& session, const Request& request, const Watcher& watcher) {
-    Frames frames(session, request);
+    FrameLoop frames(session, request);
     check_stopped(watcher);
-    while (frames.next()) tell_frame(watcher, frames.number(), frames.most_frames());
+    while (frames.render_next())
+        tell_frame(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     return frames.result();
 }
 

@@ -28,10 +28,11 @@ measure::CameraFacts make_device_facts(const scene::Camera& camera) {
 }
 
 uvec2 compute_thumbnail_size(uvec2 size) {
-    constexpr double kLongest = 128;
+    constexpr double kMaxThumbnailSide = 128;
     const double longest = std::max(size.x, size.y);
     const auto side = [&](std::uint32_t pixels) {
-        return static_cast<std::uint32_t>(std::max(1L, std::lround(kLongest * pixels / longest)));
+        return static_cast<std::uint32_t>(
+            std::max(1L, std::lround(kMaxThumbnailSide * pixels / longest)));
     };
     return {side(size.x), side(size.y)};
 }
@@ -52,7 +53,7 @@ std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
         const auto hit = bvh::find_closest_hit<float>(hierarchy, make_camera_ray(view, size, pixel),
                                                       std::numeric_limits<float>::max(),
-                                                      bvh::kHidden | bvh::kOneSided);
+                                                      bvh::kHiddenFromCamera | bvh::kOneSided);
         seen.push_back(hit ? static_cast<int>(hit->object) : -1);
     }
     return seen;
@@ -98,7 +99,8 @@ std::vector<measure::LightFacts> list_light_facts(const scene::Scene& scene) {
                                 .area = light.area};
         if (i >= first_without) {
             const scene::PunctualLight& punctual = scene.punctual[i - first_without];
-            one.kind = scene::kind_of(punctual.kind).name, one.is_parallel = light.directional;
+            one.kind = scene::light_kind_of(punctual.kind).name,
+            one.is_parallel = light.directional;
             one.name = punctual.name, one.direction = light.axis, one.area = 0;
         }
         facts.push_back(one);

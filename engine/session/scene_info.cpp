@@ -26,9 +26,9 @@ std::string classify_material(const scene::Material& material,
                               const scene::SurfaceShares& surface) {
     if (material.mirror) return "mirror";
     if (material.unlit) return "unlit";
-    if (surface.mirror >= scene::kLeastMirrorShare)
-        return surface.smoothest > shared::kMostSharpRoughness ? "rough mirror" : "sharp";
-    if (surface.smooth_dielectric >= scene::kLeastMirrorShare) return "smooth dielectric";
+    if (surface.mirror >= scene::kMinMirrorAreaShare)
+        return surface.smoothest > shared::kMaxSharpRoughness ? "rough mirror" : "sharp";
+    if (surface.smooth_dielectric >= scene::kMinMirrorAreaShare) return "smooth dielectric";
     return surface.rough_metal > 0 ? "rough metal" : "diffuse";
 }
 

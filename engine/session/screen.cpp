@@ -48,7 +48,7 @@ WindowScreen::Impl::Impl(Access::EngineImpl& engine)
 WindowScreen::Impl::~Impl() {
     if (device.abandoned()) return;
     try {
-        swapchain.wait();
+        swapchain.wait_idle();
     } catch (const std::exception&) {
         // The device is abandoned by now, and none of its objects are destroyed.
     }
@@ -57,19 +57,19 @@ WindowScreen::Impl::~Impl() {
 WindowScreen::WindowScreen(Engine& engine) : impl_(std::make_unique<Impl>(Access::impl(engine))) {}
 WindowScreen::~WindowScreen() = default;
 
-bool WindowScreen::lost() const { return impl_->swapchain.lost(); }
+bool WindowScreen::lost() const { return impl_->swapchain.is_lost(); }
 uvec2 WindowScreen::size() const { return impl_->swapchain.size(); }
 double WindowScreen::acquire_ms() const { return impl_->acquire_ms; }
 double WindowScreen::present_ms() const { return impl_->present_ms; }
 
-bool WindowScreen::fit(uvec2 window) {
+bool WindowScreen::fit_to_window(uvec2 window) {
     Impl& self = *impl_;
     if (self.fits && window == self.window) return true;
     self.fits = false;
     if (window.x == 0 || window.y == 0) return false;
-    self.swapchain.wait();
+    self.swapchain.wait_idle();
     self.images.clear();
-    if (!self.swapchain.make(window)) return false;
+    if (!self.swapchain.create_images(window)) return false;
     self.window = window;
     const uvec2 size = self.swapchain.size();
     for (const auto image : self.swapchain.images())
@@ -83,15 +83,15 @@ void WindowScreen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverag
     Impl& self = *impl_;
     check(coverage.size() == std::size_t{size.x} * size.y && !coverage.empty(), Failure::usage,
           "a font's picture of ", size.x, "x", size.y, " texels has ", coverage.size(), " bytes");
-    self.swapchain.wait();
+    self.swapchain.wait_idle();
     self.font_size = size;
     std::vector<std::uint8_t> padded = coverage; // padded to whole words
     padded.resize((padded.size() + 3) / 4 * 4);
     gpu::upload_to_buffer(self.device, self.font, "font", padded, gpu::BufferUsage::plain);
 }
 
-Frame Access::show(Session& session, const FrameSpec& spec, WindowScreen& screen,
-                   const WindowPictures& showing) {
+Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
+                             const WindowPictures& showing) {
     WindowScreen::Impl& onto = *screen.impl_;
     check(onto.fits, Failure::internal,
           "a frame is shown on a screen that does not fit its window");
@@ -99,15 +99,16 @@ Frame Access::show(Session& session, const FrameSpec& spec, WindowScreen& screen
     const std::size_t index = std::exchange(onto.next_slot,
                                             (onto.next_slot + 1) % onto.slots.size());
     WindowScreen::Impl::FrameBuffers& slot = onto.slots[index];
-    if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait(slot.ticket);
+    if (slot.runner == &runner && !runner.has_ended(slot.ticket))
+        runner.wait_for_frame(slot.ticket);
     std::optional<std::uint32_t> image;
     onto.fits = false; // a refused frame returns its image only when all images are made again
-    Frame frame = submit(session, spec, {}, [&](FrameGraph& graph) {
+    Frame frame = submit_frame(session, spec, {}, [&](FrameGraph& graph) {
         image = onto.acquire();
         if (!image) return graph::ExternalSemaphores{};
         onto.add(graph, spec, showing, index);
-        return graph::ExternalSemaphores{onto.swapchain.acquired(),
-                                         onto.swapchain.rendered(*image)};
+        return graph::ExternalSemaphores{onto.swapchain.image_acquired_semaphore(),
+                                         onto.swapchain.rendering_done_semaphore(*image)};
     });
     slot.runner = &runner, slot.ticket = frame.impl_->ticket;
     onto.fits = image && onto.present();
@@ -117,7 +118,7 @@ Frame Access::show(Session& session, const FrameSpec& spec, WindowScreen& screen
 std::optional<std::uint32_t> WindowScreen::Impl::acquire() {
     acquire_ms = 0;
     const Stopwatch watch(acquire_ms);
-    const std::optional<std::uint32_t> acquired = swapchain.acquire();
+    const std::optional<std::uint32_t> acquired = swapchain.acquire_image();
     image = acquired.value_or(0);
     return acquired;
 }
@@ -125,7 +126,7 @@ std::optional<std::uint32_t> WindowScreen::Impl::acquire() {
 bool WindowScreen::Impl::present() {
     present_ms = 0;
     const Stopwatch watch(present_ms);
-    return swapchain.present(image);
+    return swapchain.present_image(image);
 }
 
 void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
@@ -145,40 +146,41 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
 
     const uvec2 size = swapchain.size();
     const auto picture = [&](std::size_t part) {
-        return frame.parts.at(part == WindowPictures::kCanvas ? 0 : part).display;
+        return frame.parts.at(part == WindowPictures::kCanvasTexture ? 0 : part).display;
     };
     const ImageHandle first = picture(showing.first), second = picture(showing.second);
     const shared::ScreenParameters screening{
         spec.size, static_cast<std::uint32_t>(showing.kind),
-        (showing.first == WindowPictures::kCanvas ? 1u : 0u) |
-            (showing.second == WindowPictures::kCanvas ? 2u : 0u),
+        (showing.first == WindowPictures::kCanvasTexture ? 1u : 0u) |
+            (showing.second == WindowPictures::kCanvasTexture ? 2u : 0u),
         showing.divider, showing.gain};
-    const ImageHandle target = frame.graph.import({"window", swapchain.format(), size.x, size.y},
-                                                  &images.at(image), std::nullopt,
-                                                  graph::ResourceUse::present);
-    graph::PassBuilder pass = frame.graph.pass("window");
+    const ImageHandle target = frame.graph.import_external(
+        {"window", swapchain.format(), size.x, size.y}, &images.at(image), std::nullopt,
+        graph::ResourceUse::present);
+    graph::PassBuilder pass = frame.graph.add_pass("window");
     pass.reads(first, graph::ResourceUse::sampled);
     if (!(second == first)) pass.reads(second, graph::ResourceUse::sampled);
     pass.writes(target, graph::ResourceUse::colour, graph::ClearValue{0, 0, 0, 1})
         .record([&slot, this, first, second, screening, size,
                  draws = overlay.draws](graph::PassCommands& commands) {
-            commands.use(gpu::RasterState{"screen.vert", "screen.frag", {}});
+            commands.bind_pipeline(gpu::RasterState{"screen.vert", "screen.frag", {}});
             commands.bind("first", first);
             commands.bind("second", second);
             commands.bind("Canvas", slot.canvas);
-            commands.push(screening);
-            commands.geometry(slot.vertices, slot.indices);
+            commands.push_constants(screening);
+            commands.bind_geometry(slot.vertices, slot.indices);
             commands.draw(0, 3);
             if (draws.empty()) return;
-            commands.use(gpu::RasterState{
+            commands.bind_pipeline(gpu::RasterState{
                 .vertex = "overlay.vert", .fragment = "overlay.frag", .blended = true});
             commands.bind("Corners", slot.vertices);
             commands.bind("Font", font);
-            commands.push(shared::OverlayParameters{size, font_size});
+            commands.push_constants(shared::OverlayParameters{size, font_size});
             for (const WindowOverlay::OverlayDraw& draw : draws) {
                 const auto [x, y, width, height] = draw.area;
                 if (x >= size.x || y >= size.y) continue;
-                commands.scissor({x, y, std::min(width, size.x - x), std::min(height, size.y - y)});
+                commands.set_scissor(
+                    {x, y, std::min(width, size.x - x), std::min(height, size.y - y)});
                 commands.draw(3 + draw.first, draw.count);
             }
         });

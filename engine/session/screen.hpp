@@ -4,7 +4,7 @@
 
 #include <array>
 
-/// Images that a window's system shows. Access::show draws into them.
+/// Images that a window's system shows. Access::show_in_window draws into them.
 namespace catoptric::app {
 
 /// Triangles over a picture, such as controls and text.
@@ -32,10 +32,10 @@ struct WindowPictures {
         split, ///< the first picture left of the divider, the second picture right of the divider
         difference ///< difference of the displayed pictures, times `gain`
     };
-    static constexpr std::size_t kCanvas = ~std::size_t{0};
+    static constexpr std::size_t kCanvasTexture = ~std::size_t{0};
 
     PictureArrangement kind = PictureArrangement::one;
-    std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvas
+    std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvasTexture
     float divider = 0;                 ///< pixels from the left
     float gain = 1;
     /// Picture of the caller, of the frame's size, encoded as by measure::to_display; null: none.
@@ -57,7 +57,7 @@ public:
     /// Adapts the images to the size of the window; call it before each frame. Makes the images
     /// again if the size changed or they no longer fit. Returns false if nothing can be shown (the
     /// window is minimised).
-    bool fit(uvec2 window);
+    bool fit_to_window(uvec2 window);
     /// Returns whether the window's surface is lost. If it is, make another engine and screen.
     bool lost() const;
     uvec2 size() const; ///< size of the images, pixels

@@ -16,11 +16,11 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kDraws = 1000;
-constexpr uvec2 kGrid{32, 32};         // rays through the picture
-constexpr std::size_t kLeastSeen = 11; // of the grid's 1024 rays
-constexpr double kMostUpright = .99;   // component of the view's direction along the up axis
-constexpr double kNearest = 1.5, kNarrowest = 25, kWidest = 60;
+constexpr int kMaxCameraDraws = 1000;
+constexpr uvec2 kRayGridSize{32, 32};      // rays through the picture
+constexpr std::size_t kMinTargetRays = 11; // of the grid's 1024 rays
+constexpr double kMaxUpComponent = .99;    // component of the view's direction along the up axis
+constexpr double kMinTargetDistance = 1.5, kMinFovDegrees = 25, kMaxFovDegrees = 60;
 
 /// Returns a uniform number in [low, high). Distributions of standard libraries differ from each
 /// other.
@@ -71,7 +71,7 @@ std::vector<std::size_t> list_camera_targets(const scene::Scene& now) {
 
 scene::Camera draw_random_camera(std::mt19937_64& random, const Bounds<double>& aim,
                                  const Bounds<double>& everything) {
-    const double nearest = kNearest * glm::length(aim.extent()) / 2,
+    const double nearest = kMinTargetDistance * glm::length(aim.extent()) / 2,
                  farthest = std::max(glm::length(everything.extent()), nearest);
     scene::Camera camera;
     for (int axis = 0; axis < 3; ++axis)
@@ -86,7 +86,7 @@ scene::Camera draw_random_camera(std::mt19937_64& random, const Bounds<double>& 
     camera.target = append_rounded_number(camera.target, decimals, camera.name);
     camera.name += ':';
     camera.vertical_fov_degrees = append_rounded_number(
-        draw_uniform_number(random, kNarrowest, kWidest), 1, camera.name);
+        draw_uniform_number(random, kMinFovDegrees, kMaxFovDegrees), 1, camera.name);
     return camera;
 }
 
@@ -95,10 +95,11 @@ std::size_t count_rays_hitting_targets(const render::Geometry& geometry, const b
                                        const shared::View& view,
                                        const std::vector<std::size_t>& aims) {
     std::size_t seen = 0;
-    for (std::size_t pixel = 0; pixel < std::size_t{kGrid.x} * kGrid.y; ++pixel) {
-        const f32::Ray ray = make_camera_ray(view, kGrid, pixel);
-        const auto hit = bvh::find_closest_hit<float>(
-            hierarchy, ray, std::numeric_limits<float>::max(), bvh::kHidden | bvh::kOneSided);
+    for (std::size_t pixel = 0; pixel < std::size_t{kRayGridSize.x} * kRayGridSize.y; ++pixel) {
+        const f32::Ray ray = make_camera_ray(view, kRayGridSize, pixel);
+        const auto hit = bvh::find_closest_hit<float>(hierarchy, ray,
+                                                      std::numeric_limits<float>::max(),
+                                                      bvh::kHiddenFromCamera | bvh::kOneSided);
         if (!hit || !std::ranges::binary_search(aims, std::size_t{hit->object})) continue;
         const auto normal = [&](std::uint32_t j) {
             return geometry.vertices[geometry.indices[3 * hit->triangle + j]].normal;
@@ -118,8 +119,8 @@ struct TraceableScene {
 
     bool sees_a_target(const scene::Camera& camera) const {
         return count_rays_hitting_targets(geometry, hierarchy,
-                                          render::make_camera_view(camera, space, kGrid, 0),
-                                          aims) >= kLeastSeen;
+                                          render::make_camera_view(camera, space, kRayGridSize, 0),
+                                          aims) >= kMinTargetRays;
     }
 
     scene::Scene now;
@@ -132,17 +133,17 @@ struct TraceableScene {
 scene::Camera draw_camera_for_seed(const TraceableScene& stage, std::uint64_t seed) {
     const Bounds<double> everything = scene::bounds(stage.now);
     std::mt19937_64 random(seed);
-    for (int i = 0; i < kDraws && !stage.aims.empty(); ++i) {
+    for (int i = 0; i < kMaxCameraDraws && !stage.aims.empty(); ++i) {
         const scene::Object& aim = stage.now.objects[stage.aims[random() % stage.aims.size()]];
         scene::Camera camera = draw_random_camera(random, scene::bounds(stage.now, aim),
                                                   everything);
         const dvec3 along = camera.target - camera.eye;
-        if (!(std::abs(along.y) <= kMostUpright * glm::length(along)) || along == dvec3(0))
+        if (!(std::abs(along.y) <= kMaxUpComponent * glm::length(along)) || along == dvec3(0))
             continue;
         if (stage.sees_a_target(camera)) return camera;
     }
     fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", stage.now.name,
-         "', found none in ", kDraws, " draws from seed ", seed);
+         "', found none in ", kMaxCameraDraws, " draws from seed ", seed);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ void hash_ambient_light(require::Model& model, double ambient) {
     for (require::MirrorNeeds& mirror : model.mirrors)
         for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
             for (std::uint64_t& content_hash : *content_hashes)
-                content_hash = ContentHash().add(content_hash).add(ambient).value();
+                content_hash = ContentHash().add(content_hash).add(ambient).hash_value();
 }
 
 std::string name_of(RenderedWork modelling) {
@@ -73,17 +73,17 @@ FrameSequence::~FrameSequence() = default;
 
 void Session::Impl::wait_for_readers(std::size_t of) {
     if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
-        runner.wait(graph::FrameTicket{read_by[of]});
+        runner.wait_for_frame(graph::FrameTicket{read_by[of]});
 }
 
 double Session::Impl::update_scene(const SceneKey& wanted) {
-    if (scene_key == wanted && resident->knows_face_needs()) return 0;
+    if (scene_key == wanted && resident->has_face_needs()) return 0;
     // Writes to another copy than the one that frames in flight read.
     const std::size_t next = (copy + 1) % read_by.size();
     wait_for_readers(next);
     copy = next;
     const SteadyClock::time_point start = SteadyClock::now();
-    if (scene_key && scene_key->size != wanted.size) resident->forget_face_needs();
+    if (scene_key && scene_key->size != wanted.size) resident->clear_face_needs();
     scene_key.reset(); // stays unset if the update throws half-way
     models.clear();
     if (scene::is_animated(scene)) {
@@ -133,10 +133,10 @@ Session::~Session() = default;
 
 const scene::Scene& Session::scene() const { return impl_->scene; }
 
-SessionCounters Access::counts(const Session& session) {
+SessionCounters Access::session_counters(const Session& session) {
     const Session::Impl& self = *session.impl_;
     SessionCounters counts = self.counts;
-    counts.plans = self.runner.plans_made();
+    counts.plans = self.runner.planned_shape_count();
     counts.memory_bytes = self.runner.memory_bytes();
     counts.uploads = self.resident->uploads();
     counts.hierarchies_built = self.resident->hierarchies_built();
@@ -144,26 +144,27 @@ SessionCounters Access::counts(const Session& session) {
     return counts;
 }
 
-SetupTimes Access::setup(const Session& session) {
+SetupTimes Access::setup_times(const Session& session) {
     const render::GpuScene& resident = *session.impl_->resident;
     return {resident.first_upload_ms(), resident.first_build_ms()};
 }
 
-Frame Session::frame(const FrameSpec& spec) { return Access::frame(*this, spec, {}); }
+Frame Session::frame(const FrameSpec& spec) { return Access::render_frame(*this, spec, {}); }
 
-Frame Access::frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks) {
-    return submit(session, spec, hooks, [](FrameGraph&) { return graph::ExternalSemaphores{}; });
+Frame Access::render_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks) {
+    return submit_frame(session, spec, hooks,
+                        [](FrameGraph&) { return graph::ExternalSemaphores{}; });
 }
 
-Frame Access::submit(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
-                     const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
+Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameHooks& hooks,
+                           const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
     Session::Impl& self = *session.impl_;
     check_frame_spec(spec);
     const std::vector<reflect::TechniquePlan>& plans = self.find_plans(spec);
     const bool follows = have_equal_plans(self.remembered, plans) &&
                          self.remembered_model == spec.model;
     if (!spec.keeps_history && !follows) {
-        self.runner.forget();
+        self.runner.discard_contents();
         self.kept.clear();
         self.paces.clear(), self.timed.reset();
         self.remembered = plans, self.remembered_model = spec.model;
@@ -183,10 +184,10 @@ Frame Access::submit(Session& session, const FrameSpec& spec, const FrameHooks& 
     const double declare_ms = compute_milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
     const SteadyClock::time_point trees = SteadyClock::now();
-    self.resident->prepare();
+    self.resident->prepare_frame();
     const double hierarchy_ms = compute_milliseconds_since(trees);
     const graph::ExternalSemaphores outside = finish(frame);
-    const graph::FrameTicket ticket = self.runner.submit(
+    const graph::FrameTicket ticket = self.runner.submit_frame(
         frame.graph,
         spec.timing == PassTimingMode::isolated ? graph::PassTiming::isolated
                                                 : graph::PassTiming::pipelined,
@@ -217,7 +218,8 @@ void Session::change(const scene::Edit& edit) {
     if (render::make_scene_units(edited) != render::make_scene_units(self.scene)) {
         auto made = std::make_unique<render::GpuScene>(self.engine.device, edited,
                                                        self.read_by.size());
-        self.runner.forget(); // waits for frames in flight; captured distances were in other units
+        self.runner.discard_contents(); // waits for frames in flight; captured distances were in
+                                        // other units
         self.kept.clear();
         self.resident = std::move(made);
         ++self.units;
@@ -231,14 +233,14 @@ void Session::change(const scene::Edit& edit) {
 }
 
 void Session::forget() {
-    impl_->runner.forget();
+    impl_->runner.discard_contents();
     impl_->kept.clear();
     impl_->texts.clear(); // another plan may be suggested
-    impl_->resident->forget_face_needs();
+    impl_->resident->clear_face_needs();
     impl_->scene_key.reset();
 }
 
-FrameSequence Access::suspend(Session& session) {
+FrameSequence Access::suspend_sequence(Session& session) {
     Session::Impl& self = *session.impl_;
     self.read_capture_times();
     auto sequence = std::make_unique<FrameSequence::Impl>(FrameSequence::Impl{
@@ -247,11 +249,11 @@ FrameSequence Access::suspend(Session& session) {
         self.scene_key, self.units, self.edits, std::exchange(self.texts, {}),
         std::exchange(self.plans, {})});
     self.models.clear();
-    self.resident->forget_face_needs();
+    self.resident->clear_face_needs();
     return FrameSequence(std::move(sequence));
 }
 
-void Access::resume(Session& session, FrameSequence sequence) {
+void Access::resume_sequence(Session& session, FrameSequence sequence) {
     Session::Impl& self = *session.impl_;
     if (sequence.impl_->units != self.units) {
         session.forget();
@@ -262,7 +264,7 @@ void Access::resume(Session& session, FrameSequence sequence) {
     self.remembered_model = sequence.impl_->remembered_model;
     self.kept = std::move(sequence.impl_->kept);
     self.paces = std::move(sequence.impl_->paces);
-    self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
+    self.resident->set_face_needs(std::move(sequence.impl_->face_needs));
     if (sequence.impl_->edits == self.edits) {
         self.texts = std::move(sequence.impl_->texts);
         self.plans = std::move(sequence.impl_->plans);
@@ -271,7 +273,7 @@ void Access::resume(Session& session, FrameSequence sequence) {
     if (sequence.impl_->scene_key) self.update_scene(*sequence.impl_->scene_key);
 }
 
-std::string Access::plan(Session& session, const FrameSpec& spec, PlanFormat format) {
+std::string Access::format_frame_plan(Session& session, const FrameSpec& spec, PlanFormat format) {
     Session::Impl& self = *session.impl_;
     check_frame_spec(spec);
     const std::vector<reflect::TechniquePlan>& plans = self.find_plans(spec);
@@ -302,30 +304,31 @@ std::string Access::plan(Session& session, const FrameSpec& spec, PlanFormat for
 
 FrameTimes Access::clear_cubes(Session& session) {
     Session::Impl& self = *session.impl_;
-    constexpr std::uint32_t kEdge = 256;
-    const std::uint32_t mirrors = self.resident->mirror_count(), most = self.resident->most_cubes();
+    constexpr std::uint32_t kClearedCubeEdge = 256;
+    const std::uint32_t mirrors = self.resident->mirror_count(),
+                        most = self.resident->max_cube_count();
     graph::Graph graph;
     for (std::uint32_t first = 0; first < mirrors; first += most) {
         const std::uint32_t count = std::min(most, mirrors - first);
-        const graph::ImageHandle cubes = graph.image({"cubes" + std::to_string(first / most + 1),
-                                                      Format::rgba16f, kEdge, kEdge, 6 * count,
-                                                      true});
+        const graph::ImageHandle cubes = graph.add_image(
+            {"cubes" + std::to_string(first / most + 1), Format::rgba16f, kClearedCubeEdge,
+             kClearedCubeEdge, 6 * count, true});
         for (std::uint32_t cube = 0; cube < count; ++cube) {
             const std::string name = "clear/" + std::to_string(first + cube + 1);
-            const graph::ImageHandle depth = graph.image(
-                {name + ".depth", Format::d32f, kEdge, kEdge, 6, true});
-            graph.pass(name)
+            const graph::ImageHandle depth = graph.add_image(
+                {name + ".depth", Format::d32f, kClearedCubeEdge, kClearedCubeEdge, 6, true});
+            graph.add_pass(name)
                 .writes(cubes.layers(6 * cube, 6), graph::ResourceUse::colour,
                         graph::ClearValue{0, 0, 0, 1})
                 .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
-                .layers(6)
+                .set_layer_count(6)
                 .record([](graph::PassCommands&) {});
         }
         graph.mark_output(cubes);
     }
     ++self.counts.frames;
-    self.last = self.runner.submit(graph, graph::PassTiming::isolated);
-    return to_public_frame_times(self.runner.wait(*self.last));
+    self.last = self.runner.submit_frame(graph, graph::PassTiming::isolated);
+    return to_public_frame_times(self.runner.wait_for_frame(*self.last));
 }
 
 } // namespace catoptric::app

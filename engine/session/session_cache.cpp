@@ -55,7 +55,7 @@ void Session::Impl::store_captures(const FrameGraph& frame, graph::FrameTicket t
         kept.push_back(part.outputs.kept);
         if (!kept.back()) continue;
         kept.back()->frame = ticket.frame;
-        comparisons.used(kept.back()->differing, ticket.frame);
+        comparisons.mark_used(kept.back()->differing, ticket.frame);
     }
 }
 
@@ -65,7 +65,7 @@ void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
     };
     const auto learns = std::ranges::find_if(kept, must_learn);
     if (learns != kept.end() && !runner.has_ended({(*learns)->frame}))
-        runner.wait({(*learns)->frame});
+        runner.wait_for_frame({(*learns)->frame});
     read_capture_times();
 }
 
@@ -73,7 +73,7 @@ void Session::Impl::read_capture_times() {
     if (!timed) return;
     // Frames that keep the history unchanged may have overwritten its times.
     if (last->frame < timed->ticket.frame + read_by.size()) {
-        const graph::GraphFrameTimes& times = runner.wait(timed->ticket);
+        const graph::GraphFrameTimes& times = runner.wait_for_frame(timed->ticket);
         paces.resize(timed->drawn.size());
         for (std::size_t i = 0; i < paces.size(); ++i)
             paces[i].add(sum_capture_milliseconds(times, timed->drawn[i].first),

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/error.hpp"
-#include "graph/run.hpp"
+#include "graph/graph_runner.hpp"
 #include "require/model.hpp"
 #include "session/access.hpp"
 #include "session/capture_cost.hpp"

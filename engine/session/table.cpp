@@ -17,7 +17,7 @@ std::vector<TechniqueInfo> techniques() {
                                   std::string(knob.help),
                                   knob.low,
                                   knob.high,
-                                  defaults.text(knob),
+                                  defaults.format_value(knob),
                                   {knob.choices.begin(), knob.choices.end()},
                                   std::string(knob.special)});
         infos.push_back(std::move(info));
@@ -30,10 +30,11 @@ std::vector<Setting> list_settings(const reflect::TechniqueChoice& choice) {
     const KnobSettings defaults(choice.technique->knobs);
     for (const catoptric::Knob& knob : choice.technique->knobs) {
         const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob);
-        const std::string value = choice.settings.text(knob);
-        settings.push_back({std::string(knob.name), value,
-                            is_number ? std::optional(choice.settings.number(knob)) : std::nullopt,
-                            value != defaults.text(knob)});
+        const std::string value = choice.settings.format_value(knob);
+        settings.push_back(
+            {std::string(knob.name), value,
+             is_number ? std::optional(choice.settings.number_value(knob)) : std::nullopt,
+             value != defaults.format_value(knob)});
     }
     return settings;
 }

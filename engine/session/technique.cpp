@@ -36,7 +36,7 @@ void check_search_definition(const Search& search) {
     for (const reflect::Technique* row : reflect::list_techniques())
         check(row->name != search.name, Failure::usage, "there is a technique '", search.name,
               "' already");
-    check(search.name != reflect::kAuto, Failure::usage, "'", search.name,
+    check(search.name != reflect::kAutoPlanName, Failure::usage, "'", search.name,
           "' is what the requirements suggest, and no name of a technique");
     for (const std::string& row : search.compared)
         check(row == search.name || row.starts_with(search.name + ":"), Failure::usage,
@@ -61,7 +61,7 @@ void check_search_definition(const Search& search) {
 /// Returns the search's own knobs, then those of all searches. Those of continuing searches come
 /// only if the search continues.
 std::vector<Knob> list_search_knobs(const Search& search) {
-    constexpr std::array<std::string_view, 3> kOfContinuing{"continue", "captures", "mirrors"};
+    constexpr std::array<std::string_view, 3> kContinueKnobNames{"continue", "captures", "mirrors"};
     std::vector<Knob> knobs;
     const auto check_new = [&](std::string_view name) {
         check(std::ranges::find(knobs, name, &Knob::name) == knobs.end(), Failure::usage,
@@ -79,7 +79,8 @@ std::vector<Knob> list_search_knobs(const Search& search) {
     for (const Knob& knob : reflect::kSearchKnobs) {
         // Also if the knob is not offered, because its name would be read as this knob.
         check_new(knob.name);
-        if (search.continues || std::ranges::find(kOfContinuing, knob.name) == kOfContinuing.end())
+        if (search.continues ||
+            std::ranges::find(kContinueKnobNames, knob.name) == kContinueKnobNames.end())
             knobs.push_back(knob);
     }
     return knobs;

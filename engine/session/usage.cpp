@@ -14,8 +14,8 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::array<std::uint64_t, 2> kEvents{PERF_COUNT_HW_CPU_CYCLES,
-                                               PERF_COUNT_HW_INSTRUCTIONS};
+constexpr std::array<std::uint64_t, 2> kPerfEvents{PERF_COUNT_HW_CPU_CYCLES,
+                                                   PERF_COUNT_HW_INSTRUCTIONS};
 
 /// Opens a counter of the calling thread in user mode. Returns -1 and sets errno on failure.
 int open_perf_counter(std::uint64_t event, bool of_threads_to_come) {
@@ -63,8 +63,8 @@ ProcessorUsage ProcessorUsage::operator-(const ProcessorUsage& before) const {
 }
 
 UsageMeter::UsageMeter(CountedThreads of) : of_(of) {
-    for (std::size_t i = 0; i < kEvents.size(); ++i) {
-        counters_[i] = open_perf_counter(kEvents[i], of == CountedThreads::process);
+    for (std::size_t i = 0; i < kPerfEvents.size(); ++i) {
+        counters_[i] = open_perf_counter(kPerfEvents[i], of == CountedThreads::process);
         if (counters_[i] < 0 && uncounted_.empty())
             uncounted_ = "perf_event_open: " + std::generic_category().message(errno);
     }

@@ -13,9 +13,9 @@ std::vector<PassWork> count_frame_work(Session& session, const Request& request,
     for (int k = 1; k <= last; ++k) {
         FrameSpec spec = request;
         spec.time = request.instant(k);
-        const Frame frame = Access::frame(session, spec, {.counts_work = k == last});
+        const Frame frame = Access::render_frame(session, spec, {.counts_work = k == last});
         frame.times(); // waits, so that a stop signal takes effect soon
-        if (k == last) work = Access::work(frame);
+        if (k == last) work = Access::pass_work(frame);
         tell_frame(watcher, k, last);
     }
     return work;

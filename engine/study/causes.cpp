@@ -38,20 +38,20 @@ struct AblatableCause {
     std::uint32_t mends; ///< sum of shared::kAblate...
 };
 
-constexpr AblatableCause kPlayers[] = {
+constexpr AblatableCause kAblatableCauses[] = {
     {"direction", shared::kAblateDistance | shared::kAblateDirection},
-    {"hidden target", shared::kAblateHidden},
-    {"texels", shared::kAblateTexels},
-    {"mirror in mirror", shared::kAblateMirrors | shared::kAblateOwn},
+    {"hidden target", shared::kAblateHiddenPoints},
+    {"texels", shared::kAblateTexelColour},
+    {"mirror in mirror", shared::kAblateMirrorReflections | shared::kAblateSelfReflection},
     {"shadow map", shared::kAblateShadows}};
-constexpr std::size_t kPlayerCount = std::size(kPlayers);
-constexpr std::uint32_t kEveryPlayer = (1U << kPlayerCount) - 1;
+constexpr std::size_t kAblatableCauseCount = std::size(kAblatableCauses);
+constexpr std::uint32_t kAllCausesMask = (1U << kAblatableCauseCount) - 1;
 
 /// Returns the causes that a coalition ablates, a sum of shared::kAblate...; bit i: player i.
 std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
     std::uint32_t ablated = 0;
-    for (std::size_t i = 0; i < kPlayerCount; ++i)
-        if ((coalition >> i & 1U) != 0) ablated |= kPlayers[i].mends;
+    for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
+        if ((coalition >> i & 1U) != 0) ablated |= kAblatableCauses[i].mends;
     return ablated;
 }
 
@@ -79,13 +79,14 @@ std::string use_float_distances(const std::string& technique) {
     return text;
 }
 
-constexpr int kSettled = 16; // frames; deeper bounces are below a rounding of the picture's halves
+constexpr int kSettlingFrames =
+    16; // frames; deeper bounces are below a rounding of the picture's halves
 
 /// Returns the row's own frames, or frames that are settled at the instant of its last picture.
 /// Returns the settled ones if there is no difference.
 HistorySource choose_history_source(const Request& base, const std::string& technique,
                                     bool is_settled) {
-    const bool may_lag = base.animate || base.total() <= kSettled;
+    const bool may_lag = base.animate || base.total() <= kSettlingFrames;
     return {technique, is_settled || !may_lag};
 }
 
@@ -96,7 +97,7 @@ Request make_history_request(const Request& base, const HistorySource& history) 
         request.animate = false;
     }
     request.frames = 1;
-    request.warmup = history.is_settled ? kSettled : base.total() - 1;
+    request.warmup = history.is_settled ? kSettlingFrames : base.total() - 1;
     request.techniques = {history.technique};
     request.model = RenderedWork::required; // gives the same pictures, and their times are not used
     return request;
@@ -137,9 +138,9 @@ list_needed_ablations(const HistorySources& histories) {
     std::map<HistorySource, std::vector<std::uint32_t>> wanted;
     for (const HistorySource& history : {histories.row, histories.row_settled, histories.stored})
         wanted[history] = {0};
-    for (std::size_t i = 0; i < kPlayerCount; ++i) wanted[histories.row].push_back(1U << i);
+    for (std::size_t i = 0; i < kAblatableCauseCount; ++i) wanted[histories.row].push_back(1U << i);
     std::vector<std::uint32_t>& all = wanted[histories.settled];
-    all.resize(kEveryPlayer + 1);
+    all.resize(kAllCausesMask + 1);
     std::iota(all.begin(), all.end(), 0U);
     return wanted;
 }
@@ -159,16 +160,17 @@ std::vector<measure::PixelCause> compute_cause_shares(const HistorySources& hist
                         std::uint32_t coalition = 0) -> const MirrorPixelValues& {
         return errors.kept.at({history, coalition});
     };
-    const MirrorPixelValues &row = of(histories.row), &left = of(histories.settled, kEveryPlayer),
+    const MirrorPixelValues &row = of(histories.row), &left = of(histories.settled, kAllCausesMask),
                             format = subtract_values(row, of(histories.stored));
     std::vector<measure::PixelCause> parts{
         {"storage format", format, format},
         {"last frame", subtract_values(of(histories.stored), of(histories.settled)),
          subtract_values(row, of(histories.row_settled))}};
-    for (std::size_t i = 0; i < kPlayerCount; ++i)
-        parts.push_back({kPlayers[i].name,
-                         subtract_values(MirrorPixelValues(row.size()), errors.shapley.worth(i)),
-                         subtract_values(row, of(histories.row, 1U << i))});
+    for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
+        parts.push_back(
+            {kAblatableCauses[i].name,
+             subtract_values(MirrorPixelValues(row.size()), errors.shapley.shapley_values_of(i)),
+             subtract_values(row, of(histories.row, 1U << i))});
     parts.push_back({"silhouettes", keep_values_where_equal(disagree, true, left),
                      keep_values_where_equal(disagree, true, row)});
     parts.push_back({"rest", keep_values_where_equal(disagree, false, left), {}});
@@ -213,7 +215,7 @@ void add_causes(const StudyInput& input) {
     }
 }
 
-const RegisteredStudy kCauses{
+const RegisteredStudy kCausesStudy{
     {.name = "causes",
      .help = "also split each row's error by cause; draws at least 32 more pictures per row",
      .order = 20,
@@ -226,14 +228,14 @@ const RegisteredStudy kCauses{
 void render_ablated_pictures(Session& session, const Request& request,
                              const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
                              const Watcher& watcher) {
-    Frames frames(session, request);
-    for (int k = 1; k < request.total(); ++k) frames.next(), check_stopped(watcher);
+    FrameLoop frames(session, request);
+    for (int k = 1; k < request.total(); ++k) frames.render_next(), check_stopped(watcher);
     FrameSpec aside = request;
     aside.time = request.instant(request.total());
     aside.timing = PassTimingMode::pipelined;
     aside.keeps_history = true;
     for (std::size_t entry = 0; entry < ablated.size(); ++entry) {
-        visit(entry, Access::frame(session, aside, {.ablated = ablated[entry]}).hdr());
+        visit(entry, Access::render_frame(session, aside, {.ablated = ablated[entry]}).hdr());
         check_stopped(watcher);
     }
 }
@@ -260,8 +262,9 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
 
 report::Causes ErrorCauseFinder::find(const std::string& technique) const {
     const HistorySources histories = choose_history_sources(base_, technique);
-    AblationErrors found{
-        measure::ShapleyValues(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
+    AblationErrors found{measure::ShapleyValues(kAblatableCauseCount, pixels_.size()),
+                         {},
+                         measure::Mask(hits_.size())};
     for (const auto& [history, coalitions] : list_needed_ablations(histories)) {
         std::vector<std::uint32_t> ablated;
         std::ranges::transform(coalitions, std::back_inserter(ablated), combine_ablation_flags);
@@ -276,7 +279,7 @@ report::Causes ErrorCauseFinder::find(const std::string& technique) const {
                     found.off[place] = measure::differs_visibly(shown, truth);
             }
             if (history == histories.settled) found.shapley.add(coalition, errors);
-            if (std::popcount(coalition) <= 1 || coalition == kEveryPlayer)
+            if (std::popcount(coalition) <= 1 || coalition == kAllCausesMask)
                 found.kept[{history, coalition}] = std::move(errors);
         };
         render_ablated_pictures(session_, make_history_request(base_, history), ablated, judge,

@@ -15,7 +15,7 @@
 #include "session/scene_facts.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "study/compare_row.hpp"
 #include "study/reference_cache.hpp"
 #include "study/row_judge.hpp"
@@ -65,7 +65,8 @@ class RowComparer {
 public:
     RowComparer(Engine& engine, const CompareRequest& request)
         : engine_(engine), request_(with_reference(request)),
-          compiled_before_(Access::compiled(engine)), session_(engine, request_.base.scene),
+          compiled_before_(Access::compiled_pipelines(engine)),
+          session_(engine, request_.base.scene),
           truths_(session_, request_.base, request_.reference, request_.watcher),
           judge_(session_, truths_, request_.base, request_.watcher) {
         if (request_.base.techniques.empty())
@@ -76,7 +77,7 @@ public:
                 study.prepare(request_, choice.count, comparison_);
     }
 
-    report::Comparison run() {
+    report::Comparison run_comparison() {
         resolve_auto_exposure(session_, request_.base);
         list_rows();
         prepare_comparison();
@@ -152,7 +153,7 @@ private:
     /// Returns the studies that were asked for, in the order of the table.
     std::vector<StudyChoice> asked_studies() const {
         std::vector<StudyChoice> choices;
-        for (const Study& study : studies())
+        for (const Study& study : list_studies())
             if (const auto choice = std::ranges::find(request_.studies, study.name,
                                                       &StudyChoice::name);
                 choice != request_.studies.end())
@@ -162,16 +163,17 @@ private:
 
     /// Fills facts that are known only after rows were measured.
     void fill_run_circumstances() {
-        const SetupTimes setup = Access::setup(session_);
-        const CompiledPipelines compiled = Access::compiled(engine_);
-        constexpr const char* kCacheUse[] = {"none", "made",
-                                             "used"}; // indexed by PipelineCacheState
-        comparison_.setup = {request_.base.load_ms,
-                             setup.upload_ms,
-                             setup.hierarchy_ms,
-                             compiled.ms - compiled_before_.ms,
-                             compiled.pipelines - compiled_before_.pipelines,
-                             kCacheUse[static_cast<std::size_t>(Access::cache_use(engine_))]};
+        const SetupTimes setup = Access::setup_times(session_);
+        const CompiledPipelines compiled = Access::compiled_pipelines(engine_);
+        constexpr const char* kCacheStateNames[] = {"none", "made",
+                                                    "used"}; // indexed by PipelineCacheState
+        comparison_.setup = {
+            request_.base.load_ms,
+            setup.upload_ms,
+            setup.hierarchy_ms,
+            compiled.ms - compiled_before_.ms,
+            compiled.pipelines - compiled_before_.pipelines,
+            kCacheStateNames[static_cast<std::size_t>(Access::cache_use(engine_))]};
         comparison_.load_end = read_machine_load();
         comparison_.warnings = request_.base.scene.warnings;
         for (const std::vector<std::string>& warnings : row_warnings_)
@@ -306,14 +308,14 @@ private:
                      row + ", round " + std::to_string(round + 1) + " of " +
                          std::to_string(comparison_.rounds),
                      static_cast<std::size_t>(round) * all.size() + place, rounds * all.size());
-            measure(lane, all[lane], round);
+            measure_row(lane, all[lane], round);
         }
         if (round > 0) report_progress();
     }
 
     /// Measures a round. Judges rows after the first round, and again by their last picture if it
     /// differs.
-    void measure(std::size_t lane, const std::vector<std::string>& texts, int round) {
+    void measure_row(std::size_t lane, const std::vector<std::string>& texts, int round) {
         const bool first = round == 0, last = round + 1 == comparison_.rounds;
         if (first) {
             Request request = request_.base;
@@ -322,8 +324,9 @@ private:
             runs_.push_back(std::make_unique<RowMeasurement>(session_, request, request_.watcher));
         }
         RowMeasurement& run = *runs_[lane];
-        run.measure(count_frames_of_round(request_.base.frames, comparison_.rounds, round));
-        const std::vector<TechniqueResult> parts = first || last ? run.parts()
+        run.measure_one_round(
+            count_frames_of_round(request_.base.frames, comparison_.rounds, round));
+        const std::vector<TechniqueResult> parts = first || last ? run.technique_results()
                                                                  : std::vector<TechniqueResult>();
         run.suspend();
         for (std::size_t i = 0; i < texts.size(); ++i) {
@@ -337,8 +340,8 @@ private:
                                  (request_.base.animate ||
                                   !have_equal_pixels(row.hdr, parts[i].hdr));
             if (first || changed) {
-                judge_row(index, parts[i], run.number());
-                if (truths_.is_noisy()) judged_[index] = {parts[i], run.number()};
+                judge_row(index, parts[i], run.rendered_frame_count());
+                if (truths_.is_noisy()) judged_[index] = {parts[i], run.rendered_frame_count()};
             }
             if (first) report_progress();
         }
@@ -363,7 +366,7 @@ private:
 } // namespace
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {
-    return RowComparer(engine, request).run();
+    return RowComparer(engine, request).run_comparison();
 }
 
 } // namespace catoptric::app

@@ -39,7 +39,7 @@ HostTimes summarise_host_times(const FrameTimesByRound& rounds) {
             part(&HostTimes::record)};
 }
 
-/// Returns the frames whose passes are kept one by one (kDetailedFrames).
+/// Returns the frames whose passes are kept one by one (kMaxDetailedFrames).
 FrameTimesByRound keep_frames_with_passes(FrameTimesByRound rounds) {
     for (std::vector<FrameTimes>& round : rounds)
         std::erase_if(round, [](const FrameTimes& frame) { return frame.passes.empty(); });
@@ -75,9 +75,10 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
         black += picture.pixels[i] == vec3(0);
         wanted_black += truth.pixels[i] == vec3(0);
     }
-    constexpr double kMost = .99;
-    return pixels > 0 && static_cast<double>(black) >= kMost * static_cast<double>(pixels) &&
-           static_cast<double>(wanted_black) < kMost * static_cast<double>(pixels);
+    constexpr double kBlackShareLimit = .99;
+    return pixels > 0 &&
+           static_cast<double>(black) >= kBlackShareLimit * static_cast<double>(pixels) &&
+           static_cast<double>(wanted_black) < kBlackShareLimit * static_cast<double>(pixels);
 }
 
 /// Sets the row's estimates against the halves of a reference with noise, over all masks.

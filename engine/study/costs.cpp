@@ -71,7 +71,7 @@ struct CostCells {
 
 std::vector<CostCells> list_cost_cells(const report::Row& row) {
     std::vector<CostCells> cells;
-    const measure::MetricValue value = measure::studied(row, kCostsMetric);
+    const measure::MetricValue value = measure::studied_value(row, kCostsMetric);
     if (const auto* list = std::get_if<std::vector<measure::ValueParts>>(&value))
         for (const measure::ValueParts& parts : *list)
             cells.push_back(
@@ -166,7 +166,7 @@ const RegisteredStudy kCostsStudy{
                   .help = "predicted time on each device of --costs, with the ends of its range",
                   .better = measure::BetterDirection::less,
                   .order = 790,
-                  .get = measure::Metric::OfStudy{}}},
+                  .get = measure::Metric::IsStudyMetric{}}},
      .part = {.order = 700,
               .tables = make_cost_tables,
               .sentences = describe_predicted_fronts,

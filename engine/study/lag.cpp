@@ -22,11 +22,11 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kFrameCap = 30; // frames of a still, and of each side of a cut
-constexpr int kWarmup = 16;   // frames along the path before the first that counts
+constexpr int kMaxLagFrames = 30;     // frames of a still, and of each side of a cut
+constexpr int kPathWarmupFrames = 16; // frames along the path before the first that counts
 // Seconds; a long animation is cut, because a run would take hours.
-constexpr double kLongestPath = 10;
-constexpr double kFramesASecond = 60;
+constexpr double kMaxPathSeconds = 10;
+constexpr double kFramesPerSecond = 60;
 
 /// Instants along the scene's motion, on each of which every speed has a frame.
 struct LagInstants {
@@ -65,8 +65,8 @@ LagInstants plan_lag_instants(const LagRequest& request) {
     check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
           request.most_instants);
     LagInstants path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
-    const double frame = path.fastest / kFramesASecond;
-    const double frames = std::min(scene::period(request.base.scene), kLongestPath) / frame;
+    const double frame = path.fastest / kFramesPerSecond;
+    const double frames = std::min(scene::period(request.base.scene), kMaxPathSeconds) / frame;
     path.stride = std::max(1, static_cast<int>(std::ceil(frames / request.most_instants)));
     path.count = std::max(1, static_cast<int>(std::lround(frames / path.stride)));
     path.step = frames > 0 ? path.stride * frame : 0;
@@ -113,12 +113,12 @@ public:
             parse_technique(text); // throws before any work
     }
 
-    void run() {
+    void measure_all_rows() {
         for (int i = 0; i < path_.count; ++i) lag_.seconds.push_back(path_.instant(i));
         lag_.path = path_.length();
         lag_.jump_from = path_.start + path_.length() / 2;
-        lag_.frame_cap = kFrameCap;
-        begin_row("reference " + request_.reference, 0, path_.count * kFrameCap);
+        lag_.frame_cap = kMaxLagFrames;
+        begin_row("reference " + request_.reference, 0, path_.count * kMaxLagFrames);
         for (int i = 0; i < path_.count; ++i) add_instant(path_.instant(i));
         for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) {
             add_technique(i);
@@ -163,7 +163,7 @@ private:
         begin_run(before);
         StillPicture still;
         int unchanged = 0;
-        for (int k = 1; k <= kFrameCap && !still.rests; ++k) {
+        for (int k = 1; k <= kMaxLagFrames && !still.rests; ++k) {
             TechniqueResult part = render_frame(technique, seconds).read();
             unchanged = have_equal_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
             still.part = std::move(part);
@@ -172,7 +172,7 @@ private:
             // pictures may be black and equal for as many frames as there are mirrors.
             still.rests = !still.part.remembers || unchanged >= mirrors_;
         }
-        frames_done_ = before + kFrameCap;
+        frames_done_ = before + kMaxLagFrames;
         return still;
     }
 
@@ -197,7 +197,7 @@ private:
         for (const InstantReference& instant : instants_)
             if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
         row.after_black = measure_settling(text, 0);
-        row.after_jump = measure_settling(text, kFrameCap);
+        row.after_jump = measure_settling(text, kMaxLagFrames);
         lag_.rows.push_back(std::move(row)); // keeps partial results if a signal comes
         for (const double speed : request_.speeds)
             lag_.rows.back().speeds.push_back(measure_lag_at_speed(text, speed));
@@ -227,23 +227,24 @@ private:
         report::SettlingAfterCut settling;
         begin_run(frames_done_);
         for (int k = 0; k < before; ++k) render_frame(text, lag_.jump_from);
-        for (int k = 0; k < kFrameCap; ++k) {
+        for (int k = 0; k < kMaxLagFrames; ++k) {
             const measure::Difference error = compute_difference_without_flip(
                 render_frame(text, path_.start).hdr(), stills_.front(), instants_.front().mirrors,
                 request_.base.exposure);
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
         }
-        settling.rmse_settled = measure::find_settled_frame(settling.rmse, measure::kLagBound);
-        settling.max_settled = measure::find_settled_frame(settling.max, measure::kLagBound);
+        settling.rmse_settled = measure::find_settled_frame(settling.rmse, measure::kLagErrorLimit);
+        settling.max_settled = measure::find_settled_frame(settling.max, measure::kLagErrorLimit);
         return settling;
     }
 
     report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed) {
         report::LagAtSpeed lag{.speed = speed};
-        const int between = path_.frames(speed), count = count_frames_at_speed(speed) - kWarmup;
+        const int between = path_.frames(speed),
+                  count = count_frames_at_speed(speed) - kPathWarmupFrames;
         begin_run(frames_done_);
-        for (int k = -kWarmup; k < count; ++k) {
+        for (int k = -kPathWarmupFrames; k < count; ++k) {
             const Frame moving = render_frame(text, path_.seconds(speed, k));
             if (k < 0 || k % between != 0) continue;
             const auto i = static_cast<std::size_t>(k / between);
@@ -256,11 +257,11 @@ private:
     }
 
     int count_frames_at_speed(double speed) const {
-        return kWarmup + (path_.count - 1) * path_.frames(speed) + 1;
+        return kPathWarmupFrames + (path_.count - 1) * path_.frames(speed) + 1;
     }
     /// Counts every still with the largest number of frames.
     int count_frames_of_row() const {
-        int frames = path_.count * kFrameCap + 3 * kFrameCap;
+        int frames = path_.count * kMaxLagFrames + 3 * kMaxLagFrames;
         for (const double speed : request_.speeds) frames += count_frames_at_speed(speed);
         return frames;
     }
@@ -307,7 +308,7 @@ const RegisteredStudy kLagStudy{
 
 void measure_lag(Session& session, const LagRequest& request, report::LagResults& lag) {
     lag.complete = false;
-    LagMeasurement(session, request, lag).run();
+    LagMeasurement(session, request, lag).measure_all_rows();
 }
 
 } // namespace catoptric::app

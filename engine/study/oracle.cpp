@@ -15,8 +15,8 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kUnknown = 1, kMiss = 2; // Lookup::state
-constexpr float kFar = std::numeric_limits<float>::max();
+constexpr int kLookupUnknown = 1, kLookupMiss = 2; // Lookup::state
+constexpr float kUnlimitedDistance = std::numeric_limits<float>::max();
 
 /// Returns the ray that a mirror reflects from the point where `ray` met it, as
 /// shaders/lib/whitted.glsl does.
@@ -48,7 +48,7 @@ LookupOracle::LookupOracle(const Request& request) {
         emits_.push_back(scene::is_visibly_emissive(now.materials[object.material]));
     everything_ = build_bvh_without_object(geometry_, geometry_.ranges.size());
     for (const std::size_t object : mirror_objects_) {
-        centres_.push_back(space.point(scene::bounds(now, now.objects[object]).centre()));
+        centres_.push_back(space.to_scene_point(scene::bounds(now, now.objects[object]).centre()));
         without_.push_back(build_bvh_without_object(geometry_, object));
     }
     trace_request(request);
@@ -65,14 +65,14 @@ void LookupOracle::trace_request(const Request& request) {
     };
     for (std::size_t pixel = 0; pixel < std::size_t{request.size.x} * request.size.y; ++pixel) {
         const f32::Ray ray = make_camera_ray(view, request.size, pixel);
-        const auto hit = bvh::find_closest_hit<float>(everything_, ray, kFar,
-                                                      bvh::kHidden | bvh::kOneSided);
+        const auto hit = bvh::find_closest_hit<float>(everything_, ray, kUnlimitedDistance,
+                                                      bvh::kHiddenFromCamera | bvh::kOneSided);
         if (!hit || mirror_of(hit->object) == mirror_objects_.size()) continue;
         const f32::Ray onward = reflect_ray_at_hit(geometry_, ray, *hit);
-        const auto met = bvh::find_closest_hit<float>(everything_, onward, kFar);
+        const auto met = bvh::find_closest_hit<float>(everything_, onward, kUnlimitedDistance);
         if (met && mirror_of(met->object) < mirror_objects_.size()) continue;
         FirstOrderPixel target{pixel, mirror_of(hit->object),
-                               met ? static_cast<int>(met->object) : kNothing,
+                               met ? static_cast<int>(met->object) : kNoObject,
                                dvec3(onward.direction)};
         if (met) target.place = dvec3(onward.origin) + double{met->t} * dvec3(onward.direction);
         targets_.push_back(target);
@@ -85,8 +85,8 @@ int LookupOracle::find_captured_object(std::uint32_t mirror, const vec3& directi
     f32::Ray ray{centres_[mirror], direction, 0};
     // The second layer is the next surface behind the first that faces the centre.
     bool behind_first = !second_layer;
-    for (auto hit = bvh::find_closest_hit<float>(tree, ray, kFar); hit;
-         hit = bvh::find_closest_hit<float>(tree, ray, kFar)) {
+    for (auto hit = bvh::find_closest_hit<float>(tree, ray, kUnlimitedDistance); hit;
+         hit = bvh::find_closest_hit<float>(tree, ray, kUnlimitedDistance)) {
         const vec4* corner = &tree.triangles[3 * hit->place];
         const bool faces = dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])),
                                ray.direction) < 0;
@@ -98,7 +98,7 @@ int LookupOracle::find_captured_object(std::uint32_t mirror, const vec3& directi
         ray.origin += ray.direction * hit->t;
         ray.leaves = hit->triangle + 1;
     }
-    return kNothing;
+    return kNoObject;
 }
 
 std::vector<measure::LookupDirectionError>
@@ -112,12 +112,13 @@ LookupOracle::judge_lookups(const std::vector<vec4>& lookup, bool left_out) cons
         const vec3 direction = normalize(vec3(pixel));
         const int state = code & 3;
         const bool second = (code & 4) != 0;
-        const bool leaves = state == kMiss ||
-                            (state == kUnknown && second); // as kLeaves in shaders/lib/probe.glsl
-        const int object = leaves ? kNothing
+        const bool leaves = state == kLookupMiss ||
+                            (state == kLookupUnknown &&
+                             second); // as kLeaves in shaders/lib/probe.glsl
+        const int object = leaves ? kNoObject
                                   : find_captured_object(capture, direction, second, left_out);
-        const dvec3 wanted = target.object == kNothing ? target.place
-                                                       : target.place - dvec3(centres_[capture]);
+        const dvec3 wanted = target.object == kNoObject ? target.place
+                                                        : target.place - dvec3(centres_[capture]);
         judged.push_back({measure::angle_degrees(dvec3(direction), wanted), object != target.object,
                           state, double{pixel.w} - std::floor(double{pixel.w})});
     }
@@ -142,7 +143,7 @@ LookupOracle::find_pixels_at_light_edges(const std::vector<vec4>& lookup,
             beside[(axis + 1) % 3] += texel * static_cast<float>(i % 3 - 1);
             beside[(axis + 2) % 3] += texel * static_cast<float>(i / 3 - 1);
             const int object = find_captured_object(mirror, normalize(beside), false, false);
-            lights += object != kNothing && emits_[static_cast<std::size_t>(object)];
+            lights += object != kNoObject && emits_[static_cast<std::size_t>(object)];
         }
         found[pixel] = lights > 0 && lights < 9 ? 255 : 0;
     }

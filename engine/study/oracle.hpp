@@ -38,7 +38,7 @@ private:
         /// Point that the reflected ray meets; the ray's direction if the ray meets nothing.
         dvec3 place{0};
     };
-    static constexpr int kNothing = -1;
+    static constexpr int kNoObject = -1;
 
     void trace_request(const Request& request);
     /// Returns the object that the capture of `mirror` shows in a direction, in its first or second

@@ -15,7 +15,7 @@ namespace {
 
 using report::Json;
 
-constexpr const char* kSchema = "catoptric/reference/1";
+constexpr const char* kReferenceSchema = "catoptric/reference/1";
 const std::array<std::string, 4> kLayers{"A", "B", "variance_A", "variance_B"};
 
 std::string format_point(const dvec3& point) {
@@ -25,10 +25,11 @@ std::string format_point(const dvec3& point) {
 /// Returns the file's description. Throws `bad_data` if it is not one of a reference.
 Json parse_description(const std::string& text, const std::string& file) {
     Json json = Json::parse(text, nullptr, false);
-    const bool is_ours = json.is_object() && json.contains("schema") && json["schema"] == kSchema &&
-                         json.contains("key") && json["key"].is_object();
+    const bool is_ours = json.is_object() && json.contains("schema") &&
+                         json["schema"] == kReferenceSchema && json.contains("key") &&
+                         json["key"].is_object();
     check(is_ours, Failure::bad_data, file,
-          ": wanted a reference that 'compare --reference' wrote (", kSchema,
+          ": wanted a reference that 'compare --reference' wrote (", kReferenceSchema,
           "), found another OpenEXR file");
     return json;
 }
@@ -61,7 +62,7 @@ ReferenceKey make_reference_key(const Request& base, const std::string& techniqu
 
 void write_reference(const StoredReference& reference, const ReferenceKey& key,
                      const std::filesystem::path& path) {
-    Json json{{"schema", kSchema}};
+    Json json{{"schema", kReferenceSchema}};
     for (const auto& [name, value] : key) json["key"][name] = value;
     json["seeds"] = reference.seeds;
     json["gpu_ms"] = reference.gpu_ms;

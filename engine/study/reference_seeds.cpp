@@ -24,7 +24,7 @@ std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
     for (const std::string& row : rows)
         for (const reflect::PlanRule& rule : read_plan(row).rules)
             for (const Knob& knob : rule.choice.settings.knobs())
-                if (knob.name == kSeed) seeds.insert(rule.choice.settings.integer(knob));
+                if (knob.name == kSeed) seeds.insert(rule.choice.settings.integer_value(knob));
     return seeds;
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 /// Returns the seconds since about the start of the program.
 double measure_elapsed_seconds() {
-    static const SteadyClock::time_point kStart = SteadyClock::now();
-    return std::chrono::duration<double>(SteadyClock::now() - kStart).count();
+    static const SteadyClock::time_point kProgramStart = SteadyClock::now();
+    return std::chrono::duration<double>(SteadyClock::now() - kProgramStart).count();
 }
 
 } // namespace
@@ -28,10 +28,10 @@ int choose_round_count(int frames, int asked) { return std::min(frames, asked); 
 RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher& watcher)
     : request_(std::move(request)), watcher_(watcher), frames_(session, request_) {}
 
-void RowMeasurement::measure(int frames) {
+void RowMeasurement::measure_one_round(int frames) {
     const auto render = [&](int count) {
-        for (int k = 0; k < count && frames_.next(); ++k)
-            tell_frame(watcher_, frames_.number(), request_.total());
+        for (int k = 0; k < count && frames_.render_next(); ++k)
+            tell_frame(watcher_, frames_.rendered_frame_count(), request_.total());
     };
     if (rounds_.empty()) {
         noisy_ = !read_processor_use() &&

@@ -26,14 +26,14 @@ public:
     RowMeasurement(Session& session, Request request, const Watcher& watcher);
 
     /// Measures `frames` frames. The first call renders the warm-up before them.
-    void measure(int frames);
+    void measure_one_round(int frames);
     /// Returns the results of the last frame. Call before `suspend`.
-    std::vector<TechniqueResult> parts() const { return frames_.result().parts; }
-    /// Frees the session for other frames until the next `measure`.
+    std::vector<TechniqueResult> technique_results() const { return frames_.result().parts; }
+    /// Frees the session for other frames until the next `measure_one_round`.
     void suspend() { frames_.suspend(); }
 
     /// Returns the number of the last frame, from 1.
-    int number() const { return frames_.number(); }
+    int rendered_frame_count() const { return frames_.rendered_frame_count(); }
     const std::vector<std::vector<FrameTimes>>& rounds() const { return rounds_; }
     /// Returns waited_share over all rounds; NaN if the system does not report waiting.
     double mean_waited_share() const { return waited_; }
@@ -43,7 +43,7 @@ public:
 private:
     Request request_;
     const Watcher& watcher_;
-    Frames frames_;
+    FrameLoop frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
     WaitingTimes waiting_; ///< sum over all rounds
     double waited_ = std::numeric_limits<double>::quiet_NaN();

@@ -24,23 +24,23 @@ RegisteredStudy::RegisteredStudy(Study study) {
         const measure::RegisteredMetric registers(std::move(metric));
     }
     study.part.name = study.name;
-    if (study.part.tables != nullptr) const report::RegisteredPart registers(study.part);
+    if (study.part.tables != nullptr) const report::RegisteredReportPart registers(study.part);
     study_table().push_back(std::move(study));
 }
 
-const std::vector<Study>& studies() {
-    static const std::vector<Study> kRows = [] {
+const std::vector<Study>& list_studies() {
+    static const std::vector<Study> kSortedStudies = [] {
         std::vector<Study> rows = study_table();
         std::ranges::sort(rows, {},
                           [](const Study& row) { return std::pair(row.order, row.name); });
         return rows;
     }();
-    return kRows;
+    return kSortedStudies;
 }
 
 const Study& find_study(std::string_view name) {
     std::vector<std::string> names;
-    for (const Study& study : studies()) {
+    for (const Study& study : list_studies()) {
         if (study.name == name) return study;
         names.emplace_back(study.name);
     }

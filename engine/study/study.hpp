@@ -2,7 +2,7 @@
 
 #include "compare.hpp"
 #include "measure/metric.hpp"
-#include "report/part.hpp"
+#include "report/report_part.hpp"
 #include "study/reference_cache.hpp"
 
 #include <functional>
@@ -58,7 +58,7 @@ struct Study {
     std::vector<measure::Metric> metrics = {};
     /// The study's part of report.md and report.html, if it has `tables`. Its name is that of the
     /// study.
-    report::Part part = {};
+    report::ReportPart part = {};
 };
 
 /// Registers a study with its metrics and its part of the report. Define it at namespace scope: the
@@ -68,7 +68,7 @@ struct RegisteredStudy {
 };
 
 /// Returns all studies by `order`, then name.
-const std::vector<Study>& studies();
+const std::vector<Study>& list_studies();
 /// Throws `usage` for an unknown name, with the nearest.
 const Study& find_study(std::string_view name);
 /// Throws `usage` for an unknown study, and for a reference that it cannot use.

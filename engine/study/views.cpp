@@ -22,7 +22,7 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kGap = 4; // columns between two pictures
+constexpr int kPictureGapColumns = 4; // columns between two pictures
 
 /// Returns the instant at `share` of the period after `start`, rounded to about a thousandth of the
 /// period.
@@ -53,11 +53,12 @@ Request make_view_request(const Request& base, const measure::View& view) {
 }
 
 measure::Picture place_side_by_side(const measure::Picture& left, const measure::Picture& right) {
-    measure::Picture both(left.width + kGap + right.width, left.height);
+    measure::Picture both(left.width + kPictureGapColumns + right.width, left.height);
     std::ranges::fill(both.pixels, vec3(1));
     for (int y = 0; y < left.height; ++y) {
         for (int x = 0; x < left.width; ++x) both.at(x, y) = left.at(x, y);
-        for (int x = 0; x < right.width; ++x) both.at(left.width + kGap + x, y) = right.at(x, y);
+        for (int x = 0; x < right.width; ++x)
+            both.at(left.width + kPictureGapColumns + x, y) = right.at(x, y);
     }
     return both;
 }
@@ -74,8 +75,9 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
 }
 
 void check_view_count(std::string_view option, int count) {
-    constexpr int kLeast = measure::kFewest;
-    check(count == 1 || count >= kLeast, Failure::usage, option, ": wanted 1 or at least ", kLeast,
+    constexpr int kMinViewsForInterval = measure::kMinIntervalSamples;
+    check(count == 1 || count >= kMinViewsForInterval, Failure::usage, option,
+          ": wanted 1 or at least ", kMinViewsForInterval,
           ", since fewer bound no median with 95 % confidence, found ", count);
 }
 

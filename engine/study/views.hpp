@@ -11,7 +11,7 @@ namespace catoptric::app {
 /// which its camera can be drawn again. Its instant lies within one period of the scene's motion
 /// from `request.time` on, rounded so that it can be typed. Returns no views for a count of 1.
 /// Throws `usage` for other counts that give no confidence interval of the median
-/// (measure::kFewest), and if no camera sees a mirror.
+/// (measure::kMinIntervalSamples), and if no camera sees a mirror.
 std::vector<measure::View> draw_random_views(const Request& request, int count);
 
 struct ViewsRequest {

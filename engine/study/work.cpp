@@ -37,7 +37,7 @@ std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) 
         std::vector<std::string> cells{row.label};
         for (const std::size_t kind : kinds)
             cells.push_back(counts.values[kind] ? std::to_string(*counts.values[kind])
-                                                : std::string(report::kNothing));
+                                                : std::string(report::kEmptyCellText));
         table.rows.push_back(std::move(cells));
     }
     return {table};

@@ -59,43 +59,44 @@ public:
         }
     }
 
-    std::vector<Benchmark> run() {
+    std::vector<Benchmark> run_all_rounds() {
         for (std::size_t i = 0; i < subjects_.size(); ++i) warm_up(i);
         const PinnedThreads held;
         for (int round = 0; round < rounds_; ++round)
             for (std::size_t place = 0; place < subjects_.size(); ++place)
                 // Reverses every second round. No subject then always follows the same other, whose
                 // work may still have an effect.
-                measure(round % 2 == 0 ? place : subjects_.size() - 1 - place, round);
+                measure_subject(round % 2 == 0 ? place : subjects_.size() - 1 - place, round);
         for (Benchmark& caller : callers_)
             if (!caller.name.empty()) list_.push_back(std::move(caller));
         return std::move(list_);
     }
 
 private:
-    void tell(std::size_t index, const std::string& doing) const {
+    void report_progress(std::size_t index, const std::string& doing) const {
         const std::size_t steps = subjects_.size() * (static_cast<std::size_t>(rounds_) + 1);
         tell_row(options_.watcher, subjects_[index].name + doing, done_, steps);
     }
 
-    void end(const BenchmarkSubject& subject) {
+    void finish_subject(const BenchmarkSubject& subject) {
         if (subject.leave) subject.leave();
         ++done_;
     }
 
     void warm_up(std::size_t index) {
         const BenchmarkSubject& subject = subjects_[index];
-        tell(index, ", warm-up");
+        report_progress(index, ", warm-up");
         for (int k = 1; k <= subject.warmup; ++k) {
             subject.work();
             tell_frame(options_.watcher, k, subject.warmup);
         }
-        end(subject);
+        finish_subject(subject);
     }
 
-    void measure(std::size_t index, int round) {
+    void measure_subject(std::size_t index, int round) {
         const BenchmarkSubject& subject = subjects_[index];
-        tell(index, ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
+        report_progress(index,
+                        ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
         const int iterations = count_frames_of_round(options_.iterations, rounds_, round);
         RoundSums sums;
         const ProcessorUsage process = meter_.read(), caller = caller_meter_.read();
@@ -104,12 +105,12 @@ private:
             for (int k = 0; k < iterations; ++k) sums.add(subject.work());
         }
         sums.caller = caller_meter_.read() - caller, sums.process = meter_.read() - process;
-        keep(index, iterations, sums);
-        end(subject);
+        store_round(index, iterations, sums);
+        finish_subject(subject);
         tell_frame(options_.watcher, iterations, iterations);
     }
 
-    void keep(std::size_t index, int iterations, const RoundSums& sums) {
+    void store_round(std::size_t index, int iterations, const RoundSums& sums) {
         BenchmarkRound round = divide_by_iterations(iterations, sums.real_ms, sums.process);
         for (const auto& [name, sum] : sums.counters) round.counters[name] = sum / iterations;
         list_[index].rounds.push_back(std::move(round));
@@ -151,7 +152,7 @@ BenchmarkSubject make_subject(std::string name, std::function<void()> work, int 
 std::vector<measure::Benchmark> measure_in_rounds(const std::vector<BenchmarkSubject>& subjects,
                                                   const UsageMeter& meter,
                                                   const BenchOptions& options) {
-    return BenchmarkRunner(subjects, meter, options).run();
+    return BenchmarkRunner(subjects, meter, options).run_all_rounds();
 }
 
 measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,

@@ -22,10 +22,11 @@ public:
     FrameBenchmark(std::shared_ptr<Session> session, Request request)
         : session_(std::move(session)), request_(std::move(request)) {}
 
-    IterationFigures next() {
+    IterationFigures render_next() {
         // Only now, because Frames begins with a cut.
         if (!frames_) frames_.emplace(*session_, request_);
-        check(frames_->next(), Failure::internal, "a benchmark went on after its last frame");
+        check(frames_->render_next(), Failure::internal,
+              "a benchmark went on after its last frame");
         const FrameTimes& times = frames_->frame().times();
         IterationFigures iteration{times.host.sum(),
                                    {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
@@ -34,7 +35,7 @@ public:
         return iteration;
     }
 
-    void leave() {
+    void suspend_frames() {
         if (!frames_) return;
         if (!is_read_)
             if (const auto rays = frames_->frame().read().rays)
@@ -49,13 +50,13 @@ private:
         const WorkCounts work = sum_work(count_frame_work(*session_, request_));
         for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (work.values[i])
-                work_[measure::kWorkCounters + std::string(kWorkKinds[i].name)] =
+                work_[measure::kWorkCounterPrefix + std::string(kWorkKinds[i].name)] =
                     static_cast<double>(*work.values[i]);
     }
 
     std::shared_ptr<Session> session_;
     Request request_;
-    std::optional<Frames> frames_;
+    std::optional<FrameLoop> frames_;
     bool is_read_ = false;
     std::optional<double> rays_;
     std::map<std::string, double> work_; ///< counted work of one frame
@@ -93,9 +94,9 @@ BenchmarkSubject make_frame_subject(std::shared_ptr<Session> session, Request re
     request.scene = scene::Scene(); // the session has its own copy
     const auto work = std::make_shared<FrameBenchmark>(std::move(session), std::move(request));
     return {.name = "frame/" + place,
-            .work = [work] { return work->next(); },
+            .work = [work] { return work->render_next(); },
             .warmup = warmup,
-            .leave = [work] { work->leave(); },
+            .leave = [work] { work->suspend_frames(); },
             .caller = "host/" + place};
 }
 

@@ -55,7 +55,7 @@ void measure_rows(Session& session, const Request& request, int threads,
             tell_row(options.watcher, name_sample(rows[i]),
                      static_cast<std::size_t>(round) * rows.size() + place,
                      static_cast<std::size_t>(rounds) * rows.size());
-            runs[i]->measure(count_frames_of_round(options.iterations, rounds, round));
+            runs[i]->measure_one_round(count_frames_of_round(options.iterations, rounds, round));
             runs[i]->suspend();
         }
     for (std::size_t i = 0; i < rows.size(); ++i)

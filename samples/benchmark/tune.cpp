@@ -19,7 +19,7 @@ std::vector<double> list_device_times(const measure::Benchmark& benchmark) {
 
 std::string benchmark_name(const Request& request) {
     return "frame/" + request.scene.name + "/" + std::to_string(request.size.x) + "x" +
-           std::to_string(request.size.y) + "/" + kTunedTechnique;
+           std::to_string(request.size.y) + "/" + kTuningTechnique;
 }
 
 } // namespace
@@ -32,7 +32,7 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
     const auto add = [&](const std::string& name, const gpu::VariantChoices& choices) {
         BenchmarkSubject subject = make_frame_subject(session, request, options.iterations);
         subject.work = [&engine, choices, work = std::move(subject.work)] {
-            EmbeddingAccess::choose(engine, choices);
+            EmbeddingAccess::choose_variants(engine, choices);
             return work();
         };
         subject.name = name;
@@ -41,15 +41,15 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
     };
     const gpu::VariantChoices defaults = choose_default_variants(engine.device());
     add("default", defaults);
-    for (std::size_t i = 0; i < gpu::kVariants; ++i) {
+    for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
         gpu::VariantChoices choices = defaults;
         choices[i] = 1 - choices[i];
         add(std::string(gpu::list_shader_variants()[i].name), choices);
     }
     const measure::BenchmarkRun run = run_benchmarks(subjects, meter, options, {}, {});
-    EmbeddingAccess::choose(engine, defaults);
+    EmbeddingAccess::choose_variants(engine, defaults);
     TuningResult tuned{.tried = {}, .noisy = run.noisy.value_or(false)};
-    for (std::size_t i = 0; i < gpu::kVariants; ++i) {
+    for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
         const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         tuned.tried.push_back({.variant = std::string(variant.name),
                                .choice = std::string(variant.choices[1 - defaults[i]]),

@@ -8,7 +8,7 @@
 namespace catoptric::app {
 
 /// Technique that variants are measured with. It consists of the tracer's shader alone.
-inline constexpr const char* kTunedTechnique = "raytrace:depth=4";
+inline constexpr const char* kTuningTechnique = "raytrace:depth=4";
 
 struct TuningResult {
     std::vector<measure::TriedVariant> tried; ///< in the table's order
@@ -17,7 +17,7 @@ struct TuningResult {
 };
 
 /// Measures each variant against the default, by the device's time of frames of `request`, whose
-/// technique is kTunedTechnique. Every round has some frames of each variant. All variants share
+/// technique is kTuningTechnique. Every round has some frames of each variant. All variants share
 /// one session, because the threads of several software devices would disturb each other. Leaves
 /// the engine with the default choices.
 TuningResult tune_shader_variants(Engine& engine, const Request& request,

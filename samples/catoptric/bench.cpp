@@ -9,12 +9,12 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "options.hpp"
+#include "output_checks.hpp"
 #include "parse.hpp"
-#include "places.hpp"
 #include "progress.hpp"
 #include "report/benchmarks.hpp"
 #include "session/device_facts.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>
@@ -43,20 +43,20 @@ Exit code 1 if --compare or --against finds a slower benchmark (the interval of 
 benchmark whose counted work has grown by more than a hundredth.)";
 
 /// Techniques that are measured by default.
-const std::vector<std::string> kTechniques{"raytrace:depth=4",
-                                           "raytrace:depth=4,sphere=exact",
-                                           "parallax:face=64",
-                                           "parallax",
-                                           "parallax:face=512",
-                                           "secant",
-                                           "march",
-                                           "pyramid",
-                                           "layered",
-                                           "hybrid"};
-constexpr const char* kOneModel =
+const std::vector<std::string> kDefaultBenchTechniques{"raytrace:depth=4",
+                                                       "raytrace:depth=4,sphere=exact",
+                                                       "parallax:face=64",
+                                                       "parallax",
+                                                       "parallax:face=512",
+                                                       "secant",
+                                                       "march",
+                                                       "pyramid",
+                                                       "layered",
+                                                       "hybrid"};
+constexpr const char* kOneModelMessage =
     "--model both: wanted everything or required, of which a benchmark has one";
-constexpr const char* kFlatScene = "flat"; // `planar` needs a flat mirror
-constexpr const char* kFlatTechnique = "planar";
+constexpr const char* kFlatMirrorScene = "flat"; // `planar` needs a flat mirror
+constexpr const char* kFlatMirrorTechnique = "planar";
 
 struct BenchArguments {
     CommonOptions common; ///< options for all scenes
@@ -83,13 +83,13 @@ std::vector<SceneSelection> list_requested_scenes(const BenchArguments& options)
     std::vector<std::string> scenes = options.scenes;
     if (scenes.empty()) scenes.push_back(options.common.scene);
     for (const std::string& scene : scenes) {
-        list.push_back(
-            {options.common, options.techniques.empty() ? kTechniques : options.techniques});
+        list.push_back({options.common,
+                        options.techniques.empty() ? kDefaultBenchTechniques : options.techniques});
         list.back().common.scene = scene;
     }
     if (options.scenes.empty() && options.techniques.empty()) {
-        list.push_back({options.common, {kFlatTechnique}});
-        list.back().common.scene = kFlatScene;
+        list.push_back({options.common, {kFlatMirrorTechnique}});
+        list.back().common.scene = kFlatMirrorScene;
     }
     return list;
 }
@@ -123,7 +123,7 @@ void check_output(const BenchArguments& options, const std::vector<std::filesyst
                   const std::string& read) {
     if (options.output.empty()) return;
     check_file_can_be_made(options.output);
-    check_outputs_differ_from_inputs({kStdout, options.output}, inputs, read);
+    check_outputs_differ_from_inputs({kStdoutPath, options.output}, inputs, read);
 }
 
 /// Writes the result to stdout, and also to a file if the user asks for one.
@@ -138,7 +138,7 @@ void write_result(const BenchArguments& options, const std::string& json,
 int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
     const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
-    check(!options.common.both_models, Failure::usage, kOneModel);
+    check(!options.common.both_models, Failure::usage, kOneModelMessage);
     check_techniques_hold_no_scene(options.techniques);
     app::check_rows(options.techniques);
     const std::vector<SceneSelection> list = list_requested_scenes(options);
@@ -228,9 +228,9 @@ int run_against_program(const BenchArguments& options) {
 
 int run_tuning(const BenchArguments& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
-          "--tune: wanted at most one SCENE and no --techniques, since ", app::kTunedTechnique,
+          "--tune: wanted at most one SCENE and no --techniques, since ", app::kTuningTechnique,
           " is what is measured");
-    check(!options.common.both_models, Failure::usage, kOneModel);
+    check(!options.common.both_models, Failure::usage, kOneModelMessage);
     CommonOptions common = options.common;
     if (!options.scenes.empty()) common.scene = options.scenes.front();
     return run_device_tuning(common, std::min(options.rounds, choose_frame_count(options)),

@@ -13,20 +13,22 @@ namespace catoptric::cli {
 
 namespace {
 
-struct OwnOption {
+struct BenchAgainstOption {
     std::string_view name;
     bool has_value;
 };
 /// Options of `bench --against` that are not passed on to the rounds.
-constexpr std::array kOwn{
-    OwnOption{"--against", true},  OwnOption{"--rounds", true}, OwnOption{"--frames", true},
-    OwnOption{"--output", true},   OwnOption{"-o", true},       OwnOption{"--progress", true},
-    OwnOption{"--json", false},    OwnOption{"--quiet", false}, OwnOption{"-q", false},
-    OwnOption{"--verbose", false}, OwnOption{"-v", false}};
+constexpr std::array kOptionsOfBenchAgainst{
+    BenchAgainstOption{"--against", true}, BenchAgainstOption{"--rounds", true},
+    BenchAgainstOption{"--frames", true},  BenchAgainstOption{"--output", true},
+    BenchAgainstOption{"-o", true},        BenchAgainstOption{"--progress", true},
+    BenchAgainstOption{"--json", false},   BenchAgainstOption{"--quiet", false},
+    BenchAgainstOption{"-q", false},       BenchAgainstOption{"--verbose", false},
+    BenchAgainstOption{"-v", false}};
 
 /// Returns how many words this option and its value take; 0 if the option is passed on.
 std::size_t count_option_words(const std::string& word) {
-    for (const OwnOption& own : kOwn) {
+    for (const BenchAgainstOption& own : kOptionsOfBenchAgainst) {
         if (word == own.name) return own.has_value ? 2 : 1;
         const bool is_long = own.name.starts_with("--");
         // "--rounds=8", "-oFILE"
@@ -57,7 +59,7 @@ std::array<measure::BenchmarkRun, 2>
 bench_programs_in_turn(const std::array<std::string, 2>& programs,
                        const std::vector<std::string>& words, int rounds,
                        const app::Watcher& watcher) {
-    static const std::atomic<int> kGoOn{0};
+    static const std::atomic<int> kNeverStop{0};
     std::array<measure::BenchmarkRun, 2> runs;
     for (int round = 0; round < rounds; ++round)
         for (int place = 0; place < 2; ++place) {
@@ -70,7 +72,7 @@ bench_programs_in_turn(const std::array<std::string, 2>& programs,
             std::vector<std::string> command{program, "bench"};
             command.insert(command.end(), words.begin(), words.end());
             const measure::BenchmarkRun found = report::read_benchmarks(
-                run_and_read_output(command, watcher.stop ? *watcher.stop : kGoOn),
+                run_and_read_output(command, watcher.stop ? *watcher.stop : kNeverStop),
                 program + ": its stdout");
             runs[which] = round == 0 ? found : join_benchmark_runs(runs[which], found);
             tell_frame(watcher, 1, 1);

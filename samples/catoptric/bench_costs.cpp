@@ -3,13 +3,13 @@
 #include "benchmark/costs.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "places.hpp"
+#include "output_checks.hpp"
 #include "progress.hpp"
 #include "report/costs.hpp"
 #include "report/text.hpp"
 #include "scene/built_in.hpp"
 #include "session/device_facts.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>
@@ -21,21 +21,21 @@ namespace catoptric::cli {
 namespace {
 
 /// Number of measured frames of each row, and frames before them in which captures settle.
-constexpr int kFrames = 12, kWarmup = 14;
+constexpr int kCostFrames = 12, kCostWarmupFrames = 14;
 
 /// Returns one request per scene.
 std::vector<app::Request> make_cost_requests(const CostsArguments& arguments) {
     std::vector<std::string> scenes = arguments.scenes;
     if (scenes.empty())
-        for (const scene::BuiltInScene& scene : scene::built_in_scenes())
+        for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
             scenes.emplace_back(scene.name);
     std::vector<app::Request> requests;
     for (const std::string& scene : scenes) {
         CommonOptions common = arguments.common;
         common.scene = scene;
         app::Request request = make_request(common, app::check_has_mirror);
-        request.frames = common.frames.value_or(kFrames);
-        request.warmup = common.warmup.value_or(kWarmup);
+        request.frames = common.frames.value_or(kCostFrames);
+        request.warmup = common.warmup.value_or(kCostWarmupFrames);
         request.techniques = arguments.techniques.empty() ? app::list_default_techniques(request)
                                                           : arguments.techniques;
         requests.push_back(std::move(request));
@@ -80,8 +80,8 @@ std::string make_costs_text(const measure::DeviceCosts& costs) {
     const measure::CostFit& fit = *costs.fit;
     text += fmt::format("{} rows, each predicted by costs that were fitted to the others: {:.0f} % "
                         "within 20 %, {:.0f} % within 50 %\n",
-                        fit.samples.size(), 100 * fit.share_within(1.2),
-                        100 * fit.share_within(1.5));
+                        fit.samples.size(), 100 * fit.fraction_within(1.2),
+                        100 * fit.fraction_within(1.5));
     return text;
 }
 

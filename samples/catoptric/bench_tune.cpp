@@ -6,12 +6,12 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
-#include "places.hpp"
+#include "output_checks.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "session/folders.hpp"
 #include "session/profile.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ fs::path choose_profile_path(const std::string& output, const app::DeviceInfo& d
     } else {
         check_file_can_be_made(place);
     }
-    check_outputs_differ_from_inputs({kStdout, place}, inputs);
+    check_outputs_differ_from_inputs({kStdoutPath, place}, inputs);
     return place;
 }
 
@@ -62,7 +62,7 @@ int run_device_tuning(const CommonOptions& common, int rounds, const std::string
     check(common.device.profile.empty(), Failure::usage,
           "--tune and --device-profile: wanted one of them, found both");
     app::Request request = make_request(common);
-    request.techniques = {app::kTunedTechnique};
+    request.techniques = {app::kTuningTechnique};
     app::EngineOptions opened = make_engine_options(common.device);
     opened.profiles.clear(); // tuning starts from the defaults
     app::Engine engine(opened);

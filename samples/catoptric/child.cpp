@@ -17,7 +17,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr int kLook = 100; // milliseconds between two checks of `stop`
+constexpr int kStopCheckMilliseconds = 100; // milliseconds between two checks of `stop`
 
 std::string describe_errno(int error) { return std::generic_category().message(error); }
 
@@ -46,19 +46,19 @@ public:
         ::close(out_);
         if (process_ > 0) {
             ::kill(process_, SIGTERM);
-            wait();
+            wait_for_exit();
         }
     }
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     /// Returns all output of the program until it closes its stdout.
-    std::string read(const app::Watcher& watcher) const {
+    std::string read_output(const app::Watcher& watcher) const {
         std::string text;
         for (;;) {
             check_stopped(watcher);
             pollfd ready{out_, POLLIN, 0};
-            if (::poll(&ready, 1, kLook) <= 0) continue;
+            if (::poll(&ready, 1, kStopCheckMilliseconds) <= 0) continue;
             std::array<char, 1 << 16> block{};
             const ssize_t count = ::read(out_, block.data(), block.size());
             if (count < 0 && errno == EINTR) continue;
@@ -68,8 +68,8 @@ public:
             text.append(block.data(), static_cast<std::size_t>(count));
         }
     }
-    void end() {
-        const int status = wait();
+    void check_exit() {
+        const int status = wait_for_exit();
         if (WIFSIGNALED(status))
             fail(Failure::bad_data, name_, ": wanted exit code 0, found signal ", WTERMSIG(status));
         check(WEXITSTATUS(status) == 0, Failure::bad_data, name_, ": wanted exit code 0, found ",
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    int wait() {
+    int wait_for_exit() {
         int status = 0;
         while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
         }
@@ -97,8 +97,8 @@ std::string run_and_read_output(const std::vector<std::string>& command,
     ChildProcess child(command);
     app::Watcher watcher;
     watcher.stop = &stop;
-    std::string text = child.read(watcher);
-    child.end();
+    std::string text = child.read_output(watcher);
+    child.check_exit();
     return text;
 }
 

@@ -9,13 +9,13 @@
 #include "measure/lag.hpp"
 #include "measure/row_notes.hpp"
 #include "options.hpp"
+#include "output_checks.hpp"
 #include "parse.hpp"
-#include "places.hpp"
 #include "progress.hpp"
 #include "report/writer.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "study/reference_cache.hpp"
 #include "study/study.hpp"
 #include "table.hpp"
@@ -117,7 +117,7 @@ std::vector<std::string> list_requested_rows(const app::CompareRequest& request)
 
 void check_output_places(const CompareOptions& options,
                          const std::vector<app::CompareRequest>& requests) {
-    std::vector<std::filesystem::path> outputs{kStdout}, inputs;
+    std::vector<std::filesystem::path> outputs{kStdoutPath}, inputs;
     for (const app::CompareRequest& request : requests) {
         std::vector<std::string> images;
         for (const std::string& text : list_requested_rows(request)) {
@@ -166,11 +166,11 @@ public:
           several_(options.folder, list_scenes_to_compare(options), options.csv),
           is_one_(count == 1) {}
 
-    void write(std::size_t index, const report::Comparison& comparison) {
+    void write_report(std::size_t index, const report::Comparison& comparison) {
         is_one_ ? one_.write(comparison) : several_.write(index, comparison);
     }
     /// Prints the table of one finished scene.
-    void show(const report::Comparison& comparison) const {
+    void print_table(const report::Comparison& comparison) const {
         const OutputOptions& manners = options_.common.manners;
         for (const std::string& warning : comparison.warnings)
             print_detail(manners, "warning: " + warning);
@@ -204,13 +204,13 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
     request.watcher = make_progress_watcher(progress);
     tell_row(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
-        output.write(index, so_far);
+        output.write_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
     progress.clear();
     // If no row was finished, an earlier report is worth more.
-    if (!comparison.rows.empty()) output.write(index, comparison);
-    output.show(comparison);
+    if (!comparison.rows.empty()) output.write_report(index, comparison);
+    output.print_table(comparison);
     return comparison;
 }
 
@@ -257,7 +257,7 @@ StudyOption find_study_option(const app::Study& study) {
 /// Adds the options of all studies whose option is of this kind. `options` must outlive the
 /// parsing.
 void add_studies(CommandVerb& verb, CompareOptions& options, StudyOption kind) {
-    for (const app::Study& study : app::studies()) {
+    for (const app::Study& study : app::list_studies()) {
         const std::string option = "--" + std::string(study.name), help(study.help);
         const auto choose = [&options, &study](int count) {
             options.studies.push_back({std::string(study.name), count});

@@ -9,11 +9,11 @@
 namespace catoptric::cli {
 
 std::optional<FileSequence> FileSequence::find(const std::string& name) {
-    static const std::regex kPlace(R"(\{n(?::0?([1-9]))?\}|%(?:0?([1-9]))?d)");
+    static const std::regex kNumberPlaceholder(R"(\{n(?::0?([1-9]))?\}|%(?:0?([1-9]))?d)");
     std::smatch place;
-    const bool found = std::regex_search(name, place, kPlace);
+    const bool found = std::regex_search(name, place, kNumberPlaceholder);
     const std::string rest = found ? place.suffix().str() : name;
-    check(!std::regex_search(rest, kPlace), Failure::usage,
+    check(!std::regex_search(rest, kNumberPlaceholder), Failure::usage,
           "-o: wanted one place for the frame's number, found two in '", name, "'");
     check(rest.find("{n") == std::string::npos &&
               (!found || place.prefix().str().find("{n") == std::string::npos),

@@ -1,12 +1,12 @@
 // catoptric graph: shows the compiled render graph of a frame.
 #include "core/error.hpp"
-#include "drawn.hpp"
 #include "options.hpp"
+#include "output_checks.hpp"
 #include "parse.hpp"
-#include "places.hpp"
 #include "session/access.hpp"
+#include "session/culling_report.hpp"
 #include "session/session.hpp"
-#include "session/why.hpp"
+#include "technique_option.hpp"
 #include "verbs.hpp"
 
 #include <memory>
@@ -64,7 +64,7 @@ int run_graph(const GraphOptions& options) {
           "--budget-ms: wanted --why, since the plan is that of a frame at rest");
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
-    check_outputs_differ_from_inputs({kStdout}, request.scene.files);
+    check_outputs_differ_from_inputs({kStdoutPath}, request.scene.files);
     if (options.why && !is_limited) {
         print_culling_report(request, format, std::nullopt);
         return 0;
@@ -77,7 +77,7 @@ int run_graph(const GraphOptions& options) {
         return 0;
     }
     app::Session session(engine, request.scene);
-    std::string plan = app::Access::plan(session, request, format);
+    std::string plan = app::Access::format_frame_plan(session, request, format);
     if (!plan.ends_with('\n')) plan += '\n';
     print_result(plan);
     if (options.common.device.validate) engine.check_validation();
@@ -93,10 +93,10 @@ void add_graph_verb(CommandLine& program) {
     add_technique_options(verb, options->drawn);
     verb.option("--format", "F", "output format: text, dot or json (text)",
                 [options](const std::string& text) {
-                    constexpr app::PlanFormat kFormats[] = {
+                    constexpr app::PlanFormat kPlanFormats[] = {
                         app::PlanFormat::text, app::PlanFormat::dot, app::PlanFormat::json};
                     options->format =
-                        kFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
+                        kPlanFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
                 });
     verb.flag("--why",
               "print what the picture requires and what is left out, with reasons, instead of the "

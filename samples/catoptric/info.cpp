@@ -47,7 +47,8 @@ InfoFacts gather_info_facts(const DeviceOptions& device) {
     std::vector<std::string> techniques, scenes;
     for (const app::TechniqueInfo& technique : app::techniques())
         techniques.push_back(technique.name);
-    for (const scene::BuiltInScene& scene : scene::built_in_scenes()) scenes.push_back(scene.name);
+    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
+        scenes.push_back(scene.name);
     facts.features = {{"techniques", techniques},
                       {"scenes", scenes},
                       {"scene_files", {"glb", "gltf", "obj"}},
@@ -87,13 +88,14 @@ struct InfoOptions {
 /// Moves the scene out of the request.
 std::optional<double> find_shown_exposure(app::Request& request, const InfoOptions& options) {
     if (!request.auto_exposure) return request.exposure;
-    constexpr std::size_t kMostTriangles =
+    constexpr std::size_t kMaxExposureTriangles =
         500'000; // building a BVH over more costs as much as a picture
-    if (const std::size_t count = scene::triangle_count(request.scene); count > kMostTriangles) {
+    if (const std::size_t count = scene::triangle_count(request.scene);
+        count > kMaxExposureTriangles) {
         print_note(options.common.manners,
                    fmt::format("exposure not told: wanted at most {} triangles, "
                                "found {}; render chooses it",
-                               kMostTriangles, count));
+                               kMaxExposureTriangles, count));
         return std::nullopt;
     }
     try {

@@ -24,7 +24,7 @@ constexpr const char* kListExamples = R"(Examples:
   catoptric list techniques parallax      its knobs
   catoptric list devices --json)";
 
-const std::vector<std::string> kKinds{"techniques", "scenes", "devices", "metrics"};
+const std::vector<std::string> kListedKinds{"techniques", "scenes", "devices", "metrics"};
 
 std::string describe_knob(const app::KnobInfo& knob) {
     const std::string range = knob.choices.empty()
@@ -94,7 +94,7 @@ std::string format_named_list(const std::vector<NamedEntry>& rows) {
 
 std::vector<NamedEntry> list_built_in_scenes() {
     std::vector<NamedEntry> rows;
-    for (const scene::BuiltInScene& scene : scene::built_in_scenes())
+    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
         rows.push_back({scene.name, scene.summary});
     return rows;
 }
@@ -152,7 +152,7 @@ void add_list_verb(CommandLine& program) {
                   CommandVerb::ArgumentNeed::optional);
     add_output_options(verb, options->manners);
     verb.set_action([options] {
-        parse_choice_index("list", options->kind, kKinds);
+        parse_choice_index("list", options->kind, kListedKinds);
         print_result(make_listing(options->kind, options->name, options->manners.json));
         return 0;
     });

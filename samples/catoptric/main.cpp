@@ -14,10 +14,10 @@ namespace {
 /// new pages each time, which took 40 % of a frame with 64 captures.
 void return_freed_memory() {
 #ifdef __GLIBC__
-    constexpr int kLargeBlock = 128 * 1024, kKept = 8 * 1024 * 1024;
-    mallopt(M_MMAP_THRESHOLD, kLargeBlock);
-    mallopt(M_TRIM_THRESHOLD, kLargeBlock);
-    mallopt(M_TOP_PAD, kKept);
+    constexpr int kMappedBlockBytes = 128 * 1024, kKeptFreeBytes = 8 * 1024 * 1024;
+    mallopt(M_MMAP_THRESHOLD, kMappedBlockBytes);
+    mallopt(M_TRIM_THRESHOLD, kMappedBlockBytes);
+    mallopt(M_TOP_PAD, kKeptFreeBytes);
 #endif
 }
 

@@ -21,20 +21,20 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr std::int64_t kMostFrames = 1'000'000;
+constexpr std::int64_t kMaxFrames = 1'000'000;
 
 void add_number_options(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kMeasuringOptions);
     verb.option("--frames", "N", "number of measured frames, at least 1 (20)",
                 [&](const std::string& text) {
                     common.frames = static_cast<int>(
-                        parse_integer("--frames", text, 1, kMostFrames));
+                        parse_integer("--frames", text, 1, kMaxFrames));
                 });
     verb.option("--warmup", "N",
                 "frames before the measured ones (8; 28 with compare --model required or both)",
                 [&](const std::string& text) {
                     common.warmup = static_cast<int>(
-                        parse_integer("--warmup", text, 0, kMostFrames));
+                        parse_integer("--warmup", text, 0, kMaxFrames));
                 });
     verb.flag(
         "--animate",
@@ -107,7 +107,7 @@ scene::FileOptions load_options(const CommonOptions& common) {
 }
 
 double parse_stops(const std::string& text) {
-    return parse_real("--exposure", text, -scene::kMostStops, scene::kMostStops);
+    return parse_real("--exposure", text, -scene::kMaxExposureStops, scene::kMaxExposureStops);
 }
 
 void add_output_options(CommandVerb& verb, OutputOptions& manners) {
@@ -196,7 +196,7 @@ void require_option(bool given, const std::string& verb, const std::string& opti
 void check_techniques_hold_no_scene(const std::vector<std::string>& techniques) {
     for (const std::string& text : techniques) {
         bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
-        for (const scene::BuiltInScene& built_in : scene::built_in_scenes())
+        for (const scene::BuiltInScene& built_in : scene::list_built_in_scenes())
             scene |= built_in.name == text;
         check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
               "'; SCENE comes before --techniques");
@@ -243,7 +243,7 @@ app::Request make_request(const CommonOptions& common,
 }
 
 app::EngineOptions make_engine_options(const DeviceOptions& device) {
-    const bool by_default = device.profile == kNoProfile;
+    const bool by_default = device.profile == kNoProfileName;
     return {.device = device.name,
             .validate = device.validate,
             .profile = by_default ? "" : device.profile,

@@ -19,11 +19,11 @@ namespace catoptric::cli {
 /// The device to open, and how to open it.
 struct DeviceOptions {
     std::string name;      ///< index or part of a name; empty: the fastest kind of device
-    std::string profile;   ///< a file, or kNoProfile; empty: the user's profile, if any
+    std::string profile;   ///< a file, or kNoProfileName; empty: the user's profile, if any
     bool validate = false; ///< opens the device with the validation layer
 };
 /// Name that selects default settings in place of the user's profile.
-inline constexpr const char* kNoProfile = "none";
+inline constexpr const char* kNoProfileName = "none";
 
 /// The options that all rendering verbs share. The help states the same defaults.
 struct CommonOptions {

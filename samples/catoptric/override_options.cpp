@@ -7,7 +7,7 @@ namespace catoptric::cli {
 
 namespace {
 
-const std::string kSceneGroup = "The scene";
+const std::string kSceneOptionsHeading = "The scene";
 
 void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
     const auto mirror = [&](const std::string& text) {
@@ -46,13 +46,14 @@ void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides
     verb.option("--environment-scale", "S", "factor for the light of the environment (1)",
                 [&](const std::string& text) {
                     overrides.environment_scale = parse_real("--environment-scale", text, 0,
-                                                             scene::kMostScale);
+                                                             scene::kMaxLightScale);
                 });
     verb.option("--environment-rotate", "DEG",
                 "rotation of the environment in degrees, from -z towards +x (0)",
                 [&](const std::string& text) {
-                    overrides.environment_rotation = parse_real(
-                        "--environment-rotate", text, -scene::kMostTurn, scene::kMostTurn);
+                    overrides.environment_rotation = parse_real("--environment-rotate", text,
+                                                                -scene::kMaxRotationDegrees,
+                                                                scene::kMaxRotationDegrees);
                 });
     verb.option(
         "--ambient", "A", "constant light on every surface, at least 0 (0.05; 0 in an environment)",
@@ -93,7 +94,7 @@ void add_camera_options(CommandVerb& verb, CommonOptions& common) {
 }
 
 void add_scene_override_options(CommandVerb& verb, CommonOptions& common) {
-    verb.heading(kSceneGroup);
+    verb.heading(kSceneOptionsHeading);
     verb.option("--root", "DIR",
                 "additional folder for files that SCENE names (only the scene's own folder)",
                 [&](const std::string& text) {
@@ -103,8 +104,8 @@ void add_scene_override_options(CommandVerb& verb, CommonOptions& common) {
     const auto add_most = [&](const std::string& option, const std::string& help,
                               std::optional<std::uint64_t>& most) {
         verb.option(option, "N", help, [option, &most](const std::string& text) {
-            constexpr std::int64_t kMost = std::int64_t{1} << 40;
-            most = static_cast<std::uint64_t>(parse_integer(option, text, 1, kMost));
+            constexpr std::int64_t kMaxBudgetValue = std::int64_t{1} << 40;
+            most = static_cast<std::uint64_t>(parse_integer(option, text, 1, kMaxBudgetValue));
         });
     };
     add_most("--max-bytes", "limit for the bytes of the scene's files (an eighth of free memory)",

@@ -20,25 +20,27 @@ bool parse_whole_text(const std::string& text, Number& value) {
 }
 
 std::string format_range(double low, double high) {
-    constexpr double kLimit = std::numeric_limits<double>::max();
+    constexpr double kMaxReal = std::numeric_limits<double>::max();
     std::ostringstream text;
     text.precision(15);
-    if (low > -kLimit) text << (high < kLimit ? " from " : " of at least ") << low;
-    if (high < kLimit) text << (low > -kLimit ? " to " : " of at most ") << high;
+    if (low > -kMaxReal) text << (high < kMaxReal ? " from " : " of at least ") << low;
+    if (high < kMaxReal) text << (low > -kMaxReal ? " to " : " of at most ") << high;
     return text.str();
 }
 
 } // namespace
 
 uvec2 parse_size(const std::string& option, const std::string& text) {
-    constexpr std::uint32_t kMost = 1U << 20; // larger than any device allows
+    constexpr std::uint32_t kMaxPictureSide = 1U << 20; // larger than any device allows
     const std::vector<std::string> parts = split_text(text, "x");
     uvec2 size{0, 0};
     const bool numbers = parts.size() == 2 && parse_whole_text(parts[0], size.x) &&
                          parse_whole_text(parts[1], size.y);
-    const bool in_range = size.x >= 1 && size.y >= 1 && size.x <= kMost && size.y <= kMost;
+    const bool in_range = size.x >= 1 && size.y >= 1 && size.x <= kMaxPictureSide &&
+                          size.y <= kMaxPictureSide;
     check(numbers && in_range, Failure::usage, option,
-          ": wanted WxH, such as 512x512, both from 1 to ", kMost, ", found '", text, "'");
+          ": wanted WxH, such as 512x512, both from 1 to ", kMaxPictureSide, ", found '", text,
+          "'");
     return size;
 }
 

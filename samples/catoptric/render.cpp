@@ -2,14 +2,13 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_module.hpp"
-#include "drawn.hpp"
 #include "file_sequence.hpp"
 #include "json.hpp"
 #include "measure/picture.hpp"
 #include "measure/picture_file.hpp"
 #include "measure/statistics.hpp"
 #include "options.hpp"
-#include "places.hpp"
+#include "output_checks.hpp"
 #include "progress.hpp"
 #include "session/capture_budget.hpp"
 #include "session/exposure.hpp"
@@ -17,6 +16,7 @@
 #include "session/run.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
+#include "technique_option.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
@@ -57,7 +57,7 @@ struct RenderOptions {
 bool writes_to_stdout(const RenderOptions& options) { return options.output == "-"; }
 bool writes_exr(const RenderOptions& options) { return options.output.ends_with(".exr"); }
 
-constexpr int kMostPictures = 100'000; ///< limit of a sequence
+constexpr int kMaxSequencePictures = 100'000; ///< limit of a sequence
 
 /// Returns whether only a picture is wanted, without times or a certain number of frames.
 bool wants_only_picture(const RenderOptions& options) {
@@ -74,8 +74,8 @@ std::vector<std::string> list_output_files(const RenderOptions& options) {
     const int frames = options.common.frames.value_or(app::Request().frames);
     check(!wants_only_picture(options), Failure::usage, "-o ", options.output,
           ": wanted --frames or --animate with a sequence of pictures, found neither");
-    check(frames <= kMostPictures, Failure::usage, "-o ", options.output, ": wanted at most ",
-          kMostPictures, " pictures, found --frames ", frames);
+    check(frames <= kMaxSequencePictures, Failure::usage, "-o ", options.output,
+          ": wanted at most ", kMaxSequencePictures, " pictures, found --frames ", frames);
     std::vector<std::string> files;
     for (int number = 1; number <= frames; ++number) files.push_back(sequence->file(number));
     return files;
@@ -100,7 +100,7 @@ void check_output(const RenderOptions& options) {
 
 void check_picture_places(const RenderOptions& options, const scene::Scene& scene) {
     std::vector<std::filesystem::path> outputs;
-    if (writes_to_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
+    if (writes_to_stdout(options) || options.common.manners.json) outputs.push_back(kStdoutPath);
     for (const std::string& file : list_output_files(options)) outputs.emplace_back(file);
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) outputs.push_back(file);
@@ -124,14 +124,14 @@ void write_picture(const app::TechniqueResult& part, const std::string& file) {
 }
 
 /// Renders all frames. In a sequence, each measured frame is written to its file.
-void render_all_frames(app::Frames& frames, const std::vector<std::string>& files, int warmup,
+void render_all_frames(app::FrameLoop& frames, const std::vector<std::string>& files, int warmup,
                        const app::Watcher& watcher) {
     check_stopped(watcher);
-    while (frames.next()) {
-        const int measured = frames.number() - warmup;
+    while (frames.render_next()) {
+        const int measured = frames.rendered_frame_count() - warmup;
         if (files.size() > 1 && measured > 0)
             write_picture(frames.frame().read(), files[static_cast<std::size_t>(measured - 1)]);
-        tell_frame(watcher, frames.number(), frames.most_frames());
+        tell_frame(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     }
 }
 
@@ -187,7 +187,7 @@ int run_render(const RenderOptions& options) {
     request.scene.name = scene.name;
     app::Session session(engine, std::move(scene));
     app::resolve_auto_exposure(session, request);
-    app::Frames frames(session, request);
+    app::FrameLoop frames(session, request);
     const std::vector<std::string> files = list_output_files(options);
     render_all_frames(frames, files, request.warmup, watcher);
     const app::RunResult result = frames.result();

@@ -57,13 +57,14 @@ std::string describe_surface_kind(const app::MaterialInfo& material) {
 }
 
 SceneCells list_material_cells(const app::SceneInfo& info) {
-    constexpr std::size_t kMost = 50;
+    constexpr std::size_t kMaxListedMaterials = 50;
     SceneCells cells{
         {"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
     for (const app::MaterialInfo& material : info.materials) {
-        if (cells.size() > kMost) {
-            cells.push_back({fmt::format("... {} more: --json", info.materials.size() - kMost), "",
-                             "", "", "", "", "", ""});
+        if (cells.size() > kMaxListedMaterials) {
+            cells.push_back(
+                {fmt::format("... {} more: --json", info.materials.size() - kMaxListedMaterials),
+                 "", "", "", "", "", "", ""});
             break;
         }
         cells.push_back({escape_control_characters(material.name), material.kind,

@@ -12,7 +12,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr std::int64_t kRepeat = 1'000'000'000; // nanoseconds
+constexpr std::int64_t kSignalRepeatNanoseconds = 1'000'000'000; // nanoseconds
 
 std::atomic<const char*> program{"catoptric"};
 std::atomic<bool> is_looked_at{false}; ///< whether the program polls `number_of_signal`
@@ -57,7 +57,7 @@ void handle_signal(int number) {
     std::int64_t never = 0;
     if (first_at.compare_exchange_strong(never, monotonic_milliseconds())) {
         number_of_signal.store(number);
-    } else if (monotonic_milliseconds() - first_at.load() > kRepeat) {
+    } else if (monotonic_milliseconds() - first_at.load() > kSignalRepeatNanoseconds) {
         std::signal(number, SIG_DFL);
         std::raise(number); // delivered when this handler returns
     }

@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "options.hpp"
+#include "output_checks.hpp"
 #include "parse.hpp"
-#include "places.hpp"
 #include "progress.hpp"
 #include "report/writer.hpp"
 #include "stress/property.hpp"
@@ -40,7 +40,7 @@ std::string make_stress_text(const report::StressResults& stress) {
     std::vector<std::vector<std::string>> cells{
         {"id", "verdict", "measured", "threshold", "seconds", "what"}};
     for (const report::StressRow& row : stress.rows) {
-        const report::StressCase* worst = row.worst();
+        const report::StressCase* worst = row.worst_case();
         const auto figure = [](double value) { return fmt::format("{:.3g}", value); };
         cells.push_back({row.id, report::name_of(row.verdict),
                          worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
@@ -55,7 +55,7 @@ int run_stress(const StressOptions& options) {
         const std::filesystem::path folder = options.folder;
         check_folder_can_be_made(folder);
         check_folder_can_be_made(folder / "images");
-        std::vector<std::filesystem::path> outputs{kStdout, folder / "stress.json",
+        std::vector<std::filesystem::path> outputs{kStdoutPath, folder / "stress.json",
                                                    folder / "stress.html", folder / "stress.md"};
         std::error_code none_yet; // failure pictures of earlier runs may be replaced
         for (const auto& entry : std::filesystem::directory_iterator(folder / "images", none_yet))
@@ -84,9 +84,10 @@ int run_stress(const StressOptions& options) {
     if (found.stopped)
         fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);
     if (!options.folder.empty()) print_note(options.manners, "written: " + options.folder);
-    for (const std::string& part : found.not_run()) print_note(options.manners, "not run: " + part);
+    for (const std::string& part : found.list_parts_not_run())
+        print_note(options.manners, "not run: " + part);
     if (options.device.validate) engine.check_validation();
-    return found.failed() ? static_cast<int>(Failure::threshold) : 0;
+    return found.has_failed_row() ? static_cast<int>(Failure::threshold) : 0;
 }
 
 } // namespace

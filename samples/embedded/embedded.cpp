@@ -11,7 +11,7 @@ using namespace catoptric;
 
 namespace {
 
-constexpr std::uint32_t kSize = 160;
+constexpr std::uint32_t kPictureSide = 160;
 
 void check_vulkan(VkResult result) {
     if (result != VK_SUCCESS) throw std::runtime_error("Vulkan: " + std::to_string(result));
@@ -64,7 +64,7 @@ VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequi
 /// What the image holds, which is in the layout TRANSFER_SRC_OPTIMAL.
 measure::Picture read_back_image(const embed::Device& own, VkImage image) {
     const VkBufferCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                    .size = 4 * kSize * kSize,
+                                    .size = 4 * kPictureSide * kPictureSide,
                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     VkBuffer buffer = VK_NULL_HANDLE;
     check_vulkan(vkCreateBuffer(own.device, &wanted, nullptr, &buffer));
@@ -85,7 +85,7 @@ measure::Picture read_back_image(const embed::Device& own, VkImage image) {
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     check_vulkan(vkBeginCommandBuffer(commands, &begin));
     const VkBufferImageCopy all{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                .imageExtent = {kSize, kSize, 1}};
+                                .imageExtent = {kPictureSide, kPictureSide, 1}};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &all);
     const VkMemoryBarrier to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
@@ -101,7 +101,7 @@ measure::Picture read_back_image(const embed::Device& own, VkImage image) {
 
     void* bytes = nullptr;
     check_vulkan(vkMapMemory(own.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
-    measure::Picture picture(kSize, kSize);
+    measure::Picture picture(kPictureSide, kPictureSide);
     const auto* texel = static_cast<const unsigned char*>(bytes);
     for (vec3& pixel : picture.pixels) {
         pixel = vec3(texel[0], texel[1], texel[2]) / 255.f;
@@ -120,7 +120,7 @@ int main() try {
     const VkImageCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                    .imageType = VK_IMAGE_TYPE_2D,
                                    .format = VK_FORMAT_R8G8B8A8_SRGB,
-                                   .extent = {kSize, kSize, 1},
+                                   .extent = {kPictureSide, kPictureSide, 1},
                                    .mipLevels = 1,
                                    .arrayLayers = 1,
                                    .samples = VK_SAMPLE_COUNT_1_BIT,
@@ -137,7 +137,7 @@ int main() try {
         app::Session session(engine, scene::load("cornell-mirrors"), 2);
         const app::FrameSpec spec{.techniques = {"parallax:face=64"},
                                   .camera = session.scene().cameras.front(),
-                                  .size = {kSize, kSize}};
+                                  .size = {kPictureSide, kPictureSide}};
         const embed::Target target{image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
         for (int k = 0; k < 5; ++k) embed::render_frame_into(session, spec, target);
         const app::Frame last = embed::render_frame_into(session, spec, target);

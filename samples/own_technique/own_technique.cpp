@@ -10,7 +10,7 @@ using namespace catoptric;
 
 namespace {
 
-const app::RegisteredSearch kBlend{
+const app::RegisteredSearch kBlendSearch{
     {.name = "blend",
      .summary = "Blends between reuse (amount=0) and parallax (amount=1).",
      .shader = "blend.frag",

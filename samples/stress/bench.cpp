@@ -30,12 +30,12 @@ std::string make_file_name(const std::string& text) {
 } // namespace
 
 bool is_resource_refusal(const Error& error) {
-    static const std::regex kLimit(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
+    static const std::regex kLimitWord(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
     return error.failure == Failure::exhausted &&
-           std::regex_search(std::string(error.what()), kLimit);
+           std::regex_search(std::string(error.what()), kLimitWord);
 }
 
-bool StressBench::ends_run(const Error& error) const {
+bool StressBench::is_error_that_ends_run(const Error& error) const {
     const bool is_fault = error.failure == Failure::device_lost ||
                           error.failure == Failure::no_device ||
                           (error.failure == Failure::exhausted && !is_resource_refusal(error));
@@ -57,60 +57,61 @@ app::Request StressBench::make_request(const scene::Scene& scene, const std::str
 
 app::TechniqueResult StressBench::render(const app::Request& request) {
     app::Session session(engine_, request.scene);
-    app::Frames frames(session, request);
-    while (frames.next()) check_stopped(watcher_);
+    app::FrameLoop frames(session, request);
+    while (frames.render_next()) check_stopped(watcher_);
     return frames.frame().read();
 }
 
-void StressBench::plan(const app::Request& request) {
+void StressBench::compile_plan(const app::Request& request) {
     app::Session session(engine_, request.scene);
-    app::Access::plan(session, request, app::PlanFormat::text);
+    app::Access::format_frame_plan(session, request, app::PlanFormat::text);
 }
 
-void StressBench::add_flip(const std::string& what, const app::TechniqueResult& found,
-                           const app::TechniqueResult& wanted, double limit, bool is_quality) {
+void StressBench::add_flip_case(const std::string& what, const app::TechniqueResult& found,
+                                const app::TechniqueResult& wanted, double limit, bool is_quality) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
     row_.cases.push_back(
         {what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
-    if (row_.cases.back().holds()) return;
+    if (row_.cases.back().is_within_limit()) return;
     const std::string name = row_.id + "-" + make_file_name(what);
     for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})
         row_.pictures.push_back({name + which, part->display.width, part->display.height,
                                  measure::encode_picture_png(part->display)});
 }
 
-void StressBench::add_nonfinite(const std::string& what, const app::TechniqueResult& part) {
-    add(what + ": pixels that are no numbers",
-        static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
+void StressBench::add_nonfinite_case(const std::string& what, const app::TechniqueResult& part) {
+    add_case(what + ": pixels that are no numbers",
+             static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
 }
 
-bool StressBench::add_done_or_refused(const std::string& what, const std::function<void()>& work) {
+bool StressBench::add_success_or_refusal(const std::string& what,
+                                         const std::function<void()>& work) {
     try {
         work();
-        add(what + ": done", 0, 0);
+        add_case(what + ": done", 0, 0);
         return true;
     } catch (const Error& error) {
-        if (ends_run(error)) throw;
+        if (is_error_that_ends_run(error)) throw;
         if (is_resource_refusal(error))
-            add_not_run(what, error);
+            add_skipped_part(what, error);
         else
-            add(what + ": fails: " + error.what(), 1, 0);
+            add_case(what + ": fails: " + error.what(), 1, 0);
         return false;
     }
 }
 
-void StressBench::add_refused(const std::string& what, Failure failure, const std::string& limit,
-                              const std::function<void()>& work) {
+void StressBench::add_expected_error(const std::string& what, Failure failure,
+                                     const std::string& limit, const std::function<void()>& work) {
     std::string text = "not refused";
     try {
         work();
     } catch (const Error& error) {
-        if (ends_run(error)) throw;
+        if (is_error_that_ends_run(error)) throw;
         text = error.what();
         if (error.failure == failure && text.find(limit) != text.npos)
-            return add(what + ": refused: " + text, 0, 0);
+            return add_case(what + ": refused: " + text, 0, 0);
     }
-    add(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
+    add_case(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
 }
 
 std::size_t count_nonfinite_pixels(const measure::Picture& picture) {

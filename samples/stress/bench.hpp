@@ -23,50 +23,50 @@ public:
                               int frames = 4) const;
     app::TechniqueResult render(const app::Request& request);
     /// Renders one frame of a property's own loop. Throws if the user stopped the run.
-    app::Frame frame(app::Session& session, const app::FrameSpec& spec,
-                     const app::FrameHooks& hooks = {}) {
+    app::Frame render_frame(app::Session& session, const app::FrameSpec& spec,
+                            const app::FrameHooks& hooks = {}) {
         check_stopped(watcher_);
-        return app::Access::frame(session, spec, hooks);
+        return app::Access::render_frame(session, spec, hooks);
     }
     /// Compiles the plan of the request's frame without rendering.
-    void plan(const app::Request& request);
+    void compile_plan(const app::Request& request);
     app::TechniqueResult render(const scene::Scene& scene, const std::string& technique,
                                 int frames = 4) {
         return render(make_request(scene, technique, frames));
     }
 
     /// Adds a measured value and its limit.
-    void add(std::string what, double measured, double limit) {
+    void add_case(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, false});
     }
     /// Adds a measured value that only looks worse beyond its limit and is not wrong.
-    void add_quality(std::string what, double measured, double limit) {
+    void add_quality_case(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, true});
     }
     /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit.
-    void add_flip(const std::string& what, const app::TechniqueResult& found,
-                  const app::TechniqueResult& wanted, double limit, bool is_quality = false);
+    void add_flip_case(const std::string& what, const app::TechniqueResult& found,
+                       const app::TechniqueResult& wanted, double limit, bool is_quality = false);
     /// Adds the number of pixels that are NaN or infinite, with limit 0.
-    void add_nonfinite(const std::string& what, const app::TechniqueResult& part);
+    void add_nonfinite_case(const std::string& what, const app::TechniqueResult& part);
     /// Adds a part that the device does not allow. It is reported and has no measured value.
-    void add_not_run(std::string what, const Error& error) {
+    void add_skipped_part(std::string what, const Error& error) {
         row_.not_run.push_back({std::move(what), error.what()});
     }
     /// Adds a case (limit 0) that `work` succeeds. If it ends in an error that says what the device
     /// allows, the part counts as not run. Returns whether `work` succeeded.
-    bool add_done_or_refused(const std::string& what, const std::function<void()>& work);
+    bool add_success_or_refusal(const std::string& what, const std::function<void()>& work);
     /// Adds a case (limit 0) that `work` ends in an error of this kind whose text contains `limit`.
-    void add_refused(const std::string& what, Failure failure, const std::string& limit,
-                     const std::function<void()>& work);
+    void add_expected_error(const std::string& what, Failure failure, const std::string& limit,
+                            const std::function<void()>& work);
 
     /// Returns whether an error ends the run and is not a property's finding: a signal came, the
     /// device is lost or lacks something, or memory ran out below what the device allows.
-    bool ends_run(const Error& error) const;
+    bool is_error_that_ends_run(const Error& error) const;
 
     app::Engine& engine() { return engine_; }
     uvec2 size() const { return size_; }
     /// Returns a random number in [low, high).
-    double random(double low, double high) {
+    double random_between(double low, double high) {
         return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
     }
 

@@ -49,12 +49,12 @@ void judge_balls_in_contact(StressBench& bench) {
         {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
     for (const auto& [what, balls] : contacts) {
         const scene::Scene scene = make_furnace(balls);
-        bench.add(std::string(what) + ", raytrace:depth=64: dark pixels",
-                  measure_in_furnace(bench, scene, "raytrace:depth=64", 1).dark, .0001);
-        bench.add(std::string(what) + ", reuse, frame 100: brightest of 1",
-                  measure_in_furnace(bench, scene, "reuse:face=32", 100).brightest, 1.002);
-        bench.add(std::string(what) + ", pyramid: brightest of 1",
-                  measure_in_furnace(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
+        bench.add_case(std::string(what) + ", raytrace:depth=64: dark pixels",
+                       measure_in_furnace(bench, scene, "raytrace:depth=64", 1).dark, .0001);
+        bench.add_case(std::string(what) + ", reuse, frame 100: brightest of 1",
+                       measure_in_furnace(bench, scene, "reuse:face=32", 100).brightest, 1.002);
+        bench.add_case(std::string(what) + ", pyramid: brightest of 1",
+                       measure_in_furnace(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
     }
 }
 
@@ -76,7 +76,8 @@ void judge_vanishing_ball(StressBench& bench) {
             // The vanishing mirror comes first, so that it changes the numbers of the others.
             with.objects.pop_back();
             with.objects.insert(with.objects.begin(), gone);
-            bench.add_flip(technique + ", " + what, bench.render(with, technique), without, .0002);
+            bench.add_flip_case(technique + ", " + what, bench.render(with, technique), without,
+                                .0002);
         }
     }
 }
@@ -92,14 +93,16 @@ void judge_many_mirrors(StressBench& bench) {
         const std::string what = std::to_string(mirrors) + " mirrors";
         try {
             const app::TechniqueResult part = bench.render(scene, "reuse:face=8,shadow=none", 2);
-            bench.add_nonfinite(what, part);
-            bench.add(what + ": passes off N + 1", std::abs(part.scene_passes - (mirrors + 1)), 0);
+            bench.add_nonfinite_case(what, part);
+            bench.add_case(what + ": passes off N + 1", std::abs(part.scene_passes - (mirrors + 1)),
+                           0);
         } catch (const Error& error) {
-            if (bench.ends_run(error)) throw;
+            if (bench.is_error_that_ends_run(error)) throw;
             if (is_resource_refusal(error) && mirrors == 1000)
-                bench.add_not_run(what, error);
+                bench.add_skipped_part(what, error);
             else
-                bench.add(what + ": refused otherwise than by a budget: " + error.what(), 1, 0);
+                bench.add_case(what + ": refused otherwise than by a budget: " + error.what(), 1,
+                               0);
         }
     }
 }
@@ -116,12 +119,13 @@ void judge_face_sizes(StressBench& bench) {
         for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
             const std::string text = technique + ":face=" + face;
             const app::TechniqueResult part = bench.render(scene, text);
-            bench.add_nonfinite(text, part);
+            bench.add_nonfinite_case(text, part);
             // With a few texels, chance decides whether one of them sees the lamp.
             const double mean = mean_of(part);
-            bench.add(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
-            bench.add_quality(text + ": factor between the mean of mirrors and that of ray tracing",
-                              std::max(mean / wanted, wanted / mean), 4);
+            bench.add_case(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
+            bench.add_quality_case(
+                text + ": factor between the mean of mirrors and that of ray tracing",
+                std::max(mean / wanted, wanted / mean), 4);
         }
     // A large capture must show the same as a small one. The plan says whether the device has the
     // memory.
@@ -129,40 +133,40 @@ void judge_face_sizes(StressBench& bench) {
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
             const app::Request request = bench.make_request(scene, technique + face, 1);
-            if (!bench.add_done_or_refused(technique + face + " planned",
-                                           [&] { bench.plan(request); }))
+            if (!bench.add_success_or_refusal(technique + face + " planned",
+                                              [&] { bench.compile_plan(request); }))
                 continue;
             if (std::stoi(face) > 4096) continue; // needs 10 GiB or more
             const app::TechniqueResult large = bench.render(request);
             if (technique.starts_with("naive"))
-                bench.add_flip(technique + face, large, usual, .01);
+                bench.add_flip_case(technique + face, large, usual, .01);
             else
-                bench.add_nonfinite(technique + face, large);
+                bench.add_nonfinite_case(technique + face, large);
         }
-    bench.add_refused("face=32769", Failure::usage, "16384",
-                      [] { app::parse_technique("parallax:face=32769"); });
+    bench.add_expected_error("face=32769", Failure::usage, "16384",
+                             [] { app::parse_technique("parallax:face=32769"); });
 }
 
 /// Moves ball 4 through its whole path and compares adjacent frames.
 void judge_moving_ball(StressBench& bench) {
-    constexpr int kWarm = 8, kFrames = 120;
-    constexpr double kPeriod = 4;
+    constexpr int kWarmupFrames = 8, kPathFrames = 120;
+    constexpr double kPathSeconds = 4;
     app::Request request = bench.make_request(scene::make_cornell_mirrors(), "parallax:face=128",
                                               1);
     app::Session session(bench.engine(), request.scene);
     std::vector<double> steps;
     measure::Picture last;
-    for (int k = 1; k <= kWarm + kFrames; ++k) {
-        request.time = kPeriod * (k - 1) / kFrames;
-        const app::Frame frame = bench.frame(session, request);
-        if (k < kWarm) continue;
+    for (int k = 1; k <= kWarmupFrames + kPathFrames; ++k) {
+        request.time = kPathSeconds * (k - 1) / kPathFrames;
+        const app::Frame frame = bench.render_frame(session, request);
+        if (k < kWarmupFrames) continue;
         measure::Picture now = frame.read().display;
-        if (k > kWarm) steps.push_back(measure::flip_mean(measure::flip(now, last)));
+        if (k > kWarmupFrames) steps.push_back(measure::flip_mean(measure::flip(now, last)));
         last = std::move(now);
     }
     const double most = *std::ranges::max_element(steps),
                  median = measure::summarise_samples(steps).median;
-    bench.add("largest FLIP from frame to frame over the median", most / median, 3);
+    bench.add_case("largest FLIP from frame to frame over the median", most / median, 3);
 }
 
 void judge_parallax_correction(StressBench& bench) {
@@ -179,29 +183,30 @@ void judge_parallax_correction(StressBench& bench) {
                measure::difference(plain.hdr, truth.hdr, mask, no_flip).rmse;
     };
     for (std::uint32_t ball = 1; ball <= 4; ++ball)
-        bench.add(fmt::format("ball {}: rmse over uncorrected", ball),
-                  share(measure::mask_one_mirror(truth.hits, MirrorId(ball))), .65);
-    bench.add("together: rmse over uncorrected", share(measure::mask_mirror_pixels(truth.hits)),
-              .5);
+        bench.add_case(fmt::format("ball {}: rmse over uncorrected", ball),
+                       share(measure::mask_one_mirror(truth.hits, MirrorId(ball))), .65);
+    bench.add_case("together: rmse over uncorrected",
+                   share(measure::mask_mirror_pixels(truth.hits)), .5);
 }
 
-const RegisteredProperty kCorrection{
+const RegisteredProperty kParallaxCorrectionProperty{
     {"N12", "parallax against ray tracing, contract camera, 512x512",
      "better than uncorrected for every ball", judge_parallax_correction, "parallax_mirrored"}};
-const RegisteredProperty kContact{
+const RegisteredProperty kBallsInContactProperty{
     {"C1", "balls that touch wall and floor, each other, overlap, are concentric",
      "no dark ring, no blow-up in 100 frames", judge_balls_in_contact, "rays_start_on_surface"}};
-const RegisteredProperty kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
-                                     "the others are untouched (FLIP)", judge_vanishing_ball,
-                                     "no_size_no_number"}};
-const RegisteredProperty kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
-                                "0: no capture; 1000: runs, or a budget message",
-                                judge_many_mirrors, "later_arrays_not_drawn"}};
-const RegisteredProperty kFaces{
+const RegisteredProperty kVanishingBallProperty{{"C8", "a mirror of radius 0, 1e-9, flattened",
+                                                 "the others are untouched (FLIP)",
+                                                 judge_vanishing_ball, "no_size_no_number"}};
+const RegisteredProperty kManyMirrorsProperty{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
+                                               "0: no capture; 1000: runs, or a budget message",
+                                               judge_many_mirrors, "later_arrays_not_drawn"}};
+const RegisteredProperty kFaceSizesProperty{
     {"C10", "face 1, 2, 3, 4096, 16384, 32769", "runs, or says the bytes, or is refused",
      judge_face_sizes, "most_of_knob_unchecked", "rendering at 16384, which is planned only"}};
-const RegisteredProperty kPath{{"C13", "ball 4 through its whole path, 120 frames",
-                                "no single-frame pop", judge_moving_ball, "motion_ends_early"}};
+const RegisteredProperty kMovingBallProperty{{"C13", "ball 4 through its whole path, 120 frames",
+                                              "no single-frame pop", judge_moving_ball,
+                                              "motion_ends_early"}};
 
 } // namespace
 

@@ -17,8 +17,8 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMost = 6;      // largest number of bounces
-constexpr double kFall = 0.4; // a step is at most this share of the step before
+constexpr int kMaxBounces = 6;        // largest number of bounces
+constexpr double kMaxStepRatio = 0.4; // a step is at most this share of the step before
 
 struct BouncePictures {
     std::vector<measure::Picture> pictures; ///< entry k: picture with k bounces
@@ -31,7 +31,7 @@ BouncePictures render_bounces(StressBench& bench, app::Request request, int face
         return bench.render(request);
     };
     BouncePictures bounces{{}, measure::mask_mirror_pixels(render("raytrace:depth=1").hits)};
-    for (int k = 0; k <= kMost; ++k)
+    for (int k = 0; k <= kMaxBounces; ++k)
         bounces.pictures.push_back(render(fmt::format("naive:face={},bounces={}", face, k)).hdr);
     return bounces;
 }
@@ -48,8 +48,8 @@ std::vector<double> compute_bounce_differences(StressBench& bench, const std::st
         std::size_t darker = 0;
         for (std::size_t i = 0; i < before.pixels.size(); ++i)
             darker += !all(greaterThanEqual(after.pixels[i], before.pixels[i]));
-        bench.add(fmt::format("{}, bounce {}: pixels that got darker", where, k + 1),
-                  double(darker), 0);
+        bench.add_case(fmt::format("{}, bounce {}: pixels that got darker", where, k + 1),
+                       double(darker), 0);
         steps.push_back(measure::difference(before, after, bounces.mirrors, no_flip).rmse);
     }
     return steps;
@@ -58,9 +58,10 @@ std::vector<double> compute_bounce_differences(StressBench& bench, const std::st
 void add_falling_differences(StressBench& bench, const std::string& where,
                              const std::vector<double>& steps) {
     for (std::size_t k = 1; k < steps.size(); ++k) {
-        bench.add(fmt::format("{}, bounce {}: share of the step before", where, k + 1),
-                  steps[k] / steps[k - 1], kFall);
-        bench.add(fmt::format("{}, bounce {}: no change", where, k + 1), steps[k] > 0 ? 0 : 1, 0);
+        bench.add_case(fmt::format("{}, bounce {}: share of the step before", where, k + 1),
+                       steps[k] / steps[k - 1], kMaxStepRatio);
+        bench.add_case(fmt::format("{}, bounce {}: no change", where, k + 1), steps[k] > 0 ? 0 : 1,
+                       0);
     }
 }
 
@@ -79,8 +80,8 @@ void judge_small_ball_bounces(StressBench& bench) {
     const std::vector<double> steps = compute_bounce_differences(
         bench, "a room",
         render_bounces(bench, bench.make_request(make_stress_room(bench, 4), "naive", 1)));
-    bench.add("a room, bounce 4: share of the first step", steps[3] / steps[0],
-              std::pow(kFall, 3.0));
+    bench.add_case("a room, bounce 4: share of the first step", steps[3] / steps[0],
+                   std::pow(kMaxStepRatio, 3.0));
 }
 
 /// Two flat mirrors that face each other in a box that emits 1, with an `angle` between them and
@@ -90,7 +91,7 @@ void judge_small_ball_bounces(StressBench& bench) {
 struct MirrorWedge {
     double reflectance, angle;
 
-    scene::Scene scene(dvec3 eye) const {
+    scene::Scene make_scene(dvec3 eye) const {
         scene::Scene scene = make_furnace({});
         const std::size_t mirror = add_material(
             scene, {.name = "mirror",
@@ -108,7 +109,7 @@ struct MirrorWedge {
         return scene;
     }
     /// Returns whether the radiance is 0 or what up to `most` mirrors leave of 1.
-    bool explains(float radiance, int most) const {
+    bool explains_colour(float radiance, int most) const {
         if (radiance == 0) return true;
         for (int k = 1; k <= most; ++k)
             if (std::abs(radiance / std::pow(reflectance, k) - 1) <= .005) return true;
@@ -120,9 +121,10 @@ struct MirrorWedge {
 /// the reflectance times the step before. A pixel that does not mix two bands shows a power of the
 /// reflectance.
 void judge_mirror_wedge(StressBench& bench) {
-    const MirrorWedge wedge{bench.random(.2, .3), bench.random(.05, .08)};
+    const MirrorWedge wedge{bench.random_between(.2, .3), bench.random_between(.05, .08)};
     app::Request request = bench.make_request(
-        wedge.scene({bench.random(-.1, .1), bench.random(-.2, .2), bench.random(-.9, -.7)}),
+        wedge.make_scene({bench.random_between(-.1, .1), bench.random_between(-.2, .2),
+                          bench.random_between(-.9, -.7)}),
         "naive", 1);
     request.ambient = 0;
     const BouncePictures bounces = render_bounces(bench, request, 256);
@@ -131,16 +133,17 @@ void judge_mirror_wedge(StressBench& bench) {
     const std::vector<double> steps = compute_bounce_differences(bench, where, bounces);
     add_falling_differences(bench, where, steps);
     for (std::size_t k = 2; k + 1 < steps.size(); ++k)
-        bench.add(fmt::format("{}, bounce {}: share of the step before, off the reflectance by a "
-                              "share of",
-                              where, k + 1),
-                  std::abs(steps[k] / steps[k - 1] / wedge.reflectance - 1), .1);
+        bench.add_case(
+            fmt::format("{}, bounce {}: share of the step before, off the reflectance by a "
+                        "share of",
+                        where, k + 1),
+            std::abs(steps[k] / steps[k - 1] / wedge.reflectance - 1), .1);
     std::size_t strange = 0;
     for (std::size_t i = 0; i < bounces.mirrors.size(); ++i)
         strange += bounces.mirrors[i] != 0 &&
-                   !wedge.explains(bounces.pictures.back().pixels[i].x, kMost);
-    bench.add(where + ": share of pixels that no number of mirrors explains",
-              double(strange) / double(measure::count_mask_pixels(bounces.mirrors)), .2);
+                   !wedge.explains_colour(bounces.pictures.back().pixels[i].x, kMaxBounces);
+    bench.add_case(where + ": share of pixels that no number of mirrors explains",
+                   double(strange) / double(measure::count_mask_pixels(bounces.mirrors)), .2);
 }
 
 void judge_bounces(StressBench& bench) {
@@ -149,9 +152,9 @@ void judge_bounces(StressBench& bench) {
     judge_mirror_wedge(bench);
 }
 
-const RegisteredProperty kBounces{{"N8", "naive, bounces 0..6",
-                                   "no mirror darkens, steps fall by 2.5 and more", judge_bounces,
-                                   "bounces_capped"}};
+const RegisteredProperty kBouncesProperty{{"N8", "naive, bounces 0..6",
+                                           "no mirror darkens, steps fall by 2.5 and more",
+                                           judge_bounces, "bounces_capped"}};
 
 } // namespace
 

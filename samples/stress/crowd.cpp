@@ -13,26 +13,28 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kEdge = 20; // balls along an edge; an array of 2048 layers holds 341 of all 400
-constexpr uvec2 kSize{256, 256};
+constexpr int kBallsPerEdge =
+    20; // balls along an edge; an array of 2048 layers holds 341 of all 400
+constexpr uvec2 kPictureSize{256, 256};
 
 /// Returns a ball's colour. Two colours differ by more than 3 % in a channel.
 vec3 ball_colour(int ball) {
-    const auto step = [](int i) { return .4f + .6f * float(i) / (kEdge - 1); };
-    return {step(ball % kEdge), step(ball / kEdge), .7f};
+    const auto step = [](int i) { return .4f + .6f * float(i) / (kBallsPerEdge - 1); };
+    return {step(ball % kBallsPerEdge), step(ball / kBallsPerEdge), .7f};
 }
 
 /// Returns balls in cells of one colour each, open to the front and the back. There is no light:
 /// with an ambient light of 1, a wall shows its colour.
 scene::Scene make_coloured_cells() {
-    constexpr double kHalf = .48, kFront = -.3, kBack = .8;
+    constexpr double kHalfCellWidth = .48, kCellFront = -.3, kCellBack = .8;
     scene::Scene scene{.name = "cells"};
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
-    for (int i = 0; i < kEdge * kEdge; ++i) {
-        const dvec3 centre(i % kEdge - (kEdge - 1) / 2.0, i / kEdge - (kEdge - 1) / 2.0, 0);
+    for (int i = 0; i < kBallsPerEdge * kBallsPerEdge; ++i) {
+        const dvec3 centre(i % kBallsPerEdge - (kBallsPerEdge - 1) / 2.0,
+                           i / kBallsPerEdge - (kBallsPerEdge - 1) / 2.0, 0);
         const std::size_t wall = add_material(scene, {.name = "wall", .albedo = ball_colour(i)});
-        const dvec3 lo = centre + dvec3(-kHalf, -kHalf, kFront),
-                    hi = centre + dvec3(kHalf, kHalf, kBack);
+        const dvec3 lo = centre + dvec3(-kHalfCellWidth, -kHalfCellWidth, kCellFront),
+                    hi = centre + dvec3(kHalfCellWidth, kHalfCellWidth, kCellBack);
         for (const int axis : {0, 1})
             for (const dvec3& at : {lo, hi}) {
                 dvec3 a = lo, c = hi;
@@ -53,11 +55,11 @@ void judge_mirrors_in_cells(StressBench& bench) {
     std::vector<std::uint32_t> hits;
     for (const std::string technique : {"raytrace:depth=1", "reuse:face=8", "parallax:face=8"}) {
         app::Request request = bench.make_request(scene, technique, 1);
-        request.size = kSize;
+        request.size = kPictureSize;
         request.ambient = 1;
         const app::TechniqueResult part = bench.render(request);
         if (hits.empty()) hits = part.hits;
-        std::vector<int> own(std::size_t{kEdge} * kEdge);
+        std::vector<int> own(std::size_t{kBallsPerEdge} * kBallsPerEdge);
         for (std::size_t i = 0; i < hits.size(); ++i) {
             const auto mirror = measure::first_mirror_of_hit(hits[i]).number();
             if (mirror == 0) continue;
@@ -65,16 +67,16 @@ void judge_mirrors_in_cells(StressBench& bench) {
                                  vec3(1));
             own[mirror - 1] += std::max({off.x, off.y, off.z}) <= .002f;
         }
-        bench.add_nonfinite(technique, part);
-        bench.add(fmt::format("{}: mirrors of {} in which no pixel shows what is around them",
-                              technique, own.size()),
-                  double(std::ranges::count(own, 0)), 0);
+        bench.add_nonfinite_case(technique, part);
+        bench.add_case(fmt::format("{}: mirrors of {} in which no pixel shows what is around them",
+                                   technique, own.size()),
+                       double(std::ranges::count(own, 0)), 0);
     }
 }
 
-const RegisteredProperty kCells{{"C14", "400 mirrors, each in a cell of another colour",
-                                 "each shows its own cell", judge_mirrors_in_cells,
-                                 "first_array_only"}};
+const RegisteredProperty kMirrorCellsProperty{
+    {"C14", "400 mirrors, each in a cell of another colour", "each shows its own cell",
+     judge_mirrors_in_cells, "first_array_only"}};
 
 } // namespace
 

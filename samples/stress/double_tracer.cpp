@@ -7,7 +7,7 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr double kGap = 1e-9; // offset of rays, for scenes about 1 in size
+constexpr double kRayOffset = 1e-9; // offset of rays, for scenes about 1 in size
 
 } // namespace
 
@@ -36,8 +36,8 @@ DoubleTracer::DoubleTracer(const scene::Scene& scene, double ambient)
     }
 }
 
-dvec3 DoubleTracer::pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y,
-                          int depth) const {
+dvec3 DoubleTracer::trace_pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x,
+                                std::uint32_t y, int depth) const {
     return radiance(camera.eye, pixel_ray_direction(camera, size, x, y), depth);
 }
 
@@ -58,8 +58,8 @@ void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh
     lamps_.push_back(lamp);
 }
 
-DoubleTracer::DoubleHit DoubleTracer::closest(dvec3 origin, dvec3 direction, double most,
-                                              bool for_shadow) const {
+DoubleTracer::DoubleHit DoubleTracer::find_closest_hit(dvec3 origin, dvec3 direction, double most,
+                                                       bool for_shadow) const {
     DoubleHit hit;
     hit.t = most;
     for (const DoubleTriangle& triangle : triangles_) {
@@ -71,7 +71,7 @@ DoubleTracer::DoubleHit DoubleTracer::closest(dvec3 origin, dvec3 direction, dou
         const dvec3 s = origin - triangle.a, q = glm::cross(s, ab);
         const double u = glm::dot(s, p) / det, v = glm::dot(direction, q) / det,
                      t = glm::dot(ac, q) / det;
-        if (u < 0 || v < 0 || u + v > 1 || t <= kGap || t >= hit.t) continue;
+        if (u < 0 || v < 0 || u + v > 1 || t <= kRayOffset || t >= hit.t) continue;
         hit = {t, glm::normalize(glm::cross(ab, ac)), triangle.object};
     }
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
@@ -82,7 +82,7 @@ DoubleTracer::DoubleHit DoubleTracer::closest(dvec3 origin, dvec3 direction, dou
                      c = glm::dot(f, f) - sphere->radius * sphere->radius, d = b * b - c;
         if (d < 0) continue;
         for (const double t : {-b - std::sqrt(d), -b + std::sqrt(d)})
-            if (t > kGap && t < hit.t) hit = {t, (f + t * direction) / sphere->radius, i};
+            if (t > kRayOffset && t < hit.t) hit = {t, (f + t * direction) / sphere->radius, i};
     }
     return hit;
 }
@@ -91,11 +91,11 @@ dvec3 DoubleTracer::radiance(dvec3 origin, dvec3 direction, int depth) const {
     dvec3 weight(1);
     for (int bounce = 0;; ++bounce) {
         const double infinity = std::numeric_limits<double>::infinity();
-        const DoubleHit hit = closest(origin, direction, infinity, false);
+        const DoubleHit hit = find_closest_hit(origin, direction, infinity, false);
         if (hit.t == infinity) return dvec3(0);
         const dvec3 x = origin + hit.t * direction;
         const scene::Material& surface = material(hit.object);
-        if (!surface.mirror) return weight * shade(surface, x, hit.normal);
+        if (!surface.mirror) return weight * shade_hit(surface, x, hit.normal);
         if (bounce == depth) return dvec3(0);
         weight *= dvec3(surface.reflectance);
         origin = x;
@@ -103,14 +103,16 @@ dvec3 DoubleTracer::radiance(dvec3 origin, dvec3 direction, int depth) const {
     }
 }
 
-dvec3 DoubleTracer::shade(const scene::Material& surface, dvec3 x, dvec3 normal) const {
+dvec3 DoubleTracer::shade_hit(const scene::Material& surface, dvec3 x, dvec3 normal) const {
     const dvec3 kd(surface.albedo);
     dvec3 result = dvec3(surface.emission) + kd * ambient_;
     for (const DoubleLamp& lamp : lamps_) {
         const double t = glm::length(lamp.position - x);
         const dvec3 w = (lamp.position - x) / t;
         const double at_lamp = -glm::dot(w, lamp.normal), at_surface = glm::dot(normal, w);
-        if (at_lamp <= 0 || at_surface <= 0 || closest(x, w, t - kGap, true).t < t - kGap) continue;
+        if (at_lamp <= 0 || at_surface <= 0 ||
+            find_closest_hit(x, w, t - kRayOffset, true).t < t - kRayOffset)
+            continue;
         result += kd / std::numbers::pi * lamp.power * (at_lamp / (t * t) * at_surface);
     }
     return result;

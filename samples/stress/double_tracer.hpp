@@ -20,12 +20,13 @@ public:
     DoubleTracer(const scene::Scene& scene, double ambient);
 
     /// Returns the radiance at the centre of a pixel.
-    dvec3 pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y,
-                int depth) const;
+    dvec3 trace_pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y,
+                      int depth) const;
     /// Returns the distance to the first hit of the ray, in lengths of `direction`, or infinity if
     /// there is none.
-    double distance(dvec3 origin, dvec3 direction) const {
-        return closest(origin, direction, std::numeric_limits<double>::infinity(), false).t;
+    double hit_distance(dvec3 origin, dvec3 direction) const {
+        return find_closest_hit(origin, direction, std::numeric_limits<double>::infinity(), false)
+            .t;
     }
 
 private:
@@ -46,9 +47,9 @@ private:
     const scene::Material& material(std::size_t object) const {
         return scene_.materials[scene_.objects[object].material];
     }
-    DoubleHit closest(dvec3 origin, dvec3 direction, double most, bool for_shadow) const;
+    DoubleHit find_closest_hit(dvec3 origin, dvec3 direction, double most, bool for_shadow) const;
     dvec3 radiance(dvec3 origin, dvec3 direction, int depth) const;
-    dvec3 shade(const scene::Material& surface, dvec3 x, dvec3 normal) const;
+    dvec3 shade_hit(const scene::Material& surface, dvec3 x, dvec3 normal) const;
 
     const scene::Scene& scene_;
     double ambient_;

@@ -23,7 +23,8 @@ double count_saturated_capture_texels(StressBench& bench, const scene::Scene& sc
 
 /// Frame numbers, from 1: the last frame with the lamp of 1e30, and frames 2 and 20 after its
 /// removal.
-constexpr int kWith = 4, kSoon = kWith + 2, kLate = kWith + 20;
+constexpr int kFramesWithLamp = 4, kFrameSoonAfter = kFramesWithLamp + 2,
+              kFrameLongAfter = kFramesWithLamp + 20;
 
 void judge_lamp_removal(StressBench& bench, const scene::Scene& lit, const scene::Scene& dark,
                         std::size_t lamp, const std::string& technique, const std::string& what) {
@@ -31,25 +32,26 @@ void judge_lamp_removal(StressBench& bench, const scene::Scene& lit, const scene
     const scene::Edit out = scene::set_material(lamp, dark.materials[lamp]);
     app::Session session(bench.engine(), lit);
     app::TechniqueResult soon, late;
-    for (int k = 1; k <= kLate; ++k) {
-        if (k == kWith + 1) session.change(out);
-        const app::Frame frame = bench.frame(session, request);
-        if (k == kWith) bench.add_nonfinite(what + ", with it", frame.read());
-        if (k == kSoon) soon = frame.read();
-        if (k == kLate) late = frame.read();
+    for (int k = 1; k <= kFrameLongAfter; ++k) {
+        if (k == kFramesWithLamp + 1) session.change(out);
+        const app::Frame frame = bench.render_frame(session, request);
+        if (k == kFramesWithLamp) bench.add_nonfinite_case(what + ", with it", frame.read());
+        if (k == kFrameSoonAfter) soon = frame.read();
+        if (k == kFrameLongAfter) late = frame.read();
     }
     app::Session untouched(bench.engine(), dark);
     measure::Picture wanted;
-    for (int k = 1; k <= kLate; ++k) wanted = bench.frame(untouched, request).hdr();
-    bench.add(what + ", frame 20 without it: pixels unlike a run that never had it",
-              double(count_different_pixels(late.hdr, wanted)), 0);
+    for (int k = 1; k <= kFrameLongAfter; ++k)
+        wanted = bench.render_frame(untouched, request).hdr();
+    bench.add_case(what + ", frame 20 without it: pixels unlike a run that never had it",
+                   double(count_different_pixels(late.hdr, wanted)), 0);
     const std::string early = what + ", frame 2 without it: pixels unlike frame 20";
     const double unlike = double(count_different_pixels(soon.hdr, late.hdr));
     // If mirrors use last frame's captures, light travels between them for one frame a mirror.
     if (late.remembers && scene::mirrors(dark).size() > 1)
-        bench.add_quality(early, unlike, 0);
+        bench.add_quality_case(early, unlike, 0);
     else
-        bench.add(early, unlike, 0);
+        bench.add_case(early, unlike, 0);
 }
 
 void judge_bright_emission(StressBench& bench) {
@@ -66,12 +68,13 @@ void judge_bright_emission(StressBench& bench) {
                                fmt::format("emission 1e30, {} balls, {}", balls, technique));
         for (const std::string technique : {"reuse:face=64", "hybrid:face=64"}) {
             const double full = count_saturated_capture_texels(bench, lit, technique);
-            bench.add(
+            bench.add_case(
                 fmt::format("emission 1e30, {} balls, {}: none of {} saturated texels is counted",
                             balls, technique, full),
                 full > 0 ? 0 : 1, 0);
-            bench.add(fmt::format("without it, {} balls, {}: texels saturated", balls, technique),
-                      count_saturated_capture_texels(bench, dark, technique), 0);
+            bench.add_case(
+                fmt::format("without it, {} balls, {}: texels saturated", balls, technique),
+                count_saturated_capture_texels(bench, dark, technique), 0);
         }
     }
     scene::Scene dim = make_stress_room(bench, 3), black = dim;
@@ -85,16 +88,17 @@ void judge_bright_emission(StressBench& bench) {
             const dvec3 off = abs(dvec3(found.hdr.pixels[i]) - dvec3(wanted.hdr.pixels[i]));
             most = std::max({most, off.x, off.y, off.z});
         }
-        bench.add(technique + ", albedo 1e-40: radiance unlike that of black", most,
-                  std::numeric_limits<float>::min());
-        bench.add(technique + ", albedo 1e-40: pixels shown unlike black",
-                  double(count_different_pixels(found.display, wanted.display)), 0);
+        bench.add_case(technique + ", albedo 1e-40: radiance unlike that of black", most,
+                       std::numeric_limits<float>::min());
+        bench.add_case(technique + ", albedo 1e-40: pixels shown unlike black",
+                       double(count_different_pixels(found.display, wanted.display)), 0);
     }
 }
 
-const RegisteredProperty kEmission{{"N26", "emission 1e30, taken away in mid-run; albedo 1e-40",
-                                    "saturates, is counted, later frames unharmed; equals black",
-                                    judge_bright_emission, "saturated_uncounted"}};
+const RegisteredProperty kBrightEmissionProperty{
+    {"N26", "emission 1e30, taken away in mid-run; albedo 1e-40",
+     "saturates, is counted, later frames unharmed; equals black", judge_bright_emission,
+     "saturated_uncounted"}};
 
 } // namespace
 

@@ -11,13 +11,13 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr const char* kTechniques[] = {"raytrace", "parallax", "pyramid"};
-constexpr double kSame = .001; // FLIP
+constexpr const char* kComparedTechniques[] = {"raytrace", "parallax", "pyramid"};
+constexpr double kMaxEqualFlip = .001; // FLIP
 
 /// Judges a triangle of edge 1 far outside the room. The picture must not change.
 void judge_stray_triangle(StressBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 3);
-    for (const char* technique : kTechniques) {
+    for (const char* technique : kComparedTechniques) {
         const app::TechniqueResult plain = bench.render(scene, technique);
         for (const double distance : {1e2, 1e4, 1e6, 1e9}) {
             scene::Scene with = scene;
@@ -28,8 +28,8 @@ void judge_stray_triangle(StressBench& bench) {
                       .normals = std::vector<vec3>(3, vec3(0, 0, 1)),
                       .triangles = {{0, 1, 2}}},
                      0);
-            bench.add_flip(fmt::format("{}, a triangle {} away", technique, distance),
-                           bench.render(with, technique), plain, kSame);
+            bench.add_flip_case(fmt::format("{}, a triangle {} away", technique, distance),
+                                bench.render(with, technique), plain, kMaxEqualFlip);
         }
     }
 }
@@ -46,9 +46,10 @@ void judge_distant_sky(StressBench& bench) {
         return with;
     };
     const scene::Scene near = under(1e2), far = under(1e6);
-    for (const char* technique : kTechniques)
-        bench.add_flip(fmt::format("{}, sky 1e6 away", technique), bench.render(far, technique),
-                       bench.render(near, technique), kSame);
+    for (const char* technique : kComparedTechniques)
+        bench.add_flip_case(fmt::format("{}, sky 1e6 away", technique),
+                            bench.render(far, technique), bench.render(near, technique),
+                            kMaxEqualFlip);
 }
 
 /// Judges the room on a ground 1e6 wide against one 1e3 wide. Positions on such a large triangle
@@ -64,16 +65,18 @@ void judge_large_ground(StressBench& bench) {
         return with;
     };
     const scene::Scene narrow = on(5e2), wide = on(5e5);
-    for (const char* technique : kTechniques)
-        bench.add_flip(fmt::format("{}, ground 1e6 wide", technique), bench.render(wide, technique),
-                       bench.render(narrow, technique), kSame, true);
+    for (const char* technique : kComparedTechniques)
+        bench.add_flip_case(fmt::format("{}, ground 1e6 wide", technique),
+                            bench.render(wide, technique), bench.render(narrow, technique),
+                            kMaxEqualFlip, true);
 }
 
 /// Judges a ball of 1e-3 off the centre of a room of 1e3, seen from close by.
 void judge_tiny_ball(StressBench& bench) {
     scene::Scene scene = transform_scene(make_stress_room(bench, 0), scale_matrix(250));
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
-    const dvec3 centre(bench.random(-300, 300), bench.random(-300, 300), bench.random(-300, 300));
+    const dvec3 centre(bench.random_between(-300, 300), bench.random_between(-300, 300),
+                       bench.random_between(-300, 300));
     add_stress_ball(scene, mirror, {centre, 1e-3});
     scene.cameras = {
         {.eye = centre + dvec3(1e-3, 2e-3, -6e-3), .target = centre, .vertical_fov_degrees = 30}};
@@ -85,15 +88,15 @@ void judge_tiny_ball(StressBench& bench) {
     for (std::uint32_t y = 0; y < request.size.y; ++y)
         for (std::uint32_t x = 0; x < request.size.x; ++x)
             wanted.hdr.at(static_cast<int>(x), static_cast<int>(y)) = vec3(
-                tracer.pixel(request.camera, request.size, x, y, 8));
+                tracer.trace_pixel(request.camera, request.size, x, y, 8));
     wanted.display = measure::to_display(wanted.hdr, request.exposure);
-    bench.add_flip("a ball of 1e-3 in a room of 1e3, raytrace:sphere=exact against doubles",
-                   bench.render(request), wanted, kSame);
+    bench.add_flip_case("a ball of 1e-3 in a room of 1e3, raytrace:sphere=exact against doubles",
+                        bench.render(request), wanted, kMaxEqualFlip);
     const scene::Scene shifted = transform_scene(scene, translation_matrix(-centre));
-    for (const char* technique : kTechniques)
-        bench.add_flip(
+    for (const char* technique : kComparedTechniques)
+        bench.add_flip_case(
             fmt::format("{}, a ball of 1e-3 in a room of 1e3, against the same about 0", technique),
-            bench.render(scene, technique), bench.render(shifted, technique), kSame);
+            bench.render(scene, technique), bench.render(shifted, technique), kMaxEqualFlip);
 }
 
 void judge_scene_extents(StressBench& bench) {
@@ -103,7 +106,7 @@ void judge_scene_extents(StressBench& bench) {
     judge_tiny_ball(bench);
 }
 
-const RegisteredProperty kExtents{
+const RegisteredProperty kSceneExtentsProperty{
     {"N5", "a stray triangle to 1e9 away, a sky and a ground of 1e6, a ball of 1e-3 in 1e3",
      "the objects in view keep precision (FLIP)", judge_scene_extents, "core_is_everything"}};
 

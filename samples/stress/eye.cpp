@@ -17,37 +17,38 @@ struct EyePlacement {
     scene::Camera camera;
 };
 
-constexpr double kOff = .01;
+constexpr double kMaxChannelDifference = .01;
 
 double max_channel_difference(const dvec3& a, const dvec3& b) {
     const dvec3 difference = abs(a - b);
     return std::max({difference.x, difference.y, difference.z});
 }
 
-/// Returns the share of pixels that differ from the double tracer by more than kOff.
+/// Returns the share of pixels that differ from the double tracer by more than
+/// kMaxChannelDifference.
 double share_unlike_double_tracer(const app::TechniqueResult& part, const scene::Scene& scene,
                                   const app::Request& request) {
     const DoubleTracer tracer(scene, request.ambient);
     std::size_t off = 0;
     for (std::uint32_t y = 0; y < request.size.y; ++y)
         for (std::uint32_t x = 0; x < request.size.x; ++x) {
-            const dvec3 wanted = tracer.pixel(request.camera, request.size, x, y, 16);
+            const dvec3 wanted = tracer.trace_pixel(request.camera, request.size, x, y, 16);
             const dvec3 found(part.hdr.at(static_cast<int>(x), static_cast<int>(y)));
-            off += !(max_channel_difference(found, wanted) <= kOff);
+            off += !(max_channel_difference(found, wanted) <= kMaxChannelDifference);
         }
     return double(off) / double(part.hdr.pixels.size());
 }
 
 /// Returns how many of 32 rows of the reference show an edge.
 int count_rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
-    constexpr uvec2 kSize{32, 32};
+    constexpr uvec2 kPictureSize{32, 32};
     int rows = 0;
-    for (std::uint32_t y = 0; y < kSize.y; ++y) {
+    for (std::uint32_t y = 0; y < kPictureSize.y; ++y) {
         bool has_edge = false;
-        dvec3 last = tracer.pixel(camera, kSize, 0, y, 16);
-        for (std::uint32_t x = 1; x < kSize.x; ++x) {
-            const dvec3 next = tracer.pixel(camera, kSize, x, y, 16);
-            has_edge |= max_channel_difference(next, last) > kOff;
+        dvec3 last = tracer.trace_pixel(camera, kPictureSize, 0, y, 16);
+        for (std::uint32_t x = 1; x < kPictureSize.x; ++x) {
+            const dvec3 next = tracer.trace_pixel(camera, kPictureSize, x, y, 16);
+            has_edge |= max_channel_difference(next, last) > kMaxChannelDifference;
             last = next;
         }
         rows += has_edge;
@@ -80,8 +81,9 @@ double share_differing_beside_mirrors(const app::TechniqueResult& drawn,
     std::size_t off = 0, seen = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
-        ++seen, off += !(max_channel_difference(dvec3(drawn.hdr.pixels[i]),
-                                                dvec3(traced.hdr.pixels[i])) <= kOff);
+        ++seen,
+            off += !(max_channel_difference(dvec3(drawn.hdr.pixels[i]),
+                                            dvec3(traced.hdr.pixels[i])) <= kMaxChannelDifference);
     }
     return double(off) / double(seen);
 }
@@ -95,7 +97,7 @@ void judge_eye_placement(StressBench& bench) {
     int rows = 0;
     const scene::Camera narrow = make_narrow_camera(
         scene, bench.make_request(scene, "raytrace").ambient, rows);
-    bench.add("field of view .01: rows of 32 without an edge", 32 - rows, 16);
+    bench.add_case("field of view .01: rows of 32 without an edge", 32 - rows, 16);
     for (const EyePlacement& eye : {EyePlacement{"1e-3 above the floor", low},
                                     {"field of view .01", narrow},
                                     {"field of view 179.9", wide}}) {
@@ -106,26 +108,27 @@ void judge_eye_placement(StressBench& bench) {
             return bench.render(request);
         };
         const app::TechniqueResult traced = render("raytrace:sphere=exact,depth=16");
-        bench.add_nonfinite(fmt::format("{}, raytrace", eye.what), traced);
-        bench.add(
+        bench.add_nonfinite_case(fmt::format("{}, raytrace", eye.what), traced);
+        bench.add_case(
             fmt::format("{}, raytrace: share of pixels more than .01 off a reference in doubles",
                         eye.what),
             share_unlike_double_tracer(traced, scene, request), .005);
-        bench.add_nonfinite(fmt::format("{}, pyramid", eye.what), render("pyramid"));
+        bench.add_nonfinite_case(fmt::format("{}, pyramid", eye.what), render("pyramid"));
         // A texel of the shadow map is wider than the narrow picture, so neither picture has
         // shadows.
-        bench.add(fmt::format("{}, pyramid: share of pixels beside mirrors more than .01 off ray "
-                              "tracing, both without shadows",
-                              eye.what),
-                  share_differing_beside_mirrors(render("pyramid:shadow=none"),
-                                                 render("raytrace:sphere=exact,shadow=none")),
-                  .005);
+        bench.add_case(
+            fmt::format("{}, pyramid: share of pixels beside mirrors more than .01 off ray "
+                        "tracing, both without shadows",
+                        eye.what),
+            share_differing_beside_mirrors(render("pyramid:shadow=none"),
+                                           render("raytrace:sphere=exact,shadow=none")),
+            .005);
     }
 }
 
-const RegisteredProperty kEye{{"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
-                               "finite; as a reference in doubles", judge_eye_placement,
-                               "near_of_eye_fixed"}};
+const RegisteredProperty kEyePlacementProperty{
+    {"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
+     "finite; as a reference in doubles", judge_eye_placement, "near_of_eye_fixed"}};
 
 } // namespace
 

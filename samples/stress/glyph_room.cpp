@@ -14,8 +14,8 @@ namespace {
 void add_wall_cell(scene::Mesh& mesh, const GlyphRoom& room, int face,
                    const GlyphRoom::Stroke& cell) {
     const scene::Mesh quad = scene::quad(
-        "", room.place(face, cell.u0, cell.v0), room.place(face, cell.u1, cell.v0),
-        room.place(face, cell.u1, cell.v1), room.place(face, cell.u0, cell.v1));
+        "", room.wall_point(face, cell.u0, cell.v0), room.wall_point(face, cell.u1, cell.v0),
+        room.wall_point(face, cell.u1, cell.v1), room.wall_point(face, cell.u0, cell.v1));
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), quad.positions.begin(), quad.positions.end());
     mesh.normals.insert(mesh.normals.end(), quad.normals.begin(), quad.normals.end());
@@ -32,7 +32,7 @@ void add_glyph_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
         for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
             const double um = (us[i] + us[i + 1]) / 2, vm = (vs[j] + vs[j + 1]) / 2;
             const bool inked = std::ranges::any_of(
-                GlyphRoom::kStrokes, [&](const GlyphRoom::Stroke& s) {
+                GlyphRoom::kGlyphStrokes, [&](const GlyphRoom::Stroke& s) {
                     return um > s.u0 && um < s.u1 && vm > s.v0 && vm < s.v1;
                 });
             add_wall_cell(meshes[inked], room, face, {us[i], us[i + 1], vs[j], vs[j + 1]});
@@ -47,11 +47,11 @@ void add_glyph_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
 } // namespace
 
 GlyphRoom::GlyphRoom() {
-    const scene::Scene made = scene();
+    const scene::Scene made = make_scene();
     centre = scene::bounds(made, made.objects.back()).centre();
 }
 
-GlyphRoom::SeenWallPoint GlyphRoom::look(dvec3 direction) const {
+GlyphRoom::SeenWallPoint GlyphRoom::seen_wall_point(dvec3 direction) const {
     SeenWallPoint seen{0, false, std::numeric_limits<double>::infinity(), 1};
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
@@ -62,7 +62,7 @@ GlyphRoom::SeenWallPoint GlyphRoom::look(dvec3 direction) const {
     seen.distance *= glm::length(direction);
     const double u = place[(seen.face / 2 + 1) % 3], v = place[(seen.face / 2 + 2) % 3];
     seen.margin = std::min({u, 1 - u, v, 1 - v});
-    for (const Stroke& s : kStrokes) {
+    for (const Stroke& s : kGlyphStrokes) {
         const double inside = std::min({u - s.u0, s.u1 - u, v - s.v0, s.v1 - v});
         seen.glyph = seen.glyph || inside > 0;
         seen.margin = std::min(seen.margin, std::abs(inside));
@@ -70,7 +70,7 @@ GlyphRoom::SeenWallPoint GlyphRoom::look(dvec3 direction) const {
     return seen;
 }
 
-dvec3 GlyphRoom::place(int face, double u, double v) const {
+dvec3 GlyphRoom::wall_point(int face, double u, double v) const {
     const int axis = face / 2;
     dvec3 point;
     point[axis] = (face % 2 ? lo : hi)[axis];
@@ -79,7 +79,7 @@ dvec3 GlyphRoom::place(int face, double u, double v) const {
     return point;
 }
 
-scene::Scene GlyphRoom::scene() const {
+scene::Scene GlyphRoom::make_scene() const {
     scene::Scene scene{.name = "glyphs"};
     for (int face = 0; face < 6; ++face) add_glyph_wall(scene, *this, face);
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});

@@ -29,7 +29,7 @@ struct GlyphRoom {
     struct Stroke {
         double u0, u1, v0, v1;
     };
-    static constexpr std::array<Stroke, 3> kStrokes{
+    static constexpr std::array<Stroke, 3> kGlyphStrokes{
         {{.30, .40, .20, .80}, {.40, .70, .70, .80}, {.40, .55, .45, .55}}};
 
     /// The wall point that a ray from the mirror's centre meets.
@@ -41,10 +41,10 @@ struct GlyphRoom {
         /// the wall.
         double margin;
     };
-    SeenWallPoint look(dvec3 direction) const;
+    SeenWallPoint seen_wall_point(dvec3 direction) const;
 
     /// Returns the point of a wall at shares u, v of its two axes.
-    dvec3 place(int face, double u, double v) const;
+    dvec3 wall_point(int face, double u, double v) const;
 
     static vec3 colour(const SeenWallPoint& seen) {
         return seen.glyph ? glyph_colour(seen.face) : wall_colour(seen.face);
@@ -52,7 +52,7 @@ struct GlyphRoom {
 
     /// Returns the scene of walls, letters and the mirror. The letters are cut out of the walls, so
     /// that no two surfaces coincide.
-    scene::Scene scene() const;
+    scene::Scene make_scene() const;
 };
 
 } // namespace catoptric::stress

@@ -42,38 +42,39 @@ void judge_eye_positions(StressBench& bench, const scene::Scene& scene, const sc
         };
         const app::TechniqueResult traced = render("raytrace:depth=16");
         if (place.inside)
-            bench.add(fmt::format("{}, raytrace: brightest of 0", place.what),
-                      brightest_channel(traced.hdr), 0);
+            bench.add_case(fmt::format("{}, raytrace: brightest of 0", place.what),
+                           brightest_channel(traced.hdr), 0);
         for (const std::string technique : {"parallax", "pyramid", "hybrid"})
-            bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced,
-                           .03);
+            bench.add_flip_case(fmt::format("{}, {}", place.what, technique), render(technique),
+                                traced, .03);
         const app::TechniqueResult plain = render("reuse");
-        if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .03);
+        if (place.inside)
+            bench.add_flip_case(fmt::format("{}, reuse", place.what), plain, traced, .03);
         // From outside, an uncorrected look-up is wrong for any eye, and most where the ball fills
         // the picture.
         else
-            bench.add_quality(fmt::format("{}, reuse", place.what),
-                              measure::flip_mean(measure::flip(plain.display, traced.display)),
-                              .05);
+            bench.add_quality_case(fmt::format("{}, reuse", place.what),
+                                   measure::flip_mean(measure::flip(plain.display, traced.display)),
+                                   .05);
     }
 }
 
 /// Judges a ball that moves over the eye. Frames must be black exactly while the eye is inside.
 void judge_ball_over_eye(StressBench& bench, scene::Scene scene) {
-    constexpr int kFrames = 16;
+    constexpr int kSettlingFrames = 16;
     scene::Object& object = scene.objects.back();
     const double reach = 3 * object.sphere->radius;
     object.motion = scene::HarmonicMotion{dvec3(reach, 0, 0) / 2.0, 1};
     scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
     camera.target = camera.eye + dvec3(0, 0, 1);
     for (const std::string technique : {"raytrace", "parallax"}) {
-        app::Request request = bench.make_request(scene, technique, kFrames);
+        app::Request request = bench.make_request(scene, technique, kSettlingFrames);
         request.camera = camera;
         app::Session session(bench.engine(), scene);
         int wrong = 0, inside = 0;
-        for (int k = 0; k < kFrames; ++k) {
-            request.time = double(k) / kFrames;
-            const app::Frame frame = bench.frame(session, request);
+        for (int k = 0; k < kSettlingFrames; ++k) {
+            request.time = double(k) / kSettlingFrames;
+            const app::Frame frame = bench.render_frame(session, request);
             const scene::Scene now = scene::scene_at_time(scene, request.time);
             const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) /
                                          object.sphere->radius;
@@ -81,13 +82,15 @@ void judge_ball_over_eye(StressBench& bench, scene::Scene scene) {
             inside += depth > 0;
             wrong += (brightest_channel(frame.hdr()) == 0) != (depth > 0);
         }
-        bench.add(fmt::format(
-                      "a ball moves over the eye, {}: frames that are black outside or lit inside",
-                      technique),
-                  wrong, 0);
-        bench.add(fmt::format("a ball moves over the eye, {}: too few frames inside or outside",
-                              technique),
-                  inside < 4 || inside > kFrames - 4 ? 1 : 0, 0);
+        bench.add_case(
+            fmt::format(
+                "a ball moves over the eye, {}: frames that are black outside or lit inside",
+                technique),
+            wrong, 0);
+        bench.add_case(
+            fmt::format("a ball moves over the eye, {}: too few frames inside or outside",
+                        technique),
+            inside < 4 || inside > kSettlingFrames - 4 ? 1 : 0, 0);
     }
 }
 
@@ -97,7 +100,7 @@ void judge_eye_inside_mirror(StressBench& bench) {
     judge_ball_over_eye(bench, scene);
 }
 
-const RegisteredProperty kInside{
+const RegisteredProperty kEyeInsideMirrorProperty{
     {"C5", "camera inside a ball, at its centre, touching it; a ball moves over it",
      "a closed mirror is black from inside, in both worlds (FLIP)", judge_eye_inside_mirror,
      "mirrors_one_sided",

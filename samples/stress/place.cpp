@@ -10,7 +10,7 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr const char* kCubeTechniques[] = {"reuse", "parallax", "pyramid", "hybrid"};
+constexpr const char* kCaptureTechniques[] = {"reuse", "parallax", "pyramid", "hybrid"};
 
 /// Compares the scene under each root transform with the original. `traced` is the limit for ray
 /// tracing, `cubes` that for the other techniques.
@@ -21,11 +21,12 @@ void compare_under_transforms(StressBench& bench,
     const auto with = [&](const std::string& technique, double limit) {
         const app::TechniqueResult plain = bench.render(scene, technique);
         for (const auto& [what, root] : roots)
-            bench.add_flip(technique + ", " + what,
-                           bench.render(transform_scene(scene, root), technique), plain, limit);
+            bench.add_flip_case(technique + ", " + what,
+                                bench.render(transform_scene(scene, root), technique), plain,
+                                limit);
     };
     with("raytrace", traced);
-    for (const char* technique : kCubeTechniques) with(technique, cubes);
+    for (const char* technique : kCaptureTechniques) with(technique, cubes);
 }
 
 void judge_scene_scale(StressBench& bench) {
@@ -44,8 +45,9 @@ void judge_scene_position(StressBench& bench) {
 }
 
 void judge_scene_rotation(StressBench& bench) {
-    const double angle = bench.random(.3, 2.8);
-    const dvec3 axis(bench.random(-1, 1), bench.random(.2, 1), bench.random(-1, 1));
+    const double angle = bench.random_between(.3, 2.8);
+    const dvec3 axis(bench.random_between(-1, 1), bench.random_between(.2, 1),
+                     bench.random_between(-1, 1));
     compare_under_transforms(bench,
                              {{fmt::format("turned {:.1f} degrees", angle * 180 / 3.14159265358979),
                                rotation_matrix(angle, axis)}},
@@ -62,8 +64,8 @@ void judge_mirrored_scene(StressBench& bench) {
         for (int y = 0; y < plain.display.height; ++y)
             for (int x = 0; x < plain.display.width / 2; ++x)
                 std::swap(plain.display.at(x, y), plain.display.at(plain.display.width - 1 - x, y));
-        bench.add_flip(technique + ", mirrored",
-                       bench.render(transform_scene(scene, root), technique), plain, .001);
+        bench.add_flip_case(technique + ", mirrored",
+                            bench.render(transform_scene(scene, root), technique), plain, .001);
     }
 }
 
@@ -79,27 +81,27 @@ void judge_distant_walls(StressBench& bench) {
         const app::TechniqueResult plain = bench.render(scene, "reuse"),
                                    corrected = bench.render(scene, "parallax");
         const std::string what = fmt::format("{} wide", width);
-        bench.add_nonfinite(what, corrected);
-        bench.add_flip(what + ", parallax against reuse", corrected, plain, .0005);
+        bench.add_nonfinite_case(what, corrected);
+        bench.add_flip_case(what + ", parallax against reuse", corrected, plain, .0005);
     }
 }
 
-const RegisteredProperty kScale{{"N1", "scene times 1e-6, 1e-3, 1e3, 1e6",
-                                 "the picture is that at 1 (FLIP)", judge_scene_scale,
-                                 "area_of_lamp_unscaled"}};
-const RegisteredProperty kPlace{{"N2", "scene moved by 1e5 and 1e7",
-                                 "the picture is that at 0 (FLIP)", judge_scene_position,
-                                 "eye_rounded_first"}};
-const RegisteredProperty kTurn{{"N3", "scene and camera turned by an odd angle",
-                                "the picture stays (FLIP)", judge_scene_rotation,
-                                "lamp_not_turned"}};
-const RegisteredProperty kNegative{{"N4", "negative scale at the root",
-                                    "the picture is mirrored, no face is missing (FLIP)",
-                                    judge_mirrored_scene, "order_of_corners_kept",
-                                    "a thousand nested nodes, which a test of files judges"}};
-const RegisteredProperty kWide{{"N13", "room 1e5 and 1e6 units wide around a ball of 1",
-                                "finite; the correction tends to none (FLIP)", judge_distant_walls,
-                                "distance_ends_near"}};
+const RegisteredProperty kSceneScaleProperty{{"N1", "scene times 1e-6, 1e-3, 1e3, 1e6",
+                                              "the picture is that at 1 (FLIP)", judge_scene_scale,
+                                              "area_of_lamp_unscaled"}};
+const RegisteredProperty kScenePositionProperty{{"N2", "scene moved by 1e5 and 1e7",
+                                                 "the picture is that at 0 (FLIP)",
+                                                 judge_scene_position, "eye_rounded_first"}};
+const RegisteredProperty kSceneRotationProperty{{"N3", "scene and camera turned by an odd angle",
+                                                 "the picture stays (FLIP)", judge_scene_rotation,
+                                                 "lamp_not_turned"}};
+const RegisteredProperty kMirroredSceneProperty{
+    {"N4", "negative scale at the root", "the picture is mirrored, no face is missing (FLIP)",
+     judge_mirrored_scene, "order_of_corners_kept",
+     "a thousand nested nodes, which a test of files judges"}};
+const RegisteredProperty kDistantWallsProperty{
+    {"N13", "room 1e5 and 1e6 units wide around a ball of 1",
+     "finite; the correction tends to none (FLIP)", judge_distant_walls, "distance_ends_near"}};
 
 } // namespace
 

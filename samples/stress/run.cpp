@@ -17,7 +17,7 @@ report::StressVerdict judge_stress_row(const report::StressRow& row) {
     if (row.cases.empty()) return report::StressVerdict::unsupported;
     bool looks_worse = false;
     for (const report::StressCase& one : row.cases) {
-        if (one.holds()) continue;
+        if (one.is_within_limit()) continue;
         if (!one.is_quality) return report::StressVerdict::fail;
         looks_worse = true;
     }
@@ -45,7 +45,7 @@ report::StressRow judge_property(app::Engine& engine, const StressRequest& reque
         row.verdict = judge_stress_row(row);
         if (row.cases.empty()) row.remark = "nothing of it could be run";
     } catch (const Error& error) {
-        if (bench.ends_run(error)) throw;
+        if (bench.is_error_that_ends_run(error)) throw;
         row.remark = error.what();
         // Errors that were found before the device ran out stay errors.
         if (is_resource_refusal(error) && judge_stress_row(row) != report::StressVerdict::fail) {

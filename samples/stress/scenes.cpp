@@ -33,31 +33,35 @@ void add_stress_ball(scene::Scene& scene, std::size_t material, const MirrorBall
 scene::Scene make_stress_room(StressBench& bench, int balls) {
     scene::Scene scene{.name = "room"};
     const auto colour = [&] {
-        return vec3(bench.random(.1, .8), bench.random(.1, .8), bench.random(.1, .8));
+        return vec3(bench.random_between(.1, .8), bench.random_between(.1, .8),
+                    bench.random_between(.1, .8));
     };
-    const dvec3 hi(bench.random(1.8, 2.2), bench.random(1.6, 2.0), bench.random(1.8, 2.4)),
+    const dvec3 hi(bench.random_between(1.8, 2.2), bench.random_between(1.6, 2.0),
+                   bench.random_between(1.8, 2.4)),
         lo = -hi;
     for (int face = 0; face < 5; ++face)
         add_mesh(scene, scene::wall(face, lo, hi),
                  add_material(scene, {.name = "wall", .albedo = colour()}));
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = vec3(6, 5, 4)});
-    const double x = bench.random(-.5, .5), z = bench.random(-.5, .5), y = hi.y - .01;
+    const double x = bench.random_between(-.5, .5), z = bench.random_between(-.5, .5),
+                 y = hi.y - .01;
     add_stress_quad(scene, lamp, {x - .5, y, z - .5}, {x + .5, y, z - .5}, {x + .5, y, z + .5},
                     {x - .5, y, z + .5});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int made = 0; made < balls;) {
-        const double radius = bench.random(.2, .5);
-        const MirrorBall ball{{bench.random(lo.x + radius + .05, hi.x - radius - .05),
-                               lo.y + radius + bench.random(.01, .6),
-                               bench.random(lo.z + radius + .05, hi.z - radius - .05)},
+        const double radius = bench.random_between(.2, .5);
+        const MirrorBall ball{{bench.random_between(lo.x + radius + .05, hi.x - radius - .05),
+                               lo.y + radius + bench.random_between(.01, .6),
+                               bench.random_between(lo.z + radius + .05, hi.z - radius - .05)},
                               radius};
         if (!is_ball_free(scene, ball)) continue;
         add_stress_ball(scene, mirror, ball);
         ++made;
     }
-    scene.cameras.push_back({.eye = {bench.random(-.4, .4), bench.random(-.3, .3), lo.z - 4},
-                             .target = {0, -.3, 0},
-                             .vertical_fov_degrees = 42});
+    scene.cameras.push_back(
+        {.eye = {bench.random_between(-.4, .4), bench.random_between(-.3, .3), lo.z - 4},
+         .target = {0, -.3, 0},
+         .vertical_fov_degrees = 42});
     return scene;
 }
 

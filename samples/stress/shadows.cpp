@@ -13,7 +13,7 @@ namespace catoptric::stress {
 
 namespace {
 
-const dvec3 kLamp(0, 4, 0); // position of the lamp of make_plane_with_lamp()
+const dvec3 kLampPosition(0, 4, 0); // position of the lamp of make_plane_with_lamp()
 
 /// Board that stands on the plane between the lamp and the eye, so that its whole shadow is
 /// visible.
@@ -43,7 +43,7 @@ struct ShadowSample {
 
 std::vector<ShadowSample> list_shadow_samples(const scene::Camera& camera, uvec2 size,
                                               const ShadowBoard& board) {
-    constexpr double kMargin = .02; // pixels
+    constexpr double kPixelMargin = .02; // pixels
     std::vector<ShadowSample> spots;
     for (std::uint32_t y = 0; y < size.y; ++y)
         for (std::uint32_t x = 0; x < size.x; ++x) {
@@ -54,9 +54,9 @@ std::vector<ShadowSample> list_shadow_samples(const scene::Camera& camera, uvec2
             const dvec3 middle = place(0, 0);
             ShadowSample spot{middle.z > camera.eye.z &&
                                   std::max(std::abs(middle.x), std::abs(middle.z)) < 10,
-                              middle, board.hides(middle, kLamp)};
-            for (const double dx : {-kMargin, kMargin})
-                for (const double dy : {-kMargin, kMargin})
+                              middle, board.hides(middle, kLampPosition)};
+            for (const double dx : {-kPixelMargin, kPixelMargin})
+                for (const double dy : {-kPixelMargin, kPixelMargin})
                     if (board.hides(place(dx, dy), camera.eye)) spot.on_plane = false;
             spots.push_back(spot);
         }
@@ -66,14 +66,14 @@ std::vector<ShadowSample> list_shadow_samples(const scene::Camera& camera, uvec2
 /// Returns the distance from `place` to the shadow's edge in multiples of `unit`, rounded up to a
 /// quarter, at most 64.
 double distance_to_shadow_edge(const ShadowBoard& board, const dvec3& place, double unit) {
-    constexpr int kAngles = 16;
-    const bool in_shadow = board.hides(place, kLamp);
+    constexpr int kBoardAngles = 16;
+    const bool in_shadow = board.hides(place, kLampPosition);
     for (int quarters = 1; quarters < 256; ++quarters)
-        for (int i = 0; i < kAngles; ++i) {
-            const double angle = 2 * std::numbers::pi * i / kAngles;
+        for (int i = 0; i < kBoardAngles; ++i) {
+            const double angle = 2 * std::numbers::pi * i / kBoardAngles;
             const dvec3 beside = place +
                                  quarters / 4.0 * unit * dvec3(std::cos(angle), 0, std::sin(angle));
-            if (board.hides(beside, kLamp) != in_shadow) return quarters / 4.0;
+            if (board.hides(beside, kLampPosition) != in_shadow) return quarters / 4.0;
         }
     return 64;
 }
@@ -81,8 +81,8 @@ double distance_to_shadow_edge(const ShadowBoard& board, const dvec3& place, dou
 /// Returns the largest length on the plane that a shadow map texel covers at a place. The map is a
 /// cube around the lamp with faces of `edge` texels, in any rotation.
 double shadow_texel_on_plane(const dvec3& place, int edge) {
-    const double distance = length(place - kLamp);
-    return 2 * distance / edge * distance / kLamp.y;
+    const double distance = length(place - kLampPosition);
+    return 2 * distance / edge * distance / kLampPosition.y;
 }
 
 struct ShadowedPicture {
@@ -118,8 +118,8 @@ ShadowedPicture render_with_and_without_board(StressBench& bench, const scene::S
 /// Returns the largest edge of a shadow map for which this device has memory.
 int largest_shadow_map_edge(StressBench& bench, const scene::Scene& scene) {
     int edge = 16384;
-    while (edge > 1 && !bench.add_done_or_refused(fmt::format("edge {} planned", edge), [&] {
-        bench.plan(bench.make_request(scene, fmt::format("reuse:shadow_map={}", edge), 1));
+    while (edge > 1 && !bench.add_success_or_refusal(fmt::format("edge {} planned", edge), [&] {
+        bench.compile_plan(bench.make_request(scene, fmt::format("reuse:shadow_map={}", edge), 1));
     }))
         edge /= 2;
     return edge;
@@ -136,22 +136,23 @@ void judge_plane_self_shadow(StressBench& bench, double factor, int edge) {
         ++judged;
         lit += shown.with.pixels[i].x >= .999f * shown.without.pixels[i].x;
     }
-    bench.add(
+    bench.add_case(
         fmt::format("edge {}, times {}: less than a tenth of the picture is lit", edge, factor),
         judged * 10 < shown.with.pixels.size() ? 1 : 0, 0);
-    bench.add(fmt::format("edge {}, times {}: plane in shadow of itself", edge, factor),
-              1 - double(lit) / double(judged), .005);
+    bench.add_case(fmt::format("edge {}, times {}: plane in shadow of itself", edge, factor),
+                   1 - double(lit) / double(judged), .005);
 }
 
 /// Returns a plane and a board above it, lit by a tilted lamp. The tilt makes the faces of the
 /// shadow map slanted against the plane, so that shadow look-ups are lifted off the plane.
 scene::Scene make_board_under_lamp(const ShadowBoard& board) {
-    constexpr double kTurn = .6, kHalf = .2;
+    constexpr double kBoardTilt = .6, kHalfBoardWidth = .2;
     scene::Scene scene = make_plane_with_lamp();
     scene.objects.pop_back();
-    const dvec3 along(kHalf, 0, 0), up = kHalf * dvec3(0, -std::sin(kTurn), std::cos(kTurn));
-    add_stress_quad(scene, 1, kLamp - along - up, kLamp + along - up, kLamp + along + up,
-                    kLamp - along + up);
+    const dvec3 along(kHalfBoardWidth, 0, 0),
+        up = kHalfBoardWidth * dvec3(0, -std::sin(kBoardTilt), std::cos(kBoardTilt));
+    add_stress_quad(scene, 1, kLampPosition - along - up, kLampPosition + along - up,
+                    kLampPosition + along + up, kLampPosition - along + up);
     board.add_to(scene);
     return scene;
 }
@@ -165,19 +166,19 @@ void judge_board_shadow(StressBench& bench, double factor, const std::vector<int
                                                                 board);
     const auto judged = std::ranges::count_if(
         spots, [](const ShadowSample& spot) { return spot.on_plane && spot.in_shadow; });
-    bench.add("the board's shadow: less than a fiftieth of the picture",
-              judged * 50 < std::ssize(spots) ? 1 : 0, 0);
+    bench.add_case("the board's shadow: less than a fiftieth of the picture",
+                   judged * 50 < std::ssize(spots) ? 1 : 0, 0);
     const scene::Scene seen = transform_scene(scene, scale_matrix(factor));
-    bench.add(fmt::format("raytrace, times {}: the shadow's edge is off by thousandths", factor),
-              farthest_wrong_pixel(
-                  spots,
-                  render_with_and_without_board(bench, seen, "raytrace", "raytrace:shadow=none"),
-                  board, [](const dvec3&) { return .001; }),
-              1);
+    bench.add_case(
+        fmt::format("raytrace, times {}: the shadow's edge is off by thousandths", factor),
+        farthest_wrong_pixel(
+            spots, render_with_and_without_board(bench, seen, "raytrace", "raytrace:shadow=none"),
+            board, [](const dvec3&) { return .001; }),
+        1);
     for (const int edge : edges) {
         const ShadowedPicture shown = render_with_and_without_board(
             bench, seen, fmt::format("reuse:shadow_map={}", edge), "reuse:shadow=none");
-        bench.add(
+        bench.add_case(
             fmt::format("edge {}, times {}: the shadow's edge is off by texels", edge, factor),
             farthest_wrong_pixel(
                 spots, shown, board,
@@ -233,23 +234,24 @@ void judge_sum_of_lights(StressBench& bench) {
             only_first += a.x > 0 && b.x == 0, only_second += b.x > 0 && a.x == 0;
         }
         if (count_nonfinite_pixels(both.hdr) > 0) off = std::nan("");
-        bench.add(technique + ": radiance off the sum of either light", off, .0005);
+        bench.add_case(technique + ": radiance off the sum of either light", off, .0005);
         const std::size_t enough = both.hdr.pixels.size() / 200;
-        bench.add(technique + ": a light without a shadow of its own",
-                  std::min(only_first, only_second) < enough ? 1 : 0, 0);
+        bench.add_case(technique + ": a light without a shadow of its own",
+                       std::min(only_first, only_second) < enough ? 1 : 0, 0);
         if (technique == "reuse")
-            bench.add("reuse: passes off N + 2 and one for the second light",
-                      std::abs(both.scene_passes - 4), 0);
+            bench.add_case("reuse: passes off N + 2 and one for the second light",
+                           std::abs(both.scene_passes - 4), 0);
     }
 }
 
-const RegisteredProperty kShadowMap{
+const RegisteredProperty kShadowMapProperty{
     {"L2", "shadow map edge 1, 16, 1024, the largest up to 16384; scene times 1e-6, 1, 1e6",
      "no acne on an open plane; a board's shadow begins and ends where it must", judge_shadow_map,
      "shadow_lifted"}};
-const RegisteredProperty kTwoLights{{"L3", "two lights, a board and a ball on an open plane",
-                                     "both show what each shows alone, each with its shadow",
-                                     judge_sum_of_lights, "shadows_of_first_light"}};
+const RegisteredProperty kTwoLightsProperty{
+    {"L3", "two lights, a board and a ball on an open plane",
+     "both show what each shows alone, each with its shadow", judge_sum_of_lights,
+     "shadows_of_first_light"}};
 
 } // namespace
 

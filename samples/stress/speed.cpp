@@ -8,8 +8,8 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMoving = 6, kResting = 10; // numbers of frames
-constexpr double kLampOfRoom = 6;         // brightest value of the room
+constexpr int kMovingFrames = 6, kRestingFrames = 10; // numbers of frames
+constexpr double kBrightestRoomValue = 6;             // brightest value of the room
 
 /// Returns the room whose last ball moves `distance` away and back, twice a second.
 scene::Scene add_ball_motion(scene::Scene scene, double distance) {
@@ -30,7 +30,7 @@ MotionMeasurement measure_in_motion(StressBench& bench, const scene::Scene& scen
     MotionMeasurement seen;
     for (int k = 1 - moving; k <= resting; ++k) {
         request.time = k < 1 ? .17 * (1 - k) : 0;
-        seen.last = bench.frame(session, request).hdr();
+        seen.last = bench.render_frame(session, request).hdr();
         const double most = brightest_channel(seen.last);
         if (!(most <= seen.brightest)) seen.brightest = most;
     }
@@ -41,15 +41,16 @@ MotionMeasurement measure_in_motion(StressBench& bench, const scene::Scene& scen
 /// first frame at rest must be as if nothing had moved.
 void judge_speed_of_technique(StressBench& bench, const scene::Scene& scene, int balls,
                               const std::string& technique) {
-    const int resting = technique == "raytrace" || balls == 1 ? 1 : kResting;
+    const int resting = technique == "raytrace" || balls == 1 ? 1 : kRestingFrames;
     const MotionMeasurement wanted = measure_in_motion(bench, scene, technique, 0, resting);
     for (const double distance : {1.0, 1e6}) {
         const MotionMeasurement found = measure_in_motion(bench, add_ball_motion(scene, distance),
-                                                          technique, kMoving, resting);
+                                                          technique, kMovingFrames, resting);
         const std::string what = fmt::format("{} balls, {}, one goes {} a frame", balls, technique,
                                              distance);
-        bench.add(what + ": brightest of the lamp", found.brightest / kLampOfRoom, 1.002);
-        bench.add(
+        bench.add_case(what + ": brightest of the lamp", found.brightest / kBrightestRoomValue,
+                       1.002);
+        bench.add_case(
             fmt::format("{}: frame {} at rest, pixels unlike one that never moved", what, resting),
             double(count_different_pixels(found.last, wanted.last)), 0);
     }
@@ -64,7 +65,7 @@ void judge_moving_mirror(StressBench& bench) {
     }
 }
 
-const RegisteredProperty kSpeed{
+const RegisteredProperty kMovingMirrorProperty{
     {"T1", "a mirror that goes 1 and 1e6 units from frame to frame, and rests",
      "finite, no brighter than the lamp, then as if it had never moved", judge_moving_mirror,
      "capture_stays_behind"}};

@@ -11,15 +11,16 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr double kTurn = .005;       // radians per pixel
-constexpr double kSteepest = 1.5533; // 89 degrees, so that up stays up
-constexpr double kNotch = .9;        // factor on the distance per wheel notch
+constexpr double kRadiansPerPixel = .005; // radians per pixel
+constexpr double kMaxPitch = 1.5533;      // 89 degrees, so that up stays up
+constexpr double kWheelNotchFactor = .9;  // factor on the distance per wheel notch
 
 /// Returns the unit viewing direction turned by pixels of the mouse.
 dvec3 turn_direction(const dvec3& direction, const dvec2& pixels) {
-    const double pitch = std::clamp(std::asin(std::clamp(direction.y, -1., 1.)) + kTurn * pixels.y,
-                                    -kSteepest, kSteepest);
-    const double yaw = std::atan2(direction.x, direction.z) + kTurn * pixels.x;
+    const double pitch = std::clamp(std::asin(std::clamp(direction.y, -1., 1.)) +
+                                        kRadiansPerPixel * pixels.y,
+                                    -kMaxPitch, kMaxPitch);
+    const double yaw = std::atan2(direction.x, direction.z) + kRadiansPerPixel * pixels.x;
     return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
 }
 
@@ -50,8 +51,9 @@ scene::Camera move_camera(const scene::Camera& camera, const CameraMoves& moves,
         next.target = next.eye + forward * distance;
     } else {
         forward = turn_direction(forward, {-moves.turned.x, -moves.turned.y});
-        distance *= std::pow(kNotch, moves.wheel);
-        if (next.orthographic_height > 0) next.orthographic_height *= std::pow(kNotch, moves.wheel);
+        distance *= std::pow(kWheelNotchFactor, moves.wheel);
+        if (next.orthographic_height > 0)
+            next.orthographic_height *= std::pow(kWheelNotchFactor, moves.wheel);
         next.eye = next.target - forward * distance;
     }
     const dvec3 right = glm::normalize(glm::cross(forward, next.up)),

@@ -14,11 +14,11 @@ namespace catoptric::view {
 namespace {
 
 /// Options that the state replaces, or that a single picture does not need.
-constexpr std::array<std::string_view, 13> kReplaced{
+constexpr std::array<std::string_view, 13> kReplacedOptions{
     "--camera", "--time",       "--size",     "--technique", "--plan",     "--model",    "--frames",
     "--warmup", "--screenshot", "--exposure", "--timing",    "--progress", "--budget-ms"};
-constexpr std::array<std::string_view, 5> kFlags{"--animate", "--validate", "--json", "--quiet",
-                                                 "--verbose"};
+constexpr std::array<std::string_view, 5> kDroppedFlags{"--animate", "--validate", "--json",
+                                                        "--quiet", "--verbose"};
 
 template <std::size_t N>
 bool is_one_of(const std::array<std::string_view, N>& names, std::string_view word) {
@@ -43,8 +43,8 @@ std::vector<std::string> make_render_words(const std::vector<std::string>& words
     for (std::size_t i = 0; i < options; ++i) {
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
-        if (is_one_of(kFlags, word) || is_quiet_or_verbose_flag(word)) continue;
-        if (is_one_of(kReplaced, name)) {
+        if (is_one_of(kDroppedFlags, word) || is_quiet_or_verbose_flag(word)) continue;
+        if (is_one_of(kReplacedOptions, name)) {
             if (name == word) ++i; // the next word is its value
             continue;
         }
@@ -62,9 +62,11 @@ std::vector<std::string> make_render_words(const std::vector<std::string>& words
 }
 
 std::string quote_for_shell(const std::string& word) {
-    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                        "0123456789_-+=:,./@%";
-    const bool is_plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
+    constexpr std::string_view kUnquotedCharacters =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+        "0123456789_-+=:,./@%";
+    const bool is_plain = !word.empty() &&
+                          word.find_first_not_of(kUnquotedCharacters) == std::string::npos;
     return is_plain ? word : app::quote_for_shell(word);
 }
 

@@ -10,13 +10,13 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr double kGrip = 6;  // distance in pixels at which the divider can be dragged
-constexpr double kStray = 3; // most pixels that the mouse moves during a click
+constexpr double kDividerGripPixels = 6; // distance in pixels at which the divider can be dragged
+constexpr double kMaxClickMovement = 3;  // most pixels that the mouse moves during a click
 
 } // namespace
 
 const std::vector<KeyBinding>& list_key_bindings() {
-    static const std::vector<KeyBinding> kList{
+    static const std::vector<KeyBinding> kKeyBindings{
         {GLFW_KEY_F1, KeyAction::keys, 0, "F1", "this list"},
         {GLFW_KEY_TAB, KeyAction::panels, 0, "Tab", "controls come and go"},
         {GLFW_KEY_SPACE, KeyAction::pause, 0, "Space", "motion stops and goes on"},
@@ -39,7 +39,7 @@ const std::vector<KeyBinding>& list_key_bindings() {
         {GLFW_KEY_L, KeyAction::save_plan, 0, "L", "writes the plan (JSON)"},
         {GLFW_KEY_ESCAPE, KeyAction::quit, 0, "Esc", "ends"},
     };
-    return kList;
+    return kKeyBindings;
 }
 
 dvec2 pixels_per_unit(uvec2 pixels, uvec2 units) {
@@ -48,9 +48,10 @@ dvec2 pixels_per_unit(uvec2 pixels, uvec2 units) {
 }
 
 uvec2 choose_picture_size(uvec2 window, bool shows_panels) {
-    constexpr std::uint32_t kLeast = 16;
+    constexpr std::uint32_t kMinPictureSide = 16;
     const std::uint32_t taken = shows_panels ? kPanelWidth : 0;
-    return {std::max(window.x > taken ? window.x - taken : 0, kLeast), std::max(window.y, kLeast)};
+    return {std::max(window.x > taken ? window.x - taken : 0, kMinPictureSide),
+            std::max(window.y, kMinPictureSide)};
 }
 
 DragState::DraggedObject DragState::begin_drag(const UserInput& inputs, const ViewState& state,
@@ -59,7 +60,7 @@ DragState::DraggedObject DragState::begin_drag(const UserInput& inputs, const Vi
     if (inputs.on_controls || inputs.mouse.x >= size.x) return DraggedObject::controls;
     if (inputs.down[1] || inputs.down[2]) return DraggedObject::shifting;
     const bool on_divider = state.mode == ViewMode::split &&
-                            std::abs(inputs.mouse.x - divider) <= kGrip;
+                            std::abs(inputs.mouse.x - divider) <= kDividerGripPixels;
     return on_divider ? DraggedObject::divider : DraggedObject::turning;
 }
 
@@ -76,7 +77,7 @@ std::optional<uvec2> DragState::apply_drag(const UserInput& inputs, ViewState& s
         last_ = pressed_ = inputs.mouse;
         strayed_ = false;
     }
-    strayed_ |= is_down && glm::length(inputs.mouse - pressed_) > kStray;
+    strayed_ |= is_down && glm::length(inputs.mouse - pressed_) > kMaxClickMovement;
     CameraMoves moves;
     const dvec2 dragged = inputs.mouse - last_;
     if (holds_ == DraggedObject::turning && strayed_) moves.turned = dragged;

@@ -71,10 +71,11 @@ void ViewLoop::render(const UserInput& inputs, app::WindowOverlay overlay) {
     const uvec2 size = is_scripted() && is_first && state_.shows_panels == settings_.shows_panels
                            ? request_.size
                            : choose_picture_size(last_, state_.shows_panels);
-    const bool is_seen = inputs.window != uvec2(0) && viewer_->screen().fit(inputs.window);
+    const bool is_seen = inputs.window != uvec2(0) &&
+                         viewer_->screen().fit_to_window(inputs.window);
     waits_ = !is_seen && !is_scripted();
     if (waits_) return;
-    viewer_->frame(state_, size, std::move(overlay), is_seen);
+    viewer_->render_frame(state_, size, std::move(overlay), is_seen);
     good_ = state_, losses_ = 0;
     const std::string text = technique_text(state_.plan) + " " + std::to_string(viewer_->cuts());
     if (text != entries_of_) { // a suggested plan may change after each cut
@@ -87,7 +88,7 @@ void ViewLoop::render(const UserInput& inputs, app::WindowOverlay overlay) {
 /// After a device loss, it opens engine, screen and session again. Must be called while `error` is
 /// handled, and rethrows it if recovery fails.
 void ViewLoop::recover_from_error(const Error& error) {
-    constexpr int kMostLosses = 2; // device losses without a frame in between
+    constexpr int kMaxDeviceLosses = 2; // device losses without a frame in between
     const auto asked = [](const ViewState& state) {
         return std::tie(state.plan, state.other, state.mode, state.model, state.camera,
                         state.motion.time);
@@ -95,7 +96,7 @@ void ViewLoop::recover_from_error(const Error& error) {
     const bool is_lost = !viewer_->engine().usable();
     losses_ += is_lost;
     const bool is_new = asked(state_) != asked(good_);
-    if (frame_ == 0 || losses_ > kMostLosses || (!is_lost && !is_new)) throw;
+    if (frame_ == 0 || losses_ > kMaxDeviceLosses || (!is_lost && !is_new)) throw;
     if (!is_lost || losses_ > 1) { // a single loss may be chance
         state_.plan = good_.plan, state_.other = good_.other;
         state_.mode = good_.mode, state_.model = good_.model;
@@ -107,7 +108,7 @@ void ViewLoop::recover_from_error(const Error& error) {
     state_.said = std::string("the device was lost: ") + error.what();
 }
 
-void ViewLoop::show(const UserInput& inputs) {
+void ViewLoop::show_frame(const UserInput& inputs) {
     PanelRequests wants;
     controls_.begin(glm::max(last_, uvec2(1)), inputs);
     draw_panels(state_, {request_.scene, *viewer_, entries_, period_}, last_, wants);
@@ -124,7 +125,7 @@ void ViewLoop::show(const UserInput& inputs) {
 
 /// Runs one frame, which may be refused. Returns false after the last frame.
 bool ViewLoop::run_one_frame() try {
-    UserInput inputs = window_.poll(waits_);
+    UserInput inputs = window_.poll_events(waits_);
     inputs.on_controls = controls_.has_mouse();
     if (controls_.has_keys()) inputs.acts.clear(), inputs.flies = {};
     if (driver_.before) driver_.before(frame_ + 1, inputs, state_, window_);
@@ -144,7 +145,7 @@ bool ViewLoop::run_one_frame() try {
         waits_ = true; // minimised: no frame is rendered until the window comes back
         return true;
     }
-    show(inputs);
+    show_frame(inputs);
     return !is_scripted() || frame_ < static_cast<std::size_t>(*options_.common.frames);
 } catch (const Error& error) {
     recover_from_error(error);
@@ -152,7 +153,7 @@ bool ViewLoop::run_one_frame() try {
 }
 
 /// Prints the times of the last frames, with -v.
-void ViewLoop::tell_times() const {
+void ViewLoop::print_times() const {
     const TimeStatistics& times = viewer_->times();
     std::vector<TimeRow> lines = times.passes();
     for (const TimeRow& line : times.host()) lines.push_back(line);
@@ -163,9 +164,9 @@ void ViewLoop::tell_times() const {
                           fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
 }
 
-int ViewLoop::end() {
-    tell_times();
-    if (!options_.screenshot.empty()) viewer_->write(options_.screenshot);
+int ViewLoop::finish_run() {
+    print_times();
+    if (!options_.screenshot.empty()) viewer_->write_picture(options_.screenshot);
     if (options_.common.device.validate) viewer_->engine().check_validation();
     if (is_scripted()) return 0;
     try {
@@ -181,7 +182,7 @@ int ViewLoop::end() {
 int ViewLoop::run() {
     while (run_one_frame()) {
     }
-    const int code = end();
+    const int code = finish_run();
     const int signal = cli::stop_on_signals().load();
     return signal == 0 ? code : 128 + signal;
 }

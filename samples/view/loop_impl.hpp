@@ -6,7 +6,7 @@
 #include "session/run.hpp"
 #include "settings.hpp"
 
-// Parts of the window's loop, shared by loop.cpp and acts.cpp only.
+// Parts of the window's loop, shared by loop.cpp and key_actions.cpp only.
 namespace catoptric::view {
 
 class ViewLoop {
@@ -23,14 +23,14 @@ private:
     void perform_key_action(const KeyBinding& key);
     void perform_panel_requests(const PanelRequests& wants);
     void load(const std::string& file);
-    void show(const UserInput& inputs);
+    void show_frame(const UserInput& inputs);
     void render(const UserInput& inputs, app::WindowOverlay overlay);
     void recover_from_error(const Error& error);
     void show_message(const std::string& text);
     std::string command() const;
     void next_camera(std::size_t index);
-    void tell_times() const;
-    int end();
+    void print_times() const;
+    int finish_run();
 
     ViewOptions options_;
     const TestDriver& driver_;

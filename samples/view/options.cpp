@@ -1,6 +1,6 @@
 #include "options.hpp"
 
-#include "catoptric/places.hpp"
+#include "catoptric/output_checks.hpp"
 #include "core/error.hpp"
 #include "session/engine.hpp"
 
@@ -10,7 +10,7 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kViewExamples = R"(Examples:
   catoptric-view
   catoptric-view gallery --technique reuse --animate
   catoptric-view scene.glb --plan "1=planar *=hybrid"
@@ -36,7 +36,7 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
                                         const std::function<int(const ViewOptions&)>& run) {
     auto program = std::make_shared<cli::CommandLine>(
         "catoptric-view", "Shows a scene in a window, drawn by any technique.",
-        "catoptric-view " + app::version() + " (" + app::commit() + ")", kExamples);
+        "catoptric-view " + app::version() + " (" + app::commit() + ")", kViewExamples);
     const auto options = std::make_shared<ViewOptions>();
     options->words = words;
     cli::CommandVerb& verb = program->single_verb();

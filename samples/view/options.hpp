@@ -1,7 +1,7 @@
 #pragma once
 
-#include "catoptric/drawn.hpp"
 #include "catoptric/options.hpp"
+#include "catoptric/technique_option.hpp"
 
 #include <string>
 #include <vector>

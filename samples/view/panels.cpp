@@ -16,7 +16,7 @@ namespace catoptric::view {
 namespace {
 
 void draw_mode_controls(ViewState& state) {
-    for (int i = 0; i < kModes; ++i) {
+    for (int i = 0; i < kViewModeCount; ++i) {
         const auto mode = static_cast<ViewMode>(i);
         if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * 115);
         if (ImGui::RadioButton(name_of(mode), state.mode == mode)) state.mode = mode;
@@ -51,9 +51,9 @@ void draw_mode_controls(ViewState& state) {
 void draw_playback_controls(ViewState& state, double period) {
     if (ImGui::Button(state.motion.plays ? "pause" : "play")) state.motion.plays ^= true;
     ImGui::SameLine();
-    if (ImGui::Button("-1/60")) state.motion.plays = false, state.motion.time -= kStep;
+    if (ImGui::Button("-1/60")) state.motion.plays = false, state.motion.time -= kFrameStepSeconds;
     ImGui::SameLine();
-    if (ImGui::Button("+1/60")) state.motion.plays = false, state.motion.time += kStep;
+    if (ImGui::Button("+1/60")) state.motion.plays = false, state.motion.time += kFrameStepSeconds;
     ImGui::SameLine();
     auto speed = static_cast<float>(state.motion.speed);
     ImGui::SetNextItemWidth(110);
@@ -70,7 +70,8 @@ void draw_error_figures(ViewState& state, const Viewer& viewer) {
     ImGui::Checkbox("errors against the traced reference", &state.judges);
     const int passes = viewer.reference().passes();
     if (passes > 0)
-        ImGui::Text("reference: %d of %d passes", passes, ProgressiveReference::kMostPasses);
+        ImGui::Text("reference: %d of %d passes", passes,
+                    ProgressiveReference::kMaxReferencePasses);
     if (!viewer.error()) return;
     const measure::Difference& error = *viewer.error();
     ImGui::Text("mirrors: FLIP %.4f  RMSE %.4f", error.flip, error.rmse);

@@ -21,7 +21,7 @@ void draw_choice_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
 
 /// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
 void draw_number_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
-    constexpr int kFew = 64;
+    constexpr int kMaxSliderRange = 64;
     const std::string text = knob_value(drawing, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
     const int low = static_cast<int>(knob.low), high = static_cast<int>(knob.high);
@@ -29,12 +29,12 @@ void draw_number_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
     ImGui::PushItemWidth(110);
     if (is_special)
         ImGui::TextDisabled("%s: %s", knob.name.c_str(), knob.special.c_str());
-    else if (high - low <= kFew ? ImGui::SliderInt(knob.name.c_str(), &value, low, high)
-                                : ImGui::InputInt(knob.name.c_str(), &value, 0, 0,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue))
+    else if (high - low <= kMaxSliderRange ? ImGui::SliderInt(knob.name.c_str(), &value, low, high)
+                                           : ImGui::InputInt(knob.name.c_str(), &value, 0, 0,
+                                                             ImGuiInputTextFlags_EnterReturnsTrue))
         set_knob(drawing, knob, std::to_string(std::clamp(value, low, high)));
     ImGui::PopItemWidth();
-    if (high - low > kFew && !is_special) {
+    if (high - low > kMaxSliderRange && !is_special) {
         ImGui::SameLine(210);
         if (ImGui::SmallButton("/2"))
             set_knob(drawing, knob, std::to_string(std::clamp(value / 2, low, high)));

@@ -28,8 +28,8 @@ nlohmann::json make_rule_json(nlohmann::json mirror, const TechniqueSettings& dr
 } // namespace
 
 const std::vector<app::TechniqueInfo>& technique_infos() {
-    static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
-    return kTechniques;
+    static const std::vector<app::TechniqueInfo> kTechniqueInfos = app::techniques();
+    return kTechniqueInfos;
 }
 
 const app::TechniqueInfo* find_technique_info(const std::string& technique) {
@@ -57,9 +57,9 @@ std::string technique_text(const PlanState& plan) {
 }
 
 std::vector<std::string> plan_option_words(const PlanState& plan) {
-    constexpr std::string_view kFile = "plan:";
+    constexpr std::string_view kPlanFilePrefix = "plan:";
     const std::string text = technique_text(plan);
-    if (text.starts_with(kFile)) return {"--plan", text.substr(kFile.size())};
+    if (text.starts_with(kPlanFilePrefix)) return {"--plan", text.substr(kPlanFilePrefix.size())};
     return {app::parse_technique(text).technique == "plan" ? "--plan" : "--technique", text};
 }
 

@@ -23,7 +23,7 @@ std::vector<std::uint32_t> render_mirror_hits(app::Session& session, const app::
 }
 
 bool ProgressiveReference::render_one_pass(app::Session& session, const app::FrameSpec& spec) {
-    if (passes_ == kMostPasses) return false;
+    if (passes_ == kMaxReferencePasses) return false;
     if (passes_ == 0) {
         app::TechniqueResult part = render_traced(session, spec, "raytrace:depth=16", spec.seed);
         hits_ = std::move(part.hits);
@@ -46,8 +46,8 @@ bool ProgressiveReference::render_one_pass(app::Session& session, const app::Fra
     return true;
 }
 
-measure::Difference ProgressiveReference::judge(const measure::Picture& hdr,
-                                                double exposure) const {
+measure::Difference ProgressiveReference::compare_with_reference(const measure::Picture& hdr,
+                                                                 double exposure) const {
     const std::vector<float> map = measure::flip(measure::to_unrounded_display(hdr, exposure),
                                                  measure::to_unrounded_display(centre_, exposure));
     return measure::difference(measure::apply_exposure(hdr, exposure),

@@ -13,7 +13,7 @@ namespace catoptric::view {
 /// `compare`. Further passes are averaged.
 class ProgressiveReference {
 public:
-    static constexpr int kMostPasses = 64;
+    static constexpr int kMaxReferencePasses = 64;
 
     void reset() { *this = {}; }
     /// Renders one more pass outside the session's frame sequence and waits for it. `spec` is that
@@ -24,7 +24,7 @@ public:
     std::shared_ptr<const measure::Picture> display() const { return display_; }
     /// Returns the errors of a live picture over mirror pixels. Needs the first pass. Costs one
     /// FLIP.
-    measure::Difference judge(const measure::Picture& hdr, double exposure) const;
+    measure::Difference compare_with_reference(const measure::Picture& hdr, double exposure) const;
 
 private:
     int passes_ = 0;

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr std::uint32_t kMostPixels = 16384;
+constexpr std::uint32_t kMaxWindowSide = 16384;
 
 template <typename Value, typename Good>
 void read_setting(const Json& document, const char* name, Value& value, const Good& is_good) {
@@ -48,7 +48,7 @@ ViewerSettings parse_settings(const std::string& text) {
     const Json document = Json::parse(text, nullptr, false);
     if (!document.is_object()) return settings;
     const auto any = [](bool) { return true; };
-    const auto pixels = [](std::uint32_t n) { return n > 0 && n <= kMostPixels; };
+    const auto pixels = [](std::uint32_t n) { return n > 0 && n <= kMaxWindowSide; };
     read_setting(document, "width", settings.window.x, pixels);
     read_setting(document, "height", settings.window.y, pixels);
     if (settings.window.x == 0 || settings.window.y == 0) settings.window = {0, 0};

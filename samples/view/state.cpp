@@ -9,18 +9,20 @@
 namespace catoptric::view {
 
 const char* name_of(ViewMode mode) {
-    constexpr std::array kNames{"plan", "split", "difference", "answers", "numbers", "causes"};
-    return kNames.at(static_cast<std::size_t>(mode));
+    constexpr std::array kViewModeNames{"plan",    "split",   "difference",
+                                        "answers", "numbers", "causes"};
+    return kViewModeNames.at(static_cast<std::size_t>(mode));
 }
 
 const std::vector<CauseLabel>& list_cause_labels() {
-    static const std::vector<CauseLabel> kList{{shared::kAblateDistance, "captured distance"},
-                                               {shared::kAblateDirection, "looked-up direction"},
-                                               {shared::kAblateHidden, "hidden surfaces"},
-                                               {shared::kAblateTexels, "texels"},
-                                               {shared::kAblateMirrors, "mirrors in captures"},
-                                               {shared::kAblateShadows, "shadow map"}};
-    return kList;
+    static const std::vector<CauseLabel> kCauseLabels{
+        {shared::kAblateDistance, "captured distance"},
+        {shared::kAblateDirection, "looked-up direction"},
+        {shared::kAblateHiddenPoints, "hidden surfaces"},
+        {shared::kAblateTexelColour, "texels"},
+        {shared::kAblateMirrorReflections, "mirrors in captures"},
+        {shared::kAblateShadows, "shadow map"}};
+    return kCauseLabels;
 }
 
 bool needs_host_picture(const ViewState& state) {
@@ -38,14 +40,14 @@ ShownPictures choose_shown_pictures(const ViewState& state) {
         shown.techniques = {technique_text(with_knob(state.plan, "show", "state"))};
         break;
     case ViewMode::numbers:
-    case ViewMode::causes: shown.first = app::WindowPictures::kCanvas; break;
+    case ViewMode::causes: shown.first = app::WindowPictures::kCanvasTexture; break;
     case ViewMode::split:
     case ViewMode::difference:
         shown.kind = state.mode == ViewMode::split
                          ? app::WindowPictures::PictureArrangement::split
                          : app::WindowPictures::PictureArrangement::difference;
         if (state.against == ComparisonPicture::reference) {
-            shown.second = app::WindowPictures::kCanvas;
+            shown.second = app::WindowPictures::kCanvasTexture;
         } else if (const std::string other = technique_text(state.other);
                    other != shown.techniques[0]) {
             shown.techniques.push_back(other);

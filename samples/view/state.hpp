@@ -20,7 +20,7 @@ enum class ViewMode {
     numbers,    ///< number of the mirror that each pixel shows
     causes,     ///< change of the picture when a cause of error is removed
 };
-inline constexpr int kModes = 6;
+inline constexpr int kViewModeCount = 6;
 const char* name_of(ViewMode mode);
 
 /// The picture that the plan is compared with.
@@ -32,7 +32,7 @@ struct Playback {
     bool plays = false;
     double speed = 1;
 };
-inline constexpr double kStep = 1.0 / 60;
+inline constexpr double kFrameStepSeconds = 1.0 / 60;
 
 struct ViewState {
     PlanState plan, other;

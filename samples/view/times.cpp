@@ -18,11 +18,11 @@ void TimeStatistics::add(FrameTimeSample sample) {
     if (!samples_.empty() && !have_equal_passes(samples_.back().frame, sample.frame))
         samples_.clear();
     samples_.push_back(std::move(sample));
-    if (samples_.size() > kFrames) samples_.pop_front();
+    if (samples_.size() > kAveragedFrames) samples_.pop_front();
 }
 
 template <typename Get>
-TimeRow TimeStatistics::line(const std::string& name, const Get& get) const {
+TimeRow TimeStatistics::make_time_row(const std::string& name, const Get& get) const {
     std::vector<double> values;
     for (const FrameTimeSample& sample : samples_) values.push_back(get(sample));
     if (values.empty()) return {name, 0, {}};
@@ -32,31 +32,35 @@ TimeRow TimeStatistics::line(const std::string& name, const Get& get) const {
 std::vector<TimeRow> TimeStatistics::passes() const {
     std::vector<TimeRow> lines;
     for (std::size_t i = 0; !samples_.empty() && i < samples_.back().frame.passes.size(); ++i)
-        lines.push_back(line(samples_.back().frame.passes[i].name,
-                             [i](const FrameTimeSample& s) { return s.frame.passes[i].ms(); }));
+        lines.push_back(
+            make_time_row(samples_.back().frame.passes[i].name,
+                          [i](const FrameTimeSample& s) { return s.frame.passes[i].ms(); }));
     return lines;
 }
 
 std::vector<TimeRow> TimeStatistics::host() const {
-    return {line("update", [](const FrameTimeSample& s) { return s.frame.host.update; }),
-            line("hierarchy", [](const FrameTimeSample& s) { return s.frame.host.hierarchy; }),
-            line("compile", [](const FrameTimeSample& s) { return s.frame.host.compile; }),
-            line("record", [](const FrameTimeSample& s) { return s.frame.host.record; }),
-            line("host, by the clock", [](const FrameTimeSample& s) { return s.host_ms; }),
-            line("acquire", [](const FrameTimeSample& s) { return s.acquire_ms; }),
-            line("present", [](const FrameTimeSample& s) { return s.present_ms; })};
+    return {
+        make_time_row("update", [](const FrameTimeSample& s) { return s.frame.host.update; }),
+        make_time_row("hierarchy", [](const FrameTimeSample& s) { return s.frame.host.hierarchy; }),
+        make_time_row("compile", [](const FrameTimeSample& s) { return s.frame.host.compile; }),
+        make_time_row("record", [](const FrameTimeSample& s) { return s.frame.host.record; }),
+        make_time_row("host, by the clock", [](const FrameTimeSample& s) { return s.host_ms; }),
+        make_time_row("acquire", [](const FrameTimeSample& s) { return s.acquire_ms; }),
+        make_time_row("present", [](const FrameTimeSample& s) { return s.present_ms; })};
 }
 
 TimeRow TimeStatistics::gpu() const {
-    return line("gpu", [](const FrameTimeSample& s) { return s.frame.gpu_ms; });
+    return make_time_row("gpu", [](const FrameTimeSample& s) { return s.frame.gpu_ms; });
 }
 
 TimeRow TimeStatistics::frame() const {
-    return line("frame", [](const FrameTimeSample& s) { return s.frame.frame_ms(); });
+    return make_time_row("frame", [](const FrameTimeSample& s) { return s.frame.frame_ms(); });
 }
 
 double TimeStatistics::fps() const {
-    const double ms = line("", [](const FrameTimeSample& s) { return s.interval_ms; }).median;
+    const double ms = make_time_row("", [](const FrameTimeSample& s) {
+                          return s.interval_ms;
+                      }).median;
     return ms > 0 ? 1000 / ms : 0;
 }
 

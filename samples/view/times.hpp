@@ -19,7 +19,7 @@ struct TimeRow {
 /// Times of the last frames. Starts again if the passes change.
 class TimeStatistics {
 public:
-    static constexpr std::size_t kFrames = 60;
+    static constexpr std::size_t kAveragedFrames = 60;
 
     /// Times of one frame. `host_ms` covers update, record and submit, measured by the host's
     /// clock. `interval_ms` is the time since the start of the previous frame.
@@ -39,7 +39,7 @@ public:
 
 private:
     template <typename Get>
-    TimeRow line(const std::string& name, const Get& get) const;
+    TimeRow make_time_row(const std::string& name, const Get& get) const;
 
     std::deque<FrameTimeSample> samples_;
 };

@@ -11,10 +11,10 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr std::uint32_t kInFlight = 2;
-constexpr int kRests = 3;    // after this many frames without a change, the camera rests
-constexpr int kHidden = 4;   // frames after a cut that are not shown
-constexpr int kSettled = 12; // frames at rest before errors and their causes are measured
+constexpr std::uint32_t kFramesInFlight = 2;
+constexpr int kRestingFrames = 3;  // after this many frames without a change, the camera rests
+constexpr int kHiddenFrames = 4;   // frames after a cut that are not shown
+constexpr int kSettledFrames = 12; // frames at rest before errors and their causes are measured
 
 double current_milliseconds() {
     return std::chrono::duration<double, std::milli>(
@@ -34,7 +34,7 @@ Viewer::Viewer(ViewWindow& window, const app::EngineOptions& options, const app:
     window.add_to(hooks);
     engine_.reset(new app::Engine(app::Access::make_engine(options, hooks)));
     screen_ = std::make_unique<app::WindowScreen>(*engine_);
-    session_ = std::make_unique<app::Session>(*engine_, request.scene, kInFlight);
+    session_ = std::make_unique<app::Session>(*engine_, request.scene, kFramesInFlight);
     spec_ = request;
     budget_ms_ = request.budget_ms;
 }
@@ -46,7 +46,7 @@ std::vector<PlanEntry> Viewer::entries() const {
 }
 
 /// Collects the times of the oldest frames until at most `most` are in flight.
-void Viewer::collect(std::size_t most) {
+void Viewer::collect_finished_frames(std::size_t most) {
     while (pending_.size() > most) {
         pending_.front().sample.frame = pending_.front().frame.times();
         times_.add(std::move(pending_.front().sample));
@@ -54,8 +54,8 @@ void Viewer::collect(std::size_t most) {
     }
 }
 
-void Viewer::cut() {
-    collect(0);
+void Viewer::cut_history() {
+    collect_finished_frames(0);
     session_->forget();
     was_moved_ = false;
     ++cuts_;
@@ -89,26 +89,26 @@ void Viewer::update_from_state(const ViewState& state, uvec2 size) {
 /// Works while the view is at rest. When the view comes to rest, a new frame sequence begins, as
 /// in `catoptric render`. Automatic capture edges then fit this view, and the picture becomes the
 /// same bytes. The first frames are not shown, because mirrors do not show each other yet.
-void Viewer::work_at_rest(const ViewState& state) {
-    if (still_ >= kRests && was_moved_ && !state.motion.plays) {
-        cut();
-        for (int k = 0; k < kHidden; ++k) {
+void Viewer::measure_at_rest(const ViewState& state) {
+    if (still_ >= kRestingFrames && was_moved_ && !state.motion.plays) {
+        cut_history();
+        for (int k = 0; k < kHiddenFrames; ++k) {
             last_ = session_->frame(spec_);
-            if (!app::Access::remembers(*last_)) break;
+            if (!app::Access::depends_on_last_frame(*last_)) break;
         }
     }
     const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
                           state.against == ComparisonPicture::reference;
-    if (still_ >= kRests && (compares || state.judges)) {
-        collect(0); // frames outside the sequence use the slots of earlier frames
+    if (still_ >= kRestingFrames && (compares || state.judges)) {
+        collect_finished_frames(0); // frames outside the sequence use the slots of earlier frames
         reference_.render_one_pass(*session_, spec_);
     }
     // A picture of search answers has no error to measure.
     const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
-    if (still_ >= kSettled && !waits && state.judges && state.mode != ViewMode::answers &&
+    if (still_ >= kSettledFrames && !waits && state.judges && state.mode != ViewMode::answers &&
         !error_ && reference_.passes() > 0) {
         last_ = session_->frame(spec_);
-        error_ = reference_.judge(last_->hdr(), spec_.exposure);
+        error_ = reference_.compare_with_reference(last_->hdr(), spec_.exposure);
     }
 }
 
@@ -118,9 +118,9 @@ std::shared_ptr<const measure::Picture> Viewer::make_host_picture(const ViewStat
     const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
                          made_gain_ == state.gain;
     if (is_made) return made_;
-    if (state.mode == ViewMode::causes && still_ < kSettled) return nullptr;
+    if (state.mode == ViewMode::causes && still_ < kSettledFrames) return nullptr;
     made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
-    collect(0);
+    collect_finished_frames(0);
     if (state.mode == ViewMode::numbers) {
         made_ = std::make_shared<measure::Picture>(
             make_mirror_number_picture(render_mirror_hits(*session_, spec_), spec_.size));
@@ -130,14 +130,16 @@ std::shared_ptr<const measure::Picture> Viewer::make_host_picture(const ViewStat
     aside.keeps_history = true;
     const measure::Picture as_it_is = session_->frame(aside).read().display;
     made_ = std::make_shared<measure::Picture>(make_difference_picture(
-        as_it_is, app::Access::frame(*session_, aside, {.ablated = state.cause}).read().display,
+        as_it_is,
+        app::Access::render_frame(*session_, aside, {.ablated = state.cause}).read().display,
         static_cast<float>(state.gain)));
     return made_;
 }
 
-void Viewer::frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay, bool is_seen) {
+void Viewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay,
+                          bool is_seen) {
     update_from_state(state, size);
-    work_at_rest(state);
+    measure_at_rest(state);
     const ShownPictures what = choose_shown_pictures(state);
     showing_ = {what.kind,
                 what.first,
@@ -148,12 +150,12 @@ void Viewer::frame(const ViewState& state, uvec2 size, app::WindowOverlay overla
                 std::move(overlay)};
     if (needs_host_picture(state)) showing_.canvas = make_host_picture(state);
     if (!showing_.canvas) { // not made yet: show the plan's picture
-        if (showing_.first == app::WindowPictures::kCanvas) showing_.first = 0;
-        if (showing_.second == app::WindowPictures::kCanvas) showing_.second = 0;
+        if (showing_.first == app::WindowPictures::kCanvasTexture) showing_.first = 0;
+        if (showing_.second == app::WindowPictures::kCanvasTexture) showing_.second = 0;
     }
-    collect(kInFlight - 1);
+    collect_finished_frames(kFramesInFlight - 1);
     const double begin = current_milliseconds();
-    app::Frame made = is_seen ? app::Access::show(*session_, spec_, *screen_, showing_)
+    app::Frame made = is_seen ? app::Access::show_in_window(*session_, spec_, *screen_, showing_)
                               : session_->frame(spec_);
     TimeStatistics::FrameTimeSample sample;
     if (is_seen)
@@ -162,7 +164,7 @@ void Viewer::frame(const ViewState& state, uvec2 size, app::WindowOverlay overla
     sample.interval_ms = frames_ > 0 ? begin - began_ : 0;
     began_ = begin;
     last_ = made;
-    left_out_ = app::Access::model(made).left_out;
+    left_out_ = app::Access::rendered_model(made).left_out;
     slices_ = made.slices();
     pending_.push_back({std::move(made), std::move(sample)});
     ++frames_;
@@ -170,17 +172,18 @@ void Viewer::frame(const ViewState& state, uvec2 size, app::WindowOverlay overla
 
 std::uint32_t Viewer::mirror_at(uvec2 pixel) {
     if (frames_ == 0) return 0;
-    collect(0);
+    collect_finished_frames(0);
     const std::vector<std::uint32_t> hits = render_mirror_hits(*session_, spec_);
     const std::size_t at = std::size_t{pixel.y} * spec_.size.x + pixel.x;
     return at < hits.size() ? hits[at] & 0xFFFFU : 0;
 }
 
-void Viewer::write(const std::filesystem::path& file) const {
+void Viewer::write_picture(const std::filesystem::path& file) const {
     check(last_.has_value(), Failure::usage, "there is no frame yet to be written");
     if (file.extension() == ".exr") return measure::write_exr(last_->read(0).hdr, file);
     const auto picture = [&](std::size_t part) {
-        return part == app::WindowPictures::kCanvas ? *showing_.canvas : last_->read(part).display;
+        return part == app::WindowPictures::kCanvasTexture ? *showing_.canvas
+                                                           : last_->read(part).display;
     };
     measure::Picture shown = picture(showing_.first);
     if (showing_.kind == app::WindowPictures::PictureArrangement::difference)

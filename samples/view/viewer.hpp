@@ -36,21 +36,21 @@ public:
 
     /// Renders a frame of `size`, and shows it if the window is visible (`is_seen`). Throws `usage`
     /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
-    void frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay, bool is_seen);
+    void render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay, bool is_seen);
     /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
     std::uint32_t mirror_at(uvec2 pixel);
-    void cut();
+    void cut_history();
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
     /// holds the plan's linear picture.
-    void write(const std::filesystem::path& file) const;
-    app::FrameSpec spec() const { return spec_; }
+    void write_picture(const std::filesystem::path& file) const;
+    app::FrameSpec frame_spec() const { return spec_; }
     std::size_t cuts() const { return cuts_; }
 
 private:
     void update_from_state(const ViewState& state, uvec2 size);
-    void work_at_rest(const ViewState& state);
+    void measure_at_rest(const ViewState& state);
     std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
-    void collect(std::size_t most);
+    void collect_finished_frames(std::size_t most);
 
     struct PendingFrame {
         app::Frame frame;

@@ -36,21 +36,23 @@ std::uint64_t make_window_surface(GLFWwindow* window, void* instance) {
 
 /// Callbacks of the window library, called while events are polled.
 struct WindowCallbacks {
-    static UserInput& of(GLFWwindow* window) {
+    static UserInput& gathered_input_of(GLFWwindow* window) {
         return static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->gathered_;
     }
-    static void key(GLFWwindow* window, int code, int, int action, int) {
+    static void on_key(GLFWwindow* window, int code, int, int action, int) {
         if (action == GLFW_RELEASE) return;
         const auto repeats = [](const KeyBinding& key) {
             return key.act == KeyAction::step || key.act == KeyAction::back;
         };
         for (const KeyBinding& key : list_key_bindings())
             if (key.code == code && (action == GLFW_PRESS || repeats(key)))
-                of(window).acts.push_back(key);
+                gathered_input_of(window).acts.push_back(key);
     }
-    static void scroll(GLFWwindow* window, double, double y) { of(window).wheel += y; }
-    static void drop(GLFWwindow* window, int count, const char** paths) {
-        for (int i = 0; i < count; ++i) of(window).dropped.emplace_back(paths[i]);
+    static void on_scroll(GLFWwindow* window, double, double y) {
+        gathered_input_of(window).wheel += y;
+    }
+    static void on_drop(GLFWwindow* window, int count, const char** paths) {
+        for (int i = 0; i < count; ++i) gathered_input_of(window).dropped.emplace_back(paths[i]);
     }
 };
 
@@ -76,9 +78,9 @@ ViewWindow::ViewWindow(const std::string& title, uvec2 size) {
     // Keeps a click between two frames until the next frame.
     glfwSetInputMode(window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, WindowCallbacks::key);
-    glfwSetScrollCallback(window_, WindowCallbacks::scroll);
-    glfwSetDropCallback(window_, WindowCallbacks::drop);
+    glfwSetKeyCallback(window_, WindowCallbacks::on_key);
+    glfwSetScrollCallback(window_, WindowCallbacks::on_scroll);
+    glfwSetDropCallback(window_, WindowCallbacks::on_drop);
     polled_ = glfwGetTime();
 }
 
@@ -96,10 +98,10 @@ void ViewWindow::add_to(app::EngineHooks& hooks) const {
     };
 }
 
-UserInput ViewWindow::poll(bool wait) {
-    constexpr double kLongest = .1; // longest wait in seconds
+UserInput ViewWindow::poll_events(bool wait) {
+    constexpr double kMaxWaitSeconds = .1; // longest wait in seconds
     if (wait)
-        glfwWaitEventsTimeout(kLongest);
+        glfwWaitEventsTimeout(kMaxWaitSeconds);
     else
         glfwPollEvents();
     UserInput inputs = std::exchange(gathered_, {});
@@ -121,7 +123,7 @@ UserInput ViewWindow::poll(bool wait) {
                     axis(GLFW_KEY_W, GLFW_KEY_S)};
     inputs.closes = glfwWindowShouldClose(window_) == GLFW_TRUE;
     const double now = glfwGetTime();
-    inputs.seconds = std::min(now - std::exchange(polled_, now), kLongest);
+    inputs.seconds = std::min(now - std::exchange(polled_, now), kMaxWaitSeconds);
     return inputs;
 }
 
@@ -129,6 +131,8 @@ void ViewWindow::resize(uvec2 size) {
     glfwSetWindowSize(window_, static_cast<int>(size.x), static_cast<int>(size.y));
 }
 
-void ViewWindow::copy(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
+void ViewWindow::copy_to_clipboard(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
+}
 
 } // namespace catoptric::view

@@ -25,9 +25,9 @@ public:
     void add_to(app::EngineHooks& hooks) const;
     /// Returns the input since the last call. With `wait`, sleeps up to a tenth of a second until
     /// something happens.
-    UserInput poll(bool wait);
+    UserInput poll_events(bool wait);
     void resize(uvec2 size); ///< in desktop units
-    void copy(const std::string& text);
+    void copy_to_clipboard(const std::string& text);
     GLFWwindow* handle() const { return window_; }
 
 private:

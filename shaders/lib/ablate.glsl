@@ -24,7 +24,7 @@ layout(constant_id = PICTURE_WIDTH_CONSTANT) const uint picture_width = 1u;
 layout(constant_id = PICTURE_HEIGHT_CONSTANT) const uint picture_height = 1u;
 
 // A surface hides a point from the capture's centre if the surface is nearer by more than this share of the distance.
-const float kInTheWay = 1.0 / 16384.0;
+const float kOccluderTolerance = 1.0 / 16384.0;
 
 bool ablates(uint cause) { return (draw.ablated & cause) != 0u; }
 
@@ -33,7 +33,7 @@ bool ablates(uint cause) { return (draw.ablated & cause) != 0u; }
 float exact_distance(uint mirror, vec3 direction) {
     left_out = mirror + 1u;
     TraceHit hit;
-    bool found = find_closest_hit(Ray(probe_at(mirror).centre, direction, 0u), kLargest, kBvhOneSided, hit);
+    bool found = find_closest_hit(Ray(probe_at(mirror).centre, direction, 0u), kLargestFloat, kBvhOneSided, hit);
     left_out = 0u;
     return found ? hit.t * length(direction) : uintBitsToFloat(0x7f800000u);
 }
@@ -48,7 +48,7 @@ struct RayEnd {
 RayEnd find_ray_end(Ray ray, uint skipped) {
     RayEnd end;
     TraceHit none;
-    end.meets = trace_ray(ray, skipped, kNotKnown, none, end.point);
+    end.meets = trace_ray(ray, skipped, kUnknownHit, none, end.point);
     end.mirror = end.meets ? read_surface(end.point.object).mirror : 0u;
     return end;
 }
@@ -89,14 +89,14 @@ vec3 shade_point(SurfacePoint at, vec3 direction, uint by) {
 vec3 ablated_lookup_colour(MirrorPath path, Lookup lookup, RayEnd target, bool is_target) {
     vec3 colour = lookup_colour(path.mirror, lookup);
     bool sees_nothing = lookup.state == kUnknown && lookup.layer == kLeaves;
-    if (sees_nothing || !(ablates(kAblateTexels) || ablates(kAblateShadows))) return colour;
+    if (sees_nothing || !(ablates(kAblateTexelColour) || ablates(kAblateShadows))) return colour;
     RayEnd captured = target;
     if (!is_target) captured = find_captured_end(path.mirror, lookup);
     if (captured.mirror != 0u) return colour; // a captured mirror keeps the colour from the capture
-    if (!captured.meets) return ablates(kAblateTexels) ? environment_radiance(lookup.direction) : colour;
-    if (ablates(kAblateTexels)) colour = vec3(0);
+    if (!captured.meets) return ablates(kAblateTexelColour) ? environment_radiance(lookup.direction) : colour;
+    if (ablates(kAblateTexelColour)) colour = vec3(0);
     // The captured texels were lit through the shadow map. Adds the difference that shadow rays would have made.
-    for (uint i = 0u; i < (ablates(kAblateTexels) ? 1u : 2u); ++i) {
+    for (uint i = 0u; i < (ablates(kAblateTexelColour) ? 1u : 2u); ++i) {
         vec3 lit = shade_point(captured.point, lookup.direction, i == 0u && ablates(kAblateShadows) ? kShadowRay : shadow);
         colour += i == 0u ? lit : -lit;
     }
@@ -115,7 +115,7 @@ vec3 ablated_radiance(MirrorPath path, Lookup lookup) {
     uint i = 0u, last = path.hops > 0u ? 2u : 1u;
     do {
         left_out = i == 2u ? path.mirror + 1u : 0u;
-        target = find_ray_end(search_ray, i == 0u ? kBvhHidden : 0u);
+        target = find_ray_end(search_ray, i == 0u ? kBvhHiddenFromCamera : 0u);
         if (i == 0u) {
             // The rasteriser and the ray see different mirrors at this pixel, an error that no ablation removes.
             if (target.mirror != drawn_mirror()) return path.weight * lookup_colour(path.mirror, lookup);
@@ -124,7 +124,7 @@ vec3 ablated_radiance(MirrorPath path, Lookup lookup) {
         } else if (i == 1u) {
             bool is_own = target.mirror == drawn_mirror();
             bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
-            from_camera = is_own ? ablates(kAblateOwn) : is_mirrored && ablates(kAblateMirrors);
+            from_camera = is_own ? ablates(kAblateSelfReflection) : is_mirrored && ablates(kAblateMirrorReflections);
             if (path.hops > 0u) search_ray = Ray(path.at, path.direction, 0u);
         }
     } while (++i <= last);
@@ -132,9 +132,9 @@ vec3 ablated_radiance(MirrorPath path, Lookup lookup) {
     vec3 to_target = target.meets ? target.point.position - path.centre : search_ray.direction;
     float distance = target.meets ? length(to_target) : uintBitsToFloat(0x7f800000u);
     bool in_capture = target.mirror != path.mirror + 1u;
-    bool asks_hidden = in_capture && (ablates(kAblateHidden) || ablates(kAblateDirection));
-    bool is_hidden = asks_hidden && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
-    bool along_search = is_hidden && ablates(kAblateHidden);
+    bool asks_hidden = in_capture && (ablates(kAblateHiddenPoints) || ablates(kAblateDirection));
+    bool is_hidden = asks_hidden && exact_distance(path.mirror, to_target) < distance * (1.0 - kOccluderTolerance);
+    bool along_search = is_hidden && ablates(kAblateHiddenPoints);
     vec3 result = details != 0u ? shade_point(first.point, camera.direction, ablates(kAblateShadows) ? kShadowRay : shadow) : vec3(0);
     // No looked-up direction shows a point that is hidden from the capture's centre or left out of the capture.
     bool is_shown = in_capture && !is_hidden;

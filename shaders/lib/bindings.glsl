@@ -43,7 +43,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 
 // Reads the surface of an object.
 Surface read_surface(uint object) {
-    uint i = kSurfaceTexels * object;
+    uint i = kTexelsPerSurface * object;
     vec4 albedo = surface_texels_at(i), emission = surface_texels_at(i + 1u), sphere = surface_texels_at(i + 3u);
     return Surface(albedo.rgb, emission.rgb, surface_texels_at(i + 2u).rgb, floatBitsToUint(albedo.w) & kBvhIdMask,
                    floatBitsToUint(emission.w) & kBvhIdMask, sphere.xyz, sphere.w);
@@ -51,7 +51,7 @@ Surface read_surface(uint object) {
 
 // Reads the probe of a mirror, counted from 0. The compiler removes reads of members that the caller does not use.
 Probe probe_at(uint mirror) {
-    uint i = kProbeTexels * mirror;
+    uint i = kTexelsPerProbe * mirror;
     vec4 sphere = probe_texels_at(i), centre = probe_texels_at(i + 1u);
     return Probe(centre.xyz, sphere.xyz, sphere.w, probe_texels_at(i + 2u).rgb, probe_texels_at(i + 3u).xyz,
                  probe_texels_at(i + 4u).xyz, uint(centre.w));

@@ -7,11 +7,11 @@
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 
-layout(set = 0, binding = 6) uniform textureCubeArray colour_cubes[kMostArrays];
-layout(set = 0, binding = 7) uniform textureCubeArray distance_cubes[kMostArrays];
+layout(set = 0, binding = 6) uniform textureCubeArray colour_cubes[kMaxCubeArrays];
+layout(set = 0, binding = 7) uniform textureCubeArray distance_cubes[kMaxCubeArrays];
 // The surface cubes hold, for each texel, the number of the captured mirror or object, and its normal
 // (lib/surface.glsl).
-layout(set = 0, binding = 17) uniform textureCubeArray surface_cubes[kMostArrays];
+layout(set = 0, binding = 17) uniform textureCubeArray surface_cubes[kMaxCubeArrays];
 layout(set = 0, binding = 8) uniform sampler linear_texels;
 layout(set = 0, binding = 18) uniform sampler nearest_texels;
 // The capture table is a uniform buffer, because the software driver reads storage buffers with a branch. Arithmetic
@@ -26,9 +26,9 @@ layout(set = 0, binding = 31, scalar) uniform Captures { CaptureTable captures; 
 #define SURFACE_CUBES(i) samplerCubeArray(surface_cubes[i], nearest_texels)
 // FACES declares a technique's texture array with one layer for each cube face, and FACES_OF reads such an array.
 // WHOLE_FACES and WHOLE_FACES_OF are the same for unsigned integers.
-#define FACES(name) texture2DArray name[kMostArrays]
+#define FACES(name) texture2DArray name[kMaxCubeArrays]
 #define FACES_OF(name, i) sampler2DArray(name[i], nearest_texels)
-#define WHOLE_FACES(name) utexture2DArray name[kMostArrays]
+#define WHOLE_FACES(name) utexture2DArray name[kMaxCubeArrays]
 #define WHOLE_FACES_OF(name, i) usampler2DArray(name[i], nearest_texels)
 // 1: the table gives each mirror its array and cube. 0: mirror n's capture is cube n of the only array.
 // The engine specialises shaders before the driver sees them. Comparisons with absent arrays cost nothing, and a shader
@@ -40,17 +40,17 @@ layout(constant_id = STORED_UNIT_CONSTANT) const float stored_unit = 1.0;
 // Without a table: 1 if the stored distance 1 is the end of the range, as in unorm8.
 layout(constant_id = RANGE_ENDS_CONSTANT) const uint range_ends = 0u;
 
-uint array_of(uint mirror) { return captures.places[mirror] >> 16u; }
-bool is_in(uint mirror, uint array) { return array_of(mirror) == array; }
+uint capture_array_of_mirror(uint mirror) { return captures.places[mirror] >> 16u; }
+bool is_capture_in_array(uint mirror, uint array) { return capture_array_of_mirror(mirror) == array; }
 // Ends a function: returns READ(i), where array i holds the mirror's capture.
 #define RETURN_OF_ARRAY(mirror, READ)                                                                                  \
-    if (array_count > 1u && is_in(mirror, 1u)) return READ(1);                                                         \
-    if (array_count > 2u && is_in(mirror, 2u)) return READ(2);                                                         \
-    if (array_count > 3u && is_in(mirror, 3u)) return READ(3);                                                         \
-    if (array_count > 4u && is_in(mirror, 4u)) return READ(4);                                                         \
-    if (array_count > 5u && is_in(mirror, 5u)) return READ(5);                                                         \
-    if (array_count > 6u && is_in(mirror, 6u)) return READ(6);                                                         \
-    if (array_count > 7u && is_in(mirror, 7u)) return READ(7);                                                         \
+    if (array_count > 1u && is_capture_in_array(mirror, 1u)) return READ(1);                                           \
+    if (array_count > 2u && is_capture_in_array(mirror, 2u)) return READ(2);                                           \
+    if (array_count > 3u && is_capture_in_array(mirror, 3u)) return READ(3);                                           \
+    if (array_count > 4u && is_capture_in_array(mirror, 4u)) return READ(4);                                           \
+    if (array_count > 5u && is_capture_in_array(mirror, 5u)) return READ(5);                                           \
+    if (array_count > 6u && is_capture_in_array(mirror, 6u)) return READ(6);                                           \
+    if (array_count > 7u && is_capture_in_array(mirror, 7u)) return READ(7);                                           \
     return READ(0);
 
 uint cube_index_of_mirror(uint mirror) {
@@ -59,17 +59,17 @@ uint cube_index_of_mirror(uint mirror) {
 }
 bool is_captured(uint mirror) {
     if (has_capture_table == 0u) return true;
-    return array_of(mirror) < kMostArrays;
+    return capture_array_of_mirror(mirror) < kMaxCubeArrays;
 }
 // Returns the scene units of the stored distance 1: 1 for float formats, the range for unorm8.
 float stored_distance_unit(uint mirror) {
     if (has_capture_table == 0u || stored_unit > 0.0) return stored_unit;
-    return captures.arrays[array_of(mirror)].stored_unit;
+    return captures.arrays[capture_array_of_mirror(mirror)].stored_unit;
 }
 // Returns whether the stored distance 1 is the end of the range, as in unorm8, so that a surface may be farther away.
 bool has_distance_limit(uint mirror) {
     if (has_capture_table == 0u) return range_ends != 0u;
-    return captures.arrays[array_of(mirror)].range_ends != 0u;
+    return captures.arrays[capture_array_of_mirror(mirror)].range_ends != 0u;
 }
 
 // Returns the layer of the first face of a mirror's capture in texture arrays whose layers are cube faces.

@@ -31,8 +31,8 @@ DRAWN(13) uvec3 drawn_numbers;
 #ifdef VERTEX_STAGE
 
 // Returns the layer and the object that gl_InstanceIndex encodes.
-uint drawn_layer() { return uint(gl_InstanceIndex) & ((1u << kLayerBits) - 1u); }
-uint drawn_object() { return uint(gl_InstanceIndex) >> kLayerBits; }
+uint drawn_layer() { return uint(gl_InstanceIndex) & ((1u << kInstanceLayerBits) - 1u); }
+uint drawn_object() { return uint(gl_InstanceIndex) >> kInstanceLayerBits; }
 
 void write_drawn_pixel(View view, Surface surface) {
     eye_layer = vec4(view.eye, drawn_layer());
@@ -50,7 +50,7 @@ void write_drawn_pixel(View view, Surface surface) {
 
 #else
 
-vec3 eye() { return eye_layer.xyz; }
+vec3 camera_position() { return eye_layer.xyz; }
 int view_layer() { return int(eye_layer.w); }
 uint drawn_object() { return drawn_numbers.x; }
 uint drawn_mirror() { return drawn_numbers.y; }
@@ -63,7 +63,7 @@ Light read_first_light() {
     return Light(position_near.xyz, normal_red.xyz, intensity_green.xyz, right_blue.xyz, down_ambient.xyz, forward_faces.xyz,
                  position_near.w, light_share.x, light_share.y, light_share.z, uint(emission_kind.w));
 }
-float ambient() { return down_ambient.w; }
+float ambient_light() { return down_ambient.w; }
 uint shadow_face_count() { return uint(forward_faces.w); }
 
 #endif

@@ -7,21 +7,23 @@
 // Returns the share of its intensity that a light without a surface emits at an angle with this cosine to its axis
 // (LightKind::share). A kind with a fall-off of its own has a case here.
 float emitted_share(uint light, float cosine) {
-    return cone_share(cosine, read_light(light).cos_outer, read_light(light).sharpness);
+    return spot_attenuation(cosine, read_light(light).cos_outer, read_light(light).sharpness);
 }
 
-// Computes direction, distance and factor of a light as light_term does, for lights of every kind.
+// Computes direction, distance and factor of a light as compute_point_light_factor does, for lights of every kind.
 bool sample_light(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
-    if (is_directional(light)) return parallel_term(normal, read_light(light).forward, direction, distance, factor);
-    bool of_two_sides = light_kinds != 0u && read_light(light).kind == kLightOfTwoSides;
+    if (is_directional(light)) return compute_directional_light_factor(normal, read_light(light).forward, direction,
+        distance, factor);
+    bool of_two_sides = light_kinds != 0u && read_light(light).kind == kLightKindTwoSidedLamp;
     vec3 light_normal = of_two_sides ? vec3(0) : read_light(light).normal;
-    if (!light_term(position, normal, read_light(light).position, light_normal, direction, distance, factor)) return false;
+    if (!compute_point_light_factor(position, normal, read_light(light).position, light_normal, direction, distance,
+        factor)) return false;
     if (light_kinds == 0u) return true;
     if (of_two_sides)
         factor *= mean_cosine(direction, read_light(light).right, read_light(light).down, read_light(light).forward,
                               read_light(light).normal);
     float cosine = -dot(direction, read_light(light).forward);
-    factor *= range_share(distance, read_light(light).reach) * emitted_share(light, cosine);
+    factor *= range_attenuation(distance, read_light(light).reach) * emitted_share(light, cosine);
     return factor > 0.0;
 }
 

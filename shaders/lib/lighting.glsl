@@ -22,7 +22,7 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet) {
         float distance, factor;
         bool is_lit = light < count && sample_light(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
-            factor *= facet_share(direction, normal, facet);
+            factor *= facet_light_share(direction, normal, facet);
             is_lit = factor > 0.0;
         }
         if (is_lit) {
@@ -32,7 +32,7 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet) {
         ++light;
     } while (one_light == 0u && light < count);
     if (environment_kind != kNoEnvironment) direct += environment_irradiance(normal);
-    return lambert(surface.emission, surface.albedo, direct, ambient());
+    return lambert(surface.emission, surface.albedo, direct, ambient_light());
 }
 
 #endif

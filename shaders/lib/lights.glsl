@@ -14,7 +14,7 @@ layout(constant_id = ONE_LIGHT_CONSTANT) const uint one_light = 0u;
 Light only_light = lights[0];
 Light read_first_light() { return only_light; }
 float ambient_of_frame = frame.value.ambient;
-float ambient() { return ambient_of_frame; }
+float ambient_light() { return ambient_of_frame; }
 uint shadow_face_count() { return frame.value.shadow_faces; }
 #endif
 
@@ -22,6 +22,6 @@ Light read_light(uint light) {
     if (one_light != 0u) return read_first_light();
     return lights[light];
 }
-bool is_directional(uint light) { return light_kinds != 0u && read_light(light).kind == kLightDirectional; }
+bool is_directional(uint light) { return light_kinds != 0u && read_light(light).kind == kLightKindDirectional; }
 
 #endif

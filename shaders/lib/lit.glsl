@@ -14,7 +14,7 @@ float light_visible(uint light, vec3 at, vec3 n, vec3 direction, float distance)
     if (has_shadow_map == 0u) return 1.0;
 #ifdef FIRST_HIT
     float visible;
-    if (!shadow_map_tells(light, at, n, surface_position_error(n), visible)) shadow_is_open = true;
+    if (!try_shadow_map(light, at, n, surface_position_error(n), visible)) shadow_is_open = true;
     return visible;
 #else
     return sample_shadow_map(light, at, n, surface_position_error(n));

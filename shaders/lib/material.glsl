@@ -16,7 +16,7 @@ TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // 
 TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
 // Returns four words of a MaterialParameters.
-uvec4 detail_quad(uint detail, uint quad) { return detail_quads_at(kMaterialQuads * detail + quad); }
+uvec4 detail_quad(uint detail, uint quad) { return detail_quads_at(kQuadsPerMaterial * detail + quad); }
 uint detail_word(uint detail, uint word) { return detail_quad(detail, word / 4u)[word % 4u]; }
 
 // Reads a MaterialParameters. The compiler removes reads of members that the caller does not use.
@@ -33,7 +33,7 @@ MaterialParameters read_material_parameters(uint detail) {
     result.albedo = TextureUse(q2.w, q3.x, q3.y, vec3(uintBitsToFloat(q3.zw), f4.x), f4.yzw);
     result.emission = TextureUse(q5.x, q5.y, q5.z, vec3(f5.w, uintBitsToFloat(q6.xy)), vec3(uintBitsToFloat(q6.zw), f7.x));
     result.rough = TextureUse(q7.y, q7.z, q7.w, uintBitsToFloat(q8.xyz), vec3(uintBitsToFloat(q8.w), f9.xy));
-    uint word = kMaterialFixedWords;
+    uint word = kMaterialWordsBeforeFactors;
 #define READ_FACTOR(name) result.name = uintBitsToFloat(detail_word(detail, word++));
     MATERIAL_FACTORS(READ_FACTOR)
 #undef READ_FACTOR
@@ -47,7 +47,7 @@ const VertexAttribute kNoAttribute = VertexAttribute(vec4(0), vec4(1));
 
 vec4 read_texel_colour(TextureUse use, int x, int y) {
     uint texel = texture_words_at(use.first + uint(y) * (use.size & 0xffffu) + uint(x));
-    if ((use.how & kTextureSrgb) == 0u) return unpackUnorm4x8(texel);
+    if ((use.how & kTextureSrgbFlag) == 0u) return unpackUnorm4x8(texel);
     return vec4(uintBitsToFloat(texture_words_at(texel & 0xffu)), uintBitsToFloat(texture_words_at(texel >> 8u & 0xffu)),
                 uintBitsToFloat(texture_words_at(texel >> 16u & 0xffu)), float(texel >> 24u) / 255.0);
 }
@@ -56,16 +56,16 @@ vec4 read_texel_colour(TextureUse use, int x, int y) {
 vec4 sample_texture(TextureUse use, vec4 uv) {
     if (use.size == 0u) return vec4(1);
     count_once(kWorkTextureLookups);
-    vec3 place = vec3((use.how & kTextureSecondUv) != 0u ? uv.zw : uv.xy, 1);
+    vec3 place = vec3((use.how & kTextureSecondUvFlag) != 0u ? uv.zw : uv.xy, 1);
     float u = dot(use.u_row, place), v = dot(use.v_row, place);
     int width = int(use.size & 0xffffu), height = int(use.size >> 16u);
     uint wrap_u = use.how & 3u, wrap_v = use.how >> 2u & 3u;
-    if ((use.how & kTextureNearest) != 0u)
+    if ((use.how & kTextureNearestFlag) != 0u)
         return read_texel_colour(use, nearest_texel(u, width, wrap_u), nearest_texel(v, height, wrap_v));
     int left, right, top, bottom;
     float across, down;
-    texels_around(u, width, wrap_u, left, right, across);
-    texels_around(v, height, wrap_v, top, bottom, down);
+    bilinear_texels(u, width, wrap_u, left, right, across);
+    bilinear_texels(v, height, wrap_v, top, bottom, down);
     return mix(mix(read_texel_colour(use, left, top), read_texel_colour(use, right, top), across),
                mix(read_texel_colour(use, left, bottom), read_texel_colour(use, right, bottom), across), down);
 }
@@ -81,13 +81,13 @@ bool fails_alpha_test(uint number, VertexAttribute at) {
 // Returns the shading normal. For a two-sided material, the normal is turned to the side of the facet from which
 // `direction` comes.
 vec3 turn_normal_to_viewer(uint detail, vec3 normal, vec3 facet, vec3 direction) {
-    if ((read_material_parameters(detail).flags & kMaterialTurns) == 0u) return normal;
+    if ((read_material_parameters(detail).flags & kMaterialTwoSidedFlag) == 0u) return normal;
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
 
 // Returns the facet normal for `shade`, or zero if the mesh's vertex normals agree with its facet normals everywhere.
 vec3 facet_normal_for_shading(uint detail, vec3 facet) {
-    if (details == 0u || (read_material_parameters(detail).flags & kMaterialFacets) == 0u) return vec3(0);
+    if (details == 0u || (read_material_parameters(detail).flags & kMaterialTestsFacetSideFlag) == 0u) return vec3(0);
     return facet;
 }
 
@@ -100,7 +100,7 @@ struct SpecularLobe {
 SpecularLobe specular_lobe = SpecularLobe(0.0, vec3(0), vec3(1));
 
 // Returns whether the surface that was evaluated last reflects in a lobe instead of a single direction.
-bool has_rough_lobe() { return details != 0u && specular_lobe.roughness > kMostSharpRoughness; }
+bool has_rough_lobe() { return details != 0u && specular_lobe.roughness > kMaxSharpRoughness; }
 
 // Draws the direction in which light leaves the rough surface that was evaluated last. `direction` is that of the
 // arriving ray, and `leaving` at first that of the perfect mirror. Multiplies the weight by the lobe's weight. Returns
@@ -113,9 +113,9 @@ bool sample_specular_lobe(vec3 direction, vec3 facet, float u, float v, inout ve
     tangent_frame(normal, tangent, bitangent);
     vec3 to_eye = -vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
     if (!(to_eye.z > 0.0)) return false;
-    float alpha = alpha_of_roughness(specular_lobe.roughness);
+    float alpha = roughness_to_alpha(specular_lobe.roughness);
     vec3 drawn = sample_lobe(alpha, to_eye, u, v);
-    weight *= sampled_lobe_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
+    weight *= lobe_sample_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
     leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
     // Light from below the facet's plane cannot reach the surface.
     if (!(dot(leaving, facet_side(normal, facet)) > 0.0)) weight = vec3(0);
@@ -146,12 +146,12 @@ vec3 specular_lobe_albedo(float cosine) {
 void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
     count_once(kWorkMaterials);
     MaterialParameters detail = read_material_parameters(surface.detail);
-    bool is_constant = (detail.flags & kMaterialConstant) != 0u;
+    bool is_constant = (detail.flags & kMaterialConstantReflectanceFlag) != 0u;
     specular_lobe.roughness = 0.0;
     if (!is_constant) surface.reflectance = vec3(0);
-    if ((detail.flags & kMaterialVaries) == 0u) return;
+    if ((detail.flags & kMaterialVariesFlag) == 0u) return;
     vec3 colour = surface.albedo * at.colour.rgb * sample_texture(detail.albedo, at.uv).rgb;
-    if ((detail.flags & kMaterialUnlit) != 0u) {
+    if ((detail.flags & kMaterialUnlitFlag) != 0u) {
         surface.emission = colour;
         surface.albedo = surface.reflectance = vec3(0);
         return;

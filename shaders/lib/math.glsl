@@ -18,7 +18,7 @@ real next_up(real x) {
 real next_down(real x) { return -next_up(-x); }
 #endif
 
-const real kLargest = real(3.402823466e38); // largest float; a larger value means infinite
+const real kLargestFloat = real(3.402823466e38); // largest float; a larger value means infinite
 const real kPi = real(3.14159265358979323846);
 const real kShadowRayEnd = real(1) - real(1) / real(8192); // share of the way to the light at which a shadow ray ends
 
@@ -28,7 +28,7 @@ INLINE real gamma_bound(int n) {
 }
 
 // Calls isnan, because a shader compiler may turn !(a <= b) into a > b, and the two differ for NaN.
-INLINE bool is_finite(real x) { return !isnan(x) && abs(x) <= kLargest; }
+INLINE bool is_finite(real x) { return !isnan(x) && abs(x) <= kLargestFloat; }
 INLINE bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 

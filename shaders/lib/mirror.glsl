@@ -53,7 +53,7 @@ vec4 read_captured_surface(uint mirror, vec3 direction) {
 vec3 mirror_reflectance(uint mirror, vec3 direction, vec3 n) {
     if (!is_captured(mirror)) return vec3(0);
     vec3 reflectance = probe_at(mirror).reflectance;
-    bool is_metal = details != 0u && probe_at(mirror).kind == kProbeMetal;
+    bool is_metal = details != 0u && probe_at(mirror).kind == kMirrorMetal;
     return is_metal ? schlick(reflectance, vec3(1), abs(dot(n, direction))) : reflectance;
 }
 
@@ -84,7 +84,7 @@ bool reflect_at_captured_mirror(inout MirrorPath path, Lookup lookup) {
     // Exact sphere: reflect_at_exact_sphere has found that the ray misses the sphere.
     if (probe_at(next).radius > 0.0) return false;
     // Only the capture knows the light of a lit mirror.
-    if (details != 0u && probe_at(next).kind == kProbeLit) return false;
+    if (details != 0u && probe_at(next).kind == kMirrorLit) return false;
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
@@ -105,7 +105,7 @@ void set_last_hit_distance(float distance) {}
 float path_distance_to_end(uint mirror, MirrorPath path, Lookup lookup) {
     float distance = last_hit_distance() > 0.0 ? last_hit_distance() : captured_distance(mirror, lookup.direction);
     vec3 end = probe_at(mirror).centre + lookup.direction * distance;
-    return lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
+    return lookup.state == kMiss ? kLargestFloat : dot(end - path.at, path.direction);
 }
 
 // Searches the other mirrors' captures for the end of the ray, and takes the first that finds a surface. A search that
@@ -194,18 +194,21 @@ vec3 rough_radiance(MirrorPath path, Lookup lookup) {
 
 void main() {
     vec3 facet = normalize(cross(dFdx(from_eye), dFdy(from_eye)));
-    if (peels != 0u && is_peeled()) discard; // a discard before the derivatives would make them undefined
+    // A discard before the derivatives would make them undefined.
+    if (peels != 0u && is_peeled_from_second_layer()) discard;
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
     Surface surface = surface_at_fragment(n, facet);
-    MirrorPath path = MirrorPath(drawn_mirror() - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
+    MirrorPath path = MirrorPath(drawn_mirror() - 1u, surface_position(),
+        mirror_direction(normalize(direction_from_viewer()), n, facet),
                      probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
 #ifdef ABLATE
     Lookup lookup = follow_path(path, hops);
     vec3 colour = ablated_radiance(path, lookup);
 #else
     bool is_rough = rough != kRoughNone && has_rough_lobe();
-    if (is_rough && rough != kRoughRays) path.weight = specular_lobe_albedo(-dot(n, normalize(seen_along())));
+    if (is_rough && rough != kRoughRays)
+        path.weight = specular_lobe_albedo(-dot(n, normalize(direction_from_viewer())));
     MirrorPath first = path;
     // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
     Lookup lookup = follow_path(path, is_rough && rough != kRoughRays ? 0u : hops);
@@ -223,7 +226,7 @@ void main() {
             sample_point(pixel, i, 0u, kSearchSeed, u, v);
             MirrorPath drawn = first;
             drawn.weight = vec3(1);
-            if (sample_specular_lobe(normalize(seen_along()), facet, u, v, drawn.weight, drawn.direction) &&
+            if (sample_specular_lobe(normalize(direction_from_viewer()), facet, u, v, drawn.weight, drawn.direction) &&
                 drawn.weight != vec3(0)) {
                 Lookup found = follow_path(drawn, hops);
                 colour += drawn.weight * lookup_colour(drawn.mirror, found);

@@ -15,24 +15,25 @@ TEXEL_LIST(MIRROR_NODES_BINDING, mirror_nodes, vec4, samplerBuffer, false)
 
 // The factor by which boxes are widened for spheres. The sphere test accepts a sphere that misses the ray by up to 22
 // roundings of the largest coordinate. make_box_ray widens boxes by 16 roundings, and 3 times 16 is more than 22.
-const float kSphereSlack = 3.0;
+const float kSphereTestTolerance = 3.0;
 
 // Intersects the ray with a mirror: with its exact sphere, or with the bounds of a mirror of another shape.
 bool intersects_mirror(uint mirror, Ray ray, out float t) {
     Probe probe = probe_at(mirror);
     return probe.radius > 0.0
-               ? sphere_test(probe.sphere, probe.radius, ray, kLargest, t)
-               : slab_test(probe.lowest, probe.highest, make_box_ray(ray, probe.lowest, probe.highest, 1.0), kLargest, t);
+               ? sphere_test(probe.sphere, probe.radius, ray, kLargestFloat, t)
+               : slab_test(probe.lowest, probe.highest, make_box_ray(ray, probe.lowest, probe.highest, 1.0),
+                   kLargestFloat, t);
 }
 
 // Finds the first mirror on the ray other than `except`. Of equally near mirrors the lowest number wins. `only_spheres`
 // ignores mirrors that are no exact sphere.
 bool find_first_mirror_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out float t) {
     vec4 low = mirror_nodes_at(0u), high = mirror_nodes_at(1u);
-    BoxRay boxes = make_box_ray(ray, low.xyz, high.xyz, kSphereSlack);
+    BoxRay boxes = make_box_ray(ray, low.xyz, high.xyz, kSphereTestTolerance);
     uint end = floatBitsToUint(high.w) & kBvhIdMask;
     bool found = false;
-    t = kLargest;
+    t = kLargestFloat;
     uint node = 0u;
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         low = mirror_nodes_at(2u * node);
@@ -57,7 +58,7 @@ bool find_first_mirror_by_tree(Ray ray, uint except, bool only_spheres, out uint
 bool find_first_exact_sphere(Ray ray, uint except, out uint first, out float t) {
     if (mirror_tree != 0u) return find_first_mirror_by_tree(ray, except, true, first, t);
     bool found = false;
-    t = kLargest;
+    t = kLargestFloat;
     uint i = 0u, count = frame.value.mirror_count;
     do {
         Probe probe = probe_at(i);

@@ -7,12 +7,13 @@
 #include "lib/math.glsl"
 
 // Numbers of the robustness rules, in the order of the `without` knob of technique `raytrace`.
-const uint kWatertight = 1u, kBoxSlack = 2u, kSpawnBound = 3u, kShadowEnd = 4u, kStableSphere = 5u;
+const uint kWatertightRule = 1u, kBoxPaddingRule = 2u, kOriginErrorBoundRule = 3u, kShadowRayEndRule = 4u,
+    kStableSphereRule = 5u;
 layout(constant_id = WITHOUT_CONSTANT) const uint without = 0u;
-// Offset off a surface without kSpawnBound, scene units.
+// Offset off a surface without kOriginErrorBoundRule, scene units.
 layout(constant_id = FIXED_OFFSET_CONSTANT) const float fixed_offset = 0.0;
 
-bool keeps(uint rule) { return without != rule; }
+bool keeps_rule(uint rule) { return without != rule; }
 
 // Intersects a ray with a triangle (Moeller and Trumbore 1997), without an epsilon.
 bool plain_triangle_test(vec3 a, vec3 b, vec3 c, Ray ray, out float t, out vec3 weights) {
@@ -24,7 +25,7 @@ bool plain_triangle_test(vec3 a, vec3 b, vec3 c, Ray ray, out float t, out vec3 
     float v = dot(from_a, p) / det, w = dot(ray.direction, q) / det;
     t = dot(f, q) / det;
     weights = vec3(1.0 - v - w, v, w);
-    return v >= 0.0 && w >= 0.0 && v + w <= 1.0 && t > 0.0 && t <= kLargest;
+    return v >= 0.0 && w >= 0.0 && v + w <= 1.0 && t > 0.0 && t <= kLargestFloat;
 }
 
 BoxRay plain_box_ray(Ray ray) { return BoxRay(ray.origin, ray.origin, 1.0 / ray.direction); }

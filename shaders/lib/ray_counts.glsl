@@ -17,9 +17,10 @@ uint assigned_work_group() {
 #ifdef NAIVE
     return group;
 #else
-    const uint kPrime = 2531u;
+    const uint kShufflePrime = 2531u;
     uint count = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    return groups_in_order != 0u || count % kPrime == 0u || count > 0xffffffffu / kPrime ? group : group * kPrime % count;
+    return groups_in_order != 0u || count % kShufflePrime == 0u || count > 0xffffffffu / kShufflePrime ? group
+        : group * kShufflePrime % count;
 #endif
 }
 

@@ -12,7 +12,7 @@ layout(constant_id = LAW_CONSTANT) const uint distance_law = kLawNone;
 layout(constant_id = LOBE_RAYS_CONSTANT) const uint lobe_rays = 1u; // searches of a rough surface, for kRoughRays
 const uint kSearchSeed = 0x5ea4c4edu; // seed of the lobe's directions; the ray tracer's seeds are hashes
 
-layout(set = 0, binding = 32) uniform textureCubeArray rough_cubes[kMostArrays]; // levels from 1 on of each capture
+layout(set = 0, binding = 32) uniform textureCubeArray rough_cubes[kMaxCubeArrays]; // levels from 1 on of each capture
 layout(set = 0, binding = 33) uniform sampler mipmapped_texels;
 
 // Returns the colour in a direction at a level, from 1, of the mirror's capture.

@@ -13,23 +13,24 @@ layout(constant_id = HAS_SHADOW_MAP_CONSTANT) const uint has_shadow_map = 0u;
 // How far the looked-up point is lifted off its surface, in texels times sin(theta), where the surface is tilted by
 // theta against the shadow face. The four taps lie within one texel of the point along each axis, so a lift of sqrt(2)
 // keeps a plane from shadowing itself. The rest up to 1.5 is for texels whose rays are not parallel.
-const float kLiftTexels = 1.5;
+const float kShadowBiasTexels = 1.5;
 // The error of interpolated depth, relative to the largest depth that the receiver's plane has in the shadow face.
 // 2^-20 is 16 roundings.
-const float kDepthError = 1.0 / 1048576.0;
+const float kShadowDepthError = 1.0 / 1048576.0;
 
-vec3 to_light_frame(uint light, vec3 v) {
+vec3 world_to_light_axes(uint light, vec3 v) {
     return vec3(dot(read_light(light).right, v), -dot(read_light(light).down, v), dot(read_light(light).forward, v));
 }
 
 // The direction in which the looked-up point is lifted off its surface. Along the normal, shadows shift sideways by up to
-// kLiftTexels. Towards the light, shadows keep their place, but begin late where a surface touches what shades it. The
-// height above the surface is the same, so that a plane does not shadow itself.
-const uint kLiftAlongNormal = 0u, kLiftToLight = 1u;
-const float kLeastCosine = 1.0 / 64.0; // limits how far a point moves towards the light
+// kShadowBiasTexels. Towards the light, shadows keep their place, but begin late where a surface touches what shades
+// it. The height above the surface is the same, so that a plane does not shadow itself.
+const uint kBiasAlongNormal = 0u, kBiasTowardsLight = 1u;
+const float kMinLightCosine = 1.0 / 64.0; // limits how far a point moves towards the light
 
-vec3 lifted(uint lift, vec3 normal, vec3 to_light, float height) {
-    return lift == kLiftAlongNormal ? normal * height : to_light * (height / max(dot(normal, to_light), kLeastCosine));
+vec3 shadow_bias_offset(uint lift, vec3 normal, vec3 to_light, float height) {
+    return lift == kBiasAlongNormal ? normal * height
+        : to_light * (height / max(dot(normal, to_light), kMinLightCosine));
 }
 
 // Returns the share of a directional light that reaches the point, 0 to 1. The shadow map of such a light has two
@@ -41,12 +42,13 @@ float sample_parallel_shadow_map(uint light, vec3 position, vec3 normal, float e
         View view = views[1u + 6u * frame.value.mirror_count + shadow_face_count() * light + window];
         float texel = 2.0 / (edge * min(length(view.right), length(view.down)));
         float cosine = dot(normal, view.forward), sine = sqrt(max(0.0, 1.0 - cosine * cosine));
-        vec3 v = position - view.eye + lifted(lift, normal, -view.forward, kLiftTexels * texel * sine + error);
+        vec3 v = position - view.eye + shadow_bias_offset(lift, normal, -view.forward,
+            kShadowBiasTexels * texel * sine + error);
         vec2 place = vec2(dot(view.right, v), dot(view.down, v));
         if (max(abs(place.x), abs(place.y)) > 1.0 - 2.0 / edge) continue;
         // The slack in depth grows with the depth range of the receiver's plane in the window, since depth is
         // interpolated.
-        float slack = kDepthError * (1.0 + view.near * edge * texel * sine / max(abs(cosine), kDepthError));
+        float slack = kShadowDepthError * (1.0 + view.near * edge * texel * sine / max(abs(cosine), kShadowDepthError));
         float depth = 1.0 - view.near * dot(view.forward, v) + slack;
         count_once(kWorkShadowLookups);
         return texture(shadow_map, vec4(place * 0.5 + 0.5, float(light * shadow_face_count() + window), depth));
@@ -58,30 +60,31 @@ float sample_parallel_shadow_map(uint light, vec3 position, vec3 normal, float e
 // light. `error` is the largest error of the position along `normal`, scene units.
 float sample_shadow_map(uint light, vec3 position, vec3 normal, float error, uint lift) {
     if (is_directional(light)) return sample_parallel_shadow_map(light, position, normal, error, lift);
-    vec3 v = to_light_frame(light, position - read_light(light).position);
-    vec3 n = to_light_frame(light, normal);
+    vec3 v = world_to_light_axes(light, position - read_light(light).position);
+    vec3 n = world_to_light_axes(light, normal);
     int face = cube_face(v);
     if (uint(face) >= shadow_face_count()) return 0.0;
     vec3 n_face = cube_coordinates(face, n);
     float texel = 2.0 * cube_coordinates(face, v).z / float(textureSize(shadow_map, 0).x);
-    v += lifted(lift, n, -normalize(v), kLiftTexels * texel * sqrt(max(0.0, 1.0 - n_face.z * n_face.z)) + error);
+    v += shadow_bias_offset(lift, n, -normalize(v), kShadowBiasTexels * texel * sqrt(max(0.0,
+        1.0 - n_face.z * n_face.z)) + error);
     vec3 place = cube_coordinates(face, v);
     // Depth is near / z, which is linear over the receiver's plane dot(n, p) = -height. The largest depth of the plane
     // in the face is therefore at most near * (|n.x| + |n.y| + |n.z|) / height.
     float height = abs(dot(n, v));
-    float slack = kDepthError * (1.0 + place.z * dot(abs(n), vec3(1)) / height);
+    float slack = kShadowDepthError * (1.0 + place.z * dot(abs(n), vec3(1)) / height);
     float layer = float(light * shadow_face_count() + uint(face));
     count_once(kWorkShadowLookups);
     return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, read_light(light).near / place.z * (1.0 + slack)));
 }
 float sample_shadow_map(uint light, vec3 position, vec3 normal, float error) {
-    return sample_shadow_map(light, position, normal, error, kLiftAlongNormal);
+    return sample_shadow_map(light, position, normal, error, kBiasAlongNormal);
 }
 
 // Finds the share of the light that reaches the point. Returns false at the edge of a shadow, where the four taps differ
 // and a shadow ray must tell.
-bool shadow_map_tells(uint light, vec3 position, vec3 normal, float error, out float visible) {
-    visible = sample_shadow_map(light, position, normal, error, kLiftToLight);
+bool try_shadow_map(uint light, vec3 position, vec3 normal, float error, out float visible) {
+    visible = sample_shadow_map(light, position, normal, error, kBiasTowardsLight);
     return visible == 0.0 || visible == 1.0;
 }
 

@@ -24,16 +24,17 @@ layout(location = 2) out vec4 out_more;
 // Returns the position of the surface, scene units. `from_eye` is interpolated instead of the position, because its
 // error lies along the ray from the eye. An interpolated position would have an error towards the origin, off the
 // surface.
-vec3 surface_position() { return eye() + from_eye; }
+vec3 surface_position() { return camera_position() + from_eye; }
 
 // Returns the direction from the viewer to the surface, of any length.
-vec3 seen_along() { return orthographic != 0u ? views[draw.first_view].forward : from_eye; }
+vec3 direction_from_viewer() { return orthographic != 0u ? views[draw.first_view].forward : from_eye; }
 
 // Returns the largest error of surface_position along a unit normal. No specification bounds the error of a
 // rasteriser's interpolation. The assumed 2^-16 of the distance along the ray and 2^-20 across the ray are about ten
 // times the measured errors (docs/extremes.md).
 float surface_position_error(vec3 n) {
-    return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n), gamma_bound(2) * abs(eye() + from_eye));
+    return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n),
+        gamma_bound(2) * abs(camera_position() + from_eye));
 }
 
 // The factor from distance to stored distance: 1 stores scene units, and unorm8 stores distance / range.
@@ -54,7 +55,7 @@ layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_laye
 // Returns whether depth peeling removes the fragment from the second layer. The second layer keeps only surfaces behind
 // the first layer that face the capture's centre. The margin 2^-10 exceeds the relative rounding error of a 16-bit
 // float and of an interpolated distance.
-bool is_peeled() {
+bool is_peeled_from_second_layer() {
     float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, view_layer()), 0).r;
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
@@ -69,7 +70,7 @@ void discard_cut_out_fragments() {
 Surface surface_at_fragment(inout vec3 n, vec3 facet) {
     Surface surface = read_drawn_surface();
     if (details != 0u) {
-        vec3 direction = normalize(seen_along());
+        vec3 direction = normalize(direction_from_viewer());
         n = turn_normal_to_viewer(surface.detail, n, facet, direction);
         evaluate_material(surface, VertexAttribute(in_uv, in_colour), -dot(n, direction));
     }

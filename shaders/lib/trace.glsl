@@ -6,7 +6,7 @@
 // TRACE_PRIVATE_STACK: puts the stack into a private array, for shader stages without shared memory.
 // TRACE_SEES(object): returns false for objects that rays pass through.
 // TRACE_BALLS: whether the BVH may hold spheres in place of triangles.
-// TRACE_IS_THERE(stored triangle, object, barycentric): returns false where a kBvhMasked triangle is cut out.
+// TRACE_IS_THERE(stored triangle, object, barycentric): returns false where a kBvhAlphaMasked triangle is cut out.
 // Four choices make the walk fast on a processor: uniform texel buffers, the stack in shared memory, divergent lanes,
 // and loops that test their condition at the end. The software driver jumps only at a loop's end, so it runs the body
 // of a loop that tests first once more than needed. NAIVE selects storage buffers and a private stack, the obvious
@@ -72,10 +72,10 @@ struct TraceHit {
     vec3 barycentric; // weights of the corners a, b, c
     uint triangle;    // original number of the triangle
     uint object;
-    uint place;       // stored index of the triangle, for triangle_corners; or kOnSphere
-    uint inside;      // record of the instance in whose object space the hit lies; 0: the hit is in scene units
+    uint place;  // stored index of the triangle, for triangle_corners; or kHitOnExactSphere
+    uint inside; // record of the instance in whose object space the hit lies; 0: the hit is in scene units
 };
-const uint kOnSphere = 0xffffffffu; // TraceHit::place of a hit on the exact sphere of an instance
+const uint kHitOnExactSphere = 0xffffffffu; // TraceHit::place of a hit on the exact sphere of an instance
 
 // 1: some objects are instances in object space (engine/bvh/tlas.hpp).
 layout(constant_id = OWN_SPACES_CONSTANT) const uint object_spaces = 0u;
@@ -109,7 +109,8 @@ void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
 }
 
 bool intersects_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
-    return keeps(kStableSphere) ? sphere_test(centre, radius, ray, t_max, t) : plain_sphere_test(centre, radius, ray, t_max, t);
+    return keeps_rule(kStableSphereRule) ? sphere_test(centre, radius, ray, t_max, t)
+        : plain_sphere_test(centre, radius, ray, t_max, t);
 }
 
 // Intersects the ray with a stored triangle or sphere, and updates the best hit. If two hits have equal t, the lower
@@ -121,13 +122,13 @@ void trace_triangle(uint place, WalkState walked, uint skipped_flags, inout Trac
     vec4 c = bvh_triangles_at(3u * place + 2u);
     float t;
     vec3 weights;
-    bool hit = keeps(kWatertight) ? triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, walked.shear, t, weights)
+    bool hit = keeps_rule(kWatertightRule) ? triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, walked.shear, t, weights)
                                   : plain_triangle_test(a.xyz, b.xyz, c.xyz, ray, t, weights);
     uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
     uint object = floatBitsToUint(a.w) & kBvhIdMask;
     uint flags = floatBitsToUint(c.w);
-    if (TRACE_BALLS && (flags & kBvhBall) != 0u) {
-        hit = intersects_sphere(a.xyz, b.x, ray, kLargest, t);
+    if (TRACE_BALLS && (flags & kBvhSpherePrimitive) != 0u) {
+        hit = intersects_sphere(a.xyz, b.x, ray, kLargestFloat, t);
         weights = vec3(1, 0, 0);
     }
     if (object_spaces != 0u && walked.record != 0u) {
@@ -136,11 +137,11 @@ void trace_triangle(uint place, WalkState walked, uint skipped_flags, inout Trac
         flags = walked.flags;
     }
     uint skips = flags & skipped_flags;
-    bool seen = (skips == 0u || (skips == kBvhOneSided && !is_from_behind(a.xyz, b.xyz, c.xyz, ray.direction))) &&
+    bool seen = (skips == 0u || (skips == kBvhOneSided && !hits_back_face(a.xyz, b.xyz, c.xyz, ray.direction))) &&
                 triangle + 1u != ray.leaves && TRACE_SEES(object);
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
 #ifdef TRACE_IS_THERE
-    if (masks != 0u && hit && seen && nearer && (flags & kBvhMasked) != 0u)
+    if (masks != 0u && hit && seen && nearer && (flags & kBvhAlphaMasked) != 0u)
         seen = TRACE_IS_THERE(triangle - walked.shift, object, barycentric(weights));
 #endif
     if (hit && seen && nearer) {
@@ -150,11 +151,12 @@ void trace_triangle(uint place, WalkState walked, uint skipped_flags, inout Trac
 }
 
 bool trace_box(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near) {
-    return keeps(kBoxSlack) ? slab_test(lo, hi, ray, t_max, t_near) : plain_slab_test(lo, hi, ray, t_max, t_near);
+    return keeps_rule(kBoxPaddingRule) ? slab_test(lo, hi, ray, t_max, t_near)
+        : plain_slab_test(lo, hi, ray, t_max, t_near);
 }
 
 // Intersects the ray with the two child boxes of a node. `first` is the word of the nearer child that the ray meets,
-// `second` that of the other child. A word is kBvhNothing if the ray misses the child.
+// `second` that of the other child. A word is kBvhEmptyChild if the ray misses the child.
 void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint second) {
     vec4 lo_0 = bvh_nodes_at(4u * node);
     vec4 hi_0 = bvh_nodes_at(4u * node + 1u);
@@ -163,8 +165,8 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
     float near_0, near_1;
     bool meets_0 = trace_box(lo_0.xyz, hi_0.xyz, boxes, t_max, near_0);
     bool meets_1 = trace_box(lo_1.xyz, hi_1.xyz, boxes, t_max, near_1);
-    uint child_0 = meets_0 ? floatBitsToUint(lo_0.w) : kBvhNothing;
-    uint child_1 = meets_1 ? floatBitsToUint(hi_0.w) : kBvhNothing;
+    uint child_0 = meets_0 ? floatBitsToUint(lo_0.w) : kBvhEmptyChild;
+    uint child_1 = meets_1 ? floatBitsToUint(hi_0.w) : kBvhEmptyChild;
     bool swap = meets_1 && (!meets_0 || near_1 < near_0);
     first = swap ? child_1 : child_0;
     second = swap ? child_0 : child_1;
@@ -174,7 +176,7 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
 WalkState begin_walk_in_scene(Ray ray) {
     vec3 lo = bvh_nodes_at(0u).xyz, hi = bvh_nodes_at(1u).xyz;
     float times = object_spaces != 0u ? bvh_nodes_at(2u).x : 1.0;
-    BoxRay boxes = keeps(kBoxSlack) ? make_box_ray(ray, lo, hi, times) : plain_box_ray(ray);
+    BoxRay boxes = keeps_rule(kBoxPaddingRule) ? make_box_ray(ray, lo, hi, times) : plain_box_ray(ray);
     return WalkState(ray, boxes, make_ray_shear(ray.direction), 0u, 0u, 0u, 0u);
 }
 
@@ -184,7 +186,8 @@ WalkState begin_walk_in_instance(uint record, Ray ray, vec3 low, out uint root) 
     uint i = 4u * record;
     root = floatBitsToUint(bvh_nodes_at(i).w);
     Ray own = ray_in_object_space(read_instance_placement(record), ray, low);
-    BoxRay boxes = keeps(kBoxSlack) ? make_box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz, 1.0) : plain_box_ray(own);
+    BoxRay boxes = keeps_rule(kBoxPaddingRule) ? make_box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz,
+        1.0) : plain_box_ray(own);
     return WalkState(own, boxes, make_ray_shear(own.direction), record, floatBitsToUint(bvh_nodes_at(i + 1u).w) & kBvhIdMask,
                   floatBitsToUint(bvh_nodes_at(i + 3u).w) & kBvhIdMask, number_shift(record));
 }
@@ -193,9 +196,10 @@ WalkState begin_walk_in_instance(uint record, Ray ray, vec3 low, out uint root) 
 void trace_sphere(WalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
     float t;
     float radius = own_radius(walked.record);
-    if ((walked.flags & skipped_flags & ~(kBvhSphere | kBvhOneSided)) == 0u && TRACE_SEES(walked.object) && radius > 0.0 &&
+    if ((walked.flags & skipped_flags & ~(kBvhStandsForSphere | kBvhOneSided)) == 0u && TRACE_SEES(walked.object) &&
+        radius > 0.0 &&
         sphere_test(vec3(0), radius, walked.ray, best.t, t)) {
-        best = TraceHit(t, vec3(0), 0u, walked.object, kOnSphere, walked.record);
+        best = TraceHit(t, vec3(0), 0u, walked.object, kHitOnExactSphere, walked.record);
         found = true;
     }
 }
@@ -217,7 +221,7 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
     // Triangles without a shadow may have a tree of their own, which shadow rays need not walk.
     vec4 start = bvh_nodes_at(3u);
     uint child = floatBitsToUint(start.x);
-    if ((skipped_flags & kBvhShadowless) == 0u && floatBitsToUint(start.y) != kBvhNothing) {
+    if ((skipped_flags & kBvhCastsNoShadow) == 0u && floatBitsToUint(start.y) != kBvhEmptyChild) {
         STACK(0u) = floatBitsToUint(start.y);
         waiting = 1u;
     }
@@ -232,11 +236,11 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
                     ++nodes_visited;
                     if (IS_ELECTED) ++node_lanes;
                 }
-                if (second != kBvhNothing) {
+                if (second != kBvhEmptyChild) {
                     STACK(waiting) = second;
                     ++waiting;
                 }
-                if (child == kBvhNothing && waiting > 0u) {
+                if (child == kBvhEmptyChild && waiting > 0u) {
                     --waiting;
                     child = STACK(waiting);
                 }
@@ -246,18 +250,18 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
         uint count = bvh_count(child);
         uint i = 0u;
         bool enters = false;
-        if (object_spaces != 0u && count >= kBvhEnters) {
-            if (child == kBvhReturns) {
+        if (object_spaces != 0u && count >= kBvhInstanceMarker) {
+            if (child == kBvhReturnFromInstance) {
                 walked = begin_walk_in_scene(ray);
             } else {
                 uint root;
                 walked = begin_walk_in_instance(first, ray, low, root);
-                enters = (walked.flags & skipped_flags & kBvhSphere) == 0u;
+                enters = (walked.flags & skipped_flags & kBvhStandsForSphere) == 0u;
                 if (!enters) {
                     trace_sphere(walked, skipped_flags, best, found);
                     walked = begin_walk_in_scene(ray);
                 } else {
-                    STACK(waiting) = kBvhReturns;
+                    STACK(waiting) = kBvhReturnFromInstance;
                     ++waiting;
                     child = root;
                 }
@@ -283,13 +287,13 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
         // If one of the two loops above has work left, the walk ran out of steps or the driver stopped its loops.
         if (!enters && (bvh_is_inner(child) || i < count)) break;
         if (enters) continue;
-        child = kBvhNothing;
+        child = kBvhEmptyChild;
         if (waiting > 0u && !(any && found)) {
             --waiting;
             child = STACK(waiting);
         }
-    } while (child != kBvhNothing && trace_steps < kMaxTraceSteps);
-    trace_exhausted = trace_exhausted || child != kBvhNothing;
+    } while (child != kBvhEmptyChild && trace_steps < kMaxTraceSteps);
+    trace_exhausted = trace_exhausted || child != kBvhEmptyChild;
     if (found) best.barycentric = barycentric(best.barycentric);
     return found;
 }

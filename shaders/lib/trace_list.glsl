@@ -4,5 +4,5 @@
 #define ARGUMENTS_BINDING 26
 #define MARKS_BINDING 27
 
-const uint kListGroup = 64u;     // listed pixels that one work group traces
-const uint kListGroups = 32768u; // most work groups in a row of the dispatch; every device allows 65535
+const uint kPixelsPerListGroup = 64u;     // listed pixels that one work group traces
+const uint kMaxListGroupsPerRow = 32768u; // most work groups in a row of the dispatch; every device allows 65535

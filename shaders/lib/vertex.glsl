@@ -36,7 +36,7 @@ void main() {
     Surface surface = read_surface(drawn_object());
 #ifdef PLACED
     Placement placement = placements[drawn_object()];
-    vec3 from_eye = difference_of_sums(placement.centre, placement.centre_low, view.eye, view.eye_low);
+    vec3 from_eye = subtract_split_vectors(placement.centre, placement.centre_low, view.eye, view.eye_low);
     vec3 v = from_eye + (placement.x * position.x + placement.y * position.y + placement.z * position.z);
 #else
     vec3 v = position - view.eye;
@@ -58,7 +58,7 @@ void main() {
 #endif
     out_from_eye = v;
     VertexAttribute at = kNoAttribute;
-    if (details != 0u && (read_material_parameters(surface.detail).flags & kMaterialAttributes) != 0u)
+    if (details != 0u && (read_material_parameters(surface.detail).flags & kMaterialHasAttributesFlag) != 0u)
         at = read_vertex_attribute(uint(gl_VertexIndex) + read_material_parameters(surface.detail).first_attribute);
     out_uv = at.uv;
     out_colour = at.colour;

@@ -28,7 +28,7 @@ VertexAttribute interpolate_attribute(uint corner, vec3 barycentric) {
     return VertexAttribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
                      barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
 }
-bool has_attributes(uint detail) { return (read_material_parameters(detail).flags & kMaterialAttributes) != 0u; }
+bool has_attributes(uint detail) { return (read_material_parameters(detail).flags & kMaterialHasAttributesFlag) != 0u; }
 bool passes_alpha_test(uint triangle, uint object, vec3 barycentric) {
     uint detail = read_surface(object).detail;
     return !fails_alpha_test(detail, has_attributes(detail) ? interpolate_attribute(3u * triangle, barycentric) : kNoAttribute);
@@ -80,7 +80,7 @@ SurfacePoint point; // the point that is shaded
 
 // Returns the flags of triangles that rays ignore. If spheres are exact, rays ignore meshes that approximate a sphere.
 // A sphere in the scene's tree, or the walk's own test of an instance's sphere, takes the place of such a mesh.
-uint ray_mask() { return exact_spheres != 0u ? kBvhSphere : 0u; }
+uint ray_mask() { return exact_spheres != 0u ? kBvhStandsForSphere : 0u; }
 
 // Transforms a point from an instance's object space to scene units.
 void transform_point_to_scene(inout SurfacePoint p, uint record) {
@@ -117,7 +117,7 @@ SurfacePoint point_on_triangle(TraceHit hit) {
         p.facet = facet_normal(lit_a, lit_b, lit_c);
         transform_point_to_scene(p, hit.inside);
     }
-    p.lift = smooth_lift(lit_a, lit_b, lit_c, normal_a, normal_b, normal_c, w);
+    p.lift = smooth_surface_offset(lit_a, lit_b, lit_c, normal_a, normal_b, normal_c, w);
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
     if (object_spaces != 0u && hit.inside != 0u) {
@@ -133,7 +133,7 @@ SurfacePoint point_on_triangle(TraceHit hit) {
     p.normal = vec3(exact_normal);
 #endif
     p.object = hit.object;
-    p.leaves = keeps(kSpawnBound) ? hit.triangle + 1u : 0u;
+    p.leaves = keeps_rule(kOriginErrorBoundRule) ? hit.triangle + 1u : 0u;
     return p;
 }
 
@@ -185,18 +185,18 @@ TEXEL_LIST(FIRST_HITS_BINDING, first_hits, uint, usamplerBuffer, false)
 const uint kNoFirstHit = 0xffffffffu;
 
 // What is known of a ray before it is traced.
-const uint kNotKnown = 0u, kKnownHit = 1u;
+const uint kUnknownHit = 0u, kKnownHit = 1u;
 
-// Intersects the camera ray with the triangle that the rasteriser drew in the ray's pixel. Returns kNotKnown if no
+// Intersects the camera ray with the triangle that the rasteriser drew in the ray's pixel. Returns kUnknownHit if no
 // triangle is named, or if the ray misses the triangle. The latter happens at edges, where the rasteriser rounds corners
 // to parts of a pixel.
 uint known_hit(Ray ray, out TraceHit hit) {
-    hit = TraceHit(kLargest, vec3(0), 0u, 0u, 0u, 0u);
-    if (!is_first_hit(first_words)) return kNotKnown;
+    hit = TraceHit(kLargestFloat, vec3(0), 0u, 0u, 0u, 0u);
+    if (!is_first_hit(first_words)) return kUnknownHit;
     uint object = first_hit_object(first_words);
     uint record = first_hits_at(2u * object);
     uint place = first_hits_at(first_hits_at(2u * object + 1u) + first_hit_triangle(first_words));
-    if (record == kNoFirstHit || place == kNoFirstHit) return kNotKnown;
+    if (record == kNoFirstHit || place == kNoFirstHit) return kUnknownHit;
     Ray own = ray;
     uint shift = 0u;
     if (object_spaces != 0u && record != 0u) {
@@ -207,20 +207,20 @@ uint known_hit(Ray ray, out TraceHit hit) {
     triangle_corners(place, a, b, c);
     float t;
     RayShear shear = make_ray_shear(own.direction);
-    bool meets = keeps(kWatertight) ? triangle_test(a, b, c, own.origin, shear, t, weights)
+    bool meets = keeps_rule(kWatertightRule) ? triangle_test(a, b, c, own.origin, shear, t, weights)
                                     : plain_triangle_test(a, b, c, own, t, weights);
     uint triangle = (floatBitsToUint(bvh_triangles_at(3u * place + 1u).w) & kBvhIdMask) + shift;
     hit = TraceHit(t, barycentric(weights), triangle, object, place, record);
-    return meets ? kKnownHit : kNotKnown;
+    return meets ? kKnownHit : kUnknownHit;
 }
 
-// Finds the surface that the ray meets. `known` and `hit` are the result of known_hit, or kNotKnown and any hit.
+// Finds the surface that the ray meets. `known` and `hit` are the result of known_hit, or kUnknownHit and any hit.
 bool trace_ray(Ray ray, uint skipped, uint known, TraceHit hit, out SurfacePoint p) {
     vec3 low = trace_low;
     bool found = known == kKnownHit;
-    if (known == kNotKnown) found = find_closest_hit(ray, kLargest, skipped | kBvhOneSided | ray_mask(), hit);
+    if (known == kUnknownHit) found = find_closest_hit(ray, kLargestFloat, skipped | kBvhOneSided | ray_mask(), hit);
     trace_low = vec3(0);
-    if (found && object_spaces != 0u && hit.place == kOnSphere) p = point_on_instance_sphere(ray, low, hit);
+    if (found && object_spaces != 0u && hit.place == kHitOnExactSphere) p = point_on_instance_sphere(ray, low, hit);
     else if (found && exact_spheres != 0u && read_surface(hit.object).radius > 0.0) p = point_on_sphere(ray, hit.t, hit.object);
     else if (found) p = point_on_triangle(hit);
     return found;
@@ -243,7 +243,8 @@ Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
 vec3 leaving_ray_origin(SurfacePoint p, vec3 direction) {
     if (object_spaces != 0u && p.inside != 0u)
         return scene_point(read_instance_placement(p.inside), spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
-    return keeps(kSpawnBound) ? spawn_origin(p.position, p.error, p.facet, direction) : plain_spawn_origin(p.position, p.facet, direction);
+    return keeps_rule(kOriginErrorBoundRule) ? spawn_origin(p.position, p.error, p.facet, direction)
+        : plain_spawn_origin(p.position, p.facet, direction);
 }
 
 // Returns the origin of a shadow ray that goes below the facet's plane, although the light is above the shading
@@ -272,20 +273,20 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
         return sample_shadow_map(light, position, normal, dot(abs(normal), point.error));
     float visible;
     if (has_shadow_map != 0u && first_raster != 0u &&
-        shadow_map_tells(light, position, normal, dot(abs(normal), point.error), visible))
+        try_shadow_map(light, position, normal, dot(abs(normal), point.error), visible))
         return visible;
     ++shadow_rays;
-    bool goes_below = keeps(kSpawnBound) && dot(direction, facet_side(normal, point.facet)) < 0.0;
+    bool goes_below = keeps_rule(kOriginErrorBoundRule) && dot(direction, facet_side(normal, point.facet)) < 0.0;
     vec3 origin;
     if (goes_below) origin = lifted_shadow_ray_origin(point, normal);
     else origin = leaving_ray_origin(point, direction);
     Ray ray = Ray(origin, read_light(light).position - origin, point.leaves);
-    float t = keeps(kShadowEnd) ? kShadowRayEnd : 1.0;
+    float t = keeps_rule(kShadowRayEndRule) ? kShadowRayEnd : 1.0;
     if (is_directional(light)) {
         ray.direction = direction;
-        t = kLargest;
+        t = kLargestFloat;
     }
-    return has_any_hit(ray, t, kBvhShadowless | ray_mask()) ? 0.0 : 1.0;
+    return has_any_hit(ray, t, kBvhCastsNoShadow | ray_mask()) ? 0.0 : 1.0;
 }
 #include "lib/lighting.glsl"
 
@@ -303,36 +304,36 @@ Ray make_camera_ray(vec2 place, uvec2 size) {
 }
 
 // Returns the radiance along a ray that has met `first` mirrors before. `met` is the number of the first mirror that
-// the ray meets, and the number of the second << kMetBits. If the first surface reflects but is no mirror, the first
-// number is 0 and the second kMostMirrors. A ray with `first` 0 is a camera ray and passes through objects hidden from
-// the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
+// the ray meets, and the number of the second << kHitMirrorBits. If the first surface reflects but is no mirror, the
+// first number is 0 and the second kMaxMirrors. A ray with `first` 0 is a camera ray and passes through objects hidden
+// from the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
 vec3 trace_radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
     met = 0u;
-    uint skipped = first == 0u ? kBvhHidden : 0u;
+    uint skipped = first == 0u ? kBvhHiddenFromCamera : 0u;
 #ifdef DOUBLES
     set_exact_ray(ray, trace_low);
 #endif
     bool done = false;
     uint bounce = first;
     TraceHit hit;
-    uint known = kNotKnown;
+    uint known = kUnknownHit;
     if (first_raster != 0u && first == 0u) known = known_hit(ray, hit);
-    if (known == kNotKnown && first == 0u) ++camera_rays;
+    if (known == kUnknownHit && first == 0u) ++camera_rays;
     do {
         bool found = trace_ray(ray, skipped, known, hit, point);
-        known = kNotKnown;
+        known = kUnknownHit;
         if (!found) {
             if (environment_kind != kNoEnvironment) result += weight * environment_radiance(ray.direction);
             done = true;
             continue;
         }
         Surface surface = evaluate_surface(point, ray.direction);
-        if (bounce < first + 2u) met |= surface.mirror << (kMetBits * (bounce - first));
+        if (bounce < first + 2u) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
-        if (details != 0u && bounce == 0u && reflects && surface.mirror == 0u) met = kMostMirrors << kMetBits;
+        if (details != 0u && bounce == 0u && reflects && surface.mirror == 0u) met = kMaxMirrors << kHitMirrorBits;
         // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
         // the whole BVH walk of its shadow ray.
         if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet));

@@ -10,7 +10,7 @@
 layout(constant_id = COUNT_WORK_CONSTANT) const uint count_work = 0u;
 
 // The counts of the pass: the low and the high word of each.
-layout(set = 0, binding = 43, scalar) buffer WorkBuffer { uvec2 work_counts[kShaderWorkKinds]; };
+layout(set = 0, binding = 43, scalar) buffer WorkBuffer { uvec2 work_counts[kShaderWorkKindCount]; };
 
 // Adds to a count of the pass, kWork... in shared.h. Helper invocations of a fragment shader add nothing.
 void add_work(uint kind, uint count) {

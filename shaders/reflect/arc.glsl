@@ -17,7 +17,7 @@ struct RayArc {
 };
 
 // The angle, one texel of the largest cube map, below which an arc counts as a single direction.
-const float kOneDirection = kPi / 2.0 / 16384.0;
+const float kMinArcAngle = kPi / 2.0 / 16384.0;
 
 // Sets up the arc of a ray that starts at `offset` from the capture's centre. Returns false if the ray's line passes
 // through the centre, so that the arc is only the ray's own direction.
@@ -29,12 +29,12 @@ bool make_arc(vec3 offset, vec3 direction, out RayArc arc) {
     arc.end.y = length(across);
     arc.side = across / arc.end.y;
     arc.height = size * arc.end.y;
-    return arc.end.y > kOneDirection;
+    return arc.end.y > kMinArcAngle;
 }
 
 vec3 direction_at(RayArc arc, vec2 place) { return arc.from * place.x + arc.side * place.y; }
 float sine_between(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
-vec2 rotated(vec2 place, float sine) { return normalize(place + sine * vec2(-place.y, place.x)); }
+vec2 rotate_vector(vec2 place, float sine) { return normalize(place + sine * vec2(-place.y, place.x)); }
 
 // Returns the ray's inverse distance at a place. ray_plane returns the vector whose dot product with a place is this
 // inverse distance.

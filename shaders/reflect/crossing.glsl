@@ -16,7 +16,7 @@ struct ArcSample {
 };
 
 ArcSample sample_capture_on_arc(uint mirror, RayArc arc, vec2 place) {
-    float captured = inverse(captured_distance(mirror, direction_at(arc, place)));
+    float captured = reciprocal_or_zero(captured_distance(mirror, direction_at(arc, place)));
     return ArcSample(place, captured, captured - ray_at(arc, place));
 }
 
@@ -32,7 +32,7 @@ vec2 estimate_crossing_place(ArcSample front, ArcSample behind) {
 
 const uint kMaxRefinements = 16u;
 // The largest difference, relative to the captured distance, at which a ray's point counts as on the captured surface.
-const float kOnSurface = 1.0 / 512.0;
+const float kSurfaceTolerance = 1.0 / 512.0;
 
 bool are_more_than_texel_apart(ArcSample front, ArcSample behind, float texel) {
     return sine_between(front.place, behind.place) > (front.captured > 0.0 ? 0.5 : kEdge) * texel;
@@ -51,16 +51,16 @@ Lookup find_surface_crossing(uint mirror, RayArc arc, ArcSample front, ArcSample
             if (is_behind(middle)) behind = middle;
             else front = middle;
             float residual = abs(middle.depth) / middle.captured;
-            if (!halves && residual <= kOnSurface)
+            if (!halves && residual <= kSurfaceTolerance)
                 return Lookup(direction_at(arc, estimate_crossing_place(front, behind)), kHit, residual, 0.0);
         }
         ++i;
         is_wide = i < kMaxRefinements && are_more_than_texel_apart(front, behind, texel);
     } while (is_wide);
     if (classify_surface_between(mirror, direction_at(arc, front.place), direction_at(arc, behind.place), front.captured,
-                        behind.captured) == kSilhouette) {
+                        behind.captured) == kSurfaceSilhouette) {
         if (front.captured == 0.0) return Lookup(direction_at(arc, arc.end), kUnknown, 1.0, kLeaves);
-        return Lookup(direction_at(arc, rotated(front.place, -texel)), kUnknown, 1.0, 0.0);
+        return Lookup(direction_at(arc, rotate_vector(front.place, -texel)), kUnknown, 1.0, 0.0);
     }
     return Lookup(direction_at(arc, estimate_crossing_place(front, behind)), kHit, (behind.depth - front.depth) / behind.captured, 0.0);
 }

@@ -20,8 +20,8 @@ layout(set = 0, binding = 21) uniform FACES(distance2);
 layout(set = 0, binding = 22) uniform FACES(colour1);
 layout(set = 0, binding = 23) uniform FACES(colour2);
 
-const uint kLimit = 512u;       // most samples of one search
-const float kSameSurface = 0.125; // largest relative step of the distance between neighbouring texels of one surface
+const uint kMaxSearchSamples = 512u; // most samples of one search
+const float kMaxSurfaceStep = 0.125; // largest relative step of the distance between neighbouring texels of one surface
 
 // A place of the arc, with the inverse distances of the ray and of both layers; 0: the layer has no surface.
 struct ArcSample {
@@ -75,8 +75,8 @@ vec3 direction_to_texel(uint mirror, vec3 direction) {
 ArcSample sample_layers_on_arc(uint mirror, RayArc arc, vec2 place) {
     ivec3 texel = ivec3(direction_to_texel(mirror, direction_at(arc, place)));
     texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
-    return ArcSample(place, ray_at(arc, place), inverse(first_layer_distance(mirror, texel)),
-                  inverse(second_layer_distance(mirror, texel)));
+    return ArcSample(place, ray_at(arc, place), reciprocal_or_zero(first_layer_distance(mirror, texel)),
+                  reciprocal_or_zero(second_layer_distance(mirror, texel)));
 }
 
 uint count_surfaces_in_front(ArcSample s) {
@@ -88,22 +88,27 @@ float inverse_distance_of_next_surface(ArcSample s) {
     uint count = count_surfaces_in_front(s);
     return count == 0u ? s.first : count == 1u ? s.second : 0.0;
 }
-bool is_near(float a, float b) { return abs(a - b) <= kSameSurface * b; }
+bool are_similar_distances(float a, float b) { return abs(a - b) <= kMaxSurfaceStep * b; }
 
 // Returns whether a surface ends between two samples of the march. At both samples the same number of captured surfaces
 // is nearer to the capture's centre than the ray, but only one sample has a surface that is farther than the ray.
-bool ends(ArcSample a, ArcSample b) { return count_surfaces_in_front(a) == count_surfaces_in_front(b) && (inverse_distance_of_next_surface(a) > 0.0) != (inverse_distance_of_next_surface(b) > 0.0); }
+bool surface_ends_between(ArcSample a, ArcSample b) {
+    return count_surfaces_in_front(a) == count_surfaces_in_front(b) &&
+        (inverse_distance_of_next_surface(a) > 0.0) != (inverse_distance_of_next_surface(b) > 0.0);
+}
 
 // Returns whether two samples of the march see the same surfaces: as many surfaces are nearer to the capture's centre
 // than the ray, and the nearest surface is the same.
 bool see_same_surfaces(ArcSample a, ArcSample b) {
     uint count = count_surfaces_in_front(a);
-    return count == count_surfaces_in_front(b) && (count == 0u || is_near(b.first, a.first)) && !ends(a, b);
+    return count == count_surfaces_in_front(b) && (count == 0u || are_similar_distances(b.first, a.first)) &&
+        !surface_ends_between(a, b);
 }
 
 // Returns the texel's inverse distance from the layer whose inverse distance is closer to `about`.
 float inverse_distance_of_closer_layer(uint mirror, float about, ivec3 texel) {
-    vec2 both = vec2(inverse(first_layer_distance(mirror, texel)), inverse(second_layer_distance(mirror, texel)));
+    vec2 both = vec2(reciprocal_or_zero(first_layer_distance(mirror, texel)),
+        reciprocal_or_zero(second_layer_distance(mirror, texel)));
     return abs(both.y - about) < abs(both.x - about) ? both.y : both.x;
 }
 
@@ -112,11 +117,13 @@ float inverse_distance_of_closer_layer(uint mirror, float about, ivec3 texel) {
 float smaller_inverse_distance_change(uint mirror, float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates, vec3 move) {
     ivec3 low = texel - step, high = texel + step;
     bool has_low = all(greaterThanEqual(low.xy, ivec2(0))), has_high = all(lessThan(high.xy, ivec2(distance_edge(mirror))));
-    float to_low = has_low ? mean - inverse_distance_of_closer_layer(mirror, about, low) * length(coordinates - move) : kLargest;
-    float to_high = has_high ? inverse_distance_of_closer_layer(mirror, about, high) * length(coordinates + move) - mean : kLargest;
+    float to_low = has_low ? mean - inverse_distance_of_closer_layer(mirror, about,
+        low) * length(coordinates - move) : kLargestFloat;
+    float to_high = has_high ? inverse_distance_of_closer_layer(mirror, about,
+        high) * length(coordinates + move) - mean : kLargestFloat;
     if (has_low && has_high && to_low * to_high <= 0.0) return 0.0;
     float least = abs(to_low) < abs(to_high) ? to_low : to_high;
-    return least < kLargest ? least : 0.0;
+    return least < kLargestFloat ? least : 0.0;
 }
 
 // Returns the plane of the surface with the inverse distance `about` in the texel at a place. The dot product of the
@@ -152,9 +159,9 @@ FourTexels four_texels_around(uint mirror, vec3 direction) {
 
 // Returns 1 for each of four distances that belongs to the surface at about `distance`, else 0.
 vec4 mark_texels_on_surface(vec4 distances, float distance) {
-    return vec4(lessThanEqual(abs(distances - distance), vec4(kSameSurface * distance)));
+    return vec4(lessThanEqual(abs(distances - distance), vec4(kMaxSurfaceStep * distance)));
 }
-bool is_whole(vec4 chosen) { return dot(chosen, vec4(1)) == 4.0; }
+bool are_all_texels_chosen(vec4 chosen) { return dot(chosen, vec4(1)) == 4.0; }
 
 // Chooses, for each of the four texels, the layer that shows the surface at about `distance`. Returns the texels'
 // weights in the first and second layer. A texel whose layers do not show the surface has weight 0 in both.
@@ -175,7 +182,8 @@ void set_last_hit_distance(float distance) { found_distance = distance; }
 vec3 lookup_colour(uint mirror, Lookup lookup) {
     if (!(found_distance > 0.0)) return environment_radiance(lookup.direction);
     FourTexels taps = four_texels_around(mirror, lookup.direction);
-    if (is_whole(mark_texels_on_surface(taps.first, found_distance))) return captured_colour(mirror, lookup.direction);
+    if (are_all_texels_chosen(mark_texels_on_surface(taps.first, found_distance))) return captured_colour(mirror,
+        lookup.direction);
     vec4 second, in_first, in_second;
     choose_layer_of_texels(mirror, taps, found_distance, second, in_first, in_second);
     float weight = dot(in_first + in_second, vec4(1));
@@ -209,7 +217,8 @@ bool meets_sampled_surface(uint mirror, RayArc arc, ArcSample a, ArcSample b, ou
         if (i > 1u || before == 0.0) break;
         vec2 plane = surface_plane_at(mirror, arc, a.place, before);
         float at_b = dot(plane, b.place);
-        bool in_first = is_near(dot(first, b.place), at_b), in_second = is_near(dot(second, b.place), at_b);
+        bool in_first = are_similar_distances(dot(first, b.place), at_b),
+            in_second = are_similar_distances(dot(second, b.place), at_b);
         if (i == count) is_lost = !in_first && !in_second;
         // The ray meets a surface that continues to `b` and is in front of the ray there. The ray also meets a surface
         // that ends on the way, behind the ray's intersection.
@@ -250,7 +259,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         do {
             if (see_same_surfaces(a, b)) {
                 a = b;
-                is_done = a.place == arc.end || ++samples > kLimit;
+                is_done = a.place == arc.end || ++samples > kMaxSearchSamples;
                 if (a.place == next && !is_done) {
                     ++step;
                     next = step == steps ? arc.end : vec2(next.x * turn.x - next.y * turn.y, next.x * turn.y + next.y * turn.x);
@@ -260,7 +269,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
                 ArcSample middle = sample_layers_on_arc(mirror, arc, normalize(a.place + b.place));
                 if (see_same_surfaces(a, middle)) a = middle;
                 else b = middle;
-                is_done = ++samples > kLimit;
+                is_done = ++samples > kMaxSearchSamples;
             } else changes = true;
         } while (!changes && !is_done);
         if (is_done) break;
@@ -269,14 +278,14 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         bool is_lost;
         if (meets_sampled_surface(mirror, arc, a, b, found, is_lost)) return found;
         if (is_lost) {
-            guess = Lookup(direction_at(arc, rotated(a.place, -2.0 * half_texel)), kUnknown, 1.0, 0.0);
+            guess = Lookup(direction_at(arc, rotate_vector(a.place, -2.0 * half_texel)), kUnknown, 1.0, 0.0);
             guessed_distance = 1.0 / before;
         } else if (before == 0.0 && count_surfaces_in_front(b) > count_surfaces_in_front(a)) {
             guess = Lookup(direction, kUnknown, 1.0, kLeaves);
             guessed_distance = 0.0;
         }
         a = b;
-        if (++samples > kLimit || a.place == arc.end) break;
+        if (++samples > kMaxSearchSamples || a.place == arc.end) break;
         b = sample_layers_on_arc(mirror, arc, next);
     } while (true);
     // The ray met no surface. A ray that left the scene with at most one captured surface in front is a miss. Any other

@@ -1,6 +1,6 @@
 // Computes the box and the sphere that approximate each mirror's surroundings, from the captured distances. Each work
-// group handles one mirror and reads kAcross x kAcross texels of each face. This sampling is exact for a flat wall
-// perpendicular to an axis, since any texel of such a wall gives the wall's position.
+// group handles one mirror and reads kMaxTexelsAcross x kMaxTexelsAcross texels of each face. This sampling is exact
+// for a flat wall perpendicular to an axis, since any texel of such a wall gives the wall's position.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/captures.glsl"
@@ -10,7 +10,7 @@ layout(local_size_x = 256) in;
 layout(set = 0, binding = 20) uniform FACES(distance_faces);
 layout(set = 0, binding = 21, scalar) writeonly buffer Proxies { Proxy proxies[]; };
 
-const uint kAcross = 64u;
+const uint kMaxTexelsAcross = 64u;
 
 shared vec3 lows[gl_WorkGroupSize.x];
 shared vec3 highs[gl_WorkGroupSize.x];
@@ -29,8 +29,8 @@ float read_stored_distance(uint mirror, ivec3 texel) {
 void main() {
     uint me = gl_LocalInvocationIndex, mirror = gl_WorkGroupID.x;
     uint face = uint(captured_face_edge(mirror));
-    uint across = min(face, kAcross);
-    vec3 low = vec3(kLargest), high = vec3(-kLargest);
+    uint across = min(face, kMaxTexelsAcross);
+    vec3 low = vec3(kLargestFloat), high = vec3(-kLargestFloat);
     vec2 sum = vec2(0);
     for (uint i = me; i < 6u * across * across; i += gl_WorkGroupSize.x) {
         uvec2 cell = uvec2(i % across, i / across % across);

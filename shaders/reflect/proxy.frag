@@ -9,14 +9,14 @@
 #include "reflect/proxy.glsl"
 
 layout(set = 0, binding = 20, scalar) readonly buffer Proxies { Proxy proxies[]; };
-const uint kBox = 0u, kSphere = 1u;
-layout(constant_id = OWN_CONSTANTS) const uint shape = kBox;
+const uint kBoxProxy = 0u, kSphereProxy = 1u;
+layout(constant_id = OWN_CONSTANTS) const uint shape = kBoxProxy;
 // A lookup is a hit if the captured surface is at most this far from the box or sphere, relative to the distance from
 // the centre.
-const float kTolerance = 0.05;
+const float kProxyTolerance = 0.05;
 
 bool intersects_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
-    float enter = 0.0, leave = kLargest;
+    float enter = 0.0, leave = kLargestFloat;
     for (int axis = 0; axis < 3; ++axis) {
         if (direction[axis] == 0.0) {
             if (offset[axis] < lo[axis] || offset[axis] > hi[axis]) return false;
@@ -28,7 +28,7 @@ bool intersects_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) 
         leave = min(leave, max(a, b));
     }
     t = enter > 0.0 ? enter : leave;
-    return leave > 0.0 && leave <= kLargest && enter <= leave;
+    return leave > 0.0 && leave <= kLargestFloat && enter <= leave;
 }
 
 // Returns the lookup of a ray that leaves the scene, because it misses the box or sphere, or no surface was captured.
@@ -41,14 +41,14 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     Proxy proxy = proxies[mirror];
     float t = 0.0;
     bool met = proxy.radius > 0.0 &&
-               (shape == kBox ? intersects_box(proxy.lo, proxy.hi, offset, direction, t)
-                              : sphere_test(vec3(0), proxy.radius, Ray(offset, direction, 0u), kLargest, t));
+               (shape == kBoxProxy ? intersects_box(proxy.lo, proxy.hi, offset, direction, t)
+                              : sphere_test(vec3(0), proxy.radius, Ray(offset, direction, 0u), kLargestFloat, t));
     vec3 p = offset + direction * t;
     float size = length(p);
-    if (!met || !(size > 0.0 && size <= kLargest)) return make_outward_lookup(mirror, direction);
+    if (!met || !(size > 0.0 && size <= kLargestFloat)) return make_outward_lookup(mirror, direction);
     float captured = captured_distance(mirror, p / size);
     if (is_miss(captured)) return make_outward_lookup(mirror, direction);
     float residual = min(abs(captured - size) / size, 1.0);
-    return Lookup(p / size, residual <= kTolerance ? kHit : kUnknown, residual, 0.0);
+    return Lookup(p / size, residual <= kProxyTolerance ? kHit : kUnknown, residual, 0.0);
 }
 #include "lib/mirror.glsl"

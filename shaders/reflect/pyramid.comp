@@ -12,13 +12,13 @@ layout(push_constant, scalar) uniform Push { int level; };
 layout(constant_id = OWN_CONSTANTS) const uint from_cells = 0u;
 
 // Returns the initial values of a least and a largest distance, before any distance is known.
-vec2 no_bounds() { return vec2(uintBitsToFloat(0x7f800000u), 0); }
+vec2 empty_bounds() { return vec2(uintBitsToFloat(0x7f800000u), 0); }
 
 // Returns the bounds over the 4x4 texels of a level 1 cell and its ring of neighbours, by four gathers. Across the
 // edges of cube faces, a gather reads the same texels as a bilinear lookup. Beyond a corner of the cube no texel
 // exists, and the value that a gather returns can only widen the bounds.
 vec2 bounds_of_texels(ivec2 cell, int layer, int face) {
-    vec2 bound = no_bounds();
+    vec2 bound = empty_bounds();
     for (int i = 0; i < 4; ++i) {
         ivec2 corner = min(2 * cell + 2 * ivec2(i & 1, i >> 1), ivec2(face));
         vec2 place = vec2(2 * corner) / float(face) - 1.0;
@@ -32,7 +32,7 @@ vec2 bounds_of_texels(ivec2 cell, int layer, int face) {
 
 // Returns the bounds over the 2x2 cells of the level below. Cells beyond the face's end repeat the last cells.
 vec2 bounds_of_cells(ivec2 cell, int layer, int face) {
-    vec2 bound = no_bounds();
+    vec2 bound = empty_bounds();
     int below = level_edge(face, level - 1), column = level_column(face, level - 1);
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 2; ++x) {

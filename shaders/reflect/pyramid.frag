@@ -10,7 +10,8 @@
 //   could change sides. A cell's bounds include a ring of one texel around the cell, which bilinear lookups read, also
 //   across the edges of faces. Two changes inside one texel cancel and are not found.
 // - A miss is a ray that stays in sight of the centre and leaves where no surface was captured.
-// - All other rays are unknown: they went behind a silhouette, started behind a surface, or took more than kMaxVisits
+// - All other rays are unknown: they went behind a silhouette, started behind a surface, or took more than
+//   kMaxCellVisits
 //   cells. If the ray came back into sight, the lookup's direction is that of the next crossing. Otherwise, the surface
 //   last seen beside the silhouette is assumed to continue behind the silhouette, and is looked up. If no surface was
 //   captured beside the silhouette, the ray leaves along its own direction and sees the environment.
@@ -24,16 +25,16 @@
 layout(set = 0, binding = 20) uniform WHOLE_FACES(bounds);
 
 // The most cells that a search visits. The software driver stops an invocation's loops after 65,535 iterations.
-const int kMaxVisits = 4096;
-const int kRefinements = 3;
+const int kMaxCellVisits = 4096;
+const int kCrossingRefinements = 3;
 // The level at which the search starts, counted from the pyramid's top. Measurements show that one level more or less
 // costs little.
-const int kBelowTop = 3;
+const int kStartLevelBelowTop = 3;
 // The factor that widens comparisons of distances with bounds, since both have errors of a few roundings.
-const float kOutwards = 1.0 + 1.0 / 1048576.0;
+const float kOutwardRounding = 1.0 + 1.0 / 1048576.0;
 // The length of RayArc::bend, one texel of the largest cube map, below which an arc counts as a single direction.
-const float kOneDirection = 1.0 / 16384.0;
-const float kNever = 2.0; // a parameter s after the arc's end
+const float kMinArcAngle = 1.0 / 16384.0;
+const float kAfterArcEnd = 2.0; // a parameter s after the arc's end
 
 // The directions of a ray's points from the capture's centre. The point offset + t * direction has the parameter
 // s = t / (size + t) in [0, 1]. Its direction is from + s * bend. Therefore the ray meets a plane through the centre
@@ -62,7 +63,7 @@ float distance_at(RayArc arc, float s) { return arc.size * length(direction_at(a
 // Returns the ray's distance minus the captured distance, times 1 - s, which is about linear in s. The result is
 // positive if the ray is behind the captured surface.
 float depth_on_arc(RayArc arc, float s, float captured) {
-    return is_miss(captured) ? -kLargest : arc.size * length(direction_at(arc, s)) - captured * (1.0 - s);
+    return is_miss(captured) ? -kLargestFloat : arc.size * length(direction_at(arc, s)) - captured * (1.0 - s);
 }
 
 FaceLine line_on_face(int face, RayArc arc) {
@@ -76,11 +77,11 @@ ivec2 texel_on_line(FaceLine line, float s, int face) {
     return ivec2(clamp(floor((at.xy / at.z * 0.5 + 0.5) * float(face)), vec2(0), vec2(face - 1)));
 }
 
-// Returns the parameter s at which the line passes the border x = border, or y = border, ahead. Returns kNever if the
-// line does not reach the border.
+// Returns the parameter s at which the line passes the border x = border, or y = border, ahead. Returns kAfterArcEnd if
+// the line does not reach the border.
 float border_crossing_parameter(float from, float bend, float from_z, float bend_z, int ahead, float border, float s) {
     float before = from - border * from_z, towards = bend - border * bend_z;
-    if (ahead == 0 || !(towards * float(ahead) > 0.0)) return kNever;
+    if (ahead == 0 || !(towards * float(ahead) > 0.0)) return kAfterArcEnd;
     return max(s, -before / towards);
 }
 
@@ -98,14 +99,14 @@ struct CellWalk {
     float s;     // current parameter on the arc
 };
 
-ivec2 cell_first(CellWalk walk) { return walk.texel >> walk.level << walk.level; }
-ivec2 cell_end(CellWalk walk, int face) { return min(cell_first(walk) + (1 << walk.level), ivec2(face)); }
+ivec2 cell_low_corner(CellWalk walk) { return walk.texel >> walk.level << walk.level; }
+ivec2 cell_high_corner(CellWalk walk, int face) { return min(cell_low_corner(walk) + (1 << walk.level), ivec2(face)); }
 
 // Advances the walk to the texel behind the cell border that the line passes first. At the end of a face, the walk
 // moves to the next face. The level rises by one if the new texel is in another cell of the level above.
 void advance_to_next_cell(inout CellWalk walk, RayArc arc, vec2 leave, int face) {
     int axis = leave.x <= leave.y ? 0 : 1, other = 1 - axis;
-    ivec2 first = cell_first(walk), end = cell_end(walk, face);
+    ivec2 first = cell_low_corner(walk), end = cell_high_corner(walk, face);
     walk.s = min(leave[axis], 1.0);
     int ahead = walk.line.ahead[axis];
     int next = ahead > 0 ? end[axis] : first[axis] - 1;
@@ -143,9 +144,9 @@ vec2 read_cell_bounds(CellWalk walk, uint mirror, int face) {
 bool stays_on_one_side(RayArc arc, vec2 bound, float s, float end) {
     if (isinf(bound.x)) return true;
     float enters = distance_at(arc, s);
-    float farthest = end < 1.0 ? max(enters, distance_at(arc, end)) : kLargest;
+    float farthest = end < 1.0 ? max(enters, distance_at(arc, end)) : kLargestFloat;
     float nearest = s < arc.turn && arc.turn < end ? arc.least : min(enters, farthest);
-    return farthest * kOutwards < bound.x || nearest > bound.y * kOutwards;
+    return farthest * kOutwardRounding < bound.x || nearest > bound.y * kOutwardRounding;
 }
 
 // Finds the crossing of ray and surface between two points of the arc, in front of and behind the surface, by false
@@ -153,7 +154,7 @@ bool stays_on_one_side(RayArc arc, vec2 bound, float s, float end) {
 Lookup refine_crossing(uint mirror, RayArc arc, float before, float behind, float depth_before, float depth_behind, uint state) {
     float residual = 0.0;
     vec3 direction;
-    for (int i = 0; i < kRefinements; ++i) {
+    for (int i = 0; i < kCrossingRefinements; ++i) {
         float s = mix(before, behind, depth_before / (depth_before - depth_behind));
         direction = normalize(direction_at(arc, s));
         float captured = captured_distance(mirror, direction);
@@ -187,25 +188,26 @@ void skip_cells(inout CellWalk walk, inout int visits, RayArc arc, uint mirror, 
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (goes_on) {
             ++visits;
-            vec2 leave = cell_exit_parameters(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
+            vec2 leave = cell_exit_parameters(walk.line, cell_low_corner(walk), cell_high_corner(walk, face), face,
+                walk.s);
             float end = min(min(leave.x, leave.y), 1.0);
             if (stays_on_one_side(arc, read_cell_bounds(walk, mirror, face), walk.s, end))
                 advance_to_next_cell(walk, arc, leave, face);
             else
                 --walk.level;
         }
-        goes_on = walk.level > 0 && walk.s < 1.0 && visits < kMaxVisits;
+        goes_on = walk.level > 0 && walk.s < 1.0 && visits < kMaxCellVisits;
     } while (goes_on);
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     RayArc arc = make_pyramid_arc(offset, direction);
     // The ray's line passes through the centre, so that the ray's own direction is the only direction to look up.
-    if (!(length(arc.bend) > kOneDirection && length(direction + arc.from) > kOneDirection))
+    if (!(length(arc.bend) > kMinArcAngle && length(direction + arc.from) > kMinArcAngle))
         return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
     int face = distance_edge(mirror);
     FaceLine line = line_on_face(cube_face(arc.from), arc);
-    CellWalk walk = CellWalk(line, texel_on_line(line, 0.0, face), max(top_level(face) - kBelowTop, 1), 0.0);
+    CellWalk walk = CellWalk(line, texel_on_line(line, 0.0, face), max(top_level(face) - kStartLevelBelowTop, 1), 0.0);
     bool in_sight = depth_on_arc(arc, 0.0, captured_distance(mirror, arc.from)) < 0.0;
     uint state = in_sight ? kHit : kUnknown;
     float last_in_sight = in_sight ? 0.0 : 1.0;
@@ -223,9 +225,10 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
             float captured = captured_distance(mirror, direction_at(arc, walk.s));
             float depth = min(depth_on_arc(arc, walk.s, captured), 0.0);
             uint between = classify_surface_between(mirror, normalize(direction_at(arc, walk.s)), normalize(direction_at(arc, end)),
-                                           inverse(captured), inverse(captured_end));
-            if (between != kSilhouette)
-                return refine_crossing(mirror, arc, walk.s, end, depth, depth_end, between == kEnds ? kUnknown : state);
+                                           reciprocal_or_zero(captured), reciprocal_or_zero(captured_end));
+            if (between != kSurfaceSilhouette)
+                return refine_crossing(mirror, arc, walk.s, end, depth, depth_end, between == kSurfaceEnds
+                    ? kUnknown : state);
             state = kUnknown;
             nothing_beside = is_miss(captured);
             // One texel before the steep texel of the silhouette.
@@ -233,7 +236,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         }
         in_sight = depth_end < 0.0;
         advance_to_next_cell(walk, arc, leave, face);
-    } while (walk.s < 1.0 && visits < kMaxVisits);
+    } while (walk.s < 1.0 && visits < kMaxCellVisits);
     if (walk.s < 1.0) return Lookup(normalize(direction_at(arc, walk.s)), kUnknown, 0.0, 0.0);
     if (in_sight) return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);
     if (nothing_beside) return Lookup(direction, kUnknown, 0.0, kLeaves);

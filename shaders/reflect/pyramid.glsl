@@ -22,19 +22,19 @@ int level_column(int face, int level) {
 }
 
 const uint kHalfInfinity = 0x7c00u;
-const float kSmallestHalf = 6.103515625e-5;
+const float kSmallestNormalHalf = 6.103515625e-5;
 
 // Packs the least and the largest distance of a cell into a word. `low` is +infinity if the cell shows no surface at
 // all, `high` is +infinity if some texel shows no surface.
 uint pack_bounds(float low, float high) {
     uint a = kHalfInfinity, b = kHalfInfinity;
     if (!isinf(low)) {
-        low = low < kSmallestHalf ? 0.0 : min(low, kLargestHalf);
+        low = low < kSmallestNormalHalf ? 0.0 : min(low, kLargestHalf);
         a = packHalf2x16(vec2(low, 0)) & 0xffffu;
         if (unpackHalf2x16(a).x > low) --a;
     }
     if (!isinf(high) && high <= kLargestHalf) {
-        high = max(high, kSmallestHalf);
+        high = max(high, kSmallestNormalHalf);
         b = packHalf2x16(vec2(high, 0)) & 0xffffu;
         if (unpackHalf2x16(b).x < high) ++b;
     }

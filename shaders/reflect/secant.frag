@@ -15,7 +15,7 @@ const float kEdge = 1.0 / 2.0;
 
 layout(constant_id = OWN_CONSTANTS) const uint steps = 2u;
 
-const uint kHalves = 6u;
+const uint kBisectionSteps = 6u;
 
 // Returns the place at which the ray is as far along as the surface that the capture shows in the ray's own direction.
 vec2 guess_crossing_place(RayArc arc, vec3 offset, vec3 direction, float distance) {
@@ -34,7 +34,7 @@ void bisect_towards_surface_edge(uint mirror, RayArc arc, inout ArcSample front,
             else end = middle;
         }
         ++i;
-    } while (i < kHalves && !is_behind(end));
+    } while (i < kBisectionSteps && !is_behind(end));
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
@@ -42,7 +42,8 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     RayArc arc;
     if (!make_arc(offset, direction, arc)) return Lookup(direction, is_miss(first) ? kMiss : kHit, 0.0, 0.0);
     bool leaves = is_miss(first);
-    ArcSample front = ArcSample(vec2(1, 0), 0.0, -1.0 / length(offset)), behind = ArcSample(arc.end, inverse(first), inverse(first));
+    ArcSample front = ArcSample(vec2(1, 0), 0.0, -1.0 / length(offset)), behind = ArcSample(arc.end,
+        reciprocal_or_zero(first), reciprocal_or_zero(first));
     if (leaves) {
         bisect_towards_surface_edge(mirror, arc, front, behind);
         if (!is_behind(behind)) {
@@ -58,7 +59,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
             else front = next;
             place = estimate_crossing_place(front, behind);
             float residual = abs(next.depth) / next.captured;
-            if (residual <= kOnSurface) return Lookup(direction_at(arc, place), kHit, residual, 0.0);
+            if (residual <= kSurfaceTolerance) return Lookup(direction_at(arc, place), kHit, residual, 0.0);
         }
     }
     Lookup found = find_surface_crossing(mirror, arc, front, behind);

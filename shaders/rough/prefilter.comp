@@ -33,7 +33,7 @@ void main() {
         hammersley_point(i, taps, u, v);
         vec3 drawn = sample_lobe_seen_head_on(alpha, u, v);
         if (!(drawn.z > 0.0)) continue;
-        float density = ggx_density(alpha, half_way_between(vec3(0, 0, 1), drawn)) / 4.0;
+        float density = ggx_density(alpha, half_vector_between(vec3(0, 0, 1), drawn)) / 4.0;
         float from = 0.5 * log2(kOverlap / (float(taps) * density * texel_area));
         vec3 direction = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
         vec4 place = vec4(direction, layer / 6);

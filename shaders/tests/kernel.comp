@@ -21,7 +21,7 @@ layout(push_constant) uniform Push {
     uint occluded; // 1: call has_any_hit, which returns only whether the ray has a hit
 };
 
-const uint kFound = 1u, kExhausted = 2u; // bits of a hit's outcome
+const uint kFoundHitBit = 1u, kStepLimitBit = 2u; // bits of a hit's outcome
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -34,7 +34,7 @@ void main() {
     TraceHit hit = TraceHit(0.0, vec3(0), 0u, 0u, 0u, 0u);
     bool found = occluded != 0u ? has_any_hit(ray, t_max, skipped) : find_closest_hit(ray, t_max, skipped, hit);
     if (!found || occluded != 0u) hit = TraceHit(0.0, vec3(0), 0u, 0u, 0u, 0u);
-    uint outcome = (found ? kFound : 0u) | (trace_exhausted ? kExhausted : 0u);
+    uint outcome = (found ? kFoundHitBit : 0u) | (trace_exhausted ? kStepLimitBit : 0u);
     hits[2u * i] = uvec4(floatBitsToUint(hit.t), floatBitsToUint(hit.barycentric));
     hits[2u * i + 1u] = uvec4(hit.triangle, hit.object, outcome, trace_steps);
 }

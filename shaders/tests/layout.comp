@@ -19,37 +19,40 @@ layout(set = 0, binding = 10, scalar) readonly buffer Skies { Sky skies[2]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
-void put(uint word) { words[next++] = word; }
-void put(float number) { put(floatBitsToUint(number)); }
-void put(vec2 v) { put(v.x), put(v.y); }
-void put(uvec2 v) { put(v.x), put(v.y); }
-void put(vec3 v) { put(v.x), put(v.y), put(v.z); }
-void put(vec4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
-void put(Surface s) {
-    put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.detail), put(s.centre), put(s.radius);
+void append(uint word) { words[next++] = word; }
+void append(float number) { append(floatBitsToUint(number)); }
+void append(vec2 v) { append(v.x), append(v.y); }
+void append(uvec2 v) { append(v.x), append(v.y); }
+void append(vec3 v) { append(v.x), append(v.y), append(v.z); }
+void append(vec4 v) { append(v.x), append(v.y), append(v.z), append(v.w); }
+void append(Surface s) {
+    append(s.albedo), append(s.emission), append(s.reflectance), append(s.mirror), append(s.detail), append(s.centre),
+        append(s.radius);
 }
 
 void main() {
-    put(vertices[1].position), put(vertices[1].normal);
-    put(surfaces[1]);
+    append(vertices[1].position), append(vertices[1].normal);
+    append(surfaces[1]);
     Light l = lights[1];
-    put(l.position), put(l.normal), put(l.intensity), put(l.right), put(l.down), put(l.forward), put(l.near);
-    put(l.reach), put(l.cos_outer), put(l.sharpness), put(l.kind);
-    put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
-    put(probes[1].lowest), put(probes[1].highest), put(probes[1].kind);
+    append(l.position), append(l.normal), append(l.intensity), append(l.right), append(l.down), append(l.forward),
+        append(l.near);
+    append(l.reach), append(l.cos_outer), append(l.sharpness), append(l.kind);
+    append(probes[1].centre), append(probes[1].sphere), append(probes[1].radius), append(probes[1].reflectance);
+    append(probes[1].lowest), append(probes[1].highest), append(probes[1].kind);
     View v = views[1];
-    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low), put(v.parallel), put(v.clip);
+    append(v.eye), append(v.right), append(v.down), append(v.forward), append(v.near), append(v.eye_low),
+        append(v.parallel), append(v.clip);
     Sky s = skies[1];
-    put(s.size), put(s.scale), put(s.turn);
-    for (int i = 0; i < 9; ++i) put(s.irradiance[i]);
+    append(s.size), append(s.scale), append(s.turn);
+    for (int i = 0; i < 9; ++i) append(s.irradiance[i]);
     Frame f = frames[1];
-    put(f.ambient), put(f.light_count), put(f.mirror_count), put(f.object_count), put(f.shadow_faces);
-    put(draws[1].first_view), put(draws[1].ablated);
+    append(f.ambient), append(f.light_count), append(f.mirror_count), append(f.object_count), append(f.shadow_faces);
+    append(draws[1].first_view), append(draws[1].ablated);
     Placement p = placements[1];
-    put(p.x), put(p.y), put(p.z), put(p.centre), put(p.centre_low);
+    append(p.x), append(p.y), append(p.z), append(p.centre), append(p.centre_low);
     TraceParameters t = traces[1];
-    put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size), put(t.seed);
+    append(t.sample_offset), append(t.sample_index), append(t.sample_count), append(t.size), append(t.seed);
     Counters c = counters[1];
-    put(c.primary_rays), put(c.mirror_rays), put(c.shadow_rays), put(c.longest_walk), put(c.exhausted);
-    put(c.mirror_pixels), put(c.listed);
+    append(c.primary_rays), append(c.mirror_rays), append(c.shadow_rays), append(c.longest_walk), append(c.exhausted);
+    append(c.mirror_pixels), append(c.listed);
 }

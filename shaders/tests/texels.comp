@@ -9,23 +9,28 @@ layout(set = 0, binding = 50, scalar) writeonly buffer Words { uint words[]; };
 layout(push_constant) uniform Push { uint number; };
 
 uint next = 0u;
-void put(uint word) { words[next++] = word; }
-void put(float number) { put(floatBitsToUint(number)); }
-void put(vec3 v) { put(v.x), put(v.y), put(v.z); }
-void put(vec4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
-void put(TextureUse use) { put(use.first), put(use.size), put(use.how), put(use.u_row), put(use.v_row); }
+void append(uint word) { words[next++] = word; }
+void append(float number) { append(floatBitsToUint(number)); }
+void append(vec3 v) { append(v.x), append(v.y), append(v.z); }
+void append(vec4 v) { append(v.x), append(v.y), append(v.z), append(v.w); }
+void append(TextureUse use) {
+    append(use.first), append(use.size), append(use.how), append(use.u_row), append(use.v_row);
+}
 
 void main() {
     Surface s = read_surface(number);
-    put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.detail), put(s.centre), put(s.radius);
+    append(s.albedo), append(s.emission), append(s.reflectance), append(s.mirror), append(s.detail), append(s.centre),
+        append(s.radius);
     Probe p = probe_at(number);
-    put(p.centre), put(p.sphere), put(p.radius), put(p.reflectance), put(p.lowest), put(p.highest), put(p.kind);
+    append(p.centre), append(p.sphere), append(p.radius), append(p.reflectance), append(p.lowest), append(p.highest),
+        append(p.kind);
     MaterialParameters d = read_material_parameters(number);
-    put(d.flags), put(d.first_attribute), put(d.max_specular_roughness), put(d.alpha), put(d.alpha_cutoff);
-    put(d.f0), put(d.f90), put(d.albedo), put(d.emission), put(d.rough);
-#define PUT_FACTOR(name) put(d.name);
+    append(d.flags), append(d.first_attribute), append(d.max_specular_roughness), append(d.alpha),
+        append(d.alpha_cutoff);
+    append(d.f0), append(d.f90), append(d.albedo), append(d.emission), append(d.rough);
+#define PUT_FACTOR(name) append(d.name);
     MATERIAL_FACTORS(PUT_FACTOR)
     VertexAttribute a = read_vertex_attribute(number);
-    put(a.uv), put(a.colour);
-    put(texture_words_at(number));
+    append(a.uv), append(a.colour);
+    append(texture_words_at(number));
 }

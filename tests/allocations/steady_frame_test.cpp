@@ -44,12 +44,12 @@ TEST_P(SteadyFrame, EachFrameMakesTheSameNumberOfAllocations) {
         const render::FrameInputs inputs{gpu_scene, {32, 32}, ""};
         graph.mark_output(test::add_technique(graph, inputs, GetParam()).hdr);
         const std::size_t declared = test::allocations();
-        runner.submit(graph, graph::PassTiming::isolated);
+        runner.submit_frame(graph, graph::PassTiming::isolated);
         const std::size_t recorded = test::allocations();
         passes = runner.compiled(graph).passes.size();
         if (frame >= 5) seen.insert({declared - before, recorded - declared});
     }
-    EXPECT_EQ(runner.plans_made(), 1u);
+    EXPECT_EQ(runner.planned_shape_count(), 1u);
     ASSERT_EQ(seen.size(), 1u);
     std::cout << "[ MEASURED ] " << GetParam() << ", " << passes
               << " passes: " << seen.begin()->declaring << " allocations declaring, "

@@ -97,14 +97,14 @@ void compare_processor_rules(const app::Request& base) {
     const render::SceneUnits space = render::make_scene_units(base.scene);
     const render::Geometry geometry = render::make_geometry(base.scene, space);
     render::NearestTriangleQuery nearest;
-    nearest.lay_out(geometry);
+    nearest.set_geometry(geometry);
     volatile float kept = 0; // volatile, so that the compiler keeps the measured work
     const std::vector<app::BenchmarkSubject> subjects{
         app::make_subject("near planes from the nearest gap | frame",
                           [&] {
                               // One search each for the camera, four captures and the light.
                               for (int i = 0; i < 6; ++i)
-                                  kept = nearest.distance(
+                                  kept = nearest.distance_to_nearest(
                                       geometry, dvec3(0.1 * i),
                                       [](std::size_t, const render::DrawRange&) { return false; });
                           }),

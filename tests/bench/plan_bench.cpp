@@ -21,19 +21,21 @@ void count(benchmark::State& state, const graph::Graph& graph) {
 
 void declare(benchmark::State& state) {
     const auto mirrors = static_cast<std::uint32_t>(state.range(0)) - 3;
-    for (auto _ : state) benchmark::DoNotOptimize(test::reuse_frame(mirrors));
-    count(state, test::reuse_frame(mirrors));
+    for (auto _ : state) benchmark::DoNotOptimize(test::make_reuse_graph(mirrors));
+    count(state, test::make_reuse_graph(mirrors));
 }
 
 void plan(benchmark::State& state) {
-    const graph::Graph graph = test::reuse_frame(static_cast<std::uint32_t>(state.range(0)) - 3);
+    const graph::Graph graph = test::make_reuse_graph(static_cast<std::uint32_t>(state.range(0)) -
+                                                      3);
     const graph::MemorySizer sizer = graph::make_default_sizer();
     for (auto _ : state) benchmark::DoNotOptimize(graph::plan_graph(graph, kLimits, sizer));
     count(state, graph);
 }
 
 void dump(benchmark::State& state) {
-    const graph::Graph graph = test::reuse_frame(static_cast<std::uint32_t>(state.range(0)) - 3);
+    const graph::Graph graph = test::make_reuse_graph(static_cast<std::uint32_t>(state.range(0)) -
+                                                      3);
     const graph::GraphPlan plan = graph::plan_graph(graph, kLimits, graph::make_default_sizer());
     for (auto _ : state) benchmark::DoNotOptimize(graph::to_text(graph, plan));
     count(state, graph);

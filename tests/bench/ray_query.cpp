@@ -17,8 +17,8 @@
 namespace {
 
 using namespace catoptric;
-using test::KernelHit;
-using test::KernelRay;
+using test::DeviceHit;
+using test::DeviceRay;
 
 constexpr int kAcross = 512;           // rays per row and per column of the picture
 constexpr std::size_t kFewRays = 64;   // a small call, to measure the fixed cost of a call
@@ -26,27 +26,27 @@ constexpr std::size_t kMostOther = 40; // largest number of rays that may differ
 constexpr int kNoDevice = 69;
 
 /// Returns one ray through each pixel of the scene's first camera, in blocks of 8x8 pixels.
-std::vector<KernelRay> camera_rays(const scene::Scene& scene, const render::SceneUnits& space) {
+std::vector<DeviceRay> camera_rays(const scene::Scene& scene, const render::SceneUnits& space) {
     const scene::Camera& camera = scene.cameras.front();
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
     const double half = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
-    std::vector<KernelRay> rays;
+    std::vector<DeviceRay> rays;
     for (int i = 0; i < kAcross * kAcross; ++i) {
         const int block = i / 64, x = block % (kAcross / 8) * 8 + i % 8,
                   y = block / (kAcross / 8) * 8 + i / 8 % 8;
         const dvec2 place = (dvec2(x, y) + .5) / (kAcross / 2.0) - 1.0;
         rays.push_back(
-            {.origin = vec3(space.point(camera.eye)),
+            {.origin = vec3(space.to_scene_point(camera.eye)),
              .direction = vec3(normalize(forward + half * (place.x * right - place.y * up)))});
     }
     return rays;
 }
 
-std::size_t differing(const std::vector<KernelHit>& a, const std::vector<KernelHit>& b) {
+std::size_t differing(const std::vector<DeviceHit>& a, const std::vector<DeviceHit>& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
-        count += a[i].found() != b[i].found() ||
+        count += a[i].is_hit() != b[i].is_hit() ||
                  !(std::abs(a[i].t - b[i].t) <= 1e-4f * std::max(1.0f, std::abs(a[i].t)));
     return count;
 }
@@ -57,15 +57,16 @@ double processor_ms(const measure::Benchmark& found, std::size_t round) {
 
 /// Prints the processor time of the ray query as a multiple of that of the engine's walk.
 void compare(const char* name, std::span<const bvh::Triangle> triangles,
-             const std::vector<KernelRay>& rays, const test::RayQuery& query, int rounds) {
-    test::Kernel kernel(triangles);
-    const std::size_t other = differing(kernel.closest(rays), query.closest(triangles, rays));
+             const std::vector<DeviceRay>& rays, const test::RayQuery& query, int rounds) {
+    test::DeviceRayTracer kernel(triangles);
+    const std::size_t other = differing(kernel.find_closest_hits(rays),
+                                        query.closest(triangles, rays));
     check(other <= kMostOther, Failure::internal, name, ": ", other, " of ", rays.size(),
           " rays meet something else, at most ", kMostOther, " may");
-    const std::vector<KernelRay> few(rays.begin(), rays.begin() + kFewRays);
+    const std::vector<DeviceRay> few(rays.begin(), rays.begin() + kFewRays);
     const std::vector<app::BenchmarkSubject> subjects{
-        app::make_subject("ours", [&] { kernel.closest(rays); }),
-        app::make_subject("ours, few", [&] { kernel.closest(few); }),
+        app::make_subject("ours", [&] { kernel.find_closest_hits(rays); }),
+        app::make_subject("ours, few", [&] { kernel.find_closest_hits(few); }),
         app::make_subject("query", [&] { query.closest(triangles, rays); }),
         app::make_subject("query, few", [&] { query.closest(triangles, few); })};
     const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
@@ -98,9 +99,9 @@ int main(int argc, char** argv) try {
     const scene::Scene scene = scene::make_cornell_mirrors();
     const render::SceneUnits space = render::make_scene_units(scene);
     const std::vector<bvh::Triangle> triangles = test::built_in_scene();
-    test::Numbers numbers(7);
+    test::RandomNumbers numbers(7);
     std::printf("walk on %s, ray query on %s; %zu triangles\n",
-                test::bench().device.info().driver.c_str(), device->name().c_str(),
+                test::test_device().device.info().driver.c_str(), device->name().c_str(),
                 triangles.size());
     compare("camera", triangles, camera_rays(scene, space), query, rounds);
     compare("scattered", triangles,

@@ -23,9 +23,9 @@ std::string file_of(const std::vector<double>& ms, const std::string& name = "fr
 const std::vector<double> kSix{10, 11, 12, 13, 14, 15}, kMore{12, 13, 14, 15, 16, 17};
 
 TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
-    const test::Ended ended = cli({"bench", "flat", "--techniques", "raytrace:depth=1", "--size",
-                                   "16x16", "--frames", "6", "--warmup", "1", "-o", "out.json",
-                                   "--quiet"});
+    const test::ProcessResult ended = cli({"bench", "flat", "--techniques", "raytrace:depth=1",
+                                           "--size", "16x16", "--frames", "6", "--warmup", "1",
+                                           "-o", "out.json", "--quiet"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("medians of 6 rounds"));
     const json document = json::parse(read("out.json"));
@@ -50,7 +50,7 @@ TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
     EXPECT_THAT(ended.out,
                 HasSubstr(counted ? "Mcycles" : "cycles are not counted (perf_event_open: "));
     // A measurement compared with itself has no slower benchmark.
-    const test::Ended same = cli({"bench", "--compare", "out.json", "out.json"});
+    const test::ProcessResult same = cli({"bench", "--compare", "out.json", "out.json"});
     EXPECT_EQ(same.exit_code, 0) << same.err;
     EXPECT_THAT(same.out, testing::ContainsRegex("counted work: all [0-9]+ counts are equal"));
     // More visited nodes are found even if the times are equal.
@@ -63,7 +63,7 @@ TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
         }
     ASSERT_GT(nodes, 0);
     write("grown.json", grown.dump());
-    const test::Ended more = cli({"bench", "--compare", "out.json", "grown.json"});
+    const test::ProcessResult more = cli({"bench", "--compare", "out.json", "grown.json"});
     EXPECT_EQ(more.exit_code, 1);
     EXPECT_THAT(more.err, HasSubstr("catoptric: more work: frame/flat/16x16/raytrace:depth=1 "
                                     "work/nodes "));
@@ -71,7 +71,7 @@ TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
 
 TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {
     write("before.json", file_of(kSix)), write("after.json", file_of(kMore));
-    const test::Ended slower = cli({"bench", "--compare", "before.json", "after.json"});
+    const test::ProcessResult slower = cli({"bench", "--compare", "before.json", "after.json"});
     EXPECT_EQ(slower.exit_code, 1);
     EXPECT_THAT(slower.out, HasSubstr("compared by processor time, ms"));
     EXPECT_THAT(slower.out, testing::ContainsRegex("frame/x +12.500 +14.500 +1.160 +"
@@ -80,7 +80,7 @@ TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {
                 testing::StartsWith("catoptric: warning: the files hold times, not cycles"));
     EXPECT_THAT(slower.err,
                 testing::EndsWith("\ncatoptric: slower: frame/x 1.160 [1.133 - 1.200]\n"));
-    const test::Ended faster = cli(
+    const test::ProcessResult faster = cli(
         {"bench", "--compare", "after.json", "before.json", "--json", "-o", "out.json", "--quiet"});
     EXPECT_EQ(faster.exit_code, 0) << faster.err;
     EXPECT_EQ(json::parse(faster.out)["benchmarks"][0]["outcome"], "faster");
@@ -123,13 +123,13 @@ TEST_F(Cli, BenchRefusesInvalidOptionsAndFiles) {
 class BenchTune : public Cli {
 protected:
     /// Runs the program with the user's configuration folder inside the folder of the test.
-    test::Ended cli_at_home(const Words& words) const {
-        test::Start asked = start(words);
+    test::ProcessResult cli_at_home(const Words& words) const {
+        test::ProcessStart asked = start(words);
         asked.environment = {{"XDG_CONFIG_HOME", (folder / "mine").string()}};
         return test::run_process(asked);
     }
     json device_of(const Words& words) const {
-        const test::Ended ended = cli_at_home(words);
+        const test::ProcessResult ended = cli_at_home(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_EQ(ended.err, "");
         const json document = json::parse(ended.out);
@@ -138,8 +138,8 @@ protected:
 };
 
 TEST_F(BenchTune, TuningWritesAProfileThatLaterRunsUse) {
-    const test::Ended tuned = cli_at_home({"bench", "flat", "--tune", "--size", "16x16", "--frames",
-                                           "6", "--warmup", "0", "--quiet"});
+    const test::ProcessResult tuned = cli_at_home({"bench", "flat", "--tune", "--size", "16x16",
+                                                   "--frames", "6", "--warmup", "0", "--quiet"});
     ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
     EXPECT_THAT(tuned.out, HasSubstr("frame/flat/16x16/raytrace:depth=4, 6 rounds"));
     const std::filesystem::path devices = folder / "mine/catoptric/devices";

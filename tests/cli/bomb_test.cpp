@@ -24,7 +24,7 @@ protected:
                 const Words& parts = {}) const {
         // The program runs without limits, so that its time and memory are those that a user would
         // see.
-        const test::Ended ended = test::run_process(
+        const test::ProcessResult ended = test::run_process(
             start(quick({"render", file, "--technique", "raytrace", "-o", "x.png"})));
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));

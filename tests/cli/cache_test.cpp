@@ -12,9 +12,10 @@ namespace fs = std::filesystem;
 class Cache : public Cli {
 protected:
     /// Renders a.png with XDG_CACHE_HOME set to `cache_home`. Messages are in `err` of the result.
-    test::Ended render(const std::string& cache_home) const {
-        test::Start asked = start({"render", "--technique", "naive:bounces=1,face=8,shadow=none",
-                                   "--size", "16x16", "-o", "a.png", "-q"});
+    test::ProcessResult render(const std::string& cache_home) const {
+        test::ProcessStart asked = start({"render", "--technique",
+                                          "naive:bounces=1,face=8,shadow=none", "--size", "16x16",
+                                          "-o", "a.png", "-q"});
         asked.environment = {{"XDG_CACHE_HOME", cache_home},
                              {"HOME", folder.string()},
                              {"MESA_SHADER_CACHE_DISABLE", "true"}}; // avoids driver messages
@@ -38,9 +39,9 @@ TEST_F(Cache, PipelineCacheIsMadeInTheUsersCacheFolder) {
 }
 
 TEST_F(Cache, ReportSaysWhetherThePipelineCacheWasUsed) {
-    test::Start asked = start({"compare", "-o", "out", "--techniques", "raytrace:depth=0", "--size",
-                               "16x16", "--frames", "1", "--warmup", "0", "--reference",
-                               "raytrace:depth=0", "-q"});
+    test::ProcessStart asked = start({"compare", "-o", "out", "--techniques", "raytrace:depth=0",
+                                      "--size", "16x16", "--frames", "1", "--warmup", "0",
+                                      "--reference", "raytrace:depth=0", "-q"});
     const auto setup = [&](const std::string& cache_home) {
         asked.environment = {{"XDG_CACHE_HOME", cache_home}, {"HOME", ""}};
         EXPECT_EQ(test::run_process(asked).exit_code, 0);
@@ -64,7 +65,7 @@ TEST_F(Cache, BrokenCacheFileGivesOneWarningAndIsReplaced) {
     for (const std::string& broken :
          {std::string(), whole.substr(0, whole.size() - 1), whole + "x"}) {
         std::ofstream(files[0], std::ios::binary) << broken;
-        const test::Ended said = render(folder.string());
+        const test::ProcessResult said = render(folder.string());
         EXPECT_EQ(said.exit_code, 0);
         EXPECT_THAT(said.err, testing::AllOf(testing::HasSubstr(files[0].string()),
                                              testing::HasSubstr("wanted a whole pipeline cache")));
@@ -76,7 +77,7 @@ TEST_F(Cache, BrokenCacheFileGivesOneWarningAndIsReplaced) {
 
 TEST_F(Cache, UnwritableCacheFolderOnlyGivesAWarning) {
     std::ofstream(folder / "file") << "not a folder";
-    const test::Ended said = render((folder / "file").string());
+    const test::ProcessResult said = render((folder / "file").string());
     EXPECT_EQ(said.exit_code, 0);
     EXPECT_THAT(said.err, testing::AllOf(testing::HasSubstr("cannot be created"),
                                          testing::HasSubstr("XDG_CACHE_HOME")));

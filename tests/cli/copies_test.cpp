@@ -45,7 +45,7 @@ TEST_F(Cli, CopiesOfAMeshShareItsMemory) {
     std::uint64_t peaks[2];
     for (const int k : {0, 1}) {
         write("balls.gltf", balls(bytes.size(), k ? 2000 : 20).dump());
-        const test::Ended ended = test::run_process(
+        const test::ProcessResult ended = test::run_process(
             start(quick({"render", "balls.gltf", "--technique", "raytrace", "-o", "x.png"})));
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         peaks[k] = ended.peak_bytes;
@@ -92,7 +92,7 @@ TEST_F(Cli, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
                  {std::vector<std::string>{"info", file},
                   quick({"render", file, "--technique", "raytrace", "-o", "x.png"}),
                   quick({"render", file, "--technique", "hybrid", "-o", "x.png"})}) {
-                const test::Ended ended = test::run_process(start(words));
+                const test::ProcessResult ended = test::run_process(start(words));
                 ASSERT_EQ(ended.exit_code, 0) << ended.err;
                 EXPECT_LE(ended.peak_bytes, 512U << 20)
                     << words[0] << " " << file << " " << words.back() << ", apart: " << apart;

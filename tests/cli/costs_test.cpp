@@ -21,7 +21,7 @@ protected:
         for (const char* word :
              {"-o", "out", "--json", "--techniques", "naive:bounces=0,face=16", "raytrace:depth=1"})
             words.emplace_back(word);
-        const test::Ended ended = cli(quick(words));
+        const test::ProcessResult ended = cli(quick(words));
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
@@ -94,8 +94,8 @@ TEST_F(Costs, BenchFitsTheTimesOfAnotherDevice) {
         "rows": [{"technique": "raytrace:depth=0", "ms": 12},
                  {"technique": "raytrace:depth=1", "ms": 12},
                  {"technique": "naive:bounces=0,face=16", "ms": 2}]})");
-    const test::Ended ended = cli({"bench", "--costs", "--times", "times.json", "--size", "32x32",
-                                   "--json", "-o", "costs.json"});
+    const test::ProcessResult ended = cli({"bench", "--costs", "--times", "times.json", "--size",
+                                           "32x32", "--json", "-o", "costs.json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
     EXPECT_EQ(read("costs.json"), ended.out);
@@ -112,10 +112,10 @@ TEST_F(Costs, BenchFitsTheTimesOfAnotherDevice) {
 }
 
 TEST_F(Costs, BenchFitsThisDevice) {
-    const test::Ended ended = cli({"bench", "flat", "--costs", "--size", "16x16", "--frames", "2",
-                                   "--warmup", "1", "--rounds", "2", "-o", "costs.json",
-                                   "--techniques", "reuse", "naive:bounces=1", "parallax",
-                                   "raytrace:depth=0", "raytrace:depth=4"});
+    const test::ProcessResult ended = cli({"bench", "flat", "--costs", "--size", "16x16",
+                                           "--frames", "2", "--warmup", "1", "--rounds", "2", "-o",
+                                           "costs.json", "--techniques", "reuse", "naive:bounces=1",
+                                           "parallax", "raytrace:depth=0", "raytrace:depth=4"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::ContainsRegex("[0-9]+ rows, each predicted by costs that were "
                                                   "fitted to the others: [0-9]+ % within 20 %"));

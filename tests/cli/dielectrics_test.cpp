@@ -32,7 +32,7 @@ protected:
         Words words{"compare", "room.obj", "-o",       "out", "--techniques", "planar", "raytrace",
                     "--size",  "64x64",    "--frames", "2",   "--warmup",     "1"};
         words.insert(words.end(), more.begin(), more.end());
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(read("out/report.json"));
     }
@@ -71,7 +71,7 @@ TEST_F(Dielectrics, OptionMakesSmoothDielectricsMirrors) {
 }
 
 TEST_F(Dielectrics, GraphWhyNamesReflectionsThatNoRowDraws) {
-    const test::Ended text = cli({"graph", "room.obj", "--why"});
+    const test::ProcessResult text = cli({"graph", "room.obj", "--why"});
     EXPECT_EQ(text.exit_code, 0) << text.err;
     EXPECT_THAT(text.out,
                 HasSubstr("not drawn\n  what smooth surfaces that are no mirrors reflect: "

@@ -44,7 +44,7 @@ TEST_F(Cli, HelpShowsCommonOptionsFirst) {
 TEST_F(Cli, HelpVerbPrintsTheTextOfTheHelpOption) {
     EXPECT_EQ(cli({"help"}).out, cli({"--help"}).out);
     for (const std::string& verb : kVerbs) {
-        const test::Ended ended = cli({"help", verb});
+        const test::ProcessResult ended = cli({"help", verb});
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_EQ(ended.out, cli({verb, "--help"}).out);
     }

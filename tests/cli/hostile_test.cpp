@@ -29,8 +29,8 @@ protected:
         EXPECT_THAT(text, Not(HasSubstr("\xff"))) << where;
         EXPECT_THAT("\n" + text, Not(HasSubstr("\ncatoptric: forged"))) << where;
     }
-    test::Ended plain(const Words& words, int exit_code = 0) const {
-        test::Ended ended = cli(words);
+    test::ProcessResult plain(const Words& words, int exit_code = 0) const {
+        test::ProcessResult ended = cli(words);
         EXPECT_EQ(ended.exit_code, exit_code) << words[0] << ended.err;
         expect_plain(ended.out, words[0] + " stdout: ");
         expect_plain(ended.err, words[0] + " stderr: ");
@@ -65,7 +65,7 @@ TEST_F(Hostile, JsonWithHostileNamesIsValid) {
           Words{"graph", file, "--technique", "auto", "--why", "--format", "json"},
           Words{"graph", file, "--technique", "reuse", "--format", "json"},
           quick({"render", file, "--technique", "reuse", "-o", "x.png", "--json"})}) {
-        const test::Ended ended = plain(words);
+        const test::ProcessResult ended = plain(words);
         EXPECT_TRUE(nlohmann::json::accept(ended.out)) << words[0] << ended.out;
     }
 }

@@ -26,7 +26,7 @@ TEST_F(Cli, InvalidSceneFileIsRefused) {
 /// loader may only follow after it.
 TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
     write("plain.obj", "o a b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const test::Ended ended = cli({"compare", "plain.obj", "-o", "out"});
+    const test::ProcessResult ended = cli({"compare", "plain.obj", "-o", "out"});
     EXPECT_EQ(ended.exit_code, 65);
     EXPECT_EQ(ended.err,
               "catoptric: scene 'plain': wanted a mirror, whose reflections are what is compared, "
@@ -44,7 +44,7 @@ TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
          {quick({"render", "plain.obj", "--technique", "reuse", "-o", "x.png"}),
           {"graph", "plain.obj", "--technique", "reuse"},
           {"info", "plain.obj"}}) {
-        const test::Ended goes_on = cli(words);
+        const test::ProcessResult goes_on = cli(words);
         EXPECT_EQ(goes_on.exit_code, 0);
         EXPECT_THAT(goes_on.err, testing::HasSubstr(warning)) << words[0];
     }
@@ -75,18 +75,18 @@ TEST_F(Cli, DiffRefusesFilesThatAreNoPictures) {
 
 TEST_F(Cli, SceneWithoutACameraGetsOneWithAMessage) {
     write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const test::Ended ended = cli(
+    const test::ProcessResult ended = cli(
         quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("no camera: using --camera "));
-    const test::Ended quiet = cli(
+    const test::ProcessResult quiet = cli(
         quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png", "--quiet"}));
     EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));
 }
 
 TEST_F(Cli, ErrorForAMissingDriverSaysWhatToInstall) {
     const auto without = [&](const Words& words) {
-        test::Start process = start(words);
+        test::ProcessStart process = start(words);
         for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
             process.environment[name] = (folder / "none.json").string();
         return test::run_process(process);
@@ -97,7 +97,7 @@ TEST_F(Cli, ErrorForAMissingDriverSaysWhatToInstall) {
     expect_ended(without({"list", "devices"}), 69, {"mesa-vulkan-drivers"});
     EXPECT_FALSE(std::filesystem::exists(folder / "x"));
 
-    const test::Ended info = without({"info", "--json"});
+    const test::ProcessResult info = without({"info", "--json"});
     EXPECT_EQ(info.exit_code, 0) << info.err;
     const nlohmann::json document = nlohmann::json::parse(info.out);
     EXPECT_TRUE(document["device"].is_null());

@@ -24,13 +24,14 @@ TEST_F(Cli, OutputFileInAMissingFolderIsRefused) {
 /// slash.
 TEST_F(Cli, OutputFolderIsMadeWithItsParents) {
     for (const std::string name : {"./a/../b/out/", "b/out/again"}) {
-        const test::Ended ended = cli(
+        const test::ProcessResult ended = cli(
             quick({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
         EXPECT_EQ(ended.exit_code, 0) << name << ": " << ended.err;
         EXPECT_TRUE(fs::exists(folder / name / "images/raytrace-depth1.png")) << name;
         EXPECT_TRUE(fs::exists(folder / name / "report.json")) << name;
     }
-    const test::Ended ended = cli({"stress", "--size", "16x16", "--only", "N10", "-o", "c/d"});
+    const test::ProcessResult ended = cli(
+        {"stress", "--size", "16x16", "--only", "N10", "-o", "c/d"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_TRUE(fs::exists(folder / "c/d/stress.json"));
 }
@@ -67,11 +68,11 @@ TEST_F(Cli, OutputPathOfTheWrongKindIsRefused) {
 TEST_F(Cli, WritingToAFullDeviceExitsWith74) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
     fs::create_symlink("/dev/full", folder / "full.png");
-    const test::Ended ended = cli(
+    const test::ProcessResult ended = cli(
         quick({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
     expect_ended(ended, 74, {"full.png"});
 
-    test::Start process = start({"list", "techniques"});
+    test::ProcessStart process = start({"list", "techniques"});
     process.out_path = "/dev/full";
     expect_ended(test::run_process(process), 74, {"stdout"});
 }
@@ -82,8 +83,9 @@ TEST_F(Cli, FullDiskLeavesTheOldFile) {
     if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0)
         GTEST_SKIP() << "cannot mount a small tmpfs: " << std::strerror(errno);
     write("disk/x.exr", "old");
-    const test::Ended ended = cli({"render", "--technique", "reuse", "-o", "disk/x.exr", "--size",
-                                   "256x256", "--frames", "1", "--warmup", "0", "--quiet"});
+    const test::ProcessResult ended = cli({"render", "--technique", "reuse", "-o", "disk/x.exr",
+                                           "--size", "256x256", "--frames", "1", "--warmup", "0",
+                                           "--quiet"});
     const std::string old = read("disk/x.exr");
     const auto entries = std::distance(fs::directory_iterator(disk), fs::directory_iterator());
     ::umount(disk.c_str());
@@ -94,16 +96,16 @@ TEST_F(Cli, FullDiskLeavesTheOldFile) {
 
 TEST_F(Cli, ClosedPipeOnStdoutExitsWith74) {
     for (const Words& words : {Words{"list", "techniques"}, Words{"info", "--json"}}) {
-        test::Start process = start(words);
+        test::ProcessStart process = start(words);
         process.no_reader = true;
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 74);
         EXPECT_EQ(ended.err, "");
     }
 }
 
 TEST_F(Cli, RenderWritesAPngToStdout) {
-    const test::Ended ended = cli(quick({"render", "--technique", "reuse", "-o", "-"}));
+    const test::ProcessResult ended = cli(quick({"render", "--technique", "reuse", "-o", "-"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::StartsWith("\x89PNG\r\n"));
     EXPECT_EQ(cli(quick({"render", "--technique", "reuse", "-o", "x.png"})).exit_code, 0);
@@ -131,10 +133,10 @@ std::vector<std::string> eight_rows() {
 }
 
 TEST_F(Cli, InterruptedCompareKeepsItsFinishedRows) {
-    test::Start process = start(eight_rows());
+    test::ProcessStart process = start(eight_rows());
     process.signal = SIGINT;
     process.signal_at = "[2/40] parallax:face=64, round 1 of 5";
-    const test::Ended ended = test::run_process(process);
+    const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("of 8 rows"));
     const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
@@ -145,10 +147,10 @@ TEST_F(Cli, InterruptedCompareKeepsItsFinishedRows) {
 }
 
 TEST_F(Cli, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
-    test::Start process = start(eight_rows());
+    test::ProcessStart process = start(eight_rows());
     process.signal = SIGINT;
     process.signal_at = "reuse:face=64, round 4 of 5";
-    const test::Ended ended = test::run_process(process);
+    const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
     ASSERT_EQ(document["rows"].size(), 8U);
@@ -160,23 +162,24 @@ TEST_F(Cli, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
 }
 
 TEST_F(Cli, CompareInterruptedBeforeTheFirstRowWritesNothing) {
-    test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "1000",
-                                 "--warmup", "1", "--progress", "always", "--techniques", "reuse"});
+    test::ProcessStart process = start({"compare", "-o", "out", "--size", "32x32", "--frames",
+                                        "1000", "--warmup", "1", "--progress", "always",
+                                        "--techniques", "reuse"});
     process.signal = SIGTERM;
     process.signal_at = "reference";
-    const test::Ended ended = test::run_process(process);
+    const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 143) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("after 0 of 1 rows; nothing was written"));
     EXPECT_FALSE(std::filesystem::exists(folder / "out/report.json"));
 }
 
 TEST_F(Cli, CompareInterruptedDuringLagKeepsItsRows) {
-    test::Start process = start({"compare", "-o", "out", "--lag", "--size", "32x32", "--frames",
-                                 "1", "--warmup", "1", "--progress", "always", "--techniques",
-                                 "raytrace", "reuse:face=16"});
+    test::ProcessStart process = start({"compare", "-o", "out", "--lag", "--size", "32x32",
+                                        "--frames", "1", "--warmup", "1", "--progress", "always",
+                                        "--techniques", "raytrace", "reuse:face=16"});
     process.signal = SIGINT;
     process.signal_at = "lag of reuse";
-    const test::Ended ended = test::run_process(process);
+    const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("2 of 2 rows, while their lag was measured"));
     const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
@@ -188,11 +191,11 @@ TEST_F(Cli, CompareInterruptedDuringLagKeepsItsRows) {
 
 TEST_F(Cli, InterruptedRenderKeepsTheOldPicture) {
     write("x.png", "old");
-    test::Start process = start({"render", "-o", "x.png", "--size", "32x32", "--frames", "100000",
-                                 "--technique", "reuse", "--progress", "always"});
+    test::ProcessStart process = start({"render", "-o", "x.png", "--size", "32x32", "--frames",
+                                        "100000", "--technique", "reuse", "--progress", "always"});
     process.signal = SIGINT;
     process.signal_at = "reuse";
-    const test::Ended ended = test::run_process(process);
+    const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     EXPECT_EQ(read("x.png"), "old");
 }

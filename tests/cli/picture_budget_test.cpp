@@ -70,7 +70,7 @@ std::string exr(std::uint32_t last_x, std::uint32_t last_y, const std::string& m
 class PictureBudget : public Cli {
 protected:
     void expect_cheap(const Words& words, const std::string& says) const {
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         expect_ended(ended, 65, {says});
         EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
         EXPECT_LT(ended.peak_bytes, kMostBytes) << words[1];
@@ -118,7 +118,7 @@ TEST_F(PictureBudget, TooLargeEnvironmentIsRefusedBeforeDecoding) {
 
 TEST_F(PictureBudget, MaskOfAnotherSizeIsRefusedBeforeDecoding) {
     write("mask.png", png(8192, 8192, 196'000));
-    const test::Ended made = cli(
+    const test::ProcessResult made = cli(
         quick({"render", "cornell-mirrors", "--technique", "reuse", "-o", "a.png"}));
     ASSERT_EQ(made.exit_code, 0) << made.err;
     expect_cheap({"diff", "a.png", "a.png", "--mask", "mask.png"},

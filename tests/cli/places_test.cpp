@@ -116,7 +116,8 @@ TEST_F(Places, TwoOutputsInTheSameFileAreRefused) {
 /// The file to which the shell redirects stdout counts as an output if the program prints its
 /// result, as with `--json`.
 TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
-    test::Start process = start(render("room.obj", {"-o", "x.png", "--trace", "t.json", "--json"}));
+    test::ProcessStart process = start(
+        render("room.obj", {"-o", "x.png", "--trace", "t.json", "--json"}));
     process.out_path = (folder / "t.json").string();
     expect_ended(test::run_process(process), 2, {"t.json", "the same file as /dev/stdout"});
     process = start(render("room.obj", {"-o", "x.png", "--trace", "t.json"}));
@@ -127,7 +128,8 @@ TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
 /// Two outputs may both name /dev/null.
 TEST_F(Places, DeviceFileMayBeNamedForTwoOutputs) {
     fs::create_symlink("/dev/null", folder / "null.png");
-    const test::Ended ended = cli(render("room.obj", {"-o", "null.png", "--trace", "/dev/null"}));
+    const test::ProcessResult ended = cli(
+        render("room.obj", {"-o", "null.png", "--trace", "/dev/null"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }
 

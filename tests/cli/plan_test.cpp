@@ -12,8 +12,9 @@ using Json = nlohmann::json;
 constexpr const char* kMixed = "1=reuse:face=16 2=hybrid:face=16 *=raytrace:shadow=map";
 
 TEST_F(Cli, RenderJsonContainsThePlanThatWasDrawn) {
-    const test::Ended ended = cli({"render", "--plan", kMixed, "--size", "16x16", "--frames", "1",
-                                   "--warmup", "0", "-o", "p.png", "--json"});
+    const test::ProcessResult ended = cli({"render", "--plan", kMixed, "--size", "16x16",
+                                           "--frames", "1", "--warmup", "0", "-o", "p.png",
+                                           "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json document = Json::parse(ended.out);
     EXPECT_EQ(document["technique"], "plan");
@@ -33,9 +34,9 @@ TEST_F(Cli, RenderJsonContainsThePlanThatWasDrawn) {
     EXPECT_EQ(plan[3]["why"], "rule '*'");
     // The JSON that `render` prints can be given to `--plan` and draws the same picture.
     std::ofstream(folder / "saved.json") << document.dump();
-    const test::Ended again = cli({"render", "--plan", (folder / "saved.json").string(), "--size",
-                                   "16x16", "--frames", "1", "--warmup", "0", "-o", "q.png",
-                                   "--json"});
+    const test::ProcessResult again = cli({"render", "--plan", (folder / "saved.json").string(),
+                                           "--size", "16x16", "--frames", "1", "--warmup", "0",
+                                           "-o", "q.png", "--json"});
     ASSERT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(Json::parse(again.out)["mean"], document["mean"]);
 }
@@ -46,7 +47,7 @@ TEST_F(Cli, AutoReportsAPlanThatDrawsTheSamePicture) {
     const Words size{"--size", "48x48", "--frames", "1", "--warmup", "1", "--json"};
     const auto render = [&](Words words) {
         words.insert(words.end(), size.begin(), size.end());
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return Json::parse(ended.out);
     };
@@ -64,13 +65,14 @@ TEST_F(Cli, AutoReportsAPlanThatDrawsTheSamePicture) {
     EXPECT_EQ(plan[12]["name"], "left panel");
     render({"render", "gallery", "--plan", rules, "-o", "b.exr"});
     EXPECT_EQ(read("a.exr"), read("b.exr"));
-    const test::Ended list = cli({"list", "techniques"});
+    const test::ProcessResult list = cli({"list", "techniques"});
     EXPECT_NE(list.out.find("\nauto  "), std::string::npos);
 }
 
 /// If a technique cannot draw a mirror, its row of the table and stderr say so.
 TEST_F(Cli, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
-    const test::Ended ended = cli(quick({"compare", "-o", "out", "--techniques", "planar"}));
+    const test::ProcessResult ended = cli(
+        quick({"compare", "-o", "out", "--techniques", "planar"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const std::string said = "not flat, drawn by reuse";
     EXPECT_NE(ended.err.find("planar: mirrors 1 'ball1', 2 'ball2', 3 'ball3' and 1 more: " + said),
@@ -88,9 +90,9 @@ TEST_F(Cli, CompareAcceptsPlansAsRows) {
     std::ofstream(folder / "mixed.json") << R"([{"mirror": "ball1,2", "technique": "reuse:face=16"},
                {"mirror": "*", "technique": "raytrace:capture=none"}])";
     const std::string file = "plan:" + (folder / "mixed.json").string();
-    const test::Ended ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames", "1",
-                                   "--warmup", "1", "--causes", "--techniques", "reuse:face=16",
-                                   file, kMixed, "--json"});
+    const test::ProcessResult ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames",
+                                           "1", "--warmup", "1", "--causes", "--techniques",
+                                           "reuse:face=16", file, kMixed, "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json rows = Json::parse(ended.out)["rows"];
     ASSERT_EQ(rows.size(), 3u);
@@ -110,8 +112,9 @@ TEST_F(Cli, CompareAcceptsPlansAsRows) {
 
 TEST_F(Cli, ModelRequiredDrawsTheSamePictureAsModelEverything) {
     for (const char* model : {"everything", "required"}) {
-        const test::Ended ended = cli({"render", "--plan", kMixed, "--size", "16x16", "--model",
-                                       model, "-o", std::string(model) + ".exr", "--json"});
+        const test::ProcessResult ended = cli({"render", "--plan", kMixed, "--size", "16x16",
+                                               "--model", model, "-o", std::string(model) + ".exr",
+                                               "--json"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_EQ(Json::parse(ended.out)["model"], model);
         EXPECT_TRUE(Json::parse(ended.out)["left_out"].is_array());
@@ -123,9 +126,9 @@ TEST_F(Cli, ModelRequiredDrawsTheSamePictureAsModelEverything) {
 }
 
 TEST_F(Cli, CompareWithModelBothHasARowForEachModel) {
-    const test::Ended ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames", "6",
-                                   "--model", "both", "--techniques", "parallax:face=16",
-                                   "raytrace", "--json"});
+    const test::ProcessResult ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames",
+                                           "6", "--model", "both", "--techniques",
+                                           "parallax:face=16", "raytrace", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json document = Json::parse(ended.out);
     EXPECT_EQ(document["model"], "both");

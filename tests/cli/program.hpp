@@ -17,13 +17,13 @@ class Cli : public test::InFolder {
 protected:
     using Words = std::vector<std::string>;
 
-    test::Start start(const Words& words) const {
-        test::Start start{.command = {CATOPTRIC_CLI}};
+    test::ProcessStart start(const Words& words) const {
+        test::ProcessStart start{.command = {CATOPTRIC_CLI}};
         start.command.insert(start.command.end(), words.begin(), words.end());
         start.folder = folder;
         return start;
     }
-    test::Ended cli(const Words& words) const { return test::run_process(start(words)); }
+    test::ProcessResult cli(const Words& words) const { return test::run_process(start(words)); }
 
     /// Appends options for one small and quick frame to the command line of a verb that renders.
     static Words quick(Words words) {
@@ -36,7 +36,7 @@ protected:
     void expect_refused(const Words& words, int exit_code, const Words& parts) const {
         expect_ended(cli(words), exit_code, parts);
     }
-    static void expect_ended(const test::Ended& ended, int exit_code, const Words& parts) {
+    static void expect_ended(const test::ProcessResult& ended, int exit_code, const Words& parts) {
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         EXPECT_EQ(ended.out, "");
         EXPECT_THAT(ended.err, testing::StartsWith("catoptric: "));

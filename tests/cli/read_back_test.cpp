@@ -37,9 +37,9 @@ void expect_near(const json& found, const std::vector<double>& wanted) {
 }
 
 TEST_F(Cli, RenderReportsThePicturesMeanAndThePassesTimes) {
-    const test::Ended ended = cli({"render", "--technique", "parallax:face=32", "-o", "x.exr",
-                                   "--size", "48x32", "--frames", "3", "--warmup", "1", "--trace",
-                                   "t.json", "--json"});
+    const test::ProcessResult ended = cli({"render", "--technique", "parallax:face=32", "-o",
+                                           "x.exr", "--size", "48x32", "--frames", "3", "--warmup",
+                                           "1", "--trace", "t.json", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
     const Picture picture = read_picture(folder / "x.exr");
@@ -118,7 +118,7 @@ TEST_F(Cli, DiffWithAnEmptyMaskFailsEveryThreshold) {
               0);
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.exr"})).exit_code, 0);
     for (const std::string option : {"--max-flip", "--max-rmse"}) {
-        const test::Ended ended = cli(
+        const test::ProcessResult ended = cli(
             {"diff", "a.exr", "a.exr", "--mask", "black.png", option, "1"});
         EXPECT_EQ(ended.exit_code, 1) << option;
         EXPECT_THAT(ended.err, testing::HasSubstr("nan is over " + option + " 1"));

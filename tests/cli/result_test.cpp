@@ -9,7 +9,7 @@ using nlohmann::json;
 
 TEST_F(Cli, ListJsonIsValid) {
     for (const std::string kind : {"techniques", "scenes", "devices", "metrics"}) {
-        const test::Ended ended = cli({"list", kind, "--json"});
+        const test::ProcessResult ended = cli({"list", kind, "--json"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         const json document = json::parse(ended.out);
         EXPECT_FALSE(document[kind].empty()) << kind;
@@ -102,7 +102,7 @@ TEST_F(Cli, SeededCameraCanBeRepeatedFromItsPrintedText) {
     const auto render = [&](const std::string& picture, const Words& more) {
         Words words{"render", "--technique", "parallax:face=32", "-o", picture};
         words.insert(words.end(), more.begin(), more.end());
-        const test::Ended ended = cli(quick(words));
+        const test::ProcessResult ended = cli(quick(words));
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return ended.err;
     };
@@ -122,7 +122,7 @@ TEST_F(Cli, SeededCameraCanBeRepeatedFromItsPrintedText) {
 }
 
 TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
-    const test::Ended ended = cli(
+    const test::ProcessResult ended = cli(
         quick({"render", "--technique", "naive:bounces=1", "--model", "everything", "-o", "x.exr",
                "--trace", "t.json", "--json"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -145,8 +145,9 @@ TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
 /// `--profile FILE` writes the JSON that `--json` prints. The option also turns on the timing of
 /// frames.
 TEST_F(Cli, RenderProfileFileEqualsItsJson) {
-    const test::Ended ended = cli({"render", "flat", "--technique", "reuse:face=16", "--size",
-                                   "16x16", "-o", "x.png", "--profile", "p.json", "--json"});
+    const test::ProcessResult ended = cli({"render", "flat", "--technique", "reuse:face=16",
+                                           "--size", "16x16", "-o", "x.png", "--profile", "p.json",
+                                           "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(read("p.json"), ended.out);
     const json document = json::parse(ended.out);
@@ -167,7 +168,7 @@ TEST_F(Cli, RenderOfAStillSceneStopsWhenFramesStopChanging) {
         Words words{"render", "--technique", technique, "--size", "48x48", "--time", "1.3"};
         words.insert(words.end(), {"--camera", "300,300,545:300,90,200:75", "--json"});
         words.insert(words.end(), more.begin(), more.end());
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     };
@@ -194,14 +195,14 @@ TEST_F(Cli, PixelsThatAreNotFiniteAreReported) {
     EXPECT_THAT(cli(render).err, testing::HasSubstr("pixels are not finite"));
     Words compare = quick({"compare", "-o", "out", "--techniques", "raytrace"});
     compare.insert(compare.end(), too_bright.begin(), too_bright.end());
-    const test::Ended ended = cli(compare);
+    const test::ProcessResult ended = cli(compare);
     EXPECT_EQ(ended.exit_code, 70);
     EXPECT_THAT(ended.err, testing::HasSubstr("'raytrace' has "));
     EXPECT_TRUE(std::filesystem::exists(folder / "out/report.json"));
 }
 
 TEST_F(Cli, QuietRenderPrintsNothing) {
-    const test::Ended ended = cli(
+    const test::ProcessResult ended = cli(
         quick({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_EQ(ended.err, "");
@@ -245,7 +246,7 @@ TEST_F(Cli, GraphWhyListsTheCapturesThatAPictureRequires) {
     EXPECT_EQ(document["schema"], "catoptric/why/1");
     EXPECT_EQ(document["mirrors"][0]["faces"].size(), 5u);
     EXPECT_EQ(document["left_out"][0]["error"], 0);
-    const test::Ended dot = cli({"graph", "flat", "--why", "--format", "dot"});
+    const test::ProcessResult dot = cli({"graph", "flat", "--why", "--format", "dot"});
     EXPECT_EQ(dot.exit_code, 2);
     EXPECT_THAT(dot.err, testing::HasSubstr("--why: wanted --format text or json, found dot"));
 }
@@ -287,10 +288,10 @@ TEST_F(Cli, DiffIsZeroForEqualPicturesOnly) {
     EXPECT_GT(other["longest_line"], 0.0);
     EXPECT_THAT(cli({"diff", "a.exr", "b.exr"}).out,
                 testing::AllOf(testing::HasSubstr("rmse"), testing::HasSubstr("longest_line")));
-    const test::Ended flip = cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
+    const test::ProcessResult flip = cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
     EXPECT_EQ(flip.exit_code, 1);
     EXPECT_THAT(flip.err, testing::HasSubstr("over --max-flip 0.0001"));
-    const test::Ended rmse = cli(
+    const test::ProcessResult rmse = cli(
         {"diff", "a.exr", "b.exr", "--max-rmse", "0.0001", "--max-flip", "1"});
     EXPECT_EQ(rmse.exit_code, 1);
     EXPECT_THAT(rmse.err, testing::HasSubstr("over --max-rmse 0.0001"));
@@ -322,7 +323,7 @@ TEST_F(Cli, DiffRefusesPicturesOfDifferentSizes) {
 TEST_F(Cli, CompareWritesReportFilesAndPrintsTheTable) {
     const Words words = quick(
         {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
-    const test::Ended ended = cli(words);
+    const test::ProcessResult ended = cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     for (const char* part : {"naive:bounces=1", "reuse", "raytrace:depth=16", "rmse", "flip"})
         EXPECT_THAT(ended.out, testing::HasSubstr(part));
@@ -336,8 +337,9 @@ TEST_F(Cli, CompareWritesReportFilesAndPrintsTheTable) {
 }
 
 TEST_F(Cli, CompareJsonEqualsTheReportFile) {
-    const test::Ended ended = cli(quick({"compare", "-o", "out", "--json", "--together",
-                                         "--techniques", "reuse:face=32", "raytrace:depth=1"}));
+    const test::ProcessResult ended = cli(
+        quick({"compare", "-o", "out", "--json", "--together", "--techniques", "reuse:face=32",
+               "raytrace:depth=1"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(json::parse(ended.out), json::parse(read("out/report.json")));
 }
@@ -370,7 +372,7 @@ TEST_F(Cli, CompareReportsLagIfAsked) {
     write("two.mtl", "newmtl mirror\nillum 3\nKs 1 1 1\nnewmtl lamp\nKe 5 5 5\n");
     Words words = quick({"compare", "two.obj", "-o", "out", "--lag", "--json", "--techniques",
                          "reuse:face=16", "raytrace"});
-    const test::Ended ended = cli(words);
+    const test::ProcessResult ended = cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json lag = json::parse(ended.out)["lag"];
     EXPECT_EQ(lag["without_history"], json::array({"raytrace"}));
@@ -386,7 +388,7 @@ TEST_F(Cli, CompareReportsLagIfAsked) {
 }
 
 TEST_F(Cli, CompareGivesNoValidationMessages) {
-    const test::Ended ended = cli(quick(
+    const test::ProcessResult ended = cli(quick(
         {"compare", "-o", "out", "--validate", "--techniques", "parallax:face=32", "raytrace"}));
     if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -81,7 +81,7 @@ TEST_F(SceneFile, CostOfManyMirrorsIsReported) {
                 testing::HasSubstr("catoptric: warning: " + sentence + "\n"));
     const Json info = Json::parse(cli({"info", "x.gltf", "--json", "--mirror", "m*"}).out);
     EXPECT_THAT(info["warnings"], testing::Contains(Json(sentence)));
-    const test::Ended compared = cli(quick(
+    const test::ProcessResult compared = cli(quick(
         {"compare", "x.gltf", "--mirror", "m*", "--techniques", "reuse:face=1", "-o", "out"}));
     EXPECT_EQ(compared.exit_code, 0) << compared.err;
     EXPECT_THAT(Json::parse(read("out/report.json"))["warnings"],
@@ -96,13 +96,13 @@ TEST_F(SceneFile, NamesPrintNoTerminalControlCharacters) {
     write(evil + ".obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no " + evil + "\nusemtl " + evil +
                              "\nf 1 2 3\nf 1 1 2\n" + evil + " 1\n");
     write("m.mtl", "newmtl " + evil + "\nillum 3\nKs 1 1 1\n" + evil + "\n");
-    const test::Ended render_it = cli(render(evil + ".obj"));
+    const test::ProcessResult render_it = cli(render(evil + ".obj"));
     EXPECT_EQ(render_it.exit_code, 0) << render_it.err;
     EXPECT_THAT(render_it.err, testing::HasSubstr("\\x1b[2J"));
     EXPECT_TRUE(is_plain(render_it.err));
     EXPECT_TRUE(is_plain(cli(render(evil + ".gltf")).err));
 
-    const test::Ended compare = cli(
+    const test::ProcessResult compare = cli(
         quick({"compare", evil + ".obj", "-o", "out", "--techniques", "reuse"}));
     EXPECT_EQ(compare.exit_code, 0) << compare.err;
     EXPECT_TRUE(is_plain(compare.out)) << compare.out;

@@ -36,9 +36,9 @@ TEST_F(Cli, InvalidSequenceNameIsRefused) {
 }
 
 TEST_F(Cli, RenderOfASequenceWritesOnePicturePerFrame) {
-    const test::Ended ended = cli({"render", "--technique", "reuse:face=16", "--animate",
-                                   "--frames", "3", "--warmup", "2", "--size", "32x32", "-o",
-                                   "s_{n:3}.png"});
+    const test::ProcessResult ended = cli({"render", "--technique", "reuse:face=16", "--animate",
+                                           "--frames", "3", "--warmup", "2", "--size", "32x32",
+                                           "-o", "s_{n:3}.png"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     std::set<std::string> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
@@ -63,7 +63,7 @@ TEST_F(Cli, SequenceThatWouldOverwriteASceneFileIsRefused) {
     write("2.png", "mine");
     write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
     write("t.mtl", "newmtl m\nmap_Kd 2.png\n");
-    const test::Ended ended = cli(
+    const test::ProcessResult ended = cli(
         {"render", "t.obj", "--technique", "reuse", "--frames", "3", "-o", "%d.png"});
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_EQ(read("2.png"), "mine");
@@ -79,7 +79,7 @@ TEST_F(Cli, MoreRoundsThanFramesAreRefused) {
 TEST_F(Cli, CompareReportsTenthsOfProgressIfStderrIsNoTerminal) {
     const Words words = quick({"compare", "-o", "out", "--techniques", "naive:bounces=0",
                                "reuse:face=16", "parallax:face=16"});
-    const test::Ended ended = cli(words);
+    const test::ProcessResult ended = cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     for (const char* part : {"30 % done", "60 % done", "left"})
         EXPECT_THAT(ended.err, HasSubstr(part));

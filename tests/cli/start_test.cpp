@@ -13,15 +13,15 @@ protected:
     static constexpr const char* kLibrary = "libOpenImageIO.so";
 
     /// Runs the program so that the dynamic linker prints the libraries that it loads to stderr.
-    test::Ended traced(const Words& words) const {
-        test::Start asked = start(words);
+    test::ProcessResult traced(const Words& words) const {
+        test::ProcessStart asked = start(words);
         asked.environment = {{"LD_DEBUG", "files"}};
         return test::run_process(asked);
     }
     /// Writes a.exr. The program needs OpenImageIO to read OpenEXR files, but not to read PNG
     /// files.
     void write_picture() const {
-        const test::Ended ended = test::run_process(start(quick(
+        const test::ProcessResult ended = test::run_process(start(quick(
             {"render", "--technique", "raytrace:depth=0,shadow=none", "--quiet", "-o", "a.exr"})));
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
     }
@@ -29,7 +29,7 @@ protected:
 
 TEST_F(Start, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
     const auto expect_none = [&](const Words& words) {
-        const test::Ended ended = traced(words);
+        const test::ProcessResult ended = traced(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_THAT(ended.err, HasSubstr("libstdc++.so")) << "nothing was traced";
         EXPECT_THAT(ended.err, Not(HasSubstr(kLibrary))) << words.front();
@@ -38,7 +38,7 @@ TEST_F(Start, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
     expect_none(quick({"render", "--technique", "raytrace:depth=0,shadow=none", "-o", "a.png"}));
     expect_none({"diff", "a.png", "a.png"});
     write_picture();
-    const test::Ended reading = traced({"diff", "a.exr", "a.exr"});
+    const test::ProcessResult reading = traced({"diff", "a.exr", "a.exr"});
     EXPECT_EQ(reading.exit_code, 0) << reading.err;
     EXPECT_THAT(reading.err, HasSubstr(kLibrary));
 }
@@ -49,7 +49,7 @@ TEST_F(Start, NoMemoryForOpenImageIoExitsWith75) {
     GTEST_SKIP() << "the sanitizer itself takes address space without end";
 #endif
     write_picture();
-    test::Start limited = start({"diff", "a.exr", "a.exr"});
+    test::ProcessStart limited = start({"diff", "a.exr", "a.exr"});
     limited.memory_limit = 400 << 20;
     expect_ended(test::run_process(limited), 75, {"no memory for OpenImageIO", "ulimit -v"});
 }
@@ -66,14 +66,14 @@ protected:
         fs::create_hard_link(CATOPTRIC_CLI, program, other_disk);
         if (other_disk) fs::copy_file(CATOPTRIC_CLI, program);
     }
-    test::Ended installed(const Words& words) const {
-        test::Start asked = start(words);
+    test::ProcessResult installed(const Words& words) const {
+        test::ProcessStart asked = start(words);
         asked.command.front() = program.string();
         asked.environment = {{"VK_DRIVER_FILES", "/none"}}; // no driver is needed
         return test::run_process(asked);
     }
     void expect_missing(const Words& words, const Words& parts) const {
-        const test::Ended ended = installed(words);
+        const test::ProcessResult ended = installed(words);
         expect_ended(ended, 70, parts);
         expect_ended(ended, 70,
                      {"pictures cannot be read or written: ",

@@ -9,7 +9,7 @@ TEST_F(Cli, StressReportsMeasuredValuesAndThresholds) {
     const std::vector<std::string> ids{"N4", "N10", "C8"};
     Words words{"stress", "-o", "out", "--json", "--size", "64x64", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
-    const test::Ended ended = cli(words);
+    const test::ProcessResult ended = cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     const json document = json::parse(ended.out);
     EXPECT_EQ(document["schema"], "catoptric/stress/1");
@@ -36,7 +36,7 @@ TEST_F(Cli, StressDrawsItsScenesFromTheSeed) {
 }
 
 TEST_F(Cli, StressReportsQualityWarningsWithoutFailing) {
-    const test::Ended ended = cli({"stress", "--size", "32x32", "--only", "C5"});
+    const test::ProcessResult ended = cli({"stress", "--size", "32x32", "--only", "C5"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     EXPECT_THAT(ended.out, testing::HasSubstr("quality-warning"));
     expect_refused({"stress", "--only", "N99"}, 2, {"N99", "did you mean"});

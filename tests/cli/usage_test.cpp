@@ -5,7 +5,7 @@
 namespace {
 
 TEST_F(Cli, CallWithoutArgumentsShowsHelp) {
-    const test::Ended ended = cli({});
+    const test::ProcessResult ended = cli({});
     EXPECT_EQ(ended.exit_code, 2);
     EXPECT_EQ(ended.out, "");
     EXPECT_THAT(ended.err, testing::HasSubstr("compare"));
@@ -15,7 +15,7 @@ TEST_F(Cli, HelpOfEveryVerbHasExamples) {
     EXPECT_EQ(cli({"--help"}).exit_code, 0);
     for (const std::string verb :
          {"compare", "stress", "render", "diff", "graph", "list", "info"}) {
-        const test::Ended ended = cli({verb, "--help"});
+        const test::ProcessResult ended = cli({verb, "--help"});
         EXPECT_EQ(ended.exit_code, 0) << verb;
         EXPECT_EQ(ended.err, "");
         EXPECT_THAT(ended.out, testing::HasSubstr("Example")) << verb;
@@ -61,7 +61,7 @@ TEST_F(Cli, HelpNamesEveryCommonOption) {
 }
 
 TEST_F(Cli, VersionOptionPrintsNumberAndCommit) {
-    const test::Ended ended = cli({"--version"});
+    const test::ProcessResult ended = cli({"--version"});
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.out, testing::MatchesRegex("catoptric 0\\.1\\.0 \\([0-9a-z]+\\)\n"));
 }
@@ -113,7 +113,7 @@ TEST_F(Cli, ParserErrorsUseTheProgramsOwnWording) {
         {{"diff", "a.png"}, "wanted B, picture of the same size, found nothing"},
         {{"list"}, "found nothing"}};
     for (const auto& [words, message] : cases) {
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         expect_ended(ended, 2, {message, "(try 'catoptric " + words.front() + " --help')"});
         for (const char* raw : {"required", "missing", "At Most", "Could not convert", "Should be"})
             EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr(raw))) << words.front();

@@ -21,15 +21,15 @@ protected:
                              "--seed", seed, "--json"});
         words.emplace_back("--techniques");
         words.insert(words.end(), techniques.begin(), techniques.end());
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
     /// Renders the picture of a view with the camera and time that the report states for the view.
     void render(const json& view, const std::string& technique, const std::string& file) const {
-        const test::Ended ended = cli({"render", "--technique", technique, "-o", file, "--size",
-                                       "32x32", "--camera", view["camera"]["name"], "--time",
-                                       fmt::format("{}", view["time"].get<double>())});
+        const test::ProcessResult ended = cli(
+            {"render", "--technique", technique, "-o", file, "--size", "32x32", "--camera",
+             view["camera"]["name"], "--time", fmt::format("{}", view["time"].get<double>())});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
     }
 };
@@ -106,7 +106,7 @@ TEST_F(DrawnViews, ViewsAreDrawnFromTheSeedAndSeeAMirror) {
 
 /// With `--views 1`, the report has no drawn views and no pictures of worst views.
 TEST_F(DrawnViews, ReportHasNoDrawnViewsUnlessAsked) {
-    const test::Ended ended = cli(quick(
+    const test::ProcessResult ended = cli(quick(
         {"compare", "-o", "out", "--json", "--views", "1", "--techniques", "naive:bounces=0"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(json::parse(ended.out)["views"], json::array());

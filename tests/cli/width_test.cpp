@@ -8,8 +8,8 @@ class Width : public Cli {
 protected:
     /// Runs `info` with LP_NATIVE_VECTOR_WIDTH set to `width`, unless empty. The driver keeps
     /// compiled shaders in the folder `cache`.
-    test::Ended info(const std::string& width, const std::string& cache) const {
-        test::Start asked = start({"info", "--json"});
+    test::ProcessResult info(const std::string& width, const std::string& cache) const {
+        test::ProcessStart asked = start({"info", "--json"});
         asked.environment = {{"MESA_SHADER_CACHE_DIR", (folder / cache).string()}};
         if (!width.empty()) asked.environment["LP_NATIVE_VECTOR_WIDTH"] = width;
         return test::run_process(asked);
@@ -20,14 +20,14 @@ protected:
         if (driver.find("llvmpipe Mesa 22.") == std::string::npos)
             GTEST_SKIP() << "another driver: " << driver;
     }
-    static int lanes(const test::Ended& ended) {
+    static int lanes(const test::ProcessResult& ended) {
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return nlohmann::json::parse(ended.out)["device"]["lanes"].get<int>();
     }
 };
 
 TEST_F(Width, VectorWidthIsCountedByADispatch) {
-    const test::Ended wide = info("256", "wide"), narrow = info("128", "narrow");
+    const test::ProcessResult wide = info("256", "wide"), narrow = info("128", "narrow");
     EXPECT_EQ(lanes(wide), 8);
     EXPECT_EQ(lanes(narrow), 4);
     EXPECT_EQ(wide.err + narrow.err, "");
@@ -37,7 +37,7 @@ TEST_F(Width, VectorWidthIsCountedByADispatch) {
 /// program must report the width that runs.
 TEST_F(Width, VectorWidthOtherThanAskedForGivesAWarning) {
     EXPECT_EQ(lanes(info("256", "shared")), 8);
-    const test::Ended stale = info("128", "shared");
+    const test::ProcessResult stale = info("128", "shared");
     EXPECT_EQ(lanes(stale), 8);
     EXPECT_THAT(stale.err, testing::HasSubstr("warning: LP_NATIVE_VECTOR_WIDTH asks for vectors of "
                                               "128 bits, the driver runs code of 256 bits"));
@@ -46,7 +46,7 @@ TEST_F(Width, VectorWidthOtherThanAskedForGivesAWarning) {
 /// A vector width for which the driver's code crashes is refused before the device is opened.
 TEST_F(Width, UnsupportedVectorWidthIsRefused) {
     for (const std::string width : {"512", "64", "1024", "0", "0x200", "-1"}) {
-        test::Start asked = start(
+        test::ProcessStart asked = start(
             {"render", "--technique", "hybrid:face=16", "--size", "16x16", "-o", "x.png"});
         asked.environment = {{"MESA_SHADER_CACHE_DIR", (folder / "cold").string()},
                              {"LP_NATIVE_VECTOR_WIDTH", width}};

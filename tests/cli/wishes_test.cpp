@@ -22,7 +22,7 @@ protected:
     json info(const Words& more = {}) const {
         Words words{"info", "x.obj", "--json", "--size", "64x64"};
         words.insert(words.end(), more.begin(), more.end());
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
@@ -80,7 +80,7 @@ TEST_F(SceneOverrides, InfoShowsAMirrorThatWasChosenByName) {
 
 /// Without `--json`, `info` prints the same facts as text.
 TEST_F(SceneOverrides, InfoTextShowsSceneMirrorsAndGaps) {
-    const test::Ended ended = cli({"info", "x.obj", "--size", "64x64", "--mirror", "tin"});
+    const test::ProcessResult ended = cli({"info", "x.obj", "--size", "64x64", "--mirror", "tin"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, StartsWith("scene        x, hash "));
     for (const char* words : {"triangles    4 shown, 4 stored", "environment  studio",
@@ -109,7 +109,7 @@ TEST_F(SceneOverrides, AutomaticExposureUsesTheGivenCamera) {
     Words words{"render", "x.obj",    "--technique", "raytrace", "--size", "64x64",
                 "--json", "--frames", "1",           "-o",       "x.png"};
     words.insert(words.end(), floor.begin(), floor.end());
-    const test::Ended rendered = cli(words);
+    const test::ProcessResult rendered = cli(words);
     EXPECT_EQ(rendered.exit_code, 0) << rendered.err;
     EXPECT_EQ(json::parse(rendered.out)["exposure"], by_info["exposure"]);
     Words text{"info", "x.obj", "--size", "64x64"};
@@ -124,7 +124,7 @@ TEST_F(SceneOverrides, OverrideFileBesideTheSceneIsRead) {
     EXPECT_EQ(json::parse(read("x.obj.catoptric.json")),
               json::parse(R"({"mirrors": ["tin=0.5"], "environment": "studio", "exposure": 1.0,
                               "camera": "0,1,9:0,1,0:30"})"));
-    const test::Ended again = cli(write_it);
+    const test::ProcessResult again = cli(write_it);
     EXPECT_EQ(again.exit_code, 73);
     EXPECT_THAT(again.err,
                 HasSubstr("x.obj.catoptric.json: is there already; --force replaces it"));
@@ -169,8 +169,8 @@ TEST_F(SceneOverrides, OutputOverTheOverrideFileIsRefused) {
 }
 
 TEST_F(SceneOverrides, CompareReportsGapsAndOverridesOfTheScene) {
-    const test::Ended ended = cli(quick({"compare", "x.obj", "-o", "out", "--mirror", "tin",
-                                         "--exposure", "-1", "--techniques", "reuse"}));
+    const test::ProcessResult ended = cli(quick({"compare", "x.obj", "-o", "out", "--mirror", "tin",
+                                                 "--exposure", "-1", "--techniques", "reuse"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(read("out/report.json"));
     EXPECT_EQ(document["exposure"], -1);
@@ -191,7 +191,7 @@ TEST_F(SceneOverrides, CompareReportsGapsAndOverridesOfTheScene) {
 TEST_F(SceneOverrides, CompareOfSeveralScenesWritesOneReport) {
     Words words = quick({"compare", "x.obj", "cornell-mirrors", "-o", "out", "--mirror", "*o*",
                          "--techniques", "reuse", "proxy"});
-    const test::Ended ended = cli(words);
+    const test::ProcessResult ended = cli(words);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("x\n"));
     EXPECT_THAT(ended.out, HasSubstr("cornell-mirrors\n"));
@@ -224,8 +224,9 @@ TEST_F(SceneOverrides, CompareOfSeveralScenesWritesOneReport) {
 }
 
 TEST_F(SceneOverrides, CompareOfSeveralScenesPrintsOneJsonDocument) {
-    const test::Ended ended = cli(quick({"compare", "cornell-mirrors", "cornell-mirrors-closed",
-                                         "-o", "out", "--techniques", "proxy", "--json"}));
+    const test::ProcessResult ended = cli(
+        quick({"compare", "cornell-mirrors", "cornell-mirrors-closed", "-o", "out", "--techniques",
+               "proxy", "--json"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(ended.out, read("out/report.json"));
 }

@@ -19,10 +19,10 @@ public:
     }
 
     /// Returns the first hit of each ray. `object` and `steps` of a hit stay 0.
-    std::vector<KernelHit> closest(const std::vector<KernelRay>& rays) const {
-        std::vector<KernelHit> hits(rays.size());
+    std::vector<DeviceHit> closest(const std::vector<DeviceRay>& rays) const {
+        std::vector<DeviceHit> hits(rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const KernelRay& ray = rays[i];
+            const DeviceRay& ray = rays[i];
             RTCRayHit query{};
             query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y,
             query.ray.org_z = ray.origin.z;

@@ -9,7 +9,7 @@ layout(set = 0, binding = 1, std430) readonly buffer Rays { uvec4 rays[]; };  //
 layout(set = 0, binding = 2, std430) writeonly buffer Hits { uvec4 hits[]; }; // t, weights; triangle, object, outcome, steps
 layout(push_constant) uniform Push { uint count; };
 
-const uint kFound = 1u; // value of `outcome` if the ray hits a triangle
+const uint kFoundHitBit = 1u; // value of `outcome` if the ray hits a triangle
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -26,5 +26,5 @@ void main() {
     vec2 weights = rayQueryGetIntersectionBarycentricsEXT(query, true); // weights of the corners b and c
     vec4 hit = vec4(rayQueryGetIntersectionTEXT(query, true), 1.0 - weights.x - weights.y, weights);
     hits[2u * i] = floatBitsToUint(hit);
-    hits[2u * i + 1u] = uvec4(rayQueryGetIntersectionPrimitiveIndexEXT(query, true), 0u, kFound, 0u);
+    hits[2u * i + 1u] = uvec4(rayQueryGetIntersectionPrimitiveIndexEXT(query, true), 0u, kFoundHitBit, 0u);
 }

@@ -205,21 +205,21 @@ void RayQuery::destroy(const Structure& structure) const {
         device_.handle(), structure.handle, nullptr);
 }
 
-std::vector<KernelHit> RayQuery::closest(std::span<const bvh::Triangle> triangles,
-                                         const std::vector<KernelRay>& rays) const {
+std::vector<DeviceHit> RayQuery::closest(std::span<const bvh::Triangle> triangles,
+                                         const std::vector<DeviceRay>& rays) const {
     std::vector<vec3> corners;
     for (const bvh::Triangle& t : triangles) corners.insert(corners.end(), {t.a, t.b, t.c});
     const Memory vertices = device_.make_memory(corners.size() * sizeof(vec3), kBuildInput,
                                                 corners.data());
     const Structure lower = bottom(vertices, static_cast<std::uint32_t>(triangles.size()));
     const Structure upper = top(lower);
-    const Memory in = device_.make_memory(rays.size() * sizeof(KernelRay),
+    const Memory in = device_.make_memory(rays.size() * sizeof(DeviceRay),
                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, rays.data());
-    const Memory out = device_.make_memory(rays.size() * sizeof(KernelHit),
+    const Memory out = device_.make_memory(rays.size() * sizeof(DeviceHit),
                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     trace(upper, in, out, static_cast<std::uint32_t>(rays.size()));
-    std::vector<KernelHit> hits(rays.size());
-    std::memcpy(hits.data(), out.mapped, hits.size() * sizeof(KernelHit));
+    std::vector<DeviceHit> hits(rays.size());
+    std::memcpy(hits.data(), out.mapped, hits.size() * sizeof(DeviceHit));
     destroy(upper);
     destroy(lower);
     return hits;

@@ -14,8 +14,8 @@ public:
     explicit RayQuery(const RayQueryDevice& device);
 
     /// Returns the first hit of each ray. `object` and `steps` of a hit stay 0.
-    std::vector<KernelHit> closest(std::span<const bvh::Triangle> triangles,
-                                   const std::vector<KernelRay>& rays) const;
+    std::vector<DeviceHit> closest(std::span<const bvh::Triangle> triangles,
+                                   const std::vector<DeviceRay>& rays) const;
 
 private:
     struct Structure;

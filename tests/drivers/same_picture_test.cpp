@@ -14,9 +14,9 @@ protected:
     using Environment = std::map<std::string, std::string>;
 
     nlohmann::json json(const Words& words, const Environment& environment) const {
-        test::Start process = start(words);
+        test::ProcessStart process = start(words);
         process.environment = environment;
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return nlohmann::json::parse(ended.out);
     }
@@ -27,9 +27,9 @@ protected:
         Words words = {"compare", "-o",       place, "--size",  "256x256",     "--frames",
                        "1",       "--warmup", "1",   "--quiet", "--techniques"};
         words.insert(words.end(), techniques.begin(), techniques.end());
-        test::Start process = start(words);
+        test::ProcessStart process = start(words);
         process.environment = environment;
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
     }
 };

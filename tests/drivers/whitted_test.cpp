@@ -23,8 +23,8 @@ constexpr float kSame = 1e-3F;
 constexpr std::size_t kMostSensitive = 4;
 
 app::TechniqueResult rendered(const scene::Scene& scene, const std::string& technique) {
-    const app::Request asked = test::request(scene, {technique}, kSize);
-    return std::move(app::run(test::engine(), asked).parts.front());
+    const app::Request asked = test::make_test_request(scene, {technique}, kSize);
+    return std::move(app::run(test::test_engine(), asked).parts.front());
 }
 
 float largest(const vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -51,7 +51,7 @@ std::size_t other_pixels(const measure::Picture& a, const std::vector<peers::Vec
 void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
     const std::string technique = "raytrace:depth=" + std::to_string(depth) +
                                   (exact ? ",sphere=exact" : "");
-    const app::Request asked = test::request(scene, {technique}, kSize);
+    const app::Request asked = test::make_test_request(scene, {technique}, kSize);
     const app::TechniqueResult ours = rendered(scene, technique);
     const std::vector<float> sensitive = sensitivity(ours.hdr,
                                                      rendered(scene, technique + ",hit=f64").hdr);

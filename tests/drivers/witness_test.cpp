@@ -19,9 +19,9 @@ namespace {
 
 using namespace catoptric;
 using test::Batch;
-using test::Kernel;
-using test::KernelHit;
-using test::KernelRay;
+using test::DeviceHit;
+using test::DeviceRay;
+using test::DeviceRayTracer;
 
 constexpr std::size_t kListed = 3; ///< unfounded answers printed per witness and batch
 
@@ -31,7 +31,7 @@ constexpr double kOthersAtEdges = 0.05;
 
 struct Witness {
     std::string name;
-    std::vector<KernelHit> hits;
+    std::vector<DeviceHit> hits;
     std::size_t leaks = 0;      ///< misses from strictly inside a closed mesh
     std::size_t off = 0;        ///< hits outside their triangle by more than rounding errors
     std::size_t at_corners = 0; ///< unfounded answers to rays through a corner
@@ -45,8 +45,8 @@ enum Verdict { kSameTriangle, kSamePlace, kOtherSurface, kHitOrMiss };
 constexpr std::array kVerdicts{"same triangle", "another at the same distance", "another surface",
                                "hit or miss"};
 
-dvec3 start(const KernelRay& ray) { return dvec3(ray.origin); }
-dvec3 along(const KernelRay& ray) { return glm::normalize(dvec3(ray.direction)); }
+dvec3 start(const DeviceRay& ray) { return dvec3(ray.origin); }
+dvec3 along(const DeviceRay& ray) { return glm::normalize(dvec3(ray.direction)); }
 std::array<dvec3, 3> corners(const bvh::Triangle& t) {
     return {dvec3(t.a), dvec3(t.b), dvec3(t.c)};
 }
@@ -58,7 +58,7 @@ dvec3 normal_of(const bvh::Triangle& t) {
     return normal == dvec3(0) ? normal : glm::normalize(normal);
 }
 
-double to_corner(const bvh::Triangle& t, const KernelRay& ray) {
+double to_corner(const bvh::Triangle& t, const DeviceRay& ray) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const dvec3& corner : corners(t))
         nearest = std::min(nearest, glm::length(glm::cross(along(ray), corner - start(ray))));
@@ -67,7 +67,7 @@ double to_corner(const bvh::Triangle& t, const KernelRay& ray) {
 
 /// Returns the signed distances of the ray from the lines along the triangle's edges. All distances
 /// have one sign if the ray passes through the triangle.
-std::array<double, 3> to_edges(const bvh::Triangle& t, const KernelRay& ray) {
+std::array<double, 3> to_edges(const bvh::Triangle& t, const DeviceRay& ray) {
     const auto c = corners(t);
     std::array<double, 3> result{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -79,7 +79,7 @@ std::array<double, 3> to_edges(const bvh::Triangle& t, const KernelRay& ray) {
 
 /// Returns how far rounding errors of floats may move a ray at the triangle. The bound is 16
 /// roundings of the distance to the farthest corner, as in box_ray (shaders/lib/math/ray.glsl).
-double slack(const bvh::Triangle& t, const KernelRay& ray) {
+double slack(const bvh::Triangle& t, const DeviceRay& ray) {
     double reach = 0;
     for (const dvec3& corner : corners(t))
         for (int axis = 0; axis < 3; ++axis)
@@ -89,13 +89,13 @@ double slack(const bvh::Triangle& t, const KernelRay& ray) {
 
 /// Returns the error that roundings may cause in the ray parameter t. The error grows as the angle
 /// between ray and triangle shrinks.
-double slack_of_t(const bvh::Triangle& t, const KernelRay& ray) {
+double slack_of_t(const bvh::Triangle& t, const DeviceRay& ray) {
     return slack(t, ray) / std::abs(glm::dot(normal_of(t), dvec3(ray.direction)));
 }
 
 /// Returns whether a hit is wrong by more than rounding errors. Such a ray passes beside its
 /// triangle, or t is not the parameter at which it meets the triangle's plane.
-bool is_off(const bvh::Triangle& t, const KernelRay& ray, const KernelHit& hit) {
+bool is_off(const bvh::Triangle& t, const DeviceRay& ray, const DeviceHit& hit) {
     const auto [lowest, highest] = std::ranges::minmax(to_edges(t, ray));
     if (std::min(-lowest, highest) > slack(t, ray)) return true;
     const dvec3 normal = normal_of(t);
@@ -105,17 +105,17 @@ bool is_off(const bvh::Triangle& t, const KernelRay& ray, const KernelHit& hit) 
     return std::isfinite(limit) && !(std::abs(double{hit.t} - exact) <= limit);
 }
 
-Verdict verdict(const Batch& batch, const KernelRay& ray, const KernelHit& a, const KernelHit& b) {
-    if (a.found() != b.found()) return kHitOrMiss;
-    if (!a.found() || a.triangle == b.triangle) return kSameTriangle;
+Verdict verdict(const Batch& batch, const DeviceRay& ray, const DeviceHit& a, const DeviceHit& b) {
+    if (a.is_hit() != b.is_hit()) return kHitOrMiss;
+    if (!a.is_hit() || a.triangle == b.triangle) return kSameTriangle;
     const double limit = slack_of_t(batch.triangles[a.triangle], ray) +
                          slack_of_t(batch.triangles[b.triangle], ray);
     return std::abs(double{a.t} - double{b.t}) <= limit ? kSamePlace : kOtherSurface;
 }
 
 /// Returns whether some ray within `distance` of the ray gets the same answer in double precision.
-bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& ray,
-                const KernelHit& answer, double distance) {
+bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const DeviceRay& ray,
+                const DeviceHit& answer, double distance) {
     constexpr int kRings = 12, kAround = 16; // radii from distance / 2048, doubling
     const dvec3 side = glm::normalize(
         glm::cross(along(ray), std::abs(along(ray).x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
@@ -129,7 +129,7 @@ bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& 
             const auto hit = bvh::find_closest_hit<double>(hierarchy,
                                                            {origin, dvec3(ray.direction), 0},
                                                            std::numeric_limits<double>::infinity());
-            KernelHit found;
+            DeviceHit found;
             if (hit)
                 found = {
                     static_cast<float>(hit->t), vec3(hit->barycentric), hit->triangle, 0, 1, 0};
@@ -142,11 +142,11 @@ bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& 
 /// rounding errors at the triangle of the answer, and at nearer triangles that other witnesses hit.
 double distance_allowed(const Batch& batch, const std::vector<Witness>& witnesses,
                         std::size_t which, std::size_t i) {
-    const KernelHit& answer = witnesses[which].hits[i];
+    const DeviceHit& answer = witnesses[which].hits[i];
     double distance = 0;
     for (const Witness& witness : witnesses) {
-        const KernelHit& hit = witness.hits[i];
-        if (hit.found() && (!answer.found() || hit.t <= answer.t))
+        const DeviceHit& hit = witness.hits[i];
+        if (hit.is_hit() && (!answer.is_hit() || hit.t <= answer.t))
             distance = std::max(distance, slack(batch.triangles[hit.triangle], batch.rays[i]));
     }
     return distance;
@@ -155,9 +155,10 @@ double distance_allowed(const Batch& batch, const std::vector<Witness>& witnesse
 void list(const Batch& batch, const std::vector<Witness>& witnesses, std::size_t which,
           std::size_t i) {
     std::cout << "    unfounded: " << witnesses[which].name << ", ray " << i << ": "
-              << test::text(batch.rays[i]) << "\n";
+              << test::format_for_message(batch.rays[i]) << "\n";
     for (const Witness& witness : witnesses)
-        std::cout << "      " << witness.name << ": " << test::text(witness.hits[i]) << "\n";
+        std::cout << "      " << witness.name << ": " << test::format_for_message(witness.hits[i])
+                  << "\n";
 }
 
 /// Counts an unfounded answer of the witness `charged` as near a corner, near an edge, or
@@ -166,7 +167,7 @@ void charge(const Batch& batch, const std::vector<Witness>& witnesses, Witness& 
             std::size_t i) {
     bool at_corner = false, at_edge = false;
     for (const Witness& witness : witnesses) {
-        if (!witness.hits[i].found()) continue;
+        if (!witness.hits[i].is_hit()) continue;
         const bvh::Triangle& t = batch.triangles[witness.hits[i].triangle];
         const double limit = slack(t, batch.rays[i]);
         at_corner = at_corner || to_corner(t, batch.rays[i]) <= limit;
@@ -195,11 +196,12 @@ void judge(const Batch& batch, const bvh::Bvh& hierarchy, std::vector<Witness>& 
 void count_alone(const Batch& batch, Witness& witness) {
     ASSERT_EQ(witness.hits.size(), batch.rays.size());
     for (std::size_t i = 0; i < batch.rays.size(); ++i) {
-        const KernelHit& hit = witness.hits[i];
-        ASSERT_TRUE(!hit.found() || hit.triangle < batch.triangles.size());
-        witness.leaks += batch.inside && !hit.found() ? 1 : 0;
-        witness.off += hit.found() && is_off(batch.triangles[hit.triangle], batch.rays[i], hit) ? 1
-                                                                                                : 0;
+        const DeviceHit& hit = witness.hits[i];
+        ASSERT_TRUE(!hit.is_hit() || hit.triangle < batch.triangles.size());
+        witness.leaks += batch.inside && !hit.is_hit() ? 1 : 0;
+        witness.off += hit.is_hit() && is_off(batch.triangles[hit.triangle], batch.rays[i], hit)
+                           ? 1
+                           : 0;
     }
 }
 
@@ -231,10 +233,11 @@ void compare(const Batch& batch, const bvh::Bvh& hierarchy, std::vector<Witness>
 /// in the planes of triangles.
 void add_closed(std::vector<Batch>& batches, const std::string& name,
                 const test::ClosedMesh& closed, double scale, dvec3 offset,
-                test::Numbers& numbers) {
+                test::RandomNumbers& numbers) {
     constexpr std::size_t kRays = 100000;
-    const std::vector<bvh::Triangle> triangles = test::placed(closed.mesh, scale, offset).value();
-    const std::vector<KernelRay> inside = test::rays_inside(closed, scale, offset, kRays, numbers);
+    const std::vector<bvh::Triangle> triangles =
+        test::place_triangles(closed.mesh, scale, offset).value();
+    const std::vector<DeviceRay> inside = test::rays_inside(closed, scale, offset, kRays, numbers);
     batches.push_back({name + ", from inside", triangles, inside, true});
     batches.push_back({name + ", from inside at edges", triangles,
                        test::turned_to_edges(inside, triangles, numbers), true});
@@ -243,7 +246,7 @@ void add_closed(std::vector<Batch>& batches, const std::string& name,
 }
 
 std::vector<Batch> batches() {
-    test::Numbers numbers(41);
+    test::RandomNumbers numbers(41);
     std::vector<Batch> result;
     const std::vector<bvh::Triangle> scene = test::built_in_scene();
     result.push_back(
@@ -253,12 +256,13 @@ std::vector<Batch> batches() {
          test::turned_to_edges(test::rays_anywhere(scene, 300000, numbers), scene, numbers)});
     result.push_back({"built-in scene, grazing", scene, test::grazing_rays(scene, 300000, numbers),
                       false, true});
-    add_closed(result, "ball", test::ball(), 1, dvec3(0), numbers);
-    add_closed(result, "torus", test::torus(), 1, dvec3(0), numbers);
-    add_closed(result, "room", test::box("room", 1), 1, dvec3(0), numbers);
-    add_closed(result, "corridor", test::box("corridor", 1000), 1, dvec3(0), numbers);
+    add_closed(result, "ball", test::make_closed_ball(), 1, dvec3(0), numbers);
+    add_closed(result, "torus", test::make_closed_torus(), 1, dvec3(0), numbers);
+    add_closed(result, "room", test::make_closed_box("room", 1), 1, dvec3(0), numbers);
+    add_closed(result, "corridor", test::make_closed_box("corridor", 1000), 1, dvec3(0), numbers);
     // Embree's own tests place a ball at this position, where neighbouring floats are 1/64 apart.
-    add_closed(result, "ball far out", test::ball(), 100, dvec3(148376, 1234, -223423), numbers);
+    add_closed(result, "ball far out", test::make_closed_ball(), 100, dvec3(148376, 1234, -223423),
+               numbers);
     return result;
 }
 
@@ -267,19 +271,19 @@ TEST(Witnesses, RayTracersAgreeRayByRay) {
     const std::unique_ptr<test::RayQueryDevice> device = test::RayQueryDevice::open(reason);
     std::optional<test::RayQuery> ray_query;
     if (device) ray_query.emplace(*device);
-    std::cout << "[ MEASURED ] walk on " << test::bench().device.info().driver << ", Embree "
+    std::cout << "[ MEASURED ] walk on " << test::test_device().device.info().driver << ", Embree "
               << RTC_VERSION_STRING << ", " << (device ? "ray query on " + device->name() : reason)
               << "\n";
     std::size_t rays = 0, found = 0;
     for (const Batch& batch : batches()) {
         SCOPED_TRACE(batch.name);
-        Kernel kernel(batch.triangles);
+        DeviceRayTracer kernel(batch.triangles);
         std::vector<Witness> witnesses{
-            {"walk", kernel.closest(batch.rays)},
+            {"walk", kernel.find_closest_hits(batch.rays)},
             {"embree", test::Embree(batch.triangles).closest(batch.rays)}};
         if (ray_query)
             witnesses.push_back({"ray query", ray_query->closest(batch.triangles, batch.rays)});
-        compare(batch, kernel.hierarchy(), witnesses);
+        compare(batch, kernel.bvh_tree(), witnesses);
         EXPECT_EQ(witnesses[0].leaks, 0u);
         EXPECT_EQ(witnesses[0].unfounded(), 0u);
         for (const Witness& witness : witnesses) {
@@ -292,7 +296,7 @@ TEST(Witnesses, RayTracersAgreeRayByRay) {
         rays += batch.rays.size();
         found += static_cast<std::size_t>(
             std::count_if(witnesses[0].hits.begin(), witnesses[0].hits.end(),
-                          [](const KernelHit& h) { return h.found(); }));
+                          [](const DeviceHit& h) { return h.is_hit(); }));
     }
     if (device) {
         EXPECT_THAT(device->messages(), testing::IsEmpty());
@@ -306,7 +310,7 @@ TEST(Witnesses, RayTracersAgreeRayByRay) {
 TEST(Witnesses, RayTracersAgreeOnTheSecondDriver) {
     const auto environment = test::second_driver();
     if (!environment) GTEST_SKIP() << test::kNoSecondDriver;
-    const test::Ended ended = test::run_process(
+    const test::ProcessResult ended = test::run_process(
         {.command = {std::filesystem::read_symlink("/proc/self/exe").string(),
                      "--gtest_filter=Witnesses.RayTracersAgreeRayByRay"},
          .environment = *environment});

@@ -93,7 +93,7 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
     for (const auto& [result, failure] :
          {std::pair{VK_ERROR_DEVICE_LOST, Failure::device_lost},
           std::pair{VK_ERROR_OUT_OF_DEVICE_MEMORY, Failure::exhausted}}) {
-        const std::string said = test::in_child([&] {
+        const std::string said = test::run_in_forked_process([&] {
             WatchedHere here(folder / "calls");
             catoptric::app::Request request;
             request.scene = catoptric::scene::load("cornell-mirrors");

@@ -21,10 +21,10 @@ TEST_F(NoDevice, UnusableDriverFileExitsWith69) {
         R"({"file_format_version": "1.0.0", "ICD": {"library_path": "/none/libnone.so", "api_version": "1.3.0"}})");
     write("garbage.json", "no JSON");
     for (const std::string name : {"missing.json", "none.json", "garbage.json", "."}) {
-        test::Start process = start(words);
+        test::ProcessStart process = start(words);
         for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
             process.environment[variable] = (folder / name).string();
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 69) << name << ": " << ended.err;
         EXPECT_THAT(ended.err, testing::HasSubstr("apt-get install mesa-vulkan-drivers")) << name;
         EXPECT_LT(ended.seconds, kDeviceLongest) << name;
@@ -68,7 +68,8 @@ TEST_F(NoDevice, MissingLayerExtensionOrFeatureExitsWith69) {
         expect_ended(watched.ended, 69, {"Vulkan: cannot ", name});
         EXPECT_EQ(watched.leaks(), "");
     }
-    test::Start process = start({"render", "--technique", "reuse", "-o", "x.png", "--validate"});
+    test::ProcessStart process = start(
+        {"render", "--technique", "reuse", "-o", "x.png", "--validate"});
     process.environment = {{"VK_LAYER_PATH", folder.string()}}; // a folder without layers
     expect_ended(test::run_process(process), 69,
                  {"--validate needs the layer", "apt-get install vulkan-validationlayers"});
@@ -91,7 +92,7 @@ TEST_F(NoDevice, DriverWithoutMemoryExitsWith75) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer itself takes address space without end";
 #endif
-    test::Start process = start(words);
+    test::ProcessStart process = start(words);
     process.memory_limit = 200 << 20; // bytes; the program itself takes 40 MiB
     expect_ended(test::run_process(process), 75, {"no memory for a Vulkan driver", "ulimit -v"});
 }

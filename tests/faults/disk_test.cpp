@@ -110,7 +110,7 @@ TEST_F(Disk, FullDiskKeepsTheOldPictureAndTrace) {
 TEST_F(Disk, FileSizeLimitEndsInAnErrorAndNotASignal) {
     for (const std::string name : {"x.exr", "x.png"}) {
         write(name, "old");
-        test::Start process = start(picture(name));
+        test::ProcessStart process = start(picture(name));
         process.file_limit = 512;
         expect_ended(test::run_process(process), 74, {name, "File too large"});
         EXPECT_EQ(read(name), "old");
@@ -119,7 +119,7 @@ TEST_F(Disk, FileSizeLimitEndsInAnErrorAndNotASignal) {
     write("out/report.json", "old");
     Words words = comparison("out");
     words.insert(words.end(), {"--csv", "all"});
-    test::Start process = start(words);
+    test::ProcessStart process = start(words);
     process.file_limit = 4096; // bytes: pictures are smaller, rows.csv is larger
     expect_ended(test::run_process(process), 74, {"out/rows.csv: ", "File too large"});
     EXPECT_EQ(read("out/report.json"), "old");

@@ -96,7 +96,7 @@ void Faults::SetUp() {
 
 Watched Faults::watch(const Words& words, const std::optional<Fault>& fault,
                       const std::string& place) const {
-    test::Start process = start(words);
+    test::ProcessStart process = start(words);
     process.folder = folder / place;
     const fs::path report = folder / (place == "." ? "calls.txt" : place + ".calls.txt");
     fs::remove(report);

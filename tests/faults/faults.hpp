@@ -22,7 +22,7 @@ struct Count {
 
 /// The result of a run under the fault layer (tests/faults/layer).
 struct Watched {
-    test::Ended ended;
+    test::ProcessResult ended;
     std::map<std::string, Count>
         counts;                   ///< by call; empty if the program crashed or had no fault layer
     int strays = 0;               ///< handles destroyed although they were not alive
@@ -51,8 +51,8 @@ protected:
 };
 
 /// Puts the fault layer over the driver of this process, which must be a child process
-/// (test::in_child). The layer counts calls of each Vulkan instance that is made afterwards. Keeps
-/// the driver loaded.
+/// (test::run_in_forked_process). The layer counts calls of each Vulkan instance that is made
+/// afterwards. Keeps the driver loaded.
 class WatchedHere {
 public:
     explicit WatchedHere(std::filesystem::path report);

@@ -1,6 +1,6 @@
 // Test of a device that is lost while frames are in flight: the wait for a frame reports the loss.
 #include "faults/faults.hpp"
-#include "graph/run.hpp"
+#include "graph/graph_runner.hpp"
 
 namespace {
 
@@ -10,8 +10,8 @@ class LostInFlight : public Faults {};
 
 graph::Graph frame() {
     graph::Graph graph;
-    const graph::ImageHandle image = graph.image({"image", Format::rgba8_unorm, 4, 4});
-    graph.pass("clear it")
+    const graph::ImageHandle image = graph.add_image({"image", Format::rgba8_unorm, 4, 4});
+    graph.add_pass("clear it")
         .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
         .record([](graph::PassCommands&) {});
     graph.mark_output(image);
@@ -29,7 +29,7 @@ std::string what_of(const std::function<void()>& action) {
 
 /// The test submits three frames, and the first wait fails.
 TEST_F(LostInFlight, WaitReportsTheLostDevice) {
-    const std::string said = test::in_child([&] {
+    const std::string said = test::run_in_forked_process([&] {
         WatchedHere here(folder / "calls");
         std::string wrong;
         const Fault fault{"vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST};
@@ -39,11 +39,11 @@ TEST_F(LostInFlight, WaitReportsTheLostDevice) {
             graph::GraphRunner runner(device, pipelines, 3);
             std::vector<graph::FrameTicket> tickets;
             for (int i = 0; i < 3; ++i)
-                tickets.push_back(runner.submit(frame(), graph::PassTiming::isolated));
-            const std::string first = what_of([&] { runner.wait(tickets[1]); });
+                tickets.push_back(runner.submit_frame(frame(), graph::PassTiming::isolated));
+            const std::string first = what_of([&] { runner.wait_for_frame(tickets[1]); });
             if (first.find("run frame 2 (passes 'clear it')") == std::string::npos) wrong += first;
             const std::string next = what_of(
-                [&] { runner.submit(frame(), graph::PassTiming::isolated); });
+                [&] { runner.submit_frame(frame(), graph::PassTiming::isolated); });
             if (next != "the device was given up: " + first) wrong += next;
             if (!device.abandoned()) wrong += "not abandoned";
         });

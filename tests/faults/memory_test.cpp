@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 std::string plan_of(catoptric::app::Engine& engine, const catoptric::app::Request& request) {
     catoptric::app::Session session(engine, request.scene);
-    return catoptric::app::Access::plan(session, request, catoptric::app::PlanFormat::json);
+    return catoptric::app::Access::format_frame_plan(session, request,
+                                                     catoptric::app::PlanFormat::json);
 }
 
 /// Vulkan calls that the engine makes and that may fail for lack of memory. Beside each call is a
@@ -126,8 +127,8 @@ protected:
 /// as an exception, and the next engine of the same process works.
 TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
     // The scene is small, because the whole run is repeated for each call.
-    const catoptric::app::Request request = test::request(
-        test::room(2, 1), {"hybrid:face=16,shadow_map=16"}, {16, 16});
+    const catoptric::app::Request request = test::make_test_request(
+        test::make_lit_room(2, 1), {"hybrid:face=16,shadow_map=16"}, {16, 16});
     const auto render = [&](catoptric::app::Engine& engine) {
         catoptric::app::run(engine, request);
     };
@@ -138,7 +139,7 @@ TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
     };
     constexpr std::size_t kChildren = 2;
     two_at_a_time(kChildren, [&](std::size_t child) {
-        const std::string said = test::in_child([&] {
+        const std::string said = test::run_in_forked_process([&] {
             WatchedHere here(folder / ("calls-" + std::to_string(child)));
             const Watched whole = here.run(std::nullopt, render);
             std::string wrong = whole.ended.err + whole.leaks();
@@ -215,7 +216,7 @@ TEST_F(Memory, FailureOfEachKindOfCallInAComparisonKeepsItsFiles) {
 /// traced. The other part is a buffer of 16
 /// bytes per pixel through which pictures are read.
 TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
-    const std::string said = test::in_child([&] {
+    const std::string said = test::run_in_forked_process([&] {
         constexpr std::uint64_t kCounters = 256; // bytes; counters enlarge the buffer at 1x1
         WatchedHere here(folder / "calls");
         std::map<bool, std::uint64_t> scenes; // bytes without and with a BVH for rays

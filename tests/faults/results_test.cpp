@@ -61,9 +61,9 @@ protected:
 
     /// Sends a signal during the frame of the fifth row, and the same signal again after
     /// `again_after`.
-    test::Ended signalled(int signal, int samples, std::chrono::milliseconds after,
-                          std::chrono::milliseconds again_after) const {
-        test::Start process = start(comparison(8, samples));
+    test::ProcessResult signalled(int signal, int samples, std::chrono::milliseconds after,
+                                  std::chrono::milliseconds again_after) const {
+        test::ProcessStart process = start(comparison(8, samples));
         process.environment["LP_NUM_THREADS"] = "1";
         process.signal = signal;
         process.signal_at = "[5/8]";
@@ -99,7 +99,7 @@ TEST_F(Results, FailureInTheFifthRowKeepsFourFinishedRows) {
 TEST_F(Results, SignalSentTwiceKeepsFinishedRows) {
     for (const auto& [signal, exit_code] : {std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
         fs::remove_all(folder / "out");
-        const test::Ended ended = signalled(signal, 400, 300ms, 50ms);
+        const test::ProcessResult ended = signalled(signal, 400, 300ms, 50ms);
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         const std::string why = "stopped by signal " + std::to_string(signal);
         EXPECT_THAT(ended.err, HasSubstr(why + ", after 4 of 8 rows; what there is lies in out"));
@@ -110,19 +110,19 @@ TEST_F(Results, SignalSentTwiceKeepsFinishedRows) {
 /// The frame of the fifth row would take minutes. The second signal ends the program at once. The
 /// files then hold the finished rows and are marked incomplete.
 TEST_F(Results, SignalRepeatedLaterEndsTheProgramAtOnce) {
-    const test::Ended ended = signalled(SIGTERM, 65536, 2000ms, 1200ms);
+    const test::ProcessResult ended = signalled(SIGTERM, 65536, 2000ms, 1200ms);
     EXPECT_EQ(ended.exit_code, 143);
     EXPECT_THAT(ended.err, testing::Not(HasSubstr("stopped by signal")));
     expect_four_rows("the run had not ended when this was written");
 }
 
 TEST_F(Results, IgnoredSignalStaysIgnored) {
-    test::Start process = start(comparison(2));
+    test::ProcessStart process = start(comparison(2));
     process.command.insert(process.command.begin(),
                            {"/bin/sh", "-c", "trap '' HUP; exec \"$0\" \"$@\""});
     process.signal = SIGHUP;
     process.signal_at = "[1/2]";
-    const test::Ended ended = test::run_process(process);
+    const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["complete"], true);
 }
@@ -133,7 +133,7 @@ TEST_F(Results, InterruptedStressKeepsItsFinishedRows) {
         all.insert(all.end(), ids.begin(), ids.end());
         return all;
     };
-    const auto expect_one_row = [&](const test::Ended& ended, int exit_code,
+    const auto expect_one_row = [&](const test::ProcessResult& ended, int exit_code,
                                     const std::string& why) {
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         EXPECT_THAT(ended.err, HasSubstr(", after 1 of 3 rows; what there is lies in out"));
@@ -145,7 +145,7 @@ TEST_F(Results, InterruptedStressKeepsItsFinishedRows) {
             EXPECT_THAT(read_plain(file), HasSubstr(why)) << file;
         }
     };
-    test::Start process = start(words({"N10", "N1", "N9"}));
+    test::ProcessStart process = start(words({"N10", "N1", "N9"}));
     process.signal = SIGHUP;
     process.signal_at = "[2/3]";
     expect_one_row(test::run_process(process), 129, "stopped by signal 1");

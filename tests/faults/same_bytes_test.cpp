@@ -35,11 +35,11 @@ TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
     two_at_a_time(ways.size(), [&](std::size_t i) {
         const fs::path place = folder / std::to_string(i);
         fs::create_directory(place);
-        test::Start process = start(words);
+        test::ProcessStart process = start(words);
         if (ways[i].validate) process.command.insert(process.command.begin() + 2, "--validate");
         process.folder = place;
         process.environment = {{"LP_NUM_THREADS", ways[i].threads}};
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         for (const auto& entry : fs::directory_iterator(place / "out/images"))
             if (!entry.path().stem().string().ends_with("-error"))

@@ -21,13 +21,13 @@ TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
         for (const std::string at : {"[1/20]", "[3/20]"}) {
             fs::remove_all(folder / "out");
             fs::copy(folder / "old", folder / "out", fs::copy_options::recursive);
-            test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "5",
-                                         "--warmup", "1", "--progress", "always", "--techniques",
-                                         "reuse:face=16", "raytrace:depth=1", "parallax:face=16",
-                                         "raytrace:depth=0"});
+            test::ProcessStart process = start(
+                {"compare", "-o", "out", "--size", "32x32", "--frames", "5", "--warmup", "1",
+                 "--progress", "always", "--techniques", "reuse:face=16", "raytrace:depth=1",
+                 "parallax:face=16", "raytrace:depth=0"});
             process.signal = signal;
             process.signal_at = at;
-            const test::Ended ended = test::run_process(process);
+            const test::ProcessResult ended = test::run_process(process);
             EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
             EXPECT_LE(ended.seconds_after_signal, kSignalsLongest) << at;
             longest = std::max(longest, ended.seconds_after_signal);
@@ -51,14 +51,15 @@ TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
 /// dynamic linker prints when it starts the program and which libraries are opened later.
 class EarlySignals : public Cli {
 protected:
-    test::Ended signalled(const Words& words, int signal, const std::string& at, int milliseconds) {
-        test::Start process = start(words);
+    test::ProcessResult signalled(const Words& words, int signal, const std::string& at,
+                                  int milliseconds) {
+        test::ProcessStart process = start(words);
         process.environment = {{"LD_DEBUG", "files"}};
         process.signal = signal, process.signal_at = at;
         process.signal_after = std::chrono::milliseconds(milliseconds);
         return test::run_process(process);
     }
-    static bool has_sentence(const test::Ended& ended, int signal) {
+    static bool has_sentence(const test::ProcessResult& ended, int signal) {
         return ended.exit_code == 128 + signal &&
                ended.err.find("catoptric: stopped by signal " + std::to_string(signal)) !=
                    std::string::npos;
@@ -80,7 +81,8 @@ TEST_F(EarlySignals, SignalsAreAnsweredWhileTheDriverIsOpened) {
     for (std::size_t i = 0; i < 2 * programs.size(); ++i) {
         const int signal = kSignals[i % kSignals.size()];
         const int after = static_cast<int>(random() % 6); // milliseconds
-        const test::Ended ended = signalled(programs[i / 2], signal, "libvulkan_lvp", after);
+        const test::ProcessResult ended = signalled(programs[i / 2], signal, "libvulkan_lvp",
+                                                    after);
         EXPECT_TRUE(has_sentence(ended, signal))
             << programs[i / 2].front() << " after " << after << ": " << ended.exit_code;
     }
@@ -94,8 +96,9 @@ TEST_F(EarlySignals, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     for (int i = 0; i < 30; ++i) {
         const int signal = kSignals[static_cast<std::size_t>(i) % kSignals.size()];
         const int after = static_cast<int>(random() % 12); // milliseconds
-        const test::Ended ended = signalled(programs[static_cast<std::size_t>(i) % programs.size()],
-                                            signal, "transferring control", after);
+        const test::ProcessResult ended = signalled(
+            programs[static_cast<std::size_t>(i) % programs.size()], signal, "transferring control",
+            after);
         EXPECT_EQ(ended.exit_code, 128 + signal);
         ++(has_sentence(ended, signal) ? answered : wordless);
     }
@@ -106,13 +109,13 @@ TEST_F(EarlySignals, SignalsAreAnsweredFromTheFirstInitialiserOn) {
 
 /// A frame is one submit, which cannot be stopped. Its picture is not written after the signal.
 TEST_F(Signals, SignalInTheLastFrameWritesNoPicture) {
-    test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size",
-                                 "256x256", "--frames", "1", "--warmup", "0", "--progress",
-                                 "always", "-o", "x.png"});
+    test::ProcessStart process = start({"render", "--technique", "raytrace:samples=128", "--size",
+                                        "256x256", "--frames", "1", "--warmup", "0", "--progress",
+                                        "always", "-o", "x.png"});
     process.signal = SIGINT;
     process.signal_at = "[1/1]";
     process.signal_after = std::chrono::milliseconds(1000);
-    const test::Ended ended = test::run_process(process);
+    const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     EXPECT_FALSE(fs::exists(folder / "x.png"));
 }

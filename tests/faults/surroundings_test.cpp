@@ -21,9 +21,9 @@ TEST_F(Surroundings, ClosedPipeAfterTheWorkExitsWith74) {
           small({"compare", "-o", "out", "--techniques", "raytrace:depth=1"}),
           small({"compare", "-o", "json", "--json", "--techniques", "raytrace:depth=1"}),
           Words{"diff", "--json", "x.png", "x.png"}}) {
-        test::Start process = start(words);
+        test::ProcessStart process = start(words);
         process.no_reader = true;
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 74) << words[0];
         EXPECT_EQ(ended.err, "") << words[0];
     }
@@ -34,11 +34,11 @@ TEST_F(Surroundings, ClosedPipeAfterTheWorkExitsWith74) {
 TEST_F(Surroundings, UnwritableCacheFolderOnlyGivesAWarning) {
     write("file", "");
     for (const fs::path& place : {fs::path("/proc/none"), folder / "file"}) {
-        test::Start process = start(
+        test::ProcessStart process = start(
             small({"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
         for (const char* variable : {"HOME", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"})
             process.environment[variable] = place.string();
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         // stderr may hold one warning of the program and one of the driver, each about its own
         // cache.

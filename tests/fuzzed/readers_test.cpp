@@ -42,7 +42,7 @@ protected:
     void feed(const std::string& file, const std::string& good, const Words& words,
               const Change& anywhere, const Change& in_structure) const {
         write(file, good);
-        const test::Ended taken = cli(words);
+        const test::ProcessResult taken = cli(words);
         ASSERT_EQ(taken.exit_code, 0) << file << ", unchanged\n" << taken.err;
         std::map<int, int> codes;
         int structured_taken = 0;
@@ -53,9 +53,9 @@ protected:
             Random random(kSeed + static_cast<std::uint64_t>(i));
             const bool is_structured = i % 2 == 0;
             write(file, (is_structured ? in_structure : anywhere)(random));
-            test::Start process = start(words);
+            test::ProcessStart process = start(words);
             process.seconds_limit = kMostSeconds;
-            const test::Ended ended = test::run_process(process);
+            const test::ProcessResult ended = test::run_process(process);
             ++codes[ended.exit_code];
             structured_taken += is_structured && ended.exit_code <= 1;
             most_bytes = std::max(most_bytes, ended.peak_bytes);

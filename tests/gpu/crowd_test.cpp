@@ -50,8 +50,8 @@ Seen seen(const test::CapturedCubes& captured, std::uint32_t from, const dvec3& 
 
 TEST(Crowd, CapturesShowBallsFromOutsideAndTheShellFromInside) {
     for (const bool turned_out : {false, true}) {
-        const test::CapturedCubes captured = test::capture(crowd_crowd(turned_out), 64,
-                                                           Format::r32f);
+        const test::CapturedCubes captured = test::capture_mirrors(crowd_crowd(turned_out), 64,
+                                                                   Format::r32f);
         const Seen within = seen(captured, 0, dvec3(1, 0, 0), -1);
         EXPECT_NEAR(within.nearest, kShell, .02);
         EXPECT_NEAR(within.farthest, kShell, .02) << "the shell is closed";

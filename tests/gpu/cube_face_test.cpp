@@ -25,11 +25,12 @@ constexpr double kTexel = 0.03;
 
 TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
     const GlyphRoom room;
-    const test::CapturedCubes captured = test::capture(room.scene(), kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kFace,
+                                                               Format::r32f);
     std::size_t wrong = 0, judged = 0, inked = 0;
     stress::for_each_cube_texel(
         kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-            const GlyphRoom::SeenWallPoint seen = room.look(direction);
+            const GlyphRoom::SeenWallPoint seen = room.seen_wall_point(direction);
             // Skip texels whose centre lies on an edge of a glyph.
             if (seen.margin < kSnap) return;
             ++judged, inked += seen.glyph;
@@ -44,11 +45,12 @@ TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
 /// specification, this point must lie on a texel with the stroke's colour.
 TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
     const GlyphRoom room;
-    const test::CapturedCubes captured = test::capture(room.scene(), kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kFace,
+                                                               Format::r32f);
     for (int wall = 0; wall < 6; ++wall)
-        for (const GlyphRoom::Stroke& stroke : GlyphRoom::kStrokes) {
-            const dvec3 middle = room.place(wall, (stroke.u0 + stroke.u1) / 2,
-                                            (stroke.v0 + stroke.v1) / 2) -
+        for (const GlyphRoom::Stroke& stroke : GlyphRoom::kGlyphStrokes) {
+            const dvec3 middle = room.wall_point(wall, (stroke.u0 + stroke.u1) / 2,
+                                                 (stroke.v0 + stroke.v1) / 2) -
                                  room.centre;
             const int face = f32::cube_face(vec3(middle));
             const vec3 place = f32::cube_coordinates(face, vec3(middle));
@@ -66,8 +68,8 @@ TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
 /// faces.
 TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     const GlyphRoom room;
-    auto& [device, pipelines] = test::bench();
-    const scene::Scene scene = room.scene();
+    auto& [device, pipelines] = test::test_device();
+    const scene::Scene scene = room.make_scene();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
     std::mt19937 random(1);
@@ -85,13 +87,13 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     render::CaptureOptions options;
     options.face = 256, options.distance = Format::r32f;
     const render::CubeArray cubes = test::add_black_captures(graph, inputs, options);
-    const graph::BufferHandle found = graph.buffer({"found", directions.size() * sizeof(vec4)});
-    graph.pass("look")
+    const graph::BufferHandle found = graph.add_buffer({"found", directions.size() * sizeof(vec4)});
+    graph.add_pass("look")
         .reads(cubes.colour, graph::ResourceUse::sampled)
         .reads(*cubes.distance, graph::ResourceUse::sampled)
         .writes(found, graph::ResourceUse::storage_write)
         .record([&, cubes, found](graph::PassCommands& commands) {
-            commands.use(gpu::ComputeState{"tests/cube_sample.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
             commands.bind("colour_cubes", cubes.colour, graph::TextureFilter::linear);
             commands.bind("distance_cubes", *cubes.distance, graph::TextureFilter::nearest);
             commands.bind("Directions", asked);
@@ -99,18 +101,18 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
             commands.dispatch(static_cast<std::uint32_t>((directions.size() + 63) / 64), 1);
         });
     graph.mark_output(found);
-    test::run(runner, graph);
-    const std::vector<vec4> answers = test::read_as<vec4>(runner, found);
+    test::run_graph(runner, graph);
+    const std::vector<vec4> answers = test::read_values<vec4>(runner, found);
     std::size_t judged = 0, wrong = 0;
     for (std::size_t i = 0; i < answers.size(); ++i) {
-        const GlyphRoom::SeenWallPoint seen = room.look(dvec3(directions[i]));
+        const GlyphRoom::SeenWallPoint seen = room.seen_wall_point(dvec3(directions[i]));
         if (seen.margin < kTexel) continue;
         ++judged;
         wrong += vec3(answers[i]) != room.colour(seen);
         // A lookup of the nearest texel reads a distance at most half a texel's diagonal aside. The
         // distance changes little over that length.
-        EXPECT_NEAR(answers[i].w, gpu_scene.space().length(seen.distance),
-                    0.02 * gpu_scene.space().length(seen.distance));
+        EXPECT_NEAR(answers[i].w, gpu_scene.space().to_scene_length(seen.distance),
+                    0.02 * gpu_scene.space().to_scene_length(seen.distance));
     }
     EXPECT_GT(judged, 1000u);
     EXPECT_EQ(wrong, 0u);
@@ -125,12 +127,15 @@ TEST_P(Distances, CapturedDistancesEqualTheDistancesOfTheWalls) {
     const GlyphRoom room;
     constexpr double kRange = 5; // range of unorm8 in world units; some walls are farther away
     const bool unorm = GetParam() == Format::r8_unorm;
-    const test::CapturedCubes captured = test::capture(room.scene(), kFace, GetParam(), kRange);
-    const double unit = unorm ? captured.space.length(kRange) : 1.0;
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kFace, GetParam(),
+                                                               kRange);
+    const double unit = unorm ? captured.space.to_scene_length(kRange) : 1.0;
     double worst = 0;
     stress::for_each_cube_texel(
         kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-            const double wanted = captured.space.length(room.look(direction).distance) / unit;
+            const double wanted = captured.space.to_scene_length(
+                                      room.seen_wall_point(direction).distance) /
+                                  unit;
             const double found = captured.distance(0, face, x, y, GetParam());
             worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0))
                                           : std::abs(found - wanted) / wanted);
@@ -148,7 +153,7 @@ TEST_P(Distances, EmptyDirectionsHaveInfiniteOrLargestDistance) {
     test::add_mesh(scene, test::wall(0, {-2, -9, -9}, {2, 9, 9}), hot);
     test::add_ball(scene, "ball", mirror, {0, 0, 0}, 1);
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
-    const test::CapturedCubes captured = test::capture(scene, kFace, GetParam(), 100);
+    const test::CapturedCubes captured = test::capture_mirrors(scene, kFace, GetParam(), 100);
     const float nothing = GetParam() == Format::r8_unorm ? 1.0f
                                                          : std::numeric_limits<float>::infinity();
     std::size_t wrong = 0;
@@ -162,14 +167,15 @@ TEST_P(Distances, EmptyDirectionsHaveInfiniteOrLargestDistance) {
 }
 
 TEST(CubeFace, CaptureLeavesOutItsOwnMirrorAndShowsOtherMirrors) {
-    const test::CapturedCubes captured = test::capture(test::furnace(2), kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(test::make_furnace_scene(2), kFace,
+                                                               Format::r32f);
     std::size_t black[2] = {0, 0}, hot[2] = {0, 0};
     for (std::uint32_t mirror = 0; mirror < 2; ++mirror)
         stress::for_each_cube_texel(kFace,
                                     [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
                                         const vec3 colour = captured.colour(mirror, face, x, y);
                                         black[mirror] += colour == vec3(0);
-                                        hot[mirror] += colour == test::kFurnace;
+                                        hot[mirror] += colour == test::kFurnaceRadiance;
                                     });
     // The other ball is seen from outside. Its radius over its distance is the sine of the half
     // angle under which it is seen, and gives its share of all directions.

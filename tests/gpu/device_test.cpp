@@ -8,15 +8,14 @@ using namespace catoptric;
 
 TEST(Device, UnknownIndexIsRefusedWithTheNumberOfDevices) {
     const std::size_t count = gpu::list_devices().size();
-    test::expect_refused(
-        [] { gpu::Device device({.wanted = "99"}); }, Failure::usage,
-        {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
+    test::expect_error([] { gpu::Device device({.wanted = "99"}); }, Failure::usage,
+                       {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
 }
 
 TEST(Device, UnknownNameIsRefusedWithTheNearestName) {
     std::string name = gpu::list_devices().front().name;
     name.front() = '?';
-    test::expect_refused(
+    test::expect_error(
         [&] { gpu::Device device({.wanted = name}); }, Failure::usage,
         {"no device '" + name + "'", "did you mean '" + gpu::list_devices().front().name + "'"});
 }
@@ -41,21 +40,21 @@ TEST(Device, LayeredRenderingCanBeSwitchedOff) {
 }
 
 TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     // All images of 1 GiB together need more memory than the device has.
     const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
     for (std::uint64_t i = 0; i < count; ++i) {
-        const graph::ImageHandle image = graph.image(
+        const graph::ImageHandle image = graph.add_image(
             {"huge" + std::to_string(i), Format::rgba32f, 8192, 8192});
-        graph.pass("fill" + std::to_string(i))
+        graph.add_pass("fill" + std::to_string(i))
             .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
             .record([](graph::PassCommands&) {});
         graph.mark_output(image);
     }
-    test::expect_refused([&] { test::run(runner, graph); }, Failure::exhausted,
-                         {std::to_string(count << 30), std::to_string(device.memory_budget())});
+    test::expect_error([&] { test::run_graph(runner, graph); }, Failure::exhausted,
+                       {std::to_string(count << 30), std::to_string(device.memory_budget())});
 }
 
 } // namespace

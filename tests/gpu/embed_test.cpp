@@ -32,7 +32,7 @@ std::string refused(Call&& call) {
 /// Returns the handles of the device that the other tests use. The instance is a placeholder,
 /// because no function reads it.
 embed::Device given_device() {
-    const gpu::Device& own = test::bench().device;
+    const gpu::Device& own = test::test_device().device;
     return {reinterpret_cast<VkInstance>(std::uintptr_t{1}), own.physical(), own.handle(),
             own.queue(), own.queue_family()};
 }
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    gpu::Device& device_ = test::bench().device;
+    gpu::Device& device_ = test::test_device().device;
     uvec2 size_;
     gpu::UniqueMemory memory_;
     graph::PhysicalImage image_;
@@ -116,7 +116,7 @@ TEST(Embed, MissingDeviceHandlesAreRefused) {
 }
 
 TEST(Embed, UnusableTargetIsRefused) {
-    app::Session session(test::engine(), scene::make_flat_mirror_room());
+    app::Session session(test::test_engine(), scene::make_flat_mirror_room());
     app::FrameSpec spec{
         .techniques = {"reuse"}, .camera = session.scene().cameras.front(), .size = {16, 16}};
     // The image is a placeholder, because the calls are refused before they use it.
@@ -130,7 +130,7 @@ TEST(Embed, UnusableTargetIsRefused) {
     spec.techniques.push_back("parallax");
     EXPECT_THAT(refused([&] { embed::render_frame_into(session, spec, {image}); }),
                 HasSubstr("one technique, not 2"));
-    EXPECT_EQ(app::Access::counts(session).frames, 0u);
+    EXPECT_EQ(app::Access::session_counters(session).frames, 0u);
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 namespace {
 
 using namespace catoptric;
-using test::expect_refused;
+using test::expect_error;
 
 /// Adds a frame of three passes. The frame computes a new `kept` image from that of the frame
 /// before, through an image `between`.
@@ -14,7 +14,7 @@ graph::ImageHandle add_frame(graph::Graph& graph, int frame) {
     const graph::ImageHandle between = test::add_image(graph, "between");
     const graph::ImageHandle out = test::add_image(graph, "out");
     const auto number = static_cast<float>(frame);
-    test::add_step(graph, "first", graph.previous(kept), between, number);
+    test::add_step(graph, "first", graph.previous_contents(kept), between, number);
     test::add_step(graph, "second", between, kept, 2 * number);
     test::add_step(graph, "third", between, out, 3 * number);
     graph.mark_output(out);
@@ -33,14 +33,15 @@ INSTANTIATE_TEST_SUITE_P(Frames, InFlight, testing::Values(1u, 2u, 3u));
 
 TEST_P(InFlight, FramesInFlightEqualFramesOneByOne) {
     constexpr int kFrames = 12;
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, GetParam());
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines,
+                              GetParam());
     std::vector<float> kept(test::kWidth * test::kHeight, 0.0f);
     std::vector<std::pair<graph::FrameTicket, graph::ImageHandle>> waiting;
     int read = 0;
     const auto read_oldest = [&] {
         const auto [ticket, image] = waiting.front();
         waiting.erase(waiting.begin());
-        const std::vector<std::byte> bytes = runner.read(ticket, image);
+        const std::vector<std::byte> bytes = runner.read_resource(ticket, image);
         std::vector<float> found(bytes.size() / sizeof(float));
         std::memcpy(found.data(), bytes.data(), bytes.size());
         EXPECT_EQ(found, expected_of(++read, kept)) << "frame " << read;
@@ -50,15 +51,16 @@ TEST_P(InFlight, FramesInFlightEqualFramesOneByOne) {
         graph::Graph graph(runner.history());
         const graph::ImageHandle out = add_frame(graph, frame);
         const auto timing = frame % 2 ? graph::PassTiming::pipelined : graph::PassTiming::isolated;
-        waiting.emplace_back(runner.submit(graph, timing), out);
+        waiting.emplace_back(runner.submit_frame(graph, timing), out);
     }
     while (!waiting.empty()) read_oldest();
     EXPECT_EQ(read, kFrames);
-    EXPECT_EQ(runner.plans_made(), 1u);
+    EXPECT_EQ(runner.planned_shape_count(), 1u);
 }
 
 TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, GetParam());
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines,
+                              GetParam());
     std::vector<graph::FrameTicket> tickets;
     for (std::uint32_t frame = 1; frame <= GetParam(); ++frame) {
         graph::Graph graph;
@@ -71,52 +73,55 @@ TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
             test::add_step(graph, "step" + std::to_string(i), image, next, 1);
             graph.mark_output(next);
         }
-        tickets.push_back(runner.submit(graph, graph::PassTiming::isolated));
+        tickets.push_back(runner.submit_frame(graph, graph::PassTiming::isolated));
         EXPECT_EQ(tickets.back().frame, frame);
     }
     for (std::uint32_t frame = GetParam(); frame >= 1; --frame) { // read the newest frame first
-        const graph::GraphFrameTimes& times = runner.wait(tickets[frame - 1]);
+        const graph::GraphFrameTimes& times = runner.wait_for_frame(tickets[frame - 1]);
         EXPECT_EQ(times.passes.size(), frame);
         EXPECT_GT(times.record_ms, 0);
         EXPECT_GT(times.compile_ms, 0);
         EXPECT_GT(times.wall_ms, 0);
-        EXPECT_EQ(&runner.wait(tickets[frame - 1]), &times);
+        EXPECT_EQ(&runner.wait_for_frame(tickets[frame - 1]), &times);
     }
 }
 
 TEST(InFlight, ReadingAFrameWhoseSlotWasReusedIsRefused) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 2);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines, 2);
     std::vector<graph::FrameTicket> tickets;
     graph::ImageHandle out;
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
         out = add_frame(graph, frame);
-        tickets.push_back(runner.submit(graph, graph::PassTiming::pipelined));
+        tickets.push_back(runner.submit_frame(graph, graph::PassTiming::pipelined));
     }
-    expect_refused([&] { runner.wait(tickets[0]); }, Failure::internal,
-                   {"frame 1 is gone: its place was taken by frame 3, with 2 in flight"});
-    expect_refused([&] { runner.wait({4}); }, Failure::internal,
-                   {"frame 4 is asked for, but 3 were submitted"});
-    EXPECT_NO_THROW(runner.read(tickets[1], out));
+    expect_error([&] { runner.wait_for_frame(tickets[0]); }, Failure::internal,
+                 {"frame 1 is gone: its place was taken by frame 3, with 2 in flight"});
+    expect_error([&] { runner.wait_for_frame({4}); }, Failure::internal,
+                 {"frame 4 is asked for, but 3 were submitted"});
+    EXPECT_NO_THROW(runner.read_resource(tickets[1], out));
     constexpr graph::ImageHandle kKept{.id = 0, .first_layer = 0, .layer_count = 1};
-    expect_refused([&] { runner.read(tickets[1], kKept); }, Failure::internal,
-                   {"image 'kept' of frame 2 is read after frame 3 was submitted"});
-    EXPECT_NO_THROW(runner.read(tickets[2], kKept));
+    expect_error([&] { runner.read_resource(tickets[1], kKept); }, Failure::internal,
+                 {"image 'kept' of frame 2 is read after frame 3 was submitted"});
+    EXPECT_NO_THROW(runner.read_resource(tickets[2], kKept));
 }
 
 TEST(InFlight, FewerThanOneOrMoreThanThreeFramesInFlightAreRefused) {
     for (const std::uint32_t count : {0u, 4u})
-        expect_refused(
-            [&] { graph::GraphRunner(test::bench().device, test::bench().pipelines, count); },
+        expect_error(
+            [&] {
+                graph::GraphRunner(test::test_device().device, test::test_device().pipelines,
+                                   count);
+            },
             Failure::usage, {"frames in flight must be 1 to 3, not " + std::to_string(count)});
 }
 
 TEST(InFlight, RunnerCanBeDestroyedWithFramesInFlight) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 3);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines, 3);
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
         add_frame(graph, frame);
-        runner.submit(graph, graph::PassTiming::pipelined);
+        runner.submit_frame(graph, graph::PassTiming::pipelined);
     }
 }
 
@@ -141,61 +146,61 @@ std::vector<float> expected_of_shape(int kind) {
 }
 
 TEST(Shapes, TheLastEightShapesAreNotPlannedAgain) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 2);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines, 2);
     for (int round = 0; round < 4; ++round)
         for (int kind = 0; kind < 8; ++kind) {
             graph::Graph graph;
             const graph::ImageHandle last = add_shape(graph, kind);
-            test::run(runner, graph);
-            EXPECT_EQ(test::read_as<float>(runner, last), expected_of_shape(kind));
+            test::run_graph(runner, graph);
+            EXPECT_EQ(test::read_values<float>(runner, last), expected_of_shape(kind));
         }
-    EXPECT_EQ(runner.plans_made(), 8u);
+    EXPECT_EQ(runner.planned_shape_count(), 8u);
     graph::Graph ninth;
     add_shape(ninth, 8);
-    test::run(runner, ninth); // replaces the plan of shape 0, which was used longest ago
+    test::run_graph(runner, ninth); // replaces the plan of shape 0, which was used longest ago
     graph::Graph second, first;
     add_shape(second, 1);
-    test::run(runner, second);
-    EXPECT_EQ(runner.plans_made(), 9u);
+    test::run_graph(runner, second);
+    EXPECT_EQ(runner.planned_shape_count(), 9u);
     add_shape(first, 0);
-    test::run(runner, first);
-    EXPECT_EQ(runner.plans_made(), 10u);
+    test::run_graph(runner, first);
+    EXPECT_EQ(runner.planned_shape_count(), 10u);
 }
 
 TEST(Shapes, ShapeDependsOnAllDeclarationsExceptBodiesAndClearValues) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     const auto frame = [&](const std::string& name, float red) {
         graph::Graph graph;
-        const graph::ImageHandle image = graph.image({"image", Format::rgba32f, 2, 1});
-        graph.pass(name)
+        const graph::ImageHandle image = graph.add_image({"image", Format::rgba32f, 2, 1});
+        graph.add_pass(name)
             .writes(image, graph::ResourceUse::colour, graph::ClearValue{red, 0, 0, 1})
             .record([](graph::PassCommands&) {});
         graph.mark_output(image);
         runner.compiled(graph);
-        test::run(runner, graph);
-        return test::read_as<float>(runner, image)[0];
+        test::run_graph(runner, graph);
+        return test::read_values<float>(runner, image)[0];
     };
     EXPECT_EQ(frame("clear", 1), 1);
     EXPECT_EQ(frame("clear", 2), 2);
-    EXPECT_EQ(runner.plans_made(), 1u);
+    EXPECT_EQ(runner.planned_shape_count(), 1u);
     EXPECT_EQ(frame("cleared", 3), 3);
-    EXPECT_EQ(runner.plans_made(), 2u);
+    EXPECT_EQ(runner.planned_shape_count(), 2u);
 }
 
 TEST(Shapes, InvalidGraphOfAPlannedShapeIsRefused) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     for (const bool wrong : {false, true}) {
         graph::Graph graph;
         const graph::ImageHandle image = test::add_image(graph, "image");
-        graph::PassBuilder pass = graph.pass("clear").writes(image, graph::ResourceUse::colour,
-                                                             graph::ClearValue{});
+        graph::PassBuilder pass = graph.add_pass("clear").writes(image, graph::ResourceUse::colour,
+                                                                 graph::ClearValue{});
         if (!wrong) pass.record([](graph::PassCommands&) {});
         graph.mark_output(image);
         if (wrong)
-            expect_refused([&] { test::run(runner, graph); }, Failure::internal,
-                           {"pass 'clear' has no body"});
+            expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
+                         {"pass 'clear' has no body"});
         else
-            test::run(runner, graph);
+            test::run_graph(runner, graph);
     }
 }
 

@@ -13,30 +13,30 @@ constexpr std::uint32_t kTurns = 7;
 /// work groups counted; 0: the group did not run. `declared`: the pass declares the buffer as
 /// indirect arguments.
 std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     graph::Graph graph;
-    const graph::BufferHandle counts = graph.buffer({"counts", 16}),
-                              arguments = graph.buffer({"arguments", 16});
-    graph.pass("fill")
+    const graph::BufferHandle counts = graph.add_buffer({"counts", 16}),
+                              arguments = graph.add_buffer({"arguments", 16});
+    graph.add_pass("fill")
         .writes(counts, graph::ResourceUse::copy_to)
         .writes(arguments, graph::ResourceUse::copy_to)
         .record([=](graph::PassCommands& commands) {
-            commands.fill(counts, 0);
-            commands.fill(arguments, groups);
+            commands.fill_buffer(counts, 0);
+            commands.fill_buffer(arguments, groups);
         });
-    graph.pass("spin")
+    graph.add_pass("spin")
         .reads(arguments,
                declared ? graph::ResourceUse::indirect : graph::ResourceUse::storage_read)
         .writes(counts, graph::ResourceUse::storage)
         .record([=](graph::PassCommands& commands) {
-            commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
             commands.bind("Counts", counts);
-            commands.push(kTurns);
+            commands.push_constants(kTurns);
             commands.dispatch_indirect(arguments, 4);
         });
     graph.mark_output(counts);
-    test::run(runner, graph);
-    return test::read_as<std::uint32_t>(runner, counts);
+    test::run_graph(runner, graph);
+    return test::read_values<std::uint32_t>(runner, counts);
 }
 
 TEST(Indirect, NumberOfWorkGroupsComesFromTheBuffer) {
@@ -46,8 +46,8 @@ TEST(Indirect, NumberOfWorkGroupsComesFromTheBuffer) {
 }
 
 TEST(Indirect, BufferNotDeclaredAsIndirectIsRefused) {
-    test::expect_refused([] { counts_of(1, false); }, Failure::internal,
-                         {"'spin'", "'arguments'", "indirect"});
+    test::expect_error([] { counts_of(1, false); }, Failure::internal,
+                       {"'spin'", "'arguments'", "indirect"});
 }
 
 } // namespace

@@ -9,13 +9,15 @@
 namespace {
 
 using namespace catoptric;
-using test::Kernel;
-using test::KernelHit;
-using test::KernelRay;
+using test::DeviceHit;
+using test::DeviceRay;
+using test::DeviceRayTracer;
 
-std::vector<bvh::Triangle> ball() { return *test::placed(scene::ball("ball", 5), 1, dvec3(0)); }
+std::vector<bvh::Triangle> ball() {
+    return *test::place_triangles(scene::ball("ball", 5), 1, dvec3(0));
+}
 
-float& field(KernelRay& ray, std::size_t i) {
+float& field(DeviceRay& ray, std::size_t i) {
     return i < 3   ? ray.origin[static_cast<int>(i)]
            : i < 6 ? ray.direction[static_cast<int>(i) - 3]
                    : ray.t_max;
@@ -26,9 +28,9 @@ struct Steps {
     std::uint32_t most = 0;
 };
 
-Steps steps_of(const std::vector<KernelHit>& hits) {
+Steps steps_of(const std::vector<DeviceHit>& hits) {
     Steps result;
-    for (const KernelHit& hit : hits) {
+    for (const DeviceHit& hit : hits) {
         result.mean += hit.steps / static_cast<double>(hits.size());
         result.most = std::max(result.most, hit.steps);
     }
@@ -37,21 +39,21 @@ Steps steps_of(const std::vector<KernelHit>& hits) {
 
 /// Returns rays with random origins and directions. A `reach` of 0.5 puts all origins inside the
 /// ball.
-std::vector<KernelRay> normal_rays(std::size_t count, float reach) {
-    test::Numbers numbers(16);
-    std::vector<KernelRay> rays(count);
-    for (KernelRay& ray : rays) {
-        ray.origin = reach * numbers.in_cube();
-        ray.direction = numbers.direction();
+std::vector<DeviceRay> normal_rays(std::size_t count, float reach) {
+    test::RandomNumbers numbers(16);
+    std::vector<DeviceRay> rays(count);
+    for (DeviceRay& ray : rays) {
+        ray.origin = reach * numbers.point_in_cube();
+        ray.direction = numbers.unit_direction();
     }
     return rays;
 }
 
 TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
-    Kernel kernel(ball());
-    const std::vector<KernelRay> normal = normal_rays(10000, 0.5f);
-    const Steps usual = steps_of(kernel.closest(normal));
-    std::vector<KernelRay> bad;
+    DeviceRayTracer kernel(ball());
+    const std::vector<DeviceRay> normal = normal_rays(10000, 0.5f);
+    const Steps usual = steps_of(kernel.find_closest_hits(normal));
+    std::vector<DeviceRay> bad;
     // The words are quiet and signalling NaN of both signs and the two infinities. An infinite
     // t_max is skipped below, because that is a valid ray.
     for (const std::uint32_t word : {0x7fc00000u, 0xffc00000u, 0x7f800001u, 0xff800001u,
@@ -70,12 +72,13 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
         bad.back().t_max = -1;
     }
     for (const bool shadow : {false, true}) {
-        const std::vector<KernelHit> hits = shadow ? kernel.any(bad) : kernel.closest(bad);
+        const std::vector<DeviceHit> hits = shadow ? kernel.find_any_hits(bad)
+                                                   : kernel.find_closest_hits(bad);
         std::size_t found = 0;
         for (std::size_t i = 0; i < bad.size(); ++i)
-            if ((hits[i].found() || hits[i].exhausted()) && found++ == 0)
-                ADD_FAILURE() << "ray " << i << ", " << test::text(bad[i]) << ": "
-                              << test::text(hits[i]);
+            if ((hits[i].is_hit() || hits[i].reached_step_limit()) && found++ == 0)
+                ADD_FAILURE() << "ray " << i << ", " << test::format_for_message(bad[i]) << ": "
+                              << test::format_for_message(hits[i]);
         const Steps steps = steps_of(hits);
         std::cout << "[ MEASURED ] N16 " << (shadow ? "shadow rays: " : "nearest: ") << found
                   << " of " << bad.size() << " bad rays do not miss, at most " << steps.most
@@ -89,8 +92,8 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
 /// Tests that the sign of a zero coordinate of a ray changes neither its hit nor, beyond the bound,
 /// its number of steps.
 TEST(KernelBadRays, N16_NegativeZeroActsAsZero) {
-    Kernel kernel(ball());
-    std::vector<KernelRay> positive = normal_rays(60000, 1.2f);
+    DeviceRayTracer kernel(ball());
+    std::vector<DeviceRay> positive = normal_rays(60000, 1.2f);
     for (std::size_t i = 0; i < positive.size(); ++i) {
         field(positive[i], i % 6) = 0.0f;
         if (i % 4 == 0)
@@ -98,25 +101,25 @@ TEST(KernelBadRays, N16_NegativeZeroActsAsZero) {
             field(positive[i], (i + 1) % 6) = 0.0f;
         if (i % 8 == 0) field(positive[i], (i + 2) % 6) = 0.0f;
     }
-    std::vector<KernelRay> negative = positive;
-    for (KernelRay& ray : negative)
+    std::vector<DeviceRay> negative = positive;
+    for (DeviceRay& ray : negative)
         for (std::size_t i = 0; i < 6; ++i)
             if (field(ray, i) == 0) field(ray, i) = -0.0f;
-    const std::vector<KernelHit> expected = kernel.closest(positive),
-                                 hits = kernel.closest(negative);
+    const std::vector<DeviceHit> expected = kernel.find_closest_hits(positive),
+                                 hits = kernel.find_closest_hits(negative);
     std::size_t other = 0, found = 0;
     std::uint64_t steps = 0, usual = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        found += hits[i].found() ? 1 : 0;
+        found += hits[i].is_hit() ? 1 : 0;
         steps += hits[i].steps, usual += expected[i].steps;
         // Hits may differ in the sign of a weight that is exactly 0, because == ignores that sign.
         const bool alike = hits[i].outcome == expected[i].outcome && hits[i].t == expected[i].t &&
                            hits[i].barycentric == expected[i].barycentric &&
                            hits[i].triangle == expected[i].triangle;
         if (!alike && other++ == 0)
-            ADD_FAILURE() << "ray " << i << ", " << test::text(negative[i])
-                          << "\n  -0: " << test::text(hits[i])
-                          << "\n  +0: " << test::text(expected[i]);
+            ADD_FAILURE() << "ray " << i << ", " << test::format_for_message(negative[i])
+                          << "\n  -0: " << test::format_for_message(hits[i])
+                          << "\n  +0: " << test::format_for_message(expected[i]);
     }
     std::cout << "[ MEASURED ] N16 -0: " << other << " of " << hits.size()
               << " hits differ from +0 (" << found << " hits), " << steps << " against " << usual

@@ -13,12 +13,14 @@
 namespace {
 
 using namespace catoptric;
-using test::Kernel;
-using test::KernelHit;
-using test::KernelRay;
+using test::DeviceHit;
+using test::DeviceRay;
+using test::DeviceRayTracer;
 
-float random_bits(test::Numbers& numbers) { return std::bit_cast<float>(numbers.word()); }
-vec3 random_bits3(test::Numbers& numbers) {
+float random_bits(test::RandomNumbers& numbers) {
+    return std::bit_cast<float>(numbers.random_word());
+}
+vec3 random_bits3(test::RandomNumbers& numbers) {
     const float x = random_bits(numbers), y = random_bits(numbers);
     return {x, y, random_bits(numbers)};
 }
@@ -44,14 +46,14 @@ std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
 
 /// Returns rays of which every second consists of random bits. The others start at random points
 /// and aim at corners of the triangles.
-std::vector<KernelRay> rays_at(const std::vector<bvh::Triangle>& triangles,
-                               test::Numbers& numbers) {
-    std::vector<KernelRay> rays(128);
+std::vector<DeviceRay> rays_at(const std::vector<bvh::Triangle>& triangles,
+                               test::RandomNumbers& numbers) {
+    std::vector<DeviceRay> rays(128);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        rays[i].origin = i % 2 == 0 ? random_bits3(numbers) : numbers.in_cube();
-        rays[i].direction = i % 2 == 0
-                                ? random_bits3(numbers)
-                                : triangles[numbers.below(triangles.size())].b - rays[i].origin;
+        rays[i].origin = i % 2 == 0 ? random_bits3(numbers) : numbers.point_in_cube();
+        rays[i].direction = i % 2 == 0 ? random_bits3(numbers)
+                                       : triangles[numbers.integer_below(triangles.size())].b -
+                                             rays[i].origin;
         if (i % 4 == 0) rays[i].t_max = random_bits(numbers);
     }
     return rays;
@@ -63,7 +65,7 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
     std::uint32_t most_steps = 0;
     for (std::size_t seed = 0; seed < kSeeds; ++seed) {
         SCOPED_TRACE(seed);
-        test::Numbers numbers(seed);
+        test::RandomNumbers numbers(seed);
         std::vector<bvh::Triangle> triangles(kTriangles);
         for (bvh::Triangle& t : triangles)
             t = {random_bits3(numbers), random_bits3(numbers), random_bits3(numbers)};
@@ -77,8 +79,8 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
         }
         // Build a BVH of all triangles without repair, and check the loader's result on the finite
         // triangles.
-        Kernel kernel(triangles);
-        const bvh::Bvh& hierarchy = kernel.hierarchy();
+        DeviceRayTracer kernel(triangles);
+        const bvh::Bvh& hierarchy = kernel.bvh_tree();
         ASSERT_EQ(hierarchy.dropped, kTriangles - finite.size());
         ASSERT_EQ(bvh::count_triangles(hierarchy), finite.size());
         for (const vec4& corner : hierarchy.triangles) ASSERT_TRUE(f32::is_finite(vec3(corner)));
@@ -87,18 +89,18 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
         not_finite += hierarchy.dropped;
         kept += area.size();
 
-        const std::vector<KernelRay> rays = rays_at(triangles, numbers);
-        for (const KernelHit& hit : kernel.closest(rays)) {
-            ASSERT_FALSE(hit.exhausted());
+        const std::vector<DeviceRay> rays = rays_at(triangles, numbers);
+        for (const DeviceHit& hit : kernel.find_closest_hits(rays)) {
+            ASSERT_FALSE(hit.reached_step_limit());
             most_steps = std::max(most_steps, hit.steps);
             ASSERT_LE(hit.steps, bvh::count_nodes(hierarchy) + bvh::count_triangles(hierarchy))
                 << "nothing is looked at twice";
-            if (!hit.found()) continue;
+            if (!hit.is_hit()) continue;
             ++hits;
             ASSERT_TRUE(hit.t > 0 && std::isfinite(hit.t));
             ASSERT_TRUE(finite.contains(hit.triangle));
         }
-        for (const KernelRay& ray : rays) test::mirror_of(hierarchy, ray);
+        for (const DeviceRay& ray : rays) test::find_hit_on_cpu(hierarchy, ray);
     }
     std::cout << "[ MEASURED ] N19 " << kSeeds << " seeds: " << not_finite
               << " triangles dropped as not finite, " << flat << " without an area, " << kept
@@ -117,13 +119,13 @@ std::vector<bvh::Triangle> copies(std::size_t count, bool of_one_object) {
 }
 
 /// Returns rays that start on either side of the triangle. Some hit the triangle, others pass it.
-std::vector<KernelRay> rays_at_the_copies() {
-    test::Numbers numbers(21);
-    std::vector<KernelRay> rays(256);
-    for (KernelRay& ray : rays) {
-        ray.origin = {0.4f * numbers.between(-1, 1), 0.4f * numbers.between(-1, 1),
-                      numbers.word() % 2 == 0 ? 0.0f : 2.0f};
-        ray.direction = vec3(0.3f, 0.3f, 1) * numbers.in_cube();
+std::vector<DeviceRay> rays_at_the_copies() {
+    test::RandomNumbers numbers(21);
+    std::vector<DeviceRay> rays(256);
+    for (DeviceRay& ray : rays) {
+        ray.origin = {0.4f * numbers.number_between(-1, 1), 0.4f * numbers.number_between(-1, 1),
+                      numbers.random_word() % 2 == 0 ? 0.0f : 2.0f};
+        ray.direction = vec3(0.3f, 0.3f, 1) * numbers.point_in_cube();
     }
     return rays;
 }
@@ -135,19 +137,20 @@ TEST(KernelGeometry, N21_CopiesOfOneTriangleAreTracedAsOne) {
     const auto start = std::chrono::steady_clock::now();
     bvh::Bvh hierarchy = bvh::build_bvh(triangles);
     const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
-    Kernel kernel(std::move(hierarchy));
-    const std::vector<KernelRay> rays = rays_at_the_copies();
-    const std::vector<KernelHit> hits = kernel.closest(rays), shadows = kernel.any(rays);
+    DeviceRayTracer kernel(std::move(hierarchy));
+    const std::vector<DeviceRay> rays = rays_at_the_copies();
+    const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays),
+                                 shadows = kernel.find_any_hits(rays);
     std::size_t found = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_FALSE(hits[i].exhausted()) << "gave up after " << hits[i].steps << " steps";
+        ASSERT_FALSE(hits[i].reached_step_limit()) << "gave up after " << hits[i].steps << " steps";
         ASSERT_EQ(hits[i].triangle, 0u);
-        ASSERT_EQ(hits[i].found(), shadows[i].found());
-        found += hits[i].found() ? 1 : 0;
+        ASSERT_EQ(hits[i].is_hit(), shadows[i].is_hit());
+        found += hits[i].is_hit() ? 1 : 0;
     }
     std::cout << "[ MEASURED ] N21 100,000 copies: build " << build.count() << " s, " << found
               << " of " << rays.size() << " rays hit, all of them triangle 0\n";
-    EXPECT_EQ(test::differences(kernel, rays, hits), 0u);
+    EXPECT_EQ(test::count_wrong_hits(kernel, rays, hits), 0u);
     EXPECT_GT(found, rays.size() / 4);
     EXPECT_LT(found, rays.size());
     EXPECT_LT(build.count(), 5);
@@ -157,19 +160,19 @@ TEST(KernelGeometry, N21_CopiesOfOneTriangleAreTracedAsOne) {
 /// copies within its step limit, the lowest number wins. Otherwise the ray reports that it gave up.
 /// Its neighbouring lanes may give up too, because the driver ends their loops as well.
 TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
-    const std::vector<KernelRay> rays = rays_at_the_copies();
+    const std::vector<DeviceRay> rays = rays_at_the_copies();
     for (const std::size_t count : {std::size_t{5000}, std::size_t{100000}}) {
-        Kernel kernel(copies(count, false));
-        ASSERT_EQ(bvh::count_triangles(kernel.hierarchy()), count);
-        const std::vector<KernelHit> hits = kernel.closest(rays);
+        DeviceRayTracer kernel(copies(count, false));
+        ASSERT_EQ(bvh::count_triangles(kernel.bvh_tree()), count);
+        const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
         std::size_t found = 0, gave_up = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const KernelHit expected = test::mirror_of(kernel.hierarchy(), rays[i]);
-            gave_up += hits[i].exhausted() ? 1 : 0;
-            found += expected.found() ? 1 : 0;
+            const DeviceHit expected = test::find_hit_on_cpu(kernel.bvh_tree(), rays[i]);
+            gave_up += hits[i].reached_step_limit() ? 1 : 0;
+            found += expected.is_hit() ? 1 : 0;
             ASSERT_EQ(expected.triangle, 0u);
-            ASSERT_TRUE(hits[i].exhausted() || test::same(hits[i], expected))
-                << i << ' ' << test::text(hits[i]);
+            ASSERT_TRUE(hits[i].reached_step_limit() || test::are_equal_hits(hits[i], expected))
+                << i << ' ' << test::format_for_message(hits[i]);
         }
         std::cout << "[ MEASURED ] case N21, copies of one triangle in " << count
                   << " objects: " << found << " rays hit, " << gave_up
@@ -186,26 +189,28 @@ TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
 /// another order. Among hits of equal t the lowest number must win, whichever leaf holds it. No ray
 /// may hit the second copy. The test prints a checksum of all hits, which the next test compares.
 TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
-    std::vector<bvh::Triangle> triangles = *test::placed(scene::ball("ball", 5), 1, dvec3(0));
+    std::vector<bvh::Triangle> triangles = *test::place_triangles(scene::ball("ball", 5), 1,
+                                                                  dvec3(0));
     const std::size_t once = triangles.size();
     for (std::size_t i = 0; i < once; ++i) triangles.push_back(triangles[i]);
     for (std::size_t i = 0; i < once; ++i)
         triangles.push_back({triangles[i].b, triangles[i].c, triangles[i].a, 1});
-    Kernel kernel(triangles);
-    test::Numbers numbers(22);
-    std::vector<KernelRay> rays(50000);
-    for (KernelRay& ray : rays) {
-        ray.origin = 0.5f * numbers.in_cube();
-        const bvh::Triangle& t = triangles[numbers.below(once)];
-        ray.direction = numbers.word() % 2 == 0 ? numbers.direction()
-                                                : t.a + numbers.unit() * (t.b - t.a) - ray.origin;
+    DeviceRayTracer kernel(triangles);
+    test::RandomNumbers numbers(22);
+    std::vector<DeviceRay> rays(50000);
+    for (DeviceRay& ray : rays) {
+        ray.origin = 0.5f * numbers.point_in_cube();
+        const bvh::Triangle& t = triangles[numbers.integer_below(once)];
+        ray.direction = numbers.random_word() % 2 == 0
+                            ? numbers.unit_direction()
+                            : t.a + numbers.unit_fraction() * (t.b - t.a) - ray.origin;
     }
-    const std::vector<KernelHit> hits = kernel.closest(rays);
+    const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
     std::size_t not_lowest = 0;
     std::uint64_t checksum = 14695981039346656037u; // offset basis of the FNV-1a hash
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const auto lowest = bvh::find_closest_hit<float>(
-            kernel.hierarchy(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
+            kernel.bvh_tree(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
         const bool second = hits[i].triangle >= once && hits[i].triangle < 2 * once;
         not_lowest += lowest && !second && hits[i].triangle == lowest->triangle &&
                               hits[i].t == lowest->t
@@ -220,10 +225,10 @@ TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
 }
 
 TEST(KernelGeometry, N21_OneAndTwoDriverThreadsAgree) {
-    if (!test::bench().device.is_cpu())
+    if (!test::test_device().device.is_cpu())
         GTEST_SKIP() << "only a software driver can be told its number of threads";
     const auto checksum = [](const char* threads) {
-        const test::Ended ended = test::run_process(
+        const test::ProcessResult ended = test::run_process(
             {.command = {"/proc/self/exe", "--gtest_filter=KernelGeometry."
                                            "N21_LowestNumberWinsAmongCoplanarDuplicates"},
              .environment = {{"LP_NUM_THREADS", threads}}});

@@ -10,17 +10,18 @@
 namespace {
 
 using namespace catoptric;
-using test::Kernel;
-using test::KernelHit;
-using test::KernelRay;
+using test::DeviceHit;
+using test::DeviceRay;
+using test::DeviceRayTracer;
 
-std::vector<KernelRay> random_rays(std::size_t count, vec3 lo, vec3 hi, unsigned seed) {
-    test::Numbers numbers(seed);
-    std::vector<KernelRay> rays(count);
-    for (KernelRay& ray : rays) {
-        ray.origin = lo + (hi - lo) * vec3(numbers.unit(), numbers.unit(), numbers.unit());
-        ray.direction = numbers.direction();
-        if (numbers.word() % 4 == 0) ray.t_max = numbers.between(0, 1);
+std::vector<DeviceRay> random_rays(std::size_t count, vec3 lo, vec3 hi, unsigned seed) {
+    test::RandomNumbers numbers(seed);
+    std::vector<DeviceRay> rays(count);
+    for (DeviceRay& ray : rays) {
+        ray.origin = lo + (hi - lo) * vec3(numbers.unit_fraction(), numbers.unit_fraction(),
+                                           numbers.unit_fraction());
+        ray.direction = numbers.unit_direction();
+        if (numbers.random_word() % 4 == 0) ray.t_max = numbers.number_between(0, 1);
     }
     return rays;
 }
@@ -28,17 +29,18 @@ std::vector<KernelRay> random_rays(std::size_t count, vec3 lo, vec3 hi, unsigned
 TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
     const scene::Scene room = scene::make_cornell_mirrors();
     const render::Geometry geometry = render::make_geometry(room, render::make_scene_units(room));
-    Kernel kernel(app::build_bvh_without_object(geometry, geometry.ranges.size()));
-    const std::vector<KernelRay> rays = random_rays(100000, vec3(kernel.hierarchy().nodes[0]),
-                                                    vec3(kernel.hierarchy().nodes[1]), 1);
-    for (const std::uint32_t skipped : {0u, bvh::kHidden, bvh::kHidden | bvh::kOneSided}) {
-        const std::vector<KernelHit> hits = kernel.closest(rays, skipped),
-                                     shadows = kernel.any(rays, skipped);
-        const std::size_t different = test::differences(kernel, rays, hits, skipped);
+    DeviceRayTracer kernel(app::build_bvh_without_object(geometry, geometry.ranges.size()));
+    const std::vector<DeviceRay> rays = random_rays(100000, vec3(kernel.bvh_tree().nodes[0]),
+                                                    vec3(kernel.bvh_tree().nodes[1]), 1);
+    for (const std::uint32_t skipped :
+         {0u, bvh::kHiddenFromCamera, bvh::kHiddenFromCamera | bvh::kOneSided}) {
+        const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays, skipped),
+                                     shadows = kernel.find_any_hits(rays, skipped);
+        const std::size_t different = test::count_wrong_hits(kernel, rays, hits, skipped);
         std::size_t found = 0, other_shadows = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            found += hits[i].found() ? 1 : 0;
-            other_shadows += hits[i].found() == shadows[i].found() ? 0 : 1;
+            found += hits[i].is_hit() ? 1 : 0;
+            other_shadows += hits[i].is_hit() == shadows[i].is_hit() ? 0 : 1;
         }
         std::cout << "[ MEASURED ] mirror: " << different << " of " << rays.size()
                   << " rays differ, " << found << " hits\n";
@@ -51,24 +53,25 @@ TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
 
 /// A few triangles cast no shadow, so they have a tree of their own.
 TEST(KernelMirror, HitsWithATreeOfShadowlessTrianglesEqualTheCppTraversal) {
-    test::Numbers numbers(6);
+    test::RandomNumbers numbers(6);
     std::vector<bvh::Triangle> triangles(2000);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const vec3 centre = numbers.in_cube();
-        triangles[i] = {centre + 0.1f * numbers.in_cube(), centre + 0.1f * numbers.in_cube(),
-                        centre + 0.1f * numbers.in_cube()};
-        if (i % 20 == 0) triangles[i].flags = bvh::kShadowless;
+        const vec3 centre = numbers.point_in_cube();
+        triangles[i] = {centre + 0.1f * numbers.point_in_cube(),
+                        centre + 0.1f * numbers.point_in_cube(),
+                        centre + 0.1f * numbers.point_in_cube()};
+        if (i % 20 == 0) triangles[i].flags = bvh::kCastsNoShadow;
     }
-    Kernel kernel(triangles);
-    const std::vector<KernelRay> rays = random_rays(20000, vec3(-1), vec3(1), 7);
+    DeviceRayTracer kernel(triangles);
+    const std::vector<DeviceRay> rays = random_rays(20000, vec3(-1), vec3(1), 7);
     std::size_t found[2] = {};
-    for (const std::uint32_t skipped : {0u, bvh::kShadowless}) {
-        const std::vector<KernelHit> hits = kernel.closest(rays, skipped),
-                                     shadows = kernel.any(rays, skipped);
-        EXPECT_EQ(test::differences(kernel, rays, hits, skipped), 0u);
+    for (const std::uint32_t skipped : {0u, bvh::kCastsNoShadow}) {
+        const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays, skipped),
+                                     shadows = kernel.find_any_hits(rays, skipped);
+        EXPECT_EQ(test::count_wrong_hits(kernel, rays, hits, skipped), 0u);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            ASSERT_EQ(hits[i].found(), shadows[i].found()) << i;
-            found[skipped == 0 ? 0 : 1] += hits[i].found() ? 1 : 0;
+            ASSERT_EQ(hits[i].is_hit(), shadows[i].is_hit()) << i;
+            found[skipped == 0 ? 0 : 1] += hits[i].is_hit() ? 1 : 0;
         }
     }
     EXPECT_GT(found[0], found[1]) << "some rays meet only triangles without shadows";
@@ -77,41 +80,43 @@ TEST(KernelMirror, HitsWithATreeOfShadowlessTrianglesEqualTheCppTraversal) {
 /// Scales triangles and rays by a power of two. Every rounding stays the same, so a hit keeps all
 /// its bits, except that t may scale too.
 TEST(KernelMirror, N2b_ScalingByPowersOfTwoChangesNoBit) {
-    test::Numbers numbers(2);
+    test::RandomNumbers numbers(2);
     std::vector<bvh::Triangle> triangles(2000);
     for (bvh::Triangle& t : triangles) {
-        const vec3 centre = numbers.in_cube();
-        t = {centre + 0.1f * numbers.in_cube(), centre + 0.1f * numbers.in_cube(),
-             centre + 0.1f * numbers.in_cube()};
+        const vec3 centre = numbers.point_in_cube();
+        t = {centre + 0.1f * numbers.point_in_cube(), centre + 0.1f * numbers.point_in_cube(),
+             centre + 0.1f * numbers.point_in_cube()};
     }
-    std::vector<KernelRay> rays(20000);
+    std::vector<DeviceRay> rays(20000);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const bvh::Triangle& aim = triangles[numbers.below(triangles.size())];
-        rays[i].origin = 2.0f * numbers.in_cube();
-        rays[i].direction = i % 2 == 0 ? aim.a + numbers.unit() * (aim.b - aim.a) - rays[i].origin
-                                       : numbers.direction();
+        const bvh::Triangle& aim = triangles[numbers.integer_below(triangles.size())];
+        rays[i].origin = 2.0f * numbers.point_in_cube();
+        rays[i].direction = i % 2 == 0
+                                ? aim.a + numbers.unit_fraction() * (aim.b - aim.a) - rays[i].origin
+                                : numbers.unit_direction();
     }
-    const std::vector<KernelHit> one = Kernel(triangles).closest(rays);
+    const std::vector<DeviceHit> one = DeviceRayTracer(triangles).find_closest_hits(rays);
     std::size_t changed = 0, found = 0;
     for (int k = -20; k <= 20; ++k) {
         const float s = std::ldexp(1.0f, k);
         std::vector<bvh::Triangle> scaled = triangles;
         for (bvh::Triangle& t : scaled) t.a *= s, t.b *= s, t.c *= s;
-        std::vector<KernelRay> moved = rays;
+        std::vector<DeviceRay> moved = rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             moved[i].origin *= s;
             // Half of the directions keep their length, so their t scales.
             if (i % 4 < 2) moved[i].direction *= s;
         }
-        const std::vector<KernelHit> hits = Kernel(scaled).closest(moved);
+        const std::vector<DeviceHit> hits = DeviceRayTracer(scaled).find_closest_hits(moved);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            KernelHit expected = one[i];
+            DeviceHit expected = one[i];
             if (i % 4 >= 2) expected.t *= s;
-            found += hits[i].found() ? 1 : 0;
-            if (!test::same(hits[i], expected) && changed++ == 0)
-                ADD_FAILURE() << "x 2^" << k << ", ray " << i << ", " << test::text(rays[i])
-                              << "\n  at 1: " << test::text(one[i])
-                              << "\n  scaled: " << test::text(hits[i]);
+            found += hits[i].is_hit() ? 1 : 0;
+            if (!test::are_equal_hits(hits[i], expected) && changed++ == 0)
+                ADD_FAILURE() << "x 2^" << k << ", ray " << i << ", "
+                              << test::format_for_message(rays[i])
+                              << "\n  at 1: " << test::format_for_message(one[i])
+                              << "\n  scaled: " << test::format_for_message(hits[i]);
         }
     }
     std::cout << "[ MEASURED ] N2b " << changed << " of " << 41 * rays.size() << " hits changed, "

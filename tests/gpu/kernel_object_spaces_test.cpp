@@ -8,40 +8,43 @@
 namespace {
 
 using namespace catoptric;
-using test::Crowd;
-using test::CrowdRay;
-using test::Kernel;
-using test::KernelHit;
-using test::KernelRay;
+using test::DeviceHit;
+using test::DeviceRay;
+using test::DeviceRayTracer;
+using test::InstanceSceneRay;
+using test::RandomInstanceScene;
 
 /// The rays of a crowd in the layout that the kernel reads.
 struct Batch {
-    explicit Batch(const std::vector<CrowdRay>& from) {
-        for (const CrowdRay& ray : from) {
+    explicit Batch(const std::vector<InstanceSceneRay>& from) {
+        for (const InstanceSceneRay& ray : from) {
             rays.push_back({ray.ray.origin, ray.t_max, ray.ray.direction, ray.ray.leaves});
             lows.emplace_back(ray.low, 0.0f);
         }
     }
-    std::vector<KernelRay> rays;
+    std::vector<DeviceRay> rays;
     std::vector<vec4> lows;
 };
 
-std::size_t found(const std::vector<KernelHit>& hits) {
-    return static_cast<std::size_t>(std::ranges::count_if(hits, &KernelHit::found));
+std::size_t found(const std::vector<DeviceHit>& hits) {
+    return static_cast<std::size_t>(std::ranges::count_if(hits, &DeviceHit::is_hit));
 }
 
 TEST(KernelOwnSpaces, HitsEqualTheCppTraversal) {
-    Crowd crowd(41);
-    const Batch batch(crowd.rays(40000));
-    Kernel kernel(crowd.hierarchy());
-    for (const std::uint32_t skipped : {0u, bvh::kHidden, bvh::kHidden | bvh::kOneSided}) {
-        const std::vector<KernelHit> hits = kernel.closest(batch.rays, skipped, batch.lows),
-                                     shadows = kernel.any(batch.rays, skipped, batch.lows);
-        EXPECT_EQ(test::differences(kernel, batch.rays, hits, skipped, 1, batch.lows), 0u);
+    RandomInstanceScene crowd(41);
+    const Batch batch(crowd.make_random_rays(40000));
+    DeviceRayTracer kernel(crowd.build_scene_bvh());
+    for (const std::uint32_t skipped :
+         {0u, bvh::kHiddenFromCamera, bvh::kHiddenFromCamera | bvh::kOneSided}) {
+        const std::vector<DeviceHit> hits = kernel.find_closest_hits(batch.rays, skipped,
+                                                                     batch.lows),
+                                     shadows = kernel.find_any_hits(batch.rays, skipped,
+                                                                    batch.lows);
+        EXPECT_EQ(test::count_wrong_hits(kernel, batch.rays, hits, skipped, 1, batch.lows), 0u);
         std::size_t inside = 0, other_shadows = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
-            inside += hits[i].found() && hits[i].object > 0;
-            other_shadows += hits[i].found() != shadows[i].found();
+            inside += hits[i].is_hit() && hits[i].object > 0;
+            other_shadows += hits[i].is_hit() != shadows[i].is_hit();
         }
         std::cout << "[ MEASURED ] own spaces: " << found(hits) << " hits, " << inside
                   << " of them in one\n";
@@ -53,42 +56,45 @@ TEST(KernelOwnSpaces, HitsEqualTheCppTraversal) {
 /// Tests that rays need both floats of their origins. Without the low parts, rays start beside
 /// small objects, and some hits differ.
 TEST(KernelOwnSpaces, OriginsNeedTheSumOfTwoFloats) {
-    Crowd crowd(41);
-    const Batch batch(crowd.rays(40000));
-    Kernel kernel(crowd.hierarchy());
-    const std::vector<KernelHit> with = kernel.closest(batch.rays, 0, batch.lows),
-                                 without = kernel.closest(batch.rays);
+    RandomInstanceScene crowd(41);
+    const Batch batch(crowd.make_random_rays(40000));
+    DeviceRayTracer kernel(crowd.build_scene_bvh());
+    const std::vector<DeviceHit> with = kernel.find_closest_hits(batch.rays, 0, batch.lows),
+                                 without = kernel.find_closest_hits(batch.rays);
     std::size_t different = 0;
-    for (std::size_t i = 0; i < with.size(); ++i) different += !test::same(with[i], without[i]);
+    for (std::size_t i = 0; i < with.size(); ++i)
+        different += !test::are_equal_hits(with[i], without[i]);
     EXPECT_GT(different, with.size() / 100);
 }
 
 /// Scales either the lengths of the scene or those of the object spaces by a power of two. Every
 /// rounding stays the same, so hits keep their bits.
 TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
-    Crowd crowd(42);
-    const std::vector<CrowdRay> rays = crowd.rays(10000);
+    RandomInstanceScene crowd(42);
+    const std::vector<InstanceSceneRay> rays = crowd.make_random_rays(10000);
     const Batch batch(rays);
-    const std::vector<KernelHit> one = Kernel(crowd.hierarchy()).closest(batch.rays, 0, batch.lows);
+    const std::vector<DeviceHit> one =
+        DeviceRayTracer(crowd.build_scene_bvh()).find_closest_hits(batch.rays, 0, batch.lows);
     std::size_t changed = 0, hit = 0;
     for (int k = -20; k <= 20; k += 4)
         for (const bool scene : {true, false}) {
             const float s = std::ldexp(1.0f, k), in_scene = scene ? s : 1, in_own = scene ? 1 : s;
-            std::vector<CrowdRay> moved;
+            std::vector<InstanceSceneRay> moved;
             for (std::size_t i = 0; i < rays.size(); ++i)
                 // Half of the directions keep their length, so their t scales.
-                moved.push_back(test::scaled(rays[i], in_scene, i % 8 < 4));
+                moved.push_back(test::scale_ray(rays[i], in_scene, i % 8 < 4));
             const Batch next(moved);
-            const std::vector<KernelHit> hits =
-                Kernel(crowd.hierarchy(in_scene, in_own)).closest(next.rays, 0, next.lows);
+            const std::vector<DeviceHit> hits = DeviceRayTracer(
+                                                    crowd.build_scene_bvh(in_scene, in_own))
+                                                    .find_closest_hits(next.rays, 0, next.lows);
             hit += found(hits);
             for (std::size_t i = 0; i < hits.size(); ++i) {
-                KernelHit expected = one[i];
+                DeviceHit expected = one[i];
                 if (i % 8 >= 4) expected.t *= in_scene;
-                if (!test::same(hits[i], expected) && changed++ == 0)
+                if (!test::are_equal_hits(hits[i], expected) && changed++ == 0)
                     ADD_FAILURE() << (scene ? "scene" : "own spaces") << " x 2^" << k << ", ray "
-                                  << i << "\n  at 1: " << test::text(one[i])
-                                  << "\n  scaled: " << test::text(hits[i]);
+                                  << i << "\n  at 1: " << test::format_for_message(one[i])
+                                  << "\n  scaled: " << test::format_for_message(hits[i]);
             }
         }
     std::cout << "[ MEASURED ] N2b own spaces: " << changed << " of " << 22 * rays.size()
@@ -97,36 +103,39 @@ TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
     EXPECT_GT(hit, 22 * rays.size() / 2);
 }
 
-/// Tests objects that have an exact sphere. Rays hit the spheres if kSphere is among the skipped
-/// flags, and the meshes otherwise.
+/// Tests objects that have an exact sphere. Rays hit the spheres if kStandsForSphere is among the
+/// skipped flags, and the meshes otherwise.
 TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
-    Crowd crowd(43);
-    for (bvh::BvhInstance& thing : crowd.things())
-        if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kSphere;
-    const Batch batch(crowd.rays(20000));
-    Kernel kernel(crowd.hierarchy());
-    EXPECT_EQ(test::differences(kernel, batch.rays, kernel.closest(batch.rays, 0, batch.lows), 0, 1,
-                                batch.lows),
+    RandomInstanceScene crowd(43);
+    for (bvh::BvhInstance& thing : crowd.instances())
+        if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kStandsForSphere;
+    const Batch batch(crowd.make_random_rays(20000));
+    DeviceRayTracer kernel(crowd.build_scene_bvh());
+    EXPECT_EQ(test::count_wrong_hits(kernel, batch.rays,
+                                     kernel.find_closest_hits(batch.rays, 0, batch.lows), 0, 1,
+                                     batch.lows),
               0u);
-    const std::vector<KernelHit> hits = kernel.closest(batch.rays, bvh::kSphere, batch.lows);
+    const std::vector<DeviceHit> hits = kernel.find_closest_hits(batch.rays, bvh::kStandsForSphere,
+                                                                 batch.lows);
     std::size_t different = 0, on_spheres = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const vec3 low(batch.lows[i]);
-        const KernelRay& ray = batch.rays[i];
-        KernelHit wanted = test::mirror_of(kernel.hierarchy(), ray, bvh::kSphere, low);
-        float nearest = wanted.found() ? wanted.t : ray.t_max, t;
-        for (const bvh::BvhInstance& thing : crowd.things())
+        const DeviceRay& ray = batch.rays[i];
+        DeviceHit wanted = test::find_hit_on_cpu(kernel.bvh_tree(), ray, bvh::kStandsForSphere,
+                                                 low);
+        float nearest = wanted.is_hit() ? wanted.t : ray.t_max, t;
+        for (const bvh::BvhInstance& thing : crowd.instances())
             if (thing.radius > 0 &&
                 f32::sphere_test(vec3(0), thing.radius,
-                                 f32::ray_in_object_space(test::place_of(thing),
+                                 f32::ray_in_object_space(test::placement_of_instance(thing),
                                                           {ray.origin, ray.direction, ray.leaves},
                                                           low),
                                  nearest, t))
                 nearest = t, wanted = {t, vec3(0), 0, thing.object, 1};
-        on_spheres += wanted.found() && wanted.object > 0 && wanted.object % 2 == 0;
+        on_spheres += wanted.is_hit() && wanted.object > 0 && wanted.object % 2 == 0;
         // The device's square root rounds differently from that of C++, so t may differ slightly.
         const float apart = std::abs(wanted.t - hits[i].t);
-        different += wanted.found() != hits[i].found() || wanted.object != hits[i].object ||
+        different += wanted.is_hit() != hits[i].is_hit() || wanted.object != hits[i].object ||
                      !(apart <= 1e-5f * std::max(wanted.t, 1e-3f));
     }
     EXPECT_LE(different, 10u) << "where rays graze";

@@ -8,11 +8,11 @@
 namespace {
 
 using namespace catoptric;
-using test::Kernel;
-using test::KernelHit;
-using test::KernelLeaving;
-using test::KernelRay;
-using test::KernelStart;
+using test::DeviceHit;
+using test::DeviceRay;
+using test::DeviceRayTracer;
+using test::LeavingRayOrigin;
+using test::SurfacePointQuery;
 
 struct SelfHits {
     /// Counts of self-intersections: `named` with Ray::leaves, which names the triangle that the
@@ -22,22 +22,23 @@ struct SelfHits {
 
 /// Traces 1000 rays from random points of the triangle into random directions, and counts their
 /// hits on the same triangle.
-void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& count,
+void leave(const bvh::Triangle& triangle, test::RandomNumbers& numbers, SelfHits& count,
            const gpu::ShaderConstants& rules = {}) {
     constexpr std::size_t kRays = 1000;
-    Kernel kernel(std::span(&triangle, 1));
+    DeviceRayTracer kernel(std::span(&triangle, 1));
     kernel.rules = rules;
-    std::vector<KernelStart> starts(kRays);
-    for (KernelStart& start : starts) start = {numbers.weights(), 0, numbers.direction()};
-    const std::vector<KernelLeaving> leavings = kernel.leave(starts);
-    std::vector<KernelRay> rays;
+    std::vector<SurfacePointQuery> starts(kRays);
+    for (SurfacePointQuery& start : starts)
+        start = {numbers.barycentric_weights(), 0, numbers.unit_direction()};
+    const std::vector<LeavingRayOrigin> leavings = kernel.compute_ray_origins(starts);
+    std::vector<DeviceRay> rays;
     for (std::size_t i = 0; i < kRays; ++i)
         for (const std::uint32_t leaves : {0u, 1u})
             rays.push_back(
                 {.origin = leavings[i].origin, .direction = starts[i].direction, .leaves = leaves});
-    const std::vector<KernelHit> hits = kernel.closest(rays);
+    const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
     for (std::size_t i = 0; i < rays.size(); ++i)
-        if (hits[i].found()) ++(rays[i].leaves == 0 ? count.unnamed : count.named);
+        if (hits[i].is_hit()) ++(rays[i].leaves == 0 ? count.unnamed : count.named);
     count.rays += kRays;
 }
 
@@ -53,12 +54,12 @@ void tell(const char* what, const SelfHits& hits) {
 /// slivers, 30 to 1e9 times longer than high. The error bound of the origin must avoid
 /// self-intersections even if the ray does not name its triangle.
 TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnyMagnitude) {
-    test::Numbers numbers(17);
+    test::RandomNumbers numbers(17);
     SelfHits count;
     for (int i = 0; i < 1000; ++i) {
         bvh::Triangle t;
         for (vec3* corner : {&t.a, &t.b, &t.c})
-            for (int k = 0; k < 3; ++k) (*corner)[k] = numbers.wide(-8, 8);
+            for (int k = 0; k < 3; ++k) (*corner)[k] = numbers.log_uniform_number(-8, 8);
         leave(t, numbers, count);
     }
     tell("coordinates of 1e-8 .. 1e8", count);
@@ -68,13 +69,13 @@ TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnyMagnitude) {
 
 /// Tests triangles of any size, at the origin or away from it by up to a thousand times their size.
 TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnySize) {
-    test::Numbers numbers(18);
+    test::RandomNumbers numbers(18);
     SelfHits count;
     for (int i = 0; i < 500; ++i) {
-        const float size = std::pow(10.0f, numbers.between(-8, 8));
-        const vec3 centre = size * numbers.wide(-2, 3) * numbers.direction();
+        const float size = std::pow(10.0f, numbers.number_between(-8, 8));
+        const vec3 centre = size * numbers.log_uniform_number(-2, 3) * numbers.unit_direction();
         bvh::Triangle t;
-        for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + size * numbers.in_cube();
+        for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + size * numbers.point_in_cube();
         leave(t, numbers, count);
     }
     tell("triangles of sizes 1e-8 .. 1e8", count);
@@ -86,12 +87,12 @@ TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnySize) {
 /// removes the offset. `without` selects the rule in shaders/lib/plain.glsl that uses the fixed
 /// offset.
 TEST(KernelSpawn, N17_FixedOffsetLetsRaysHitTheirOwnTriangle) {
-    test::Numbers numbers(18);
+    test::RandomNumbers numbers(18);
     SelfHits count;
     const vec3 centre(3e5f, -2e5f, 1e5f);
     for (int i = 0; i < 20; ++i) {
         bvh::Triangle t;
-        for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + 1e3f * numbers.in_cube();
+        for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + 1e3f * numbers.point_in_cube();
         leave(t, numbers, count, {{"without", 3u}, {"fixed_offset", 1e-3f}});
     }
     tell("with an offset of 1e-3", count);
@@ -103,11 +104,11 @@ TEST(KernelSpawn, N17_FixedOffsetLetsRaysHitTheirOwnTriangle) {
 TEST(KernelSpawn, N17_RayPassesThroughTheTriangleItNames) {
     const std::vector<bvh::Triangle> triangles{{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}},
                                                {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}};
-    Kernel kernel(triangles);
-    std::vector<KernelRay> rays;
+    DeviceRayTracer kernel(triangles);
+    std::vector<DeviceRay> rays;
     for (const std::uint32_t leaves : {0u, 1u, 2u})
         rays.push_back({.direction = {0, 0, 1}, .leaves = leaves});
-    const std::vector<KernelHit> hits = kernel.closest(rays);
+    const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
     EXPECT_EQ(hits[0].t, 1);
     EXPECT_EQ(hits[1].t, 2);
     EXPECT_EQ(hits[2].t, 1);
@@ -128,25 +129,25 @@ double ulps(const vec3& found, const dvec3& exact, double scale) {
 /// than 30 degrees to the triangle. At such angles a rounding of a corner moves the hit by at most
 /// twice as much.
 TEST(KernelHit, N18_HitsLieWithin16UlpOfDoublePrecision) {
-    test::Numbers numbers(19);
+    test::RandomNumbers numbers(19);
     const bvh::Triangle t{{-0.83f, -0.61f, 0.13f}, {0.94f, -0.47f, -0.22f}, {0.07f, 0.89f, 0.31f}};
     const dvec3 a(t.a), b(t.b), c(t.c), n = glm::normalize(glm::cross(b - a, c - a));
-    Kernel kernel(std::span(&t, 1));
-    std::vector<KernelRay> rays(256);
-    for (KernelRay& ray : rays) {
-        const dvec3 w(numbers.weights());
+    DeviceRayTracer kernel(std::span(&t, 1));
+    std::vector<DeviceRay> rays(256);
+    for (DeviceRay& ray : rays) {
+        const dvec3 w(numbers.barycentric_weights());
         dvec3 from;
-        do from = dvec3(numbers.direction());
+        do from = dvec3(numbers.unit_direction());
         while (std::abs(glm::dot(from, n)) < 0.5);
         const dvec3 target = w.x * a + w.y * b + w.z * c;
-        ray.origin = vec3(target + from * double{numbers.between(0.5f, 2)});
+        ray.origin = vec3(target + from * double{numbers.number_between(0.5f, 2)});
         ray.direction = vec3(target) - ray.origin;
     }
-    const std::vector<test::KernelHit> hits = kernel.closest(rays);
-    std::vector<KernelStart> starts;
-    for (const test::KernelHit& hit : hits)
+    const std::vector<test::DeviceHit> hits = kernel.find_closest_hits(rays);
+    std::vector<SurfacePointQuery> starts;
+    for (const test::DeviceHit& hit : hits)
         starts.push_back({.weights = hit.barycentric, .place = 0, .direction = vec3(0, 0, 1)});
-    const std::vector<KernelLeaving> points = kernel.leave(starts);
+    const std::vector<LeavingRayOrigin> points = kernel.compute_ray_origins(starts);
     struct Worst {
         double t = 0, weights = 0, point = 0, normal = 0;
     } worst;
@@ -156,7 +157,7 @@ TEST(KernelHit, N18_HitsLieWithin16UlpOfDoublePrecision) {
         const bool met = f64::triangle_test(a, b, c, dvec3(rays[i].origin),
                                             f64::make_ray_shear(dvec3(rays[i].direction)), exact_t,
                                             weights);
-        ASSERT_EQ(hits[i].found(), met) << test::text(rays[i]);
+        ASSERT_EQ(hits[i].is_hit(), met) << test::format_for_message(rays[i]);
         if (!met) continue; // a ray aimed at an edge passes beside it because of rounding
         const dvec3 exact = f64::barycentric(weights);
         worst.t = std::max(worst.t, ulps(double{hits[i].t}, exact_t, exact_t));

@@ -9,17 +9,18 @@
 namespace {
 
 using namespace catoptric;
-using test::Kernel;
-using test::KernelHit;
-using test::KernelRay;
+using test::DeviceHit;
+using test::DeviceRay;
+using test::DeviceRayTracer;
 
 constexpr std::size_t kChunk = 1u << 18;
 
-std::size_t misses(const std::vector<KernelRay>& rays, const std::vector<KernelHit>& hits) {
+std::size_t misses(const std::vector<DeviceRay>& rays, const std::vector<DeviceHit>& hits) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (hits[i].found()) continue;
-        if (count++ == 0) ADD_FAILURE() << "ray " << i << " leaks: " << test::text(rays[i]);
+        if (hits[i].is_hit()) continue;
+        if (count++ == 0)
+            ADD_FAILURE() << "ray " << i << " leaks: " << test::format_for_message(rays[i]);
     }
     return count;
 }
@@ -40,17 +41,17 @@ TEST(KernelWatertight, N14_RaysCannotLeaveMeshSpheresFarFromTheOrigin) {
             };
             triangles.push_back({corner(t.x), corner(t.y), corner(t.z)});
         }
-        Kernel kernel(triangles);
-        test::Numbers numbers(14);
+        DeviceRayTracer kernel(triangles);
+        test::RandomNumbers numbers(14);
         for (std::size_t done = 0; done < kRays; done += kChunk) {
-            std::vector<KernelRay> rays(std::min(kChunk, kRays - done));
-            for (KernelRay& ray : rays) {
-                ray.origin = vec3(centre + 0.5 * radius * dvec3(numbers.in_cube()));
-                ray.direction = numbers.direction();
+            std::vector<DeviceRay> rays(std::min(kChunk, kRays - done));
+            for (DeviceRay& ray : rays) {
+                ray.origin = vec3(centre + 0.5 * radius * dvec3(numbers.point_in_cube()));
+                ray.direction = numbers.unit_direction();
             }
-            const std::vector<KernelHit> hits = kernel.closest(rays);
+            const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
             missed += misses(rays, hits);
-            different += test::differences(kernel, rays, hits, 0, 16);
+            different += test::count_wrong_hits(kernel, rays, hits, 0, 16);
             rays_in_all += rays.size();
         }
     }
@@ -69,32 +70,37 @@ struct Setting {
 };
 
 /// Returns rays from inside the mesh. Each ray aims at a corner or at a point on an edge.
-std::vector<KernelRay> aimed(const Setting& setting, std::size_t count, test::Numbers& numbers) {
-    std::vector<KernelRay> rays(count);
-    for (KernelRay& ray : rays) {
-        const bvh::Triangle& t = setting.triangles[numbers.below(setting.triangles.size())];
-        const std::size_t first = numbers.below(3);
+std::vector<DeviceRay> aimed(const Setting& setting, std::size_t count,
+                             test::RandomNumbers& numbers) {
+    std::vector<DeviceRay> rays(count);
+    for (DeviceRay& ray : rays) {
+        const bvh::Triangle& t = setting.triangles[numbers.integer_below(setting.triangles.size())];
+        const std::size_t first = numbers.integer_below(3);
         const vec3 from = std::array{t.a, t.b, t.c}[first], to = std::array{t.b, t.c, t.a}[first];
-        const vec3 target = numbers.word() % 4 == 0 ? from : from + numbers.unit() * (to - from);
-        ray.origin = test::inside(*setting.closed, setting.scale, setting.offset, numbers);
+        const vec3 target = numbers.random_word() % 4 == 0
+                                ? from
+                                : from + numbers.unit_fraction() * (to - from);
+        ray.origin = test::random_point_inside(*setting.closed, setting.scale, setting.offset,
+                                               numbers);
         ray.direction = target - ray.origin;
-        if (numbers.word() % 2 == 0) ray.direction = glm::normalize(ray.direction);
+        if (numbers.random_word() % 2 == 0) ray.direction = glm::normalize(ray.direction);
     }
     return rays;
 }
 
 TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
     constexpr std::size_t kRays = 10000000;
-    const std::array meshes{test::ball(), test::torus(), test::box("room", 1),
-                            test::box("corridor", 1e5)};
+    const std::array meshes{test::make_closed_ball(), test::make_closed_torus(),
+                            test::make_closed_box("room", 1),
+                            test::make_closed_box("corridor", 1e5)};
     const dvec3 away = glm::normalize(dvec3(0.62, -0.11, -0.78));
     std::vector<Setting> settings;
     std::size_t left_out = 0;
     for (const test::ClosedMesh& closed : meshes)
         for (const double scale : {1e-4, 1e-2, 1.0, 1e2, 1e4})
             for (const double offset : {0.0, 1.0, 1e3, 1e6}) {
-                const auto triangles = test::placed(closed.mesh, scale, offset * away);
-                if (!triangles || !test::is_resolved(scale, offset * away)) {
+                const auto triangles = test::place_triangles(closed.mesh, scale, offset * away);
+                if (!triangles || !test::is_float_precise_enough(scale, offset * away)) {
                     // Leave out settings in which a triangle lost its area by rounding, or in which
                     // no float lies strictly inside the mesh.
                     ++left_out;
@@ -106,17 +112,17 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
             }
     const std::size_t rays_each = (kRays + settings.size() - 1) / settings.size();
     std::size_t rays_in_all = 0, missed = 0, shadows_missed = 0, different = 0;
-    test::Numbers numbers(15);
+    test::RandomNumbers numbers(15);
     for (const Setting& setting : settings) {
         SCOPED_TRACE(setting.name);
-        Kernel kernel(setting.triangles);
+        DeviceRayTracer kernel(setting.triangles);
         for (std::size_t done = 0; done < rays_each; done += kChunk) {
-            const std::vector<KernelRay> rays = aimed(setting, std::min(kChunk, rays_each - done),
+            const std::vector<DeviceRay> rays = aimed(setting, std::min(kChunk, rays_each - done),
                                                       numbers);
-            const std::vector<KernelHit> hits = kernel.closest(rays);
+            const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
             missed += misses(rays, hits);
-            different += test::differences(kernel, rays, hits, 0, 16);
-            if (done == 0) shadows_missed += misses(rays, kernel.any(rays));
+            different += test::count_wrong_hits(kernel, rays, hits, 0, 16);
+            if (done == 0) shadows_missed += misses(rays, kernel.find_any_hits(rays));
             rays_in_all += rays.size();
         }
     }
@@ -133,16 +139,16 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
 /// Tests that the same rays do leak with a common triangle test and with common box tests. The test
 /// above would therefore notice such gaps.
 TEST(KernelWatertight, N15_TheSameRaysLeakWithCommonIntersectionTests) {
-    const test::ClosedMesh ball = test::ball();
+    const test::ClosedMesh ball = test::make_closed_ball();
     const dvec3 away(0.62, -0.11, -0.78);
-    const Setting setting{"ball", 1, away, &ball, *test::placed(ball.mesh, 1, away)};
-    Kernel kernel(setting.triangles);
-    test::Numbers numbers(15);
-    const std::vector<KernelRay> rays = aimed(setting, 4 * kChunk, numbers);
+    const Setting setting{"ball", 1, away, &ball, *test::place_triangles(ball.mesh, 1, away)};
+    DeviceRayTracer kernel(setting.triangles);
+    test::RandomNumbers numbers(15);
+    const std::vector<DeviceRay> rays = aimed(setting, 4 * kChunk, numbers);
     const auto leaks = [&](std::uint32_t without) {
         kernel.rules = {{"without", without}};
-        return std::ranges::count_if(kernel.closest(rays),
-                                     [](const KernelHit& hit) { return !hit.found(); });
+        return std::ranges::count_if(kernel.find_closest_hits(rays),
+                                     [](const DeviceHit& hit) { return !hit.is_hit(); });
     };
     const auto with = leaks(0), plain_triangles = leaks(1), plain_boxes = leaks(2);
     std::cout << "[ MEASURED ] N15 leaks of " << rays.size() << " rays: " << with

@@ -17,62 +17,64 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Layered,
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
-    app::Request request = test::request(scene::make_cornell_mirrors(), {GetParam()}, {96, 96});
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
+                                                   {96, 96});
     request.frames = 3;
     const app::TechniqueResult at_once = std::move(
-        app::run(test::engine(true), request).parts.front());
+        app::run(test::test_engine(true), request).parts.front());
     const app::TechniqueResult one_by_one = std::move(
-        app::run(test::engine(false), request).parts.front());
-    EXPECT_TRUE(test::same_bytes(at_once.hdr, one_by_one.hdr));
-    EXPECT_TRUE(test::same_bytes(at_once.display, one_by_one.display));
+        app::run(test::test_engine(false), request).parts.front());
+    EXPECT_TRUE(test::have_equal_pixel_bytes(at_once.hdr, one_by_one.hdr));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(at_once.display, one_by_one.display));
     EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);
 }
 
 /// Draws captures as render::add_capture_passes does, but draws every object into every face.
 /// Returns the colours.
 std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32_t face) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const std::uint32_t mirrors = gpu_scene.mirror_count();
-    const graph::ImageHandle colour = graph.image(
+    const graph::ImageHandle colour = graph.add_image(
         {"colour", Format::rgba16f, face, face, 6 * mirrors, true});
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
-        const graph::ImageHandle depth = graph.image(
+        const graph::ImageHandle depth = graph.add_image(
             {"depth" + std::to_string(mirror), Format::d32f, face, face, 6, true});
-        graph.pass("capture" + std::to_string(mirror))
+        graph.add_pass("capture" + std::to_string(mirror))
             .writes(colour.layers(6 * mirror, 6), graph::ResourceUse::colour,
                     graph::ClearValue{0, 0, 0, 1})
             .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
-            .layers(6)
+            .set_layer_count(6)
             .record([&gpu_scene, mirror](graph::PassCommands& commands) {
                 gpu_scene.bind(commands);
                 for (const bool mirrors_now : {false, true}) {
-                    commands.use(gpu::RasterState{
+                    commands.bind_pipeline(gpu::RasterState{
                         "scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag", {}});
-                    for (std::size_t i = 0; i < gpu_scene.ranges().size(); ++i) {
-                        const render::DrawRange& range = gpu_scene.ranges()[i];
+                    for (std::size_t i = 0; i < gpu_scene.draw_ranges().size(); ++i) {
+                        const render::DrawRange& range = gpu_scene.draw_ranges()[i];
                         if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
                             continue;
-                        commands.push(shared::DrawParameters{gpu_scene.capture_view(mirror), 0});
+                        commands.push_constants(
+                            shared::DrawParameters{gpu_scene.capture_view(mirror), 0});
                         gpu_scene.bind_vertices(commands, i);
                         commands.draw(range.first_index, range.index_count, 0, 6,
-                                      static_cast<std::uint32_t>(i) << shared::kLayerBits);
+                                      static_cast<std::uint32_t>(i) << shared::kInstanceLayerBits);
                     }
                 }
             });
     }
     graph.mark_output(colour);
-    test::run(runner, graph);
-    return runner.read(colour);
+    test::run_graph(runner, graph);
+    return runner.read_resource(colour);
 }
 
 TEST(Culling, CulledCapturesKeepTheirBytes) {
     for (const scene::Scene& scene :
-         {scene::make_cornell_mirrors(), test::room(3, 2), test::furnace(2)}) {
-        const test::CapturedCubes captured = test::capture(scene, 128, Format::r32f);
+         {scene::make_cornell_mirrors(), test::make_lit_room(3, 2), test::make_furnace_scene(2)}) {
+        const test::CapturedCubes captured = test::capture_mirrors(scene, 128, Format::r32f);
         EXPECT_EQ(captured.colour_bytes, capture_everything(scene, 128)) << scene.name;
     }
 }

@@ -90,7 +90,7 @@ const std::vector<Member> kMembers{MEMBER(Vertex, position),
 constexpr std::uint32_t word(std::size_t i) { return 0x3f800000u + static_cast<std::uint32_t>(i); }
 
 TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     constexpr std::size_t kWords = 128;
     std::vector<std::uint32_t> words;
     for (std::size_t i = 0; i < kWords; ++i) words.push_back(word(i));
@@ -106,20 +106,20 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
 
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const graph::BufferHandle output = graph.buffer({"output", 4 * expected.size()});
-    graph.pass("layout")
+    const graph::BufferHandle output = graph.add_buffer({"output", 4 * expected.size()});
+    graph.add_pass("layout")
         .writes(output, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
             for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies",
                                      "Frames", "Draws", "Placements", "Traces", "AllCounters"})
                 commands.bind(name, input);
             commands.bind("Words", output);
-            commands.use(gpu::ComputeState{"tests/layout.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/layout.comp", {}});
             commands.dispatch(1, 1);
         });
     graph.mark_output(output);
-    test::run(runner, graph);
-    const std::vector<std::uint32_t> found = test::read_as<std::uint32_t>(runner, output);
+    test::run_graph(runner, graph);
+    const std::vector<std::uint32_t> found = test::read_values<std::uint32_t>(runner, output);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], expected[i]) << names[i];
 }

@@ -7,7 +7,7 @@ namespace {
 
 using namespace catoptric;
 using graph::ResourceUse;
-using test::add_start, test::add_step, test::expect_refused, test::started, test::stepped;
+using test::add_start, test::add_step, test::expect_error, test::started, test::stepped;
 using test::kHeight, test::kWidth;
 
 const graph::ImageDesc kDesc{"cubes", Format::r32f, kWidth, kHeight};
@@ -17,7 +17,7 @@ const graph::ImageDesc kDesc{"cubes", Format::r32f, kWidth, kHeight};
 /// Returns the number of passes that ran.
 std::size_t show(graph::GraphRunner& runner, float stamp, std::vector<float>& shown) {
     graph::Graph graph(runner.history());
-    const graph::ImageHandle cubes = graph.persistent(kDesc);
+    const graph::ImageHandle cubes = graph.add_persistent_image(kDesc);
     const auto number = static_cast<std::uint64_t>(stamp);
     if (!graph.holds_content(cubes, number)) {
         add_start(graph, cubes, stamp);
@@ -26,14 +26,15 @@ std::size_t show(graph::GraphRunner& runner, float stamp, std::vector<float>& sh
     const graph::ImageHandle out = test::add_image(graph, "out");
     add_step(graph, "view", cubes, out, 1);
     graph.mark_output(out);
-    const std::size_t passes = test::run(runner, graph).passes.size();
-    shown = test::read_as<float>(runner, out);
+    const std::size_t passes = test::run_graph(runner, graph).passes.size();
+    shown = test::read_values<float>(runner, out);
     return passes;
 }
 
 TEST(Kept, ImageIsWrittenOnceUntilItsContentHashChanges) {
     for (const std::uint32_t in_flight : {1u, 3u}) {
-        graph::GraphRunner runner(test::bench().device, test::bench().pipelines, in_flight);
+        graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines,
+                                  in_flight);
         std::vector<float> shown;
         for (const auto& [stamp, passes] : std::vector<std::pair<float, std::size_t>>{
                  {2, 2}, {2, 1}, {2, 1}, {3, 2}, {3, 1}, {2, 2}, {2, 1}}) {
@@ -42,15 +43,15 @@ TEST(Kept, ImageIsWrittenOnceUntilItsContentHashChanges) {
         }
         // The frames have three shapes: without content, with kept content, and with overwritten
         // content.
-        EXPECT_EQ(runner.plans_made(), 3u);
-        runner.forget();
+        EXPECT_EQ(runner.planned_shape_count(), 3u);
+        runner.discard_contents();
         EXPECT_EQ(show(runner, 2, shown), 2u);
         EXPECT_EQ(shown, stepped(started(2), 1));
     }
 }
 
 TEST(Kept, ImageStaysThroughFramesThatDoNotUseIt) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     std::vector<float> shown;
     EXPECT_EQ(show(runner, 2, shown), 2u);
     for (int frame = 0; frame < 3; ++frame) {
@@ -58,29 +59,29 @@ TEST(Kept, ImageStaysThroughFramesThatDoNotUseIt) {
         const graph::ImageHandle image = test::add_image(other, "other" + std::to_string(frame));
         add_start(other, image, 9);
         other.mark_output(image);
-        test::run(runner, other);
+        test::run_graph(runner, other);
     }
     EXPECT_EQ(show(runner, 2, shown), 1u);
     EXPECT_EQ(shown, stepped(started(2), 1));
 }
 
 TEST(Kept, LayersAreWrittenOneByOne) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     graph::ImageDesc desc = kDesc;
     desc.layers = 3;
     for (std::uint32_t frame = 0; frame < 5; ++frame) {
         graph::Graph graph(runner.history());
-        const graph::ImageHandle cubes = graph.persistent(desc);
+        const graph::ImageHandle cubes = graph.add_persistent_image(desc);
         for (std::uint32_t layer = 0; layer < 3; ++layer) {
             const graph::ImageHandle part = cubes.layers(layer, 1);
             EXPECT_EQ(graph.holds_content(part, layer), layer < frame);
             if (layer != frame) continue;
-            graph.pass("fill")
+            graph.add_pass("fill")
                 .writes(part, ResourceUse::storage_write)
                 .record([=](graph::PassCommands& c) {
-                    c.use(gpu::ComputeState{"tests/start.comp", {}});
+                    c.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
                     c.bind("after", part);
-                    c.push(static_cast<float>(layer + 1));
+                    c.push_constants(static_cast<float>(layer + 1));
                     c.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
                 });
             graph.set_content_hash(part, layer);
@@ -88,28 +89,28 @@ TEST(Kept, LayersAreWrittenOneByOne) {
         EXPECT_EQ(graph.holds_content(cubes, 0), false);
         const std::uint32_t there = std::min(frame + 1, 3u);
         graph.mark_output(cubes.layers(0, there));
-        test::run(runner, graph);
+        test::run_graph(runner, graph);
         std::vector<float> expected;
         for (std::uint32_t layer = 0; layer < there; ++layer) {
             const std::vector<float> values = started(static_cast<float>(layer + 1));
             expected.insert(expected.end(), values.begin(), values.end());
         }
-        EXPECT_EQ(test::read_as<float>(runner, cubes.layers(0, there)), expected);
+        EXPECT_EQ(test::read_values<float>(runner, cubes.layers(0, there)), expected);
     }
 }
 
 TEST(Kept, ImageOfAnotherSizeHasNoContent) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     std::vector<float> shown;
     show(runner, 2, shown);
     graph::Graph graph(runner.history());
     graph::ImageDesc desc = kDesc;
     desc.width = 8;
-    EXPECT_FALSE(graph.holds_content(graph.persistent(desc), 2));
+    EXPECT_FALSE(graph.holds_content(graph.add_persistent_image(desc), 2));
 }
 
 TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     graph::ImageDesc desc = kDesc;
     desc.name = "outside";
     const graph::OwnedImage owned = graph::make_importable_image(device, desc);
@@ -120,24 +121,24 @@ TEST(Imported, ImageIsReadAndLeftInTheDeclaredUse) {
         const bool first = frame == 0;
         // The first frame writes the image, and later frames sample it. Each frame declares that
         // the next frame samples the image, which sets its layout.
-        const graph::ImageHandle image = graph.import(
+        const graph::ImageHandle image = graph.import_external(
             desc, &outside, first ? std::nullopt : std::optional(ResourceUse::sampled),
             ResourceUse::sampled);
         const graph::ImageHandle out = test::add_image(graph, "out");
         if (first) add_start(graph, image, 4);
         add_step(graph, "view", image, out, 5);
         graph.mark_output(out);
-        const graph::FrameTicket ticket = runner.submit(graph, graph::PassTiming::pipelined);
-        std::vector<std::byte> bytes = runner.read(ticket, out);
+        const graph::FrameTicket ticket = runner.submit_frame(graph, graph::PassTiming::pipelined);
+        std::vector<std::byte> bytes = runner.read_resource(ticket, out);
         std::vector<float> values(bytes.size() / sizeof(float));
         std::memcpy(values.data(), bytes.data(), bytes.size());
         EXPECT_EQ(values, stepped(started(4), 5));
     }
-    EXPECT_EQ(runner.plans_made(), 2u);
+    EXPECT_EQ(runner.planned_shape_count(), 2u);
 }
 
 TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     constexpr std::uint32_t kFrames = 6, kSlots = 3;
     graph::GraphRunner runner(device, pipelines, kSlots);
     std::vector<gpu::Buffer> targets;
@@ -146,7 +147,7 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
                              gpu::BufferUsage::read_back);
     std::vector<graph::FrameTicket> tickets;
     const auto expect_read = [&](std::uint32_t frame) {
-        runner.wait(tickets[frame]);
+        runner.wait_for_frame(tickets[frame]);
         const std::vector<std::byte> bytes = targets[frame % kSlots].read();
         std::vector<float> values(kWidth * kHeight);
         std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
@@ -157,41 +158,42 @@ TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
         graph::Graph graph;
         const graph::ImageHandle image = test::add_image(graph, "image");
         const gpu::Buffer& target = targets[frame % kSlots];
-        const graph::BufferHandle out = graph.import({target.name(), target.bytes()}, &target);
+        const graph::BufferHandle out = graph.import_external({target.name(), target.bytes()},
+                                                              &target);
         add_start(graph, image, static_cast<float>(frame));
-        graph.pass("copy")
+        graph.add_pass("copy")
             .reads(image, ResourceUse::copy_from)
             .writes(out, ResourceUse::copy_to)
-            .record([=](graph::PassCommands& commands) { commands.copy(image, out); });
+            .record([=](graph::PassCommands& commands) { commands.copy_image(image, out); });
         // The frame has no output. The imported buffer alone keeps the passes.
-        tickets.push_back(runner.submit(graph, graph::PassTiming::pipelined));
+        tickets.push_back(runner.submit_frame(graph, graph::PassTiming::pipelined));
     }
     for (std::uint32_t frame = kFrames - kSlots; frame < kFrames; ++frame) expect_read(frame);
-    EXPECT_EQ(runner.plans_made(), 1u);
+    EXPECT_EQ(runner.planned_shape_count(), 1u);
 }
 
 TEST(Imported, ImageWithoutASourceIsRefused) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     graph::Graph graph;
-    const graph::ImageHandle image = graph.import(kDesc, nullptr, std::nullopt,
-                                                  ResourceUse::sampled);
+    const graph::ImageHandle image = graph.import_external(kDesc, nullptr, std::nullopt,
+                                                           ResourceUse::sampled);
     add_start(graph, image, 1);
-    expect_refused([&] { test::run(runner, graph); }, Failure::internal,
-                   {"image 'cubes' is imported from nowhere"});
+    expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
+                 {"image 'cubes' is imported from nowhere"});
 }
 
 TEST(Mips, EachMipIsComputedFromTheOneBefore) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     for (int frame = 0; frame < 2; ++frame) {
         graph::Graph graph;
         graph::ImageDesc desc = kDesc;
         desc.mips = 4;
-        const graph::ImageHandle image = graph.image(desc);
+        const graph::ImageHandle image = graph.add_image(desc);
         add_start(graph, image.mip(0), 2);
         for (std::uint32_t m = 1; m < desc.mips; ++m)
             add_step(graph, "mip" + std::to_string(m), image.mip(m - 1), image.mip(m), 3);
         graph.mark_output(image);
-        test::run(runner, graph);
+        test::run_graph(runner, graph);
         std::vector<float> expected, before;
         for (std::uint32_t m = 0; m < desc.mips; ++m) {
             const std::uint32_t width = graph::size_at_mip(kWidth, m),
@@ -207,51 +209,52 @@ TEST(Mips, EachMipIsComputedFromTheOneBefore) {
             expected.insert(expected.end(), mip.begin(), mip.end());
             before = mip;
         }
-        EXPECT_EQ(test::read_as<float>(runner, image), expected);
+        EXPECT_EQ(test::read_values<float>(runner, image), expected);
     }
 }
 
 TEST(Mips, MipsAreSampledAsOneImage) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     for (const float lod : {0.0f, 1.0f, 1.5f, 2.25f, 9.0f}) {
         graph::Graph graph;
-        const graph::ImageHandle image = graph.image(
+        const graph::ImageHandle image = graph.add_image(
             {"pyramid", Format::r16f, 16, 16, 1, false, 5});
         for (std::uint32_t m = 0; m < 5; ++m)
-            graph.pass("mip" + std::to_string(m))
+            graph.add_pass("mip" + std::to_string(m))
                 .writes(image.mip(m), ResourceUse::colour,
                         graph::ClearValue{10.0f * static_cast<float>(m)})
                 .record([](graph::PassCommands&) {});
         const graph::ImageHandle out = test::add_image(graph, "out");
-        graph.pass("look")
+        graph.add_pass("look")
             .reads(image, ResourceUse::sampled)
             .writes(out, ResourceUse::storage_write)
             .record([=](graph::PassCommands& commands) {
-                commands.use(gpu::ComputeState{"tests/lod.comp", {}});
+                commands.bind_pipeline(gpu::ComputeState{"tests/lod.comp", {}});
                 commands.bind("before", image, graph::TextureFilter::mipmapped);
                 commands.bind("after", out);
-                commands.push(lod);
+                commands.push_constants(lod);
                 commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
             });
         graph.mark_output(out);
-        test::run(runner, graph);
-        EXPECT_NEAR(test::read_as<float>(runner, out)[0], std::min(10 * lod, 40.0f), 0.1f) << lod;
+        test::run_graph(runner, graph);
+        EXPECT_NEAR(test::read_values<float>(runner, out)[0], std::min(10 * lod, 40.0f), 0.1f)
+            << lod;
     }
 }
 
 TEST(Unread, AttachmentsThatAreNotStoredDoNotChangeThePicture) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     graph::Graph graph;
-    const graph::ImageHandle colour = graph.image({"colour", Format::rgba32f, 8, 8});
-    const graph::ImageHandle depth = graph.image({"depth", Format::d32f, 8, 8});
-    graph.pass("draw")
+    const graph::ImageHandle colour = graph.add_image({"colour", Format::rgba32f, 8, 8});
+    const graph::ImageHandle depth = graph.add_image({"depth", Format::d32f, 8, 8});
+    graph.add_pass("draw")
         .writes(colour, ResourceUse::colour, graph::ClearValue{1, 2, 3, 4})
         .writes(depth, ResourceUse::depth, graph::ClearValue{})
         .record([](graph::PassCommands&) {});
     graph.mark_output(colour);
     EXPECT_EQ(runner.compiled(graph).passes[0].unread, 2u);
-    test::run(runner, graph);
-    const std::vector<float> found = test::read_as<float>(runner, colour);
+    test::run_graph(runner, graph);
+    const std::vector<float> found = test::read_values<float>(runner, colour);
     EXPECT_EQ(std::vector<float>(found.begin(), found.begin() + 4),
               (std::vector<float>{1, 2, 3, 4}));
 }
@@ -259,53 +262,55 @@ TEST(Unread, AttachmentsThatAreNotStoredDoNotChangeThePicture) {
 // Frames in flight write an image that no pass reads. Each frame must wait for the write of the
 // frame before, which the validation layer checks.
 TEST(Unread, UnreadImageIsWrittenAgainInTheNextFrame) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 3);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines, 3);
     for (int frame = 0; frame < 6; ++frame) {
         graph::Graph graph;
         const graph::ImageHandle unread = test::add_image(graph, "unread");
         const graph::ImageHandle out = test::add_image(graph, "out");
-        graph.pass("both")
+        graph.add_pass("both")
             .writes(unread, ResourceUse::storage_write)
             .writes(out, ResourceUse::storage_write)
             .record([=](graph::PassCommands& commands) {
-                commands.use(gpu::ComputeState{"tests/start.comp", {}});
+                commands.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
                 for (const graph::ImageHandle& after : {unread, out}) {
                     commands.bind("after", after);
-                    commands.push(1.0f);
+                    commands.push_constants(1.0f);
                     commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
                 }
             });
         graph.mark_output(out);
-        runner.submit(graph, graph::PassTiming::pipelined);
+        runner.submit_frame(graph, graph::PassTiming::pipelined);
     }
 }
 
 // Graphs of five shapes take turns, one of them with a persistent image. The memory must not exceed
 // that of the largest shape.
 TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines, 2);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines, 2);
     std::uint64_t after_two_rounds = 0;
     for (int frame = 0; frame < 2000; ++frame) {
         const int kind = frame % 5;
         graph::Graph graph(runner.history());
-        const graph::ImageHandle last = graph.image({"last", Format::rgba16f, 64u << kind, 64});
-        const graph::ImageHandle out = graph.image({"out", Format::rgba16f, 64u << (4 - kind), 64});
+        const graph::ImageHandle last = graph.add_image({"last", Format::rgba16f, 64u << kind, 64});
+        const graph::ImageHandle out = graph.add_image(
+            {"out", Format::rgba16f, 64u << (4 - kind), 64});
         for (const graph::ImageHandle& image : {last, out})
-            graph.pass("clear/" + graph.images()[image.id].name)
-                .reads(graph.previous(last), ResourceUse::sampled)
+            graph.add_pass("clear/" + graph.images()[image.id].name)
+                .reads(graph.previous_contents(last), ResourceUse::sampled)
                 .writes(image, ResourceUse::colour, graph::ClearValue{})
                 .record([](graph::PassCommands&) {});
         if (kind == 3) {
-            const graph::ImageHandle kept = graph.persistent({"kept", Format::rgba16f, 64, 64});
+            const graph::ImageHandle kept = graph.add_persistent_image(
+                {"kept", Format::rgba16f, 64, 64});
             if (!graph.holds_content(kept, 1)) {
-                graph.pass("keep")
+                graph.add_pass("keep")
                     .writes(kept, ResourceUse::colour, graph::ClearValue{})
                     .record([](graph::PassCommands&) {});
                 graph.set_content_hash(kept, 1);
             }
         }
         graph.mark_output(out);
-        runner.submit(graph, graph::PassTiming::pipelined);
+        runner.submit_frame(graph, graph::PassTiming::pipelined);
         if (frame == 9) after_two_rounds = runner.memory_bytes();
         // Memory is compared every fifth frame, because an image that the next frame reads has the
         // size of the present shape.
@@ -313,7 +318,7 @@ TEST(Memory, MemoryStaysConstantOverFramesOfManyShapes) {
             EXPECT_EQ(runner.memory_bytes(), after_two_rounds) << frame;
         }
     }
-    EXPECT_EQ(runner.plans_made(), 6u);
+    EXPECT_EQ(runner.planned_shape_count(), 6u);
 }
 
 } // namespace

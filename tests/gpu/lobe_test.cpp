@@ -17,36 +17,37 @@ struct LobeAnswer {
 static_assert(sizeof(LobeAnswer) == 32);
 
 std::vector<vec4> draw_lobe_questions(std::size_t count) {
-    test::Numbers numbers(11);
+    test::RandomNumbers numbers(11);
     std::vector<vec4> asked;
     while (asked.size() < count) {
-        vec3 to_eye = numbers.direction();
+        vec3 to_eye = numbers.unit_direction();
         to_eye.z = std::abs(to_eye.z);
-        const float roughness = asked.size() % 10 == 0 ? 0 : numbers.between(.02f, 1);
+        const float roughness = asked.size() % 10 == 0 ? 0 : numbers.number_between(.02f, 1);
         if (to_eye.z > 1e-3f) asked.emplace_back(to_eye, roughness);
     }
     return asked;
 }
 
 std::vector<LobeAnswer> lobe_answers_of_device(const std::vector<vec4>& asked) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     gpu::Buffer input;
     upload_to_buffer(device, input, "asked", asked, gpu::BufferUsage::plain);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const graph::BufferHandle out = graph.buffer({"answers", asked.size() * sizeof(LobeAnswer)});
-    graph.pass("lobe")
+    const graph::BufferHandle out = graph.add_buffer(
+        {"answers", asked.size() * sizeof(LobeAnswer)});
+    graph.add_pass("lobe")
         .writes(out, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
             commands.bind("Asked", input);
             commands.bind("Answers", out);
-            commands.use(gpu::ComputeState{"tests/lobe.comp", {}});
-            commands.push(static_cast<std::uint32_t>(asked.size()));
+            commands.bind_pipeline(gpu::ComputeState{"tests/lobe.comp", {}});
+            commands.push_constants(static_cast<std::uint32_t>(asked.size()));
             commands.dispatch(static_cast<std::uint32_t>((asked.size() + 63) / 64), 1);
         });
     graph.mark_output(out);
-    test::run(runner, graph);
-    return test::read_as<LobeAnswer>(runner, out);
+    test::run_graph(runner, graph);
+    return test::read_values<LobeAnswer>(runner, out);
 }
 
 TEST(Lobe, DeviceGivesWhatTheSameCodeGivesInCpp) {
@@ -59,7 +60,7 @@ TEST(Lobe, DeviceGivesWhatTheSameCodeGivesInCpp) {
         // Random numbers are arithmetic of integers, so they are equal.
         ASSERT_EQ(found[i].u, u) << i;
         ASSERT_EQ(found[i].v, v) << i;
-        const float alpha = f32::alpha_of_roughness(asked[i].w);
+        const float alpha = f32::roughness_to_alpha(asked[i].w);
         const vec3 wanted = f32::sample_lobe(alpha, to_eye, u, v);
         EXPECT_LT(length(found[i].to_light - wanted), 2e-4f) << i << " roughness " << asked[i].w;
         // The functions of the direction are compared at the device's own direction.
@@ -68,7 +69,7 @@ TEST(Lobe, DeviceGivesWhatTheSameCodeGivesInCpp) {
             return std::abs(a - b) <= 2e-3f * std::abs(b) + 1e-6f;
         };
         EXPECT_TRUE(
-            near(found[i].weight, f32::sampled_lobe_weight(alpha, half, white, to_eye, to_light).x))
+            near(found[i].weight, f32::lobe_sample_weight(alpha, half, white, to_eye, to_light).x))
             << i;
         if (asked[i].w < .1f)
             continue; // a narrow lobe turns roundings of the direction into factors

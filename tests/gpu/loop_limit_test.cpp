@@ -11,20 +11,20 @@ namespace {
 using namespace catoptric;
 
 std::uint32_t turns_of(std::uint32_t wanted) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     graph::Graph graph;
-    const graph::BufferHandle counts = graph.buffer({"counts", 16});
-    graph.pass("spin")
+    const graph::BufferHandle counts = graph.add_buffer({"counts", 16});
+    graph.add_pass("spin")
         .writes(counts, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
             commands.bind("Counts", counts);
-            commands.push(wanted);
+            commands.push_constants(wanted);
             commands.dispatch(4, 1);
         });
     graph.mark_output(counts);
-    test::run(runner, graph);
-    return test::read_as<std::uint32_t>(runner, counts).front();
+    test::run_graph(runner, graph);
+    return test::read_values<std::uint32_t>(runner, counts).front();
 }
 
 TEST(LoopLimit, ShortLoopsRunToTheirEnd) {
@@ -35,7 +35,7 @@ TEST(LoopLimit, LongLoopsRunOrStopAtTheKnownLimit) {
     constexpr std::uint32_t kWanted = 70000, kLimit = 65535;
     const std::uint32_t turns = turns_of(kWanted);
     RecordProperty("turns", static_cast<int>(turns));
-    const gpu::DeviceProperties& info = test::bench().device.info();
+    const gpu::DeviceProperties& info = test::test_device().device.info();
     std::cout << "[ MEASURED ] " << turns << " of " << kWanted << " turns on " << info.name << ", "
               << info.driver << "\n";
     if (turns == kWanted) GTEST_SKIP() << "this device does not stop loops";
@@ -70,9 +70,9 @@ scene::Scene hall_of_mirrors(int slivers) {
 }
 
 TEST(LoopLimit, RayThatReachesItsStepLimitFailsTheRun) {
-    test::expect_refused(
+    test::expect_error(
         [] {
-            test::render(hall_of_mirrors(3000), "raytrace:depth=64", {32, 32});
+            test::render_technique(hall_of_mirrors(3000), "raytrace:depth=64", {32, 32});
         },
         Failure::exhausted,
         {"'raytrace:depth=64'", "pixels met more triangles and boxes than one invocation may",
@@ -80,8 +80,8 @@ TEST(LoopLimit, RayThatReachesItsStepLimitFailsTheRun) {
 }
 
 TEST(LoopLimit, SameSceneRendersWithLessDepth) {
-    const app::TechniqueResult part = test::render(hall_of_mirrors(3000), "raytrace:depth=4",
-                                                   {32, 32});
+    const app::TechniqueResult part = test::render_technique(hall_of_mirrors(3000),
+                                                             "raytrace:depth=4", {32, 32});
     ASSERT_TRUE(part.rays);
     std::cout << "[ MEASURED ] longest walk at depth 4: " << part.rays->longest_walk << " steps\n";
     EXPECT_GT(part.rays->longest_walk, 1000u);

@@ -31,7 +31,7 @@ struct Answer {
 
 std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
                             const std::vector<MirrorRay>& rays, bool by_tree) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     gpu::Buffer input, mirrors, tree, frame;
     upload_to_buffer(device, input, "rays", rays, gpu::BufferUsage::plain);
     upload_to_buffer(device, mirrors, "probes", render::pack_into_texels(probes),
@@ -43,8 +43,8 @@ std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
                      gpu::BufferUsage::uniform);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const graph::BufferHandle out = graph.buffer({"answers", rays.size() * sizeof(Answer)});
-    graph.pass("next_mirror")
+    const graph::BufferHandle out = graph.add_buffer({"answers", rays.size() * sizeof(Answer)});
+    graph.add_pass("next_mirror")
         .writes(out, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
             commands.bind("frame", frame);
@@ -52,14 +52,14 @@ std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
             commands.bind("mirror_nodes", tree);
             commands.bind("Rays", input);
             commands.bind("Answers", out);
-            commands.use(
+            commands.bind_pipeline(
                 gpu::ComputeState{"tests/next_mirror.comp", {{"mirror_tree", by_tree ? 1u : 0u}}});
-            commands.push(static_cast<std::uint32_t>(rays.size()));
+            commands.push_constants(static_cast<std::uint32_t>(rays.size()));
             commands.dispatch(static_cast<std::uint32_t>((rays.size() + 63) / 64), 1);
         });
     graph.mark_output(out);
-    test::run(runner, graph);
-    return test::read_as<Answer>(runner, out);
+    test::run_graph(runner, graph);
+    return test::read_values<Answer>(runner, out);
 }
 
 shared::Probe sphere(vec3 centre, float radius) {
@@ -72,20 +72,20 @@ shared::Probe sphere(vec3 centre, float radius) {
 
 /// Returns exact spheres and boxes of many sizes. Some are in the list twice, and some lie inside
 /// others.
-std::vector<shared::Probe> next_mirror_crowd(test::Numbers& numbers, std::size_t count) {
+std::vector<shared::Probe> next_mirror_crowd(test::RandomNumbers& numbers, std::size_t count) {
     std::vector<shared::Probe> probes;
     while (probes.size() < count) {
-        const vec3 centre = numbers.in_cube();
-        const float size = std::abs(numbers.wide(-3, -.5f));
+        const vec3 centre = numbers.point_in_cube();
+        const float size = std::abs(numbers.log_uniform_number(-3, -.5f));
         shared::Probe probe = sphere(centre, size);
-        if (numbers.below(3) == 0) {
+        if (numbers.integer_below(3) == 0) {
             probe.radius = 0;
             probe.lowest = centre - size * vec3(1, .5f, 0);
             probe.highest = centre + size * vec3(1, .25f, .1f);
         }
         probes.push_back(probe);
-        if (numbers.below(8) == 0) probes.push_back(probe);
-        if (numbers.below(8) == 0) probes.push_back(sphere(centre, .5f * size));
+        if (numbers.integer_below(8) == 0) probes.push_back(probe);
+        if (numbers.integer_below(8) == 0) probes.push_back(sphere(centre, .5f * size));
     }
     return probes;
 }
@@ -93,22 +93,22 @@ std::vector<shared::Probe> next_mirror_crowd(test::Numbers& numbers, std::size_t
 /// Returns rays of several kinds: random rays, rays past a mirror's outline, where rounding
 /// decides, rays along an axis, and rays from a mirror.
 std::vector<MirrorRay> next_mirror_rays_among(const std::vector<shared::Probe>& probes,
-                                              test::Numbers& numbers, std::size_t count) {
+                                              test::RandomNumbers& numbers, std::size_t count) {
     std::vector<MirrorRay> rays(count);
     for (std::size_t i = 0; i < count; ++i) {
         MirrorRay& ray = rays[i];
-        const std::size_t mirror = numbers.below(probes.size());
+        const std::size_t mirror = numbers.integer_below(probes.size());
         const shared::Probe& probe = probes[mirror];
         const float size = .5f * (probe.highest.x - probe.lowest.x);
-        ray.origin = (i % 2 == 0 ? 1.5f : 100) * numbers.in_cube();
-        ray.direction = numbers.direction();
-        ray.leaves = static_cast<std::uint32_t>(numbers.below(probes.size()));
-        ray.end = numbers.between(0, i % 2 == 0 ? 2 : 200);
-        const vec3 aside = normalize(cross(ray.direction, numbers.direction()));
-        const float nearly = 1 + numbers.between(-4, 4) * 0x1p-23f;
+        ray.origin = (i % 2 == 0 ? 1.5f : 100) * numbers.point_in_cube();
+        ray.direction = numbers.unit_direction();
+        ray.leaves = static_cast<std::uint32_t>(numbers.integer_below(probes.size()));
+        ray.end = numbers.number_between(0, i % 2 == 0 ? 2 : 200);
+        const vec3 aside = normalize(cross(ray.direction, numbers.unit_direction()));
+        const float nearly = 1 + numbers.number_between(-4, 4) * 0x1p-23f;
         if (i % 4 >= 2) // a ray past the outline of a mirror, from far or near
             ray.origin = probe.sphere + size * nearly * aside -
-                         numbers.between(0, i % 8 < 4 ? 2 : 200) * ray.direction;
+                         numbers.number_between(0, i % 8 < 4 ? 2 : 200) * ray.direction;
         if (i % 16 == 15) ray.direction = vec3(i % 3 == 0, i % 3 == 1, i % 3 == 2);
         if (i % 16 == 7)
             ray.origin = probe.sphere + size * aside,
@@ -118,7 +118,7 @@ std::vector<MirrorRay> next_mirror_rays_among(const std::vector<shared::Probe>& 
 }
 
 TEST(NextMirror, TreeTraversalEqualsATestOfAllMirrors) {
-    test::Numbers numbers(14);
+    test::RandomNumbers numbers(14);
     for (const std::size_t count : {1, 2, 9, 30, 200}) {
         const std::vector<shared::Probe> probes = next_mirror_crowd(numbers, count);
         const std::vector<MirrorRay> rays = next_mirror_rays_among(probes, numbers, 40000);

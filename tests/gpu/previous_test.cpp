@@ -9,36 +9,36 @@ using test::add_image, test::add_start, test::add_step, test::stepped;
 using test::kHeight, test::kWidth;
 
 TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     std::vector<float> expected(kWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 4; ++frame) {
         graph::Graph graph(runner.history());
         const graph::ImageHandle image = add_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
-        add_step(graph, "step", graph.previous(image), image, static_cast<float>(frame));
+        add_step(graph, "step", graph.previous_contents(image), image, static_cast<float>(frame));
         graph.mark_output(image);
-        test::run(runner, graph);
+        test::run_graph(runner, graph);
         expected = stepped(expected, static_cast<float>(frame));
-        EXPECT_EQ(test::read_as<float>(runner, image), expected) << "frame " << frame;
+        EXPECT_EQ(test::read_values<float>(runner, image), expected) << "frame " << frame;
     }
 }
 
 TEST(Previous, HistoryBelongsToItsRunner) {
     for (int run = 0; run < 2; ++run) {
-        graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+        graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
         EXPECT_TRUE(runner.history().previous.empty());
         graph::Graph graph(runner.history());
         const graph::ImageHandle image = add_image(graph, "kept");
-        add_step(graph, "step", graph.previous(image), image, 5);
+        add_step(graph, "step", graph.previous_contents(image), image, 5);
         graph.mark_output(image);
-        test::run(runner, graph);
-        EXPECT_EQ(test::read_as<float>(runner, image),
+        test::run_graph(runner, graph);
+        EXPECT_EQ(test::read_values<float>(runner, image),
                   stepped(std::vector<float>(kWidth * kHeight, 0.0f), 5));
     }
 }
 
 TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     std::vector<float> expected(kWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 3; ++frame) {
         graph::Graph graph(runner.history());
@@ -49,11 +49,11 @@ TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
         }
         const graph::ImageHandle image = add_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
-        add_step(graph, "step", graph.previous(image), image, 2);
+        add_step(graph, "step", graph.previous_contents(image), image, 2);
         graph.mark_output(image);
-        test::run(runner, graph);
+        test::run_graph(runner, graph);
         expected = stepped(expected, 2);
-        EXPECT_EQ(test::read_as<float>(runner, image), expected) << "frame " << frame;
+        EXPECT_EQ(test::read_values<float>(runner, image), expected) << "frame " << frame;
     }
 }
 
@@ -77,14 +77,14 @@ TEST(Aliasing, ImagesThatShareMemoryEqualImagesApart) {
     std::vector<float> found[2];
     std::uint64_t bytes[2];
     for (const bool apart : {false, true}) {
-        graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+        graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
         for (int frame = 0; frame < 3; ++frame) { // later frames reuse memory
             graph::Graph graph;
             const graph::ImageHandle last = add_chain(graph, 9, apart);
             bytes[apart] = runner.compiled(graph).bytes;
-            runner.run(graph,
-                       frame == 1 ? graph::PassTiming::pipelined : graph::PassTiming::isolated);
-            found[apart] = test::read_as<float>(runner, last);
+            runner.run_and_wait(graph, frame == 1 ? graph::PassTiming::pipelined
+                                                  : graph::PassTiming::isolated);
+            found[apart] = test::read_values<float>(runner, last);
         }
     }
     std::vector<float> expected = test::started(7);

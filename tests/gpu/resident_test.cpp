@@ -13,26 +13,27 @@ using namespace catoptric;
 
 constexpr uvec2 kResidentSize{24, 24};
 
-gpu::Device& device() { return test::bench().device; }
+gpu::Device& device() { return test::test_device().device; }
 
 /// Returns the linear picture of the resident scene as bytes.
 std::vector<std::byte> resident_picture(const render::GpuScene& scene,
                                         const std::string& technique) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const reflect::TechniqueOutputs outputs = test::add_technique(graph, {scene, kResidentSize, ""},
                                                                   technique);
     graph.mark_output(outputs.hdr);
-    scene.prepare();
-    test::run(runner, graph);
-    return runner.read(outputs.hdr);
+    scene.prepare_frame();
+    test::run_graph(runner, graph);
+    return runner.read_resource(outputs.hdr);
 }
 
 /// A test room on the device whose objects, materials and camera tests change.
 struct Live {
     explicit Live(std::size_t slots = 1)
-        : now(test::room(3, 2)), camera(now.cameras.front()), resident(device(), now, slots) {}
+        : now(test::make_lit_room(3, 2)), camera(now.cameras.front()),
+          resident(device(), now, slots) {}
     /// Writes the changes to the device. Returns the number of buffer writes.
     std::size_t update(std::size_t slot = 0) {
         const std::size_t before = resident.uploads();
@@ -117,29 +118,31 @@ TEST(Resident, HierarchiesAreRebuiltWhenWallsBeginToCastShadows) {
 }
 
 /// Makes one random change of the kinds that a program may make.
-void change(Live& live, test::Numbers& numbers) {
-    const std::size_t object = numbers.below(live.now.objects.size());
-    const dvec3 by = .2 * dvec3(numbers.in_cube());
-    switch (numbers.below(8)) {
+void change(Live& live, test::RandomNumbers& numbers) {
+    const std::size_t object = numbers.integer_below(live.now.objects.size());
+    const dvec3 by = .2 * dvec3(numbers.point_in_cube());
+    switch (numbers.integer_below(8)) {
     case 0: live.camera.eye += by; break;
     case 1: live.move_ball(by); break;
     case 2: live.place(object) += dvec4(by, 0); break; // move any object, lamps too
-    case 3: live.now.objects[object].material = numbers.below(live.now.materials.size()); break;
-    case 4: live.now.materials[numbers.below(3)].albedo.y = numbers.unit(); break;
+    case 3:
+        live.now.objects[object].material = numbers.integer_below(live.now.materials.size());
+        break;
+    case 4: live.now.materials[numbers.integer_below(3)].albedo.y = numbers.unit_fraction(); break;
     case 5: // add a light without a surface, or move the last one
-        if (live.now.punctual.empty() || numbers.below(2) == 0)
+        if (live.now.punctual.empty() || numbers.integer_below(2) == 0)
             live.now.punctual.push_back(
-                {.kind = static_cast<scene::PunctualLight::Kind>(numbers.below(3)),
+                {.kind = static_cast<scene::PunctualLight::Kind>(numbers.integer_below(3)),
                  .intensity = vec3(1)});
         live.now.punctual.back().world_from_light[3] += dvec4(by, 0);
         break;
     case 6: {
         scene::Environment studio{.studio = true};
-        studio.scale = numbers.unit();
+        studio.scale = numbers.unit_fraction();
         live.now.environment = std::make_shared<const scene::Environment>(studio);
         break;
     }
-    default: live.now.materials[3].emission *= .5f + numbers.unit(); break;
+    default: live.now.materials[3].emission *= .5f + numbers.unit_fraction(); break;
     }
 }
 
@@ -147,7 +150,7 @@ TEST(Resident, ChangedSceneEqualsASceneMadeForTheFrame) {
     constexpr std::size_t kSlots = 3;
     Live live(kSlots);
     live.update();
-    test::Numbers numbers(5);
+    test::RandomNumbers numbers(5);
     const scene::Scene rest = live.now;
     for (std::size_t step = 0; step < 20; ++step) {
         change(live, numbers);
@@ -165,7 +168,7 @@ TEST(Resident, ChangedSceneEqualsASceneMadeForTheFrame) {
 /// Turns two meshes in one update. Together they have more triangles than the update compares at a
 /// time.
 TEST(Resident, RaysSeeAllTurnedMeshes) {
-    scene::Scene now = test::room(0, 1);
+    scene::Scene now = test::make_lit_room(0, 1);
     for (const double x : {-.4, .4}) {
         scene::add_ball(now, "fine", 0, dvec3(x, 0, 0), .3);
         now.meshes.back() = scene::ball("fine", 4);
@@ -187,7 +190,7 @@ TEST(Resident, RaysSeeAllTurnedMeshes) {
 /// Tests a scene of 50 million triangles. Its copies cannot share the trees of their mesh, so the
 /// scene is refused for its number of triangles before any vertex is made.
 TEST(Resident, SceneTooLargeForTheDeviceIsRefused) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     scene::add_ball(scene, "ball", 0, dvec3(0), .5);
     scene.meshes.back() = scene::ball("ball", 7); // a mesh of 65,536 triangles
     scene.objects.resize(800, scene.objects.back());
@@ -217,19 +220,20 @@ TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kSlots = 3, kWords = 9000;
     render::DeviceList list("list", gpu::BufferUsage::plain, kSlots);
     std::vector<std::uint32_t> now(kWords, 1);
-    list.set(now);
-    for (std::size_t slot = 0; slot < kSlots; ++slot) list.write(device(), slot);
+    list.set_contents(now);
+    for (std::size_t slot = 0; slot < kSlots; ++slot) list.write_changed_pages(device(), slot);
     EXPECT_EQ(list.copy_count(), 1u) << "nothing has changed: one copy";
     std::vector<std::vector<std::uint32_t>> bound(kSlots, now);
-    test::Numbers numbers(6);
+    test::RandomNumbers numbers(6);
     for (std::size_t frame = 0; frame < 40; ++frame) {
-        if (numbers.below(3) > 0) now[numbers.below(kWords)] = numbers.word();
-        list.set(now);
+        if (numbers.integer_below(3) > 0)
+            now[numbers.integer_below(kWords)] = numbers.random_word();
+        list.set_contents(now);
         const std::size_t slot = frame % kSlots;
-        list.write(device(), slot);
+        list.write_changed_pages(device(), slot);
         bound[slot] = now;
         for (std::size_t other = 0; other < kSlots; ++other)
-            ASSERT_EQ(words(list.at(other), kWords), bound[other]) << "frame " << frame;
+            ASSERT_EQ(words(list.buffer_of_copy(other), kWords), bound[other]) << "frame " << frame;
     }
     EXPECT_LE(list.copy_count(), kSlots);
 }
@@ -237,16 +241,16 @@ TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
 TEST(Resident, OnlyChangedPartsOfABufferAreWritten) {
     render::DeviceList list("list", gpu::BufferUsage::plain, 1);
     std::vector<std::uint32_t> now(100000, 1);
-    list.set(now);
-    EXPECT_EQ(list.write(device(), 0), 1u);
+    list.set_contents(now);
+    EXPECT_EQ(list.write_changed_pages(device(), 0), 1u);
     now[10] = now[20] = now[60000] = 2;
-    list.set(now);
-    EXPECT_EQ(list.write(device(), 0), 2u);
-    EXPECT_EQ(words(list.at(0), now.size()), now);
+    list.set_contents(now);
+    EXPECT_EQ(list.write_changed_pages(device(), 0), 2u);
+    EXPECT_EQ(words(list.buffer_of_copy(0), now.size()), now);
     now.resize(200000, 3);
-    list.set(now);
-    list.write(device(), 0);
-    EXPECT_EQ(words(list.at(0), now.size()), now);
+    list.set_contents(now);
+    list.write_changed_pages(device(), 0);
+    EXPECT_EQ(words(list.buffer_of_copy(0), now.size()), now);
 }
 
 } // namespace

@@ -16,9 +16,9 @@ namespace {
 using namespace catoptric;
 
 TEST(Session, HostMemoryIsFlatOverManyFrames) {
-    const scene::Scene scene = test::room(2, 1);
-    app::FrameSpec spec = test::request(scene, {"reuse:face=8,shadow_map=8"}, {16, 16});
-    app::Session session(test::engine(), scene);
+    const scene::Scene scene = test::make_lit_room(2, 1);
+    app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=8,shadow_map=8"}, {16, 16});
+    app::Session session(test::test_engine(), scene);
     constexpr int kFrames = 2000;
     // A leak grows from the first window to the second and from the second to the third. A block
     // that the driver takes once grows in one of these steps only. Each window counts its smallest

@@ -23,7 +23,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 app::FrameSpec spec_of(const scene::Scene& scene, const std::string& technique) {
-    return test::request(scene, {technique}, kSessionSize);
+    return test::make_test_request(scene, {technique}, kSessionSize);
 }
 
 /// Makes random changes of everything that a session allows to change.
@@ -78,9 +78,9 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
     for (const auto& [technique, moves] : {std::pair{std::string("pyramid:face=16"), false},
                                            {"raytrace", false},
                                            {"raytrace", true}}) {
-        scene::Scene at_rest = test::room(3, 2);
+        scene::Scene at_rest = test::make_lit_room(3, 2);
         if (moves) at_rest.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}};
-        app::Session session(test::engine(), at_rest);
+        app::Session session(test::test_engine(), at_rest);
         app::FrameSpec spec = spec_of(at_rest, technique);
         measure::Picture before = session.frame(spec).hdr();
         int seen = 0;
@@ -88,12 +88,12 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
             session.change(draw.edit(session.scene()));
             if (change % 4 == 3) draw.look(spec.camera);
             session.forget();
-            app::Session fresh(test::engine(), session.scene());
+            app::Session fresh(test::test_engine(), session.scene());
             for (int k = 1; k <= 2; ++k) {
                 const measure::Picture found = session.frame(spec).hdr();
-                ASSERT_TRUE(test::same_bytes(found, fresh.frame(spec).hdr()))
+                ASSERT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr()))
                     << technique << ", change " << change << ", frame " << k;
-                seen += !test::same_bytes(found, before);
+                seen += !test::have_equal_pixel_bytes(found, before);
                 before = found;
             }
         }
@@ -102,9 +102,9 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
 }
 
 TEST(Session, RaysHitEachObjectWhereItWasMoved) {
-    const scene::Scene at_rest = test::room(3, 2);
+    const scene::Scene at_rest = test::make_lit_room(3, 2);
     const app::FrameSpec spec = spec_of(at_rest, "raytrace");
-    app::Session session(test::engine(), at_rest);
+    app::Session session(test::test_engine(), at_rest);
     measure::Picture before = session.frame(spec).hdr();
     for (const std::size_t back : {1, 2, 3, 2}) {
         const std::size_t object = at_rest.objects.size() - back;
@@ -112,130 +112,135 @@ TEST(Session, RaysHitEachObjectWhereItWasMoved) {
         place[3].y += .3;
         session.change(scene::move(object, place));
         const measure::Picture found = session.frame(spec).hdr();
-        EXPECT_FALSE(test::same_bytes(found, before)) << "it is in sight";
-        app::Session fresh(test::engine(), session.scene());
-        EXPECT_TRUE(test::same_bytes(found, fresh.frame(spec).hdr())) << object;
+        EXPECT_FALSE(test::have_equal_pixel_bytes(found, before)) << "it is in sight";
+        app::Session fresh(test::test_engine(), session.scene());
+        EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr())) << object;
         before = found;
     }
 }
 
 TEST(Session, HistorySurvivesAChangeAndEndsAtACut) {
-    const scene::Scene scene = test::room(3, 1);
+    const scene::Scene scene = test::make_lit_room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     const measure::Picture first = session.frame(spec).hdr(), second = session.frame(spec).hdr();
-    EXPECT_FALSE(test::same_bytes(first, second)) << "mirrors in mirrors are black at first";
+    EXPECT_FALSE(test::have_equal_pixel_bytes(first, second))
+        << "mirrors in mirrors are black at first";
     // This edit changes nothing.
     session.change(scene::set_material(0, session.scene().materials[0]));
-    EXPECT_FALSE(test::same_bytes(session.frame(spec).hdr(), first)) << "history was lost";
+    EXPECT_FALSE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), first))
+        << "history was lost";
     session.forget();
-    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), first));
 }
 
 /// Several sequences take turns in one session. Each must show what it shows alone.
 TEST(Session, ResumedSequenceContinues) {
-    const scene::Scene scene = test::room(3, 1);
-    app::Session session(test::engine(), scene), alone(test::engine(), scene);
+    const scene::Scene scene = test::make_lit_room(3, 1);
+    app::Session session(test::test_engine(), scene), alone(test::test_engine(), scene);
     const std::string techniques[] = {"reuse:face=16", "reuse:face=auto", "raytrace"};
     std::vector<app::FrameSequence> aside;
     for (int k = 1; k <= 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
             const app::FrameSpec spec = spec_of(scene, techniques[i]);
-            if (k > 1) app::Access::resume(session, std::move(aside[i]));
+            if (k > 1) app::Access::resume_sequence(session, std::move(aside[i]));
             const measure::Picture found = session.frame(spec).hdr();
             if (k > 1)
-                aside[i] = app::Access::suspend(session);
+                aside[i] = app::Access::suspend_sequence(session);
             else
-                aside.push_back(app::Access::suspend(session));
+                aside.push_back(app::Access::suspend_sequence(session));
             alone.forget();
             measure::Picture wanted;
             for (int frame = 1; frame <= k; ++frame) wanted = alone.frame(spec).hdr();
-            EXPECT_TRUE(test::same_bytes(found, wanted)) << techniques[i] << ", frame " << k;
+            EXPECT_TRUE(test::have_equal_pixel_bytes(found, wanted))
+                << techniques[i] << ", frame " << k;
         }
     const app::FrameSpec spec = spec_of(scene, techniques[0]);
     alone.forget();
-    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), alone.frame(spec).hdr()))
+    EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), alone.frame(spec).hdr()))
         << "without one that goes on, a frame begins without history";
 }
 
 /// A capture in other scene units cannot serve as history.
 TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
-    const scene::Scene scene = test::room(3, 1);
+    const scene::Scene scene = test::make_lit_room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     session.frame(spec), session.frame(spec);
-    app::FrameSequence sequence = app::Access::suspend(session);
+    app::FrameSequence sequence = app::Access::suspend_sequence(session);
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
-    app::Access::resume(session, std::move(sequence));
-    app::Session fresh(test::engine(), session.scene());
-    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
+    app::Access::resume_sequence(session, std::move(sequence));
+    app::Session fresh(test::test_engine(), session.scene());
+    EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
 }
 
 TEST(Session, FrameOfAnotherTechniqueDropsHistoryUnlessMarkedToKeepIt) {
-    const scene::Scene scene = test::room(3, 1);
+    const scene::Scene scene = test::make_lit_room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::FrameSpec aside = spec_of(scene, "raytrace");
     aside.keeps_history = true;
-    app::Session session(test::engine(), scene), alone(test::engine(), scene);
+    app::Session session(test::test_engine(), scene), alone(test::test_engine(), scene);
     const measure::Picture first = alone.frame(spec).hdr(), second = alone.frame(spec).hdr();
-    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), first));
     session.frame(aside);
-    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), second));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), second));
     aside.keeps_history = false;
     session.frame(aside);
-    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first)) << "another began in between";
+    EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), first))
+        << "another began in between";
 }
 
 TEST(Session, StillFramesWriteNothing) {
-    const scene::Scene scene = test::room(2, 1);
+    const scene::Scene scene = test::make_lit_room(2, 1);
     app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     for (int k = 0; k < 5; ++k) session.frame(spec);
-    EXPECT_EQ(app::Access::counts(session).frames, 5u);
-    EXPECT_EQ(app::Access::counts(session).updates, 1u);
+    EXPECT_EQ(app::Access::session_counters(session).frames, 5u);
+    EXPECT_EQ(app::Access::session_counters(session).updates, 1u);
     spec.camera.eye.x += .1;
     session.frame(spec);
-    EXPECT_EQ(app::Access::counts(session).updates, 2u);
+    EXPECT_EQ(app::Access::session_counters(session).updates, 2u);
 }
 
 TEST(Session, FrameCanBeReadUntilTheNextFrame) {
-    const scene::Scene scene = test::room(1, 1);
+    const scene::Scene scene = test::make_lit_room(1, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     const app::Frame old = session.frame(spec);
     old.hdr(), old.times();
     session.frame(spec);
     EXPECT_GT(old.times().gpu_ms, 0) << "times stay";
-    test::expect_refused([&] { old.hdr(); }, Failure::internal, {"frame 1", "frame 2"});
+    test::expect_error([&] { old.hdr(); }, Failure::internal, {"frame 1", "frame 2"});
 }
 
 TEST(Session, InvalidEditsAndFramesAreRefused) {
-    const scene::Scene scene = test::room(1, 1);
-    app::Session session(test::engine(), scene);
+    const scene::Scene scene = test::make_lit_room(1, 1);
+    app::Session session(test::test_engine(), scene);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     const std::string objects = std::to_string(scene.objects.size());
-    test::expect_refused([&] { session.change(scene::move(999, dmat4(1))); }, Failure::usage,
-                         {"object 999", objects});
-    test::expect_refused([&] { session.change(scene::paint(0, 999)); }, Failure::usage,
-                         {"material 999", std::to_string(scene.materials.size())});
-    test::expect_refused([&] { session.change(scene::move(0, dmat4(0))); }, Failure::usage,
-                         {scene.objects[0].name, "affine transform with an inverse"});
+    test::expect_error([&] { session.change(scene::move(999, dmat4(1))); }, Failure::usage,
+                       {"object 999", objects});
+    test::expect_error([&] { session.change(scene::paint(0, 999)); }, Failure::usage,
+                       {"material 999", std::to_string(scene.materials.size())});
+    test::expect_error([&] { session.change(scene::move(0, dmat4(0))); }, Failure::usage,
+                       {scene.objects[0].name, "affine transform with an inverse"});
     app::FrameSpec none = spec;
     none.size = {0, 4};
-    test::expect_refused([&] { session.frame(none); }, Failure::usage, {"at least 1x1", "0x4"});
+    test::expect_error([&] { session.frame(none); }, Failure::usage, {"at least 1x1", "0x4"});
     none = spec, none.techniques = {};
-    test::expect_refused([&] { session.frame(none); }, Failure::usage, {"no technique"});
-    app::Session untouched(test::engine(), scene);
-    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), untouched.frame(spec).hdr()));
+    test::expect_error([&] { session.frame(none); }, Failure::usage, {"no technique"});
+    app::Session untouched(test::test_engine(), scene);
+    EXPECT_TRUE(
+        test::have_equal_pixel_bytes(session.frame(spec).hdr(), untouched.frame(spec).hdr()));
 }
 
 TEST(Session, PicturesDoNotDependOnFramesInFlight) {
-    const scene::Scene scene = test::room(3, 1);
+    const scene::Scene scene = test::make_lit_room(3, 1);
     std::vector<std::vector<measure::Picture>> seen;
     for (const std::uint32_t in_flight : {1u, 2u, 3u}) {
-        app::Session session(test::engine(), scene, in_flight);
+        app::Session session(test::test_engine(), scene, in_flight);
         std::vector<app::Frame> frames;
         std::vector<measure::Picture>& pictures = seen.emplace_back();
         for (int k = 0; k < 9; ++k) {
@@ -251,19 +256,20 @@ TEST(Session, PicturesDoNotDependOnFramesInFlight) {
     }
     ASSERT_EQ(seen[0].size(), 9u);
     for (std::size_t k = 0; k < 9; ++k)
-        for (std::size_t i : {1, 2}) EXPECT_TRUE(test::same_bytes(seen[i][k], seen[0][k])) << k;
-    test::expect_refused([&] { app::Session(test::engine(), scene, 4); }, Failure::usage,
-                         {"1 to 3", "4"});
+        for (std::size_t i : {1, 2})
+            EXPECT_TRUE(test::have_equal_pixel_bytes(seen[i][k], seen[0][k])) << k;
+    test::expect_error([&] { app::Session(test::test_engine(), scene, 4); }, Failure::usage,
+                       {"1 to 3", "4"});
 }
 
 TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     std::uint64_t uploads = 0;
     for (const std::string technique : {"reuse:face=16", "raytrace", "hybrid:face=16"}) {
         session.forget();
         for (int k = 0; k < 3; ++k) session.frame(spec_of(scene, technique));
-        const app::SessionCounters counts = app::Access::counts(session);
+        const app::SessionCounters counts = app::Access::session_counters(session);
         EXPECT_EQ(counts.hierarchies_built, technique == "reuse:face=16" ? 0u : 1u);
         EXPECT_EQ(counts.hierarchies_refitted, 0u);
         if (technique == "hybrid:face=16") {
@@ -276,13 +282,13 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
 TEST(Session, OnlyTracingTechniquesRefitTrees) {
     const scene::Scene scene = scene::make_cornell_mirrors(); // a scene with a moving ball
     for (const std::string technique : {"parallax:face=16", "raytrace"}) {
-        app::Session session(test::engine(), scene);
+        app::Session session(test::test_engine(), scene);
         for (int k = 0; k < 5; ++k) {
             app::FrameSpec spec = spec_of(scene, technique);
             spec.time = .1 * k;
             session.frame(spec);
         }
-        const app::SessionCounters counts = app::Access::counts(session);
+        const app::SessionCounters counts = app::Access::session_counters(session);
         const bool traces = technique == "raytrace";
         EXPECT_EQ(counts.hierarchies_built, traces ? 1u : 0u);
         EXPECT_EQ(counts.hierarchies_refitted, traces ? 4u : 0u);
@@ -293,7 +299,7 @@ TEST(Session, OnlyTracingTechniquesRefitTrees) {
 /// of both may not exceed the whole frame's duration.
 TEST(Session, WaitingTimeIsNotHostWork) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
     spec.size = {256, 256};
     for (int k = 0; k < 4; ++k) {
@@ -316,7 +322,7 @@ TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     app::FrameSpec spec = spec_of(scene, "raytrace");
     spec.size = {256, 256};
-    app::Session two(test::engine(), scene, 2), one(test::engine(), scene);
+    app::Session two(test::test_engine(), scene, 2), one(test::test_engine(), scene);
     int ended = 0, taken = 0;
     // Try several times, because other processes may use the processor at any time.
     for (int k = 0; k < 5; ++k) {
@@ -333,17 +339,17 @@ TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
 }
 
 TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
-    const scene::Scene scene = test::room(2, 1);
+    const scene::Scene scene = test::make_lit_room(2, 1);
     const auto begin = std::chrono::steady_clock::now();
-    app::Session session(test::engine(), scene);
-    EXPECT_EQ(app::Access::setup(session).upload_ms, 0)
+    app::Session session(test::test_engine(), scene);
+    EXPECT_EQ(app::Access::setup_times(session).upload_ms, 0)
         << "nothing is written before the first frame";
     session.frame(spec_of(scene, "reuse:face=16"));
-    const app::SetupTimes raster = app::Access::setup(session);
+    const app::SetupTimes raster = app::Access::setup_times(session);
     EXPECT_GT(raster.upload_ms, 0);
     EXPECT_EQ(raster.hierarchy_ms, 0) << "nobody has traced";
     session.frame(spec_of(scene, "raytrace"));
-    const app::SetupTimes traced = app::Access::setup(session);
+    const app::SetupTimes traced = app::Access::setup_times(session);
     EXPECT_GT(traced.hierarchy_ms, 0);
     EXPECT_GT(traced.upload_ms, raster.upload_ms) << "the trees' way to the device";
     EXPECT_LE(traced.upload_ms + traced.hierarchy_ms, milliseconds_since(begin));
@@ -354,33 +360,33 @@ TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     app::FrameSpec spec = spec_of(scene, "raytrace");
     spec.camera.eye.x += .1;
     session.frame(spec);
-    EXPECT_EQ(app::Access::setup(session).upload_ms, traced.upload_ms) << "once";
-    EXPECT_EQ(app::Access::setup(session).hierarchy_ms, traced.hierarchy_ms);
+    EXPECT_EQ(app::Access::setup_times(session).upload_ms, traced.upload_ms) << "once";
+    EXPECT_EQ(app::Access::setup_times(session).hierarchy_ms, traced.hierarchy_ms);
 }
 
 TEST(Session, EngineCompilesEachPipelineOnce) {
-    const scene::Scene scene = test::room(1, 1);
+    const scene::Scene scene = test::make_lit_room(1, 1);
     const auto begin = std::chrono::steady_clock::now();
     app::Engine engine({.device = test::wanted_device()});
-    EXPECT_EQ(app::Access::compiled(engine).pipelines, 0u);
+    EXPECT_EQ(app::Access::compiled_pipelines(engine).pipelines, 0u);
     EXPECT_EQ(app::Access::cache_use(engine), app::PipelineCacheState::none);
     const app::FrameSpec spec = spec_of(scene, "raytrace:depth=1");
     app::Session(engine, scene).frame(spec).times();
-    const app::CompiledPipelines once = app::Access::compiled(engine);
+    const app::CompiledPipelines once = app::Access::compiled_pipelines(engine);
     EXPECT_GT(once.pipelines, 0u);
     EXPECT_GT(once.ms, 0);
     EXPECT_LE(once.ms, milliseconds_since(begin));
     app::Session(engine, scene).frame(spec).times();
-    EXPECT_EQ(app::Access::compiled(engine).pipelines, once.pipelines);
-    EXPECT_EQ(app::Access::compiled(engine).ms, once.ms);
+    EXPECT_EQ(app::Access::compiled_pipelines(engine).pipelines, once.pipelines);
+    EXPECT_EQ(app::Access::compiled_pipelines(engine).ms, once.ms);
     app::Session(engine, scene).frame(spec_of(scene, "naive:bounces=0")).times();
-    EXPECT_GT(app::Access::compiled(engine).pipelines, once.pipelines);
-    EXPECT_GT(app::Access::compiled(engine).ms, once.ms);
+    EXPECT_GT(app::Access::compiled_pipelines(engine).pipelines, once.pipelines);
+    EXPECT_GT(app::Access::compiled_pipelines(engine).ms, once.ms);
 }
 
 TEST(Session, ChangeOfSceneUnitsWaitsForFramesInFlight) {
-    scene::Scene scene = test::room(2, 1);
-    app::Session session(test::engine(), scene, 3);
+    scene::Scene scene = test::make_lit_room(2, 1);
+    app::Session session(test::test_engine(), scene, 3);
     app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
     spec.size = {128, 128};
     for (int k = 0; k < 4; ++k) { // move the ball so far away that the scene units change
@@ -389,23 +395,23 @@ TEST(Session, ChangeOfSceneUnitsWaitsForFramesInFlight) {
         const app::Frame before = session.frame(spec);
         session.change(scene::move(scene.objects.size() - 1, place));
         const measure::Picture found = session.frame(spec).hdr();
-        app::Session fresh(test::engine(), session.scene());
-        EXPECT_TRUE(test::same_bytes(found, fresh.frame(spec).hdr())) << k;
+        app::Session fresh(test::test_engine(), session.scene());
+        EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr())) << k;
     }
 }
 
 TEST(Session, GraphOfAShapeIsPlannedOnce) {
-    const scene::Scene scene = test::room(2, 1);
-    app::Session session(test::engine(), scene);
+    const scene::Scene scene = test::make_lit_room(2, 1);
+    app::Session session(test::test_engine(), scene);
     app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     for (int k = 0; k < 6; ++k) {
         spec.camera.eye.x += .01;
         session.frame(spec);
     }
-    EXPECT_EQ(app::Access::counts(session).plans, 1u) << "with history and without";
+    EXPECT_EQ(app::Access::session_counters(session).plans, 1u) << "with history and without";
     spec.size.x += 8;
     session.frame(spec);
-    EXPECT_EQ(app::Access::counts(session).plans, 2u);
+    EXPECT_EQ(app::Access::session_counters(session).plans, 2u);
 }
 
 } // namespace

@@ -14,7 +14,7 @@ using namespace catoptric;
 
 class Staging : public testing::TestWithParam<bool> {
 protected:
-    gpu::Device& device() { return test::bench(GetParam()).device; }
+    gpu::Device& device() { return test::test_device(GetParam()).device; }
 };
 INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true),
                          [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
@@ -36,8 +36,8 @@ TEST_P(Staging, BufferReturnsTheWrittenData) {
 TEST_P(Staging, WriteBeyondTheEndIsRefused) {
     gpu::Buffer buffer(device(), "short", 32, gpu::BufferUsage::plain);
     const std::vector<std::uint32_t> words(5);
-    test::expect_refused([&] { buffer.write(16, std::as_bytes(std::span(words))); },
-                         Failure::internal, {"buffer 'short' has 32 bytes", "[16, 36)"});
+    test::expect_error([&] { buffer.write(16, std::as_bytes(std::span(words))); },
+                       Failure::internal, {"buffer 'short' has 32 bytes", "[16, 36)"});
     buffer.write(12, std::as_bytes(std::span(words)));
 }
 
@@ -48,10 +48,10 @@ TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
                                      {gpu::BufferUsage::quads, 16u},
                                      {gpu::BufferUsage::texels, 16u}}) {
         const std::uint64_t most = device().max_texel_count(bytes);
-        test::expect_refused([&] { gpu::Buffer(device(), "list", (most + 1) * bytes, use); },
-                             Failure::exhausted,
-                             {"buffer 'list' wants " + std::to_string(most + 1) +
-                              " texels, the device allows " + std::to_string(most)});
+        test::expect_error([&] { gpu::Buffer(device(), "list", (most + 1) * bytes, use); },
+                           Failure::exhausted,
+                           {"buffer 'list' wants " + std::to_string(most + 1) +
+                            " texels, the device allows " + std::to_string(most)});
     }
 }
 
@@ -119,8 +119,8 @@ TEST_P(Staging, BufferCanBeDestroyedRightAfterAWrite) {
 /// read-back.
 TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
     const auto picture = [](bool staged) {
-        auto& [device, pipelines] = test::bench(staged);
-        const scene::Scene room = test::room(0, 1);
+        auto& [device, pipelines] = test::test_device(staged);
+        const scene::Scene room = test::make_lit_room(0, 1);
         render::GpuScene gpu_scene(device, room);
         gpu_scene.update(room, room.cameras.front(), {48, 32}, 0.05);
         graph::GraphRunner runner(device, pipelines);
@@ -129,8 +129,8 @@ TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
         const render::Lighting lighting{render::add_shadow_passes(graph, inputs, 64)};
         const graph::ImageHandle hdr = render::add_camera_view(graph, inputs, lighting, {}).hdr;
         graph.mark_output(hdr);
-        test::run(runner, graph);
-        return test::read_as<float>(runner, hdr);
+        test::run_graph(runner, graph);
+        return test::read_values<float>(runner, hdr);
     };
     const std::vector<float> mapped = picture(false);
     EXPECT_GT(*std::ranges::max_element(mapped), 0.0f);

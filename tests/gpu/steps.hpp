@@ -13,31 +13,31 @@ using graph::ResourceUse;
 constexpr std::uint32_t kWidth = 40, kHeight = 24;
 
 inline graph::ImageHandle add_image(graph::Graph& graph, const std::string& name) {
-    return graph.image({name, Format::r32f, kWidth, kHeight});
+    return graph.add_image({name, Format::r32f, kWidth, kHeight});
 }
 
 /// Adds a pass that sets each texel of `after` to number * (1 + the texel's index).
 inline void add_start(graph::Graph& graph, graph::ImageHandle after, float number) {
-    graph.pass("start/" + graph.images()[after.id].name)
+    graph.add_pass("start/" + graph.images()[after.id].name)
         .writes(after, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.use(gpu::ComputeState{"tests/start.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/start.comp", {}});
             commands.bind("after", after);
-            commands.push(number);
+            commands.push_constants(number);
             commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
         });
 }
 
 inline void add_step(graph::Graph& graph, const std::string& name, graph::ImageHandle before,
                      graph::ImageHandle after, float number) {
-    graph.pass(name)
+    graph.add_pass(name)
         .reads(before, ResourceUse::sampled)
         .writes(after, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.use(gpu::ComputeState{"tests/step.comp", {}});
+            commands.bind_pipeline(gpu::ComputeState{"tests/step.comp", {}});
             commands.bind("before", before);
             commands.bind("after", after);
-            commands.push(number);
+            commands.push_constants(number);
             commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
         });
 }

@@ -48,11 +48,11 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     std::vector<std::uint32_t> expected;
     append(surfaces[kAsked], expected), append(probes[kAsked], expected);
     append(details[kAsked], expected);
-    expected.resize(expected.size() - 4 * shared::kMaterialQuads + shared::kMaterialWords);
+    expected.resize(expected.size() - 4 * shared::kQuadsPerMaterial + shared::kWordsPerMaterial);
     append(attributes[kAsked], expected);
     append(texels[kAsked], expected);
 
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     gpu::Buffer surface_list, probe_list, detail_list, attribute_list, texture_list;
     using gpu::BufferUsage;
     upload_to_buffer(device, surface_list, "surfaces", render::pack_into_texels(surfaces),
@@ -64,8 +64,8 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     upload_to_buffer(device, texture_list, "texels", texels, BufferUsage::words);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
-    const graph::BufferHandle output = graph.buffer({"output", 4 * expected.size()});
-    graph.pass("texels")
+    const graph::BufferHandle output = graph.add_buffer({"output", 4 * expected.size()});
+    graph.add_pass("texels")
         .writes(output, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
             commands.bind("surface_texels", surface_list);
@@ -74,13 +74,13 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
             commands.bind("attribute_texels", attribute_list);
             commands.bind("texture_words", texture_list);
             commands.bind("Words", output);
-            commands.use(gpu::ComputeState{"tests/texels.comp", {}});
-            commands.push(kAsked);
+            commands.bind_pipeline(gpu::ComputeState{"tests/texels.comp", {}});
+            commands.push_constants(kAsked);
             commands.dispatch(1, 1);
         });
     graph.mark_output(output);
-    test::run(runner, graph);
-    EXPECT_EQ(test::read_as<std::uint32_t>(runner, output), expected);
+    test::run_graph(runner, graph);
+    EXPECT_EQ(test::read_values<std::uint32_t>(runner, output), expected);
 }
 
 } // namespace

@@ -34,10 +34,11 @@ INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
-    app::Request request = test::request(scene::make_cornell_mirrors(), {GetParam()}, {384, 384});
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
+                                                   {384, 384});
     request.warmup = 2, request.frames = 7;
-    const app::RunResult result = app::run(test::engine(), request);
-    const bool cpu = test::engine().device().type == "cpu";
+    const app::RunResult result = app::run(test::test_engine(), request);
+    const bool cpu = test::test_engine().device().type == "cpu";
     std::vector<double> shares, walls;
     for (const app::FrameTimes& frame : result.frames) {
         expect_in_order(frame);
@@ -56,10 +57,10 @@ TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
 }
 
 TEST(Timing, PipelinedPassesLieWithinTheFrame) {
-    app::Request request = test::request(test::room(2, 1), {"reuse"}, {64, 64});
+    app::Request request = test::make_test_request(test::make_lit_room(2, 1), {"reuse"}, {64, 64});
     request.timing = app::PassTimingMode::pipelined;
     request.frames = 3;
-    for (const app::FrameTimes& frame : app::run(test::engine(), request).frames)
+    for (const app::FrameTimes& frame : app::run(test::test_engine(), request).frames)
         for (const app::PassTime& pass : frame.passes) {
             EXPECT_GE(pass.begin_ms, 0) << pass.name;
             EXPECT_GE(pass.ms(), 0) << pass.name;
@@ -68,10 +69,11 @@ TEST(Timing, PipelinedPassesLieWithinTheFrame) {
 }
 
 TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
-    app::Request request = test::request(test::room(2, 1), {"reuse:face=8,shadow_map=8"}, {8, 8});
-    request.warmup = 0, request.frames = static_cast<int>(app::kDetailedFrames) + 2;
-    const std::vector<app::FrameTimes> frames = app::run(test::engine(), request).frames;
-    ASSERT_EQ(frames.size(), app::kDetailedFrames + 2);
+    app::Request request = test::make_test_request(test::make_lit_room(2, 1),
+                                                   {"reuse:face=8,shadow_map=8"}, {8, 8});
+    request.warmup = 0, request.frames = static_cast<int>(app::kMaxDetailedFrames) + 2;
+    const std::vector<app::FrameTimes> frames = app::run(test::test_engine(), request).frames;
+    ASSERT_EQ(frames.size(), app::kMaxDetailedFrames + 2);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         EXPECT_EQ(frames[i].passes.capacity() == 0, i < 2) << i;
         EXPECT_GT(frames[i].passes_ms, 0) << i;
@@ -86,33 +88,33 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
     }();
     EXPECT_EQ(row.gpu_ms.samples.size(), frames.size());
     ASSERT_FALSE(row.passes.empty());
-    EXPECT_EQ(row.passes.front().gpu_ms.samples.size(), app::kDetailedFrames);
+    EXPECT_EQ(row.passes.front().gpu_ms.samples.size(), app::kMaxDetailedFrames);
     EXPECT_GT(row.passes.front().gpu_ms.median, 0);
 }
 
 TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
-    graph::GraphRunner runner(test::bench().device, test::bench().pipelines);
+    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
     constexpr std::uint32_t kGroups = 256;
     std::vector<double> one, four;
     for (int frame = 0; frame < 9; ++frame) {
         graph::Graph graph;
-        const graph::BufferHandle counts = graph.buffer({"counts", 4 * 4 * kGroups});
-        graph.pass("clear")
+        const graph::BufferHandle counts = graph.add_buffer({"counts", 4 * 4 * kGroups});
+        graph.add_pass("clear")
             .writes(counts, graph::ResourceUse::copy_to)
-            .record([=](graph::PassCommands& commands) { commands.fill(counts, 0); });
+            .record([=](graph::PassCommands& commands) { commands.fill_buffer(counts, 0); });
         for (int i = 0; i < 4; ++i) {
             const std::uint32_t groups = i % 2 ? 4 * kGroups : kGroups;
-            graph.pass((i % 2 ? "four/" : "one/") + std::to_string(i))
+            graph.add_pass((i % 2 ? "four/" : "one/") + std::to_string(i))
                 .writes(counts, graph::ResourceUse::storage)
                 .record([=](graph::PassCommands& commands) {
-                    commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+                    commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
                     commands.bind("Counts", counts);
-                    commands.push(4000u);
+                    commands.push_constants(4000u);
                     commands.dispatch(groups, 1);
                 });
         }
         graph.mark_output(counts);
-        const graph::GraphFrameTimes times = test::run(runner, graph);
+        const graph::GraphFrameTimes times = test::run_graph(runner, graph);
         if (frame < 2) continue;
         for (const graph::GraphPassTime& pass : times.passes) {
             if (pass.name.starts_with("one")) one.push_back(pass.ms());

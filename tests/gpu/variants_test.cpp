@@ -18,7 +18,9 @@ using testing::Not;
 std::vector<std::string> bindings_with(const gpu::ShaderConstants& constants) {
     std::vector<std::string> names;
     for (const gpu::ShaderBinding& binding :
-         test::bench().pipelines.compute({"raytrace.comp", {}, constants}).bindings)
+         test::test_device()
+             .pipelines.find_or_make_compute({"raytrace.comp", {}, constants})
+             .bindings)
         names.push_back(binding.name);
     return names;
 }
@@ -36,7 +38,7 @@ TEST(Variants, EachVariantIsAConstantOfTheRayTracer) {
 TEST(Variants, UnusedNodeBuffersAreNotBound) {
     const std::vector<std::string> texels = bindings_with({}),
                                    stored = bindings_with({{"bvh_in_storage", 1u}});
-    if (!test::bench().device.reads_texels_from_storage()) {
+    if (!test::test_device().device.reads_texels_from_storage()) {
         EXPECT_THAT(texels, testing::IsSupersetOf({"bvh_nodes", "bvh_triangles"}));
         EXPECT_THAT(texels, Not(Contains("bvh_nodes_in_storage")));
     }
@@ -50,7 +52,8 @@ std::vector<vec3> variants_picture(const char* technique, const app::VariantName
     app::Engine engine({.device = test::wanted_device(), .validate = true, .variants = variants});
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
     app::Session session(engine, test::with_coarse_balls(scene::make_cornell_mirrors()));
-    app::Request request = test::request(scene::make_cornell_mirrors(), {technique}, {61, 53});
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {technique},
+                                                   {61, 53});
     // Render a brighter picture first. If a variant leaves out a pixel, the old value stays in
     // memory and the comparison fails.
     request.ambient += .5, request.frames = 3;

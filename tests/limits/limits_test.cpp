@@ -7,8 +7,8 @@ namespace {
 
 class SmallLimits : public Cli {
 protected:
-    test::Ended on_small_device(const Words& words) const {
-        test::Start process = start(words);
+    test::ProcessResult on_small_device(const Words& words) const {
+        test::ProcessStart process = start(words);
         process.environment["VK_ADD_LAYER_PATH"] = CATOPTRIC_LIMITS_LAYER;
         process.environment["VK_INSTANCE_LAYERS"] = "VK_LAYER_CATOPTRIC_limits";
         return test::run_process(process);
@@ -16,14 +16,14 @@ protected:
     /// Renders on the small device and on the usual device. Expects equal bytes.
     void expect_same_picture(Words words) const {
         words.insert(words.end(), {"--validate", "-o", "small.exr"});
-        const test::Ended small = on_small_device(quick(words));
+        const test::ProcessResult small = on_small_device(quick(words));
         ASSERT_EQ(small.exit_code, 0) << small.err;
         words.back() = "usual.exr";
         ASSERT_EQ(cli(quick(words)).exit_code, 0);
         EXPECT_EQ(read("small.exr"), read("usual.exr")) << testing::PrintToString(words);
     }
     double error_between() const {
-        const test::Ended ended = cli({"diff", "small.exr", "usual.exr", "--json"});
+        const test::ProcessResult ended = cli({"diff", "small.exr", "usual.exr", "--json"});
         return nlohmann::json::parse(ended.out)["rmse"].get<double>();
     }
 };
@@ -46,7 +46,7 @@ TEST_F(SmallLimits, FilteredDistancesGiveNearlyTheSamePicture) {
     for (const std::string technique : {"parallax", "secant", "pyramid", "hybrid"}) {
         Words words = quick({"render", "--technique", technique + ":face=64", "--validate"});
         words.insert(words.end(), {"-o", "small.exr"});
-        const test::Ended small = on_small_device(words);
+        const test::ProcessResult small = on_small_device(words);
         ASSERT_EQ(small.exit_code, 0) << technique << ": " << small.err;
         words.back() = "usual.exr";
         ASSERT_EQ(cli(words).exit_code, 0);
@@ -71,7 +71,7 @@ TEST_F(SmallLimits, ColourOf32BitFloatsIsRefused) {
     expect_ended(on_small_device({"render", "--technique", "parallax:colour=float", "-o", "x.png"}),
                  69, {"colour=float filters images of 32-bit floats", "take colour=half"});
     EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
-    const test::Ended half = on_small_device(
+    const test::ProcessResult half = on_small_device(
         quick({"render", "--technique", "parallax:colour=half", "-o", "x.png"}));
     EXPECT_EQ(half.exit_code, 0) << half.err;
 }

@@ -4,11 +4,11 @@
 namespace {
 
 TEST(Worth, SearchesMeetTheirErrorBoundsFromEveryCamera) {
-    for (const test::Look& look : test::looks()) {
+    for (const test::SearchTestView& look : test::search_test_views()) {
         SCOPED_TRACE(look.camera.name);
-        for (const auto& [search, worth] : test::kWorths) {
+        for (const auto& [search, worth] : test::kSearchErrorLimits) {
             SCOPED_TRACE(search);
-            test::expect_worth(search, look);
+            test::expect_errors_within_limits(search, look);
         }
         test::expect_small_captures(look);
         test::expect_hybrid(look);

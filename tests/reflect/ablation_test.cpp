@@ -16,7 +16,7 @@ constexpr uvec2 kAblationSize{48, 48};
 std::vector<measure::Picture> pictures_of(const app::Request& request,
                                           const std::vector<std::uint32_t>& masks) {
     std::vector<measure::Picture> pictures;
-    app::Session session(test::engine(), request.scene);
+    app::Session session(test::test_engine(), request.scene);
     app::render_ablated_pictures(
         session, request, masks,
         [&](std::size_t, const measure::Picture& picture) { pictures.push_back(picture); });
@@ -25,17 +25,17 @@ std::vector<measure::Picture> pictures_of(const app::Request& request,
 
 /// Renders a row with each mask of removed causes and compares the pictures with ray tracing. The
 /// first entry of the result has no cause removed.
-std::vector<test::Compared> ablated(const scene::Scene& scene, const std::string& technique,
-                                    std::vector<std::uint32_t> masks,
-                                    const std::string& shadow = "none", int frames = 1) {
-    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow,
-                                                    kAblationSize);
-    app::Request request = test::request(scene, {technique}, kAblationSize);
+std::vector<test::PixelComparison> ablated(const scene::Scene& scene, const std::string& technique,
+                                           std::vector<std::uint32_t> masks,
+                                           const std::string& shadow = "none", int frames = 1) {
+    const app::TechniqueResult truth = test::render_technique(
+        scene, "raytrace:depth=16,shadow=" + shadow, kAblationSize);
+    app::Request request = test::make_test_request(scene, {technique}, kAblationSize);
     request.warmup = frames - 1;
     masks.insert(masks.begin(), 0);
-    std::vector<test::Compared> result;
+    std::vector<test::PixelComparison> result;
     for (const measure::Picture& picture : pictures_of(request, masks))
-        result.push_back(test::compared(picture, truth));
+        result.push_back(test::compare_mirror_pixels(picture, truth));
     std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": of " << result[0].pixels
               << " off, by mask";
     for (std::size_t i = 0; i < masks.size(); ++i)
@@ -44,16 +44,16 @@ std::vector<test::Compared> ablated(const scene::Scene& scene, const std::string
     return result;
 }
 
-constexpr std::uint32_t kFirstOrder = kAblateDirection | kAblateHidden | kAblateTexels;
+constexpr std::uint32_t kFirstOrder = kAblateDirection | kAblateHiddenPoints | kAblateTexelColour;
 // Number of wrong pixels to allow, whose centre lies next to an outline or an edge.
 constexpr std::size_t kRim = 3;
 
 // In an empty box each reflected ray meets one wall. With exact distances the search must find that
 // point.
 TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
-    const auto found = ablated(test::box({}),
-                               "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
-                               {kAblateTexels, kAblateDistance, kAblateDistance | kAblateTexels});
+    const auto found = ablated(
+        test::make_coloured_box({}), "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
+        {kAblateTexelColour, kAblateDistance, kAblateDistance | kAblateTexelColour});
     EXPECT_GT(found[1].off, 8u) << "distances are wrong";
     EXPECT_GT(found[2].off, 100u) << "texels are coarse";
     EXPECT_LE(found[3].off, kRim);
@@ -61,29 +61,31 @@ TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
 
 // With these causes removed, neither distances nor colours come from the captures.
 TEST(Mended, PicturesDoNotDependOnTheCaptureEdge) {
-    const app::TechniqueResult truth = test::render(test::box({}), "raytrace:shadow=none",
-                                                    kAblationSize);
+    const app::TechniqueResult truth = test::render_technique(
+        test::make_coloured_box({}), "raytrace:shadow=none", kAblationSize);
     std::vector<measure::Picture> pictures;
     for (const std::string face : {"2", "64"}) {
-        app::Request request = test::request(test::box({}), {"parallax:shadow=none,face=" + face},
-                                             kAblationSize);
-        pictures.push_back(pictures_of(request, {kAblateDistance | kAblateTexels}).front());
+        app::Request request = test::make_test_request(
+            test::make_coloured_box({}), {"parallax:shadow=none,face=" + face}, kAblationSize);
+        pictures.push_back(pictures_of(request, {kAblateDistance | kAblateTexelColour}).front());
         // Parallax takes one step to the surface, which is not exact.
-        EXPECT_LE(test::compared(pictures.back(), truth).share(), .02);
+        EXPECT_LE(test::compare_mirror_pixels(pictures.back(), truth).share_off(), .02);
     }
-    EXPECT_TRUE(test::same_bytes(pictures[0], pictures[1]));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(pictures[0], pictures[1]));
 }
 
 TEST(Mended, DirectionAndTexelsAreTheOnlyCausesInAnEmptyBox) {
-    const auto found = ablated(test::box({}), "reuse:face=8,shadow=none",
-                               {kAblateDirection, kAblateTexels, kAblateDirection | kAblateTexels,
-                                kAblateHidden, kAblateMirrors | kAblateOwn});
+    const auto found = ablated(test::make_coloured_box({}), "reuse:face=8,shadow=none",
+                               {kAblateDirection, kAblateTexelColour,
+                                kAblateDirection | kAblateTexelColour, kAblateHiddenPoints,
+                                kAblateMirrorReflections | kAblateSelfReflection});
     EXPECT_GT(found[1].off, 100u);
     EXPECT_GT(found[2].off, 60u);
     EXPECT_LE(found[3].off, kRim);
     EXPECT_EQ(found[4].off, found[0].off) << "nothing is hidden";
     EXPECT_EQ(found[5].off, found[0].off) << "and there is no second mirror";
-    const auto open = ablated(test::box({}, true), "reuse:face=8,shadow=none", {kFirstOrder});
+    const auto open = ablated(test::make_coloured_box({}, true), "reuse:face=8,shadow=none",
+                              {kFirstOrder});
     EXPECT_LE(open[1].off, kRim) << "nothing is seen where it is open";
 }
 
@@ -91,46 +93,49 @@ TEST(Mended, DirectionAndTexelsAreTheOnlyCausesInAnEmptyBox) {
 // that the boards hide.
 TEST(Mended, ExactDirectionDoesNotShowHiddenPoints) {
     for (const std::string technique : {"reuse:", "secant:steps=8,"}) {
-        const auto found = ablated(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
-                                   technique + "face=32,shadow=none",
-                                   {kAblateDirection | kAblateTexels, kAblateHidden, kFirstOrder});
+        const auto found = ablated(
+            test::make_coloured_box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+            technique + "face=32,shadow=none",
+            {kAblateDirection | kAblateTexelColour, kAblateHiddenPoints, kFirstOrder});
         EXPECT_GT(found[1].off, 20u);
         EXPECT_LE(found[2].off + 10, found[0].off);
         EXPECT_LE(found[3].off, kRim);
     }
     // These boards lie in front of the floor and the ceiling, a fifth of the way to the middle of
     // the box.
-    scene::Scene scene = test::box({});
+    scene::Scene scene = test::make_coloured_box({});
     for (const double y : {-2.4, 2.4})
         for (const double x : {-1.1, .7, 2.5})
             test::add_glowing_board(scene, {0, .1f, 0}, {x, y, -.6}, {.5, 0, 0}, {0, 0, 1.2});
     const auto close = ablated(scene, "reuse:face=32,shadow=none",
-                               {kAblateDirection | kAblateTexels, kFirstOrder});
+                               {kAblateDirection | kAblateTexelColour, kFirstOrder});
     EXPECT_GT(close[1].off, 8u);
     EXPECT_LE(close[2].off, kRim);
     // Exact texels replace those of the layer that was looked up, which may be the second layer.
-    const auto layered = ablated(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
-                                 "layered:face=128,shadow=none", {kAblateTexels});
+    const auto layered = ablated(
+        test::make_coloured_box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+        "layered:face=128,shadow=none", {kAblateTexelColour});
     EXPECT_LE(layered[1].off, layered[0].off);
 }
 
 TEST(Mended, MirrorsInMirrorsShowWhatTheEyeSees) {
-    const auto once = ablated(test::three_balls(), "secant:steps=8,continue=0,face=32,shadow=none",
-                              {kFirstOrder, kFirstOrder | kAblateMirrors, kAblateMirrors});
+    const auto once = ablated(
+        test::make_three_ball_scene(), "secant:steps=8,continue=0,face=32,shadow=none",
+        {kFirstOrder, kFirstOrder | kAblateMirrorReflections, kAblateMirrorReflections});
     EXPECT_GT(once[1].off, 100u) << "without history mirrors are black in captures";
     EXPECT_LE(once[2].off, kRim);
     EXPECT_LT(5 * once[3].off, once[0].off);
     // Points that the second mirror's centre does not see must still be darkened by both mirrors'
     // reflectances.
-    scene::Scene scene = test::three_balls();
+    scene::Scene scene = test::make_three_ball_scene();
     scene.name = "three balls and boards";
     for (const dvec3& centre : {dvec3(1.2, -1.5, .3), dvec3(1.2, .1, 1.9), dvec3(-1.25, -1.9, .6),
                                 dvec3(-1.25, 1.2, .3), dvec3(1.3, 1.5, .2), dvec3(-1.2, -.3, 2.3)})
         test::add_glowing_board(scene, {.1f, 0, 0}, centre, {.35, 0, 0},
                                 {0, centre.z > 1 ? .35 : 0, centre.z > 1 ? 0 : .35});
-    const auto followed = ablated(
-        scene, "secant:steps=8,continue=8,face=32,shadow=none",
-        {kAblateDirection | kAblateTexels, kFirstOrder, kFirstOrder | kAblateMirrors});
+    const auto followed = ablated(scene, "secant:steps=8,continue=8,face=32,shadow=none",
+                                  {kAblateDirection | kAblateTexelColour, kFirstOrder,
+                                   kFirstOrder | kAblateMirrorReflections});
     EXPECT_LE(followed[2].off, 2 * kRim);
     EXPECT_GT(followed[1].off, 20u);
     EXPECT_LE(followed[3].off, kRim);
@@ -139,7 +144,7 @@ TEST(Mended, MirrorsInMirrorsShowWhatTheEyeSees) {
 scene::Scene corner() {
     scene::Scene scene{.name = "corner"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
-    test::add_mesh(scene, test::hollow_corner(), test::add_halving_mirror(scene, 0));
+    test::add_mesh(scene, test::make_hollow_corner(), test::add_halving_mirror(scene, 0));
     scene.cameras.push_back(
         {.eye = {.1, .2, -2.9}, .target = {-.4, 0, 1.5}, .vertical_fov_degrees = 45});
     return scene;
@@ -147,13 +152,13 @@ scene::Scene corner() {
 
 TEST(Mended, OwnReflectionOfAMirrorIsRestored) {
     const auto found = ablated(corner(), "secant:steps=8,continue=0,face=32,shadow=none",
-                               {kFirstOrder | kAblateMirrors, kAblateOwn});
+                               {kFirstOrder | kAblateMirrorReflections, kAblateSelfReflection});
     EXPECT_GT(found[1].off, 200u);
     EXPECT_LE(found[2].off, kRim);
 }
 
 TEST(Mended, ShadowRaysReplaceTheShadowMap) {
-    scene::Scene scene = test::room(1, 1);
+    scene::Scene scene = test::make_lit_room(1, 1);
     scene.cameras.front() = {
         .eye = {-.3, -.7, -1.8}, .target = {-.9, -1.2, .3}, .vertical_fov_degrees = 42};
     for (const std::string map : {"shadow_map=8", "shadow=none"}) {

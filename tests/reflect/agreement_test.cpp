@@ -26,10 +26,11 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
     const auto& [name, raster, traced, most] = GetParam();
-    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::room(2, 2)}) {
-        const app::TechniqueResult truth = test::render(scene, traced, {512, 512});
-        const double error = test::rmse(test::render(scene, raster, {512, 512}).hdr, truth.hdr,
-                                        measure::mask_non_mirror_pixels(truth.hits));
+    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(2, 2)}) {
+        const app::TechniqueResult truth = test::render_technique(scene, traced, {512, 512});
+        const double error = test::picture_rmse(
+            test::render_technique(scene, raster, {512, 512}).hdr, truth.hdr,
+            measure::mask_non_mirror_pixels(truth.hits));
         std::cout << "[ MEASURED ] " << scene.name << ", shadows " << name << ": rmse " << error
                   << " on non-mirror pixels\n";
         EXPECT_LE(error, most) << scene.name;
@@ -40,8 +41,9 @@ TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
 /// else in the scene is as bright.
 std::pair<std::size_t, std::size_t> lamp_pixels(const scene::Scene& scene,
                                                 const std::string& technique) {
-    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", {128, 128});
-    const app::TechniqueResult part = test::render(scene, technique, {128, 128}, 3);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
+                                                              {128, 128});
+    const app::TechniqueResult part = test::render_technique(scene, technique, {128, 128}, 3);
     std::pair<std::size_t, std::size_t> found{0, 0};
     for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
         if (part.hdr.pixels[i].x > 4)
@@ -52,7 +54,7 @@ std::pair<std::size_t, std::size_t> lamp_pixels(const scene::Scene& scene,
 /// Tests a lamp with one side. Cameras, reflected rays and captures behind the lamp see through it.
 TEST(Lamp, OneSidedLampIsSeenFromItsFrontOnly) {
     for (const bool faces_eye : {true, false}) {
-        scene::Scene scene = test::room(1, 0);
+        scene::Scene scene = test::make_lit_room(1, 0);
         scene.objects.back().world_from_object[3] = dvec4(0, -.4, .8, 1);
         scene.objects.back().sphere->centre = {0, -.4, .8};
         const std::size_t lamp = test::add_material(scene, {.name = "lamp", .emission = {9, 8, 6}});
@@ -75,18 +77,18 @@ TEST(Lamp, OneSidedLampIsSeenFromItsFrontOnly) {
 
 /// Returns a random camera of the given kind: 0 is just above the floor, 1 behind everything, 2
 /// wide, 3 next to a ball. Other kinds are anywhere in the scene.
-scene::Camera drawn_camera(test::Numbers& random, int kind) {
+scene::Camera drawn_camera(test::RandomNumbers& random, int kind) {
     const auto within = [&](vec3 lo, vec3 hi) {
-        const float x = random.between(lo.x, hi.x), y = random.between(lo.y, hi.y);
-        return dvec3(x, y, random.between(lo.z, hi.z));
+        const float x = random.number_between(lo.x, hi.x), y = random.number_between(lo.y, hi.y);
+        return dvec3(x, y, random.number_between(lo.z, hi.z));
     };
     scene::Camera camera{.eye = within({20, 20, 20}, {530, 520, 540}),
                          .target = within({100, 20, 150}, {450, 300, 550}),
-                         .vertical_fov_degrees = random.between(35, 80)};
+                         .vertical_fov_degrees = random.number_between(35, 80)};
     if (kind == 0) camera.eye = within({20, 1.5f, -300}, {530, 20, 200});
     if (kind == 1) camera.eye = within({20, 20, 500}, {530, 520, 555}), camera.target.z = 0;
     if (kind == 2) camera.vertical_fov_degrees = 130;
-    if (kind == 3) camera.eye = dvec3(90, 100, 110) + 80.0 * dvec3(random.direction());
+    if (kind == 3) camera.eye = dvec3(90, 100, 110) + 80.0 * dvec3(random.unit_direction());
     return camera;
 }
 
@@ -97,7 +99,8 @@ double agreement_share_off(const app::TechniqueResult& raster, const app::Techni
         if (traced.hits[i] != 0) continue;
         const vec3 apart = abs(clamp(raster.hdr.pixels[i], 0.0f, 1.0f) -
                                clamp(traced.hdr.pixels[i], 0.0f, 1.0f));
-        off += !(std::max({apart.x, apart.y, apart.z}) <= static_cast<float>(measure::kOff));
+        off += !(std::max({apart.x, apart.y, apart.z}) <=
+                 static_cast<float>(measure::kVisibleDifference));
     }
     return static_cast<double>(off) / static_cast<double>(traced.hits.size());
 }
@@ -107,12 +110,12 @@ double agreement_share_off(const app::TechniqueResult& raster, const app::Techni
 /// a floor seen from near the floor.
 TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
     constexpr int kCameras = 30;
-    test::Numbers random(20);
+    test::RandomNumbers random(20);
     double worst = 0, sum = 0;
     for (int i = 0; i < kCameras; ++i) {
-        app::Request request = test::request(scene::make_cornell_mirrors(),
-                                             {"naive:bounces=0", "raytrace:depth=0,shadow=map"},
-                                             {256, 256});
+        app::Request request = test::make_test_request(
+            scene::make_cornell_mirrors(), {"naive:bounces=0", "raytrace:depth=0,shadow=map"},
+            {256, 256});
         request.camera = i == 0   ? scene::Camera{.eye = {540, 12, -60},
                                                   .target = {300, 60, 400},
                                                   .vertical_fov_degrees = 55}
@@ -121,7 +124,7 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
                                                   .vertical_fov_degrees = 50}
                                   : drawn_camera(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
-        const app::RunResult result = app::run(test::engine(), request);
+        const app::RunResult result = app::run(test::test_engine(), request);
         const double off = agreement_share_off(result.parts[0], result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
                              << request.camera.eye.z;
@@ -135,12 +138,13 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
 // not be larger than needed. A coarse map shows an excess, because the offset grows with the size
 // of a texel.
 TEST(ShadowMap, OffsetIsNoLargerThanNeeded) {
-    const app::TechniqueResult truth = test::render(scene::make_cornell_mirrors(),
-                                                    "raytrace:depth=16", {256, 256});
-    const double error = test::rmse(
-        test::render(scene::make_cornell_mirrors(), "naive:bounces=0,shadow_map=64", {256, 256})
-            .hdr,
-        truth.hdr, measure::mask_non_mirror_pixels(truth.hits));
+    const app::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
+                                                              "raytrace:depth=16", {256, 256});
+    const double error = test::picture_rmse(test::render_technique(scene::make_cornell_mirrors(),
+                                                                   "naive:bounces=0,shadow_map=64",
+                                                                   {256, 256})
+                                                .hdr,
+                                            truth.hdr, measure::mask_non_mirror_pixels(truth.hits));
     std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";
     EXPECT_LE(error, .0052); // measured .0049; with twice the offset .0055
 }
@@ -164,10 +168,10 @@ TEST(Flattened, NodesScaledToZeroKeepTheirNormals) {
     // The mesh of the wall has no extent along z, so this scale does not change its shape.
     scaled.objects[1].world_from_object[2] = dvec4(0);
     for (const std::string technique : {"raytrace", "parallax:face=64"}) {
-        const measure::Picture wanted = test::render(flat, technique, {128, 128}, 3).hdr,
-                               found = test::render(scaled, technique, {128, 128}, 3).hdr;
-        EXPECT_EQ(test::nonfinite(wanted), 0u) << technique;
-        EXPECT_TRUE(test::same_bytes(found, wanted)) << technique;
+        const measure::Picture wanted = test::render_technique(flat, technique, {128, 128}, 3).hdr,
+                               found = test::render_technique(scaled, technique, {128, 128}, 3).hdr;
+        EXPECT_EQ(test::nonfinite_pixel_count(wanted), 0u) << technique;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(found, wanted)) << technique;
         EXPECT_GT(wanted.at(20, 64).x, .1f) << technique << ": the wall is lit";
     }
 }

@@ -24,13 +24,14 @@ INSTANTIATE_TEST_SUITE_P(Rooms, Analytic,
 TEST_P(Analytic, PictureEqualsTheDoublePrecisionTracer) {
     constexpr uvec2 kSize{128, 128};
     constexpr int kDepth = 8;
-    const scene::Scene room = test::room(GetParam().mirrors, GetParam().lights);
-    const measure::Picture picture = test::render(room, "raytrace:sphere=exact,depth=8", kSize).hdr;
+    const scene::Scene room = test::make_lit_room(GetParam().mirrors, GetParam().lights);
+    const measure::Picture picture =
+        test::render_technique(room, "raytrace:sphere=exact,depth=8", kSize).hdr;
     const stress::DoubleTracer tracer(room, .05);
     std::vector<double> differences;
     for (std::uint32_t y = 0; y < kSize.y; ++y)
         for (std::uint32_t x = 0; x < kSize.x; ++x) {
-            const dvec3 wanted = tracer.pixel(room.cameras.front(), kSize, x, y, kDepth);
+            const dvec3 wanted = tracer.trace_pixel(room.cameras.front(), kSize, x, y, kDepth);
             const dvec3 difference = abs(
                 dvec3(picture.at(static_cast<int>(x), static_cast<int>(y))) - wanted);
             differences.push_back(std::max({difference.x, difference.y, difference.z}) /

@@ -11,10 +11,11 @@ using namespace catoptric;
 constexpr uvec2 kAutoSize{64, 64};
 
 TEST(Auto, EachMirrorIsDrawnByASuitableTechniqueWithAReason) {
-    const scene::Scene hall = test::hall();
-    const app::TechniqueResult part = test::render(hall, "auto", kAutoSize, 3),
-                               plan = test::render(hall, "2,3=planar *=march", kAutoSize, 3);
-    EXPECT_TRUE(test::same_bytes(part.hdr, plan.hdr));
+    const scene::Scene hall = test::make_mirror_hall();
+    const app::TechniqueResult part = test::render_technique(hall, "auto", kAutoSize, 3),
+                               plan = test::render_technique(hall, "2,3=planar *=march", kAutoSize,
+                                                             3);
+    EXPECT_TRUE(test::have_equal_pixel_bytes(part.hdr, plan.hdr));
     ASSERT_EQ(part.plan.size(), 3u);
     const std::pair<const char*, const char*> wanted[] = {{"march", "march: a sphere, "},
                                                           {"planar", "planar: flat faces, "},
@@ -29,15 +30,16 @@ TEST(Auto, EachMirrorIsDrawnByASuitableTechniqueWithAReason) {
 /// If one technique suits all mirrors, the picture must equal that of a request for this technique.
 TEST(Auto, OneTechniqueForAllMirrorsEqualsThatTechnique) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult part = test::render(scene, "auto", kAutoSize, 2);
-    EXPECT_TRUE(test::same_bytes(part.hdr, test::render(scene, "hybrid", kAutoSize, 2).hdr));
+    const app::TechniqueResult part = test::render_technique(scene, "auto", kAutoSize, 2);
+    EXPECT_TRUE(test::have_equal_pixel_bytes(
+        part.hdr, test::render_technique(scene, "hybrid", kAutoSize, 2).hdr));
     EXPECT_EQ(part.scene_passes, 6);
 }
 
 /// A plan belongs to a scene and a sequence. After an edit or a cut, `auto` must choose again.
 TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
-    scene::Scene hall = test::hall();
-    app::Session session(test::engine(), hall);
+    scene::Scene hall = test::make_mirror_hall();
+    app::Session session(test::test_engine(), hall);
     app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
     EXPECT_EQ(session.frame(spec).read().plan.size(), 3u);
     const std::size_t block = scene::mirrors(hall).at(1);
@@ -59,16 +61,16 @@ TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
 /// A comparison suspends the sequence of a row and resumes it later. The plan of the first frame
 /// must stay, so that `auto` does not choose again in each round.
 TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
-    const scene::Scene hall = test::hall();
-    app::Session session(test::engine(), hall);
+    const scene::Scene hall = test::make_mirror_hall();
+    app::Session session(test::test_engine(), hall);
     app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
     EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
-    app::FrameSequence sequence = app::Access::suspend(session);
+    app::FrameSequence sequence = app::Access::suspend_sequence(session);
     app::FrameSpec other = spec;
     other.techniques = {"reuse:face=16"};
     session.frame(other);
-    app::Access::suspend(session);
-    app::Access::resume(session, std::move(sequence));
+    app::Access::suspend_sequence(session);
+    app::Access::resume_sequence(session, std::move(sequence));
     // This view does not show the ball.
     spec.camera.eye = {.9, .9, 1.2}, spec.camera.target = {.9, 1, 1.9};
     spec.camera.vertical_fov_degrees = 10;

@@ -39,8 +39,9 @@ Split split(const app::Request& request, const std::string& technique) {
     reference.techniques = {app::kReference};
     if (request.animate)
         reference.time = request.instant(request.total()), reference.animate = false;
-    const app::TechniqueResult truth = std::move(app::run(test::engine(), reference).parts.front());
-    app::Session session(test::engine(), request.scene);
+    const app::TechniqueResult truth = std::move(
+        app::run(test::test_engine(), reference).parts.front());
+    app::Session session(test::test_engine(), request.scene);
     return {app::ErrorCauseFinder(session, request, truth.hdr, truth.hits).find(technique),
             truth.hits};
 }
@@ -48,7 +49,7 @@ Split split(const app::Request& request, const std::string& technique) {
 /// Returns a request for a settled picture. Its 16 warm-up frames let one sequence of frames serve
 /// all pictures.
 app::Request settled(const scene::Scene& scene, const std::string& technique, uvec2 size) {
-    app::Request request = test::request(scene, {technique}, size);
+    app::Request request = test::make_test_request(scene, {technique}, size);
     request.warmup = 16;
     return request;
 }
@@ -59,10 +60,12 @@ Split split(const scene::Scene& scene, const std::string& technique, uvec2 size 
 
 /// Returns the mean squared error over all mirrors, as `split` reports it, without splitting it.
 double squared_error(const scene::Scene& scene, const std::string& technique) {
-    const app::TechniqueResult truth = test::render(scene, app::kReference, kCausesSize);
-    const app::RunResult row = app::run(test::engine(), settled(scene, technique, kCausesSize));
-    return std::pow(
-        test::rmse(row.parts.front().hdr, truth.hdr, measure::mask_mirror_pixels(truth.hits)), 2);
+    const app::TechniqueResult truth = test::render_technique(scene, app::kReference, kCausesSize);
+    const app::RunResult row = app::run(test::test_engine(),
+                                        settled(scene, technique, kCausesSize));
+    return std::pow(test::picture_rmse(row.parts.front().hdr, truth.hdr,
+                                       measure::mask_mirror_pixels(truth.hits)),
+                    2);
 }
 
 /// Expects that the shares of all causes add up to the whole error. The shares of a cause by pixel
@@ -95,9 +98,10 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(EveryCause, CausesAddUpToTheWholeErrorOfEachTechnique) {
-    const Split found = split(test::with_coarse_balls(scene::make_cornell_mirrors()),
-                              test::with(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
-                              kCausesSmall);
+    const Split found = split(
+        test::with_coarse_balls(scene::make_cornell_mirrors()),
+        test::technique_with_knobs(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
+        kCausesSmall);
     std::cout << "[ MEASURED ] " << GetParam().name << ": rmse "
               << std::sqrt(found.causes.squared_error) << ", left " << found.causes.rest_rmse
               << "\n";
@@ -122,21 +126,23 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
         expect_whole(split(test::with_coarse_balls(scene::make_closed_cornell_mirrors()), technique,
                            kCausesSmall),
                      technique);
-    expect_whole(split(test::room(2, 3), "parallax:face=32,shadow_map=64", kCausesSmall),
+    expect_whole(split(test::make_lit_room(2, 3), "parallax:face=32,shadow_map=64", kCausesSmall),
                  "three lights");
-    expect_whole(split(test::hall(), "pyramid:face=32,shadow_map=64", kCausesSmall),
+    expect_whole(split(test::make_mirror_hall(), "pyramid:face=32,shadow_map=64", kCausesSmall),
                  "mirrors of any shape");
 }
 
 // The error that is split must be the error that the report gives for the row.
 TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
-    app::Request request = test::request(scene::make_cornell_mirrors(), {"parallax:face=32"},
-                                         kCausesSize);
-    const app::TechniqueResult truth = test::render(request.scene, app::kReference, kCausesSize);
-    const app::TechniqueResult row = test::render(request.scene, "parallax:face=32", kCausesSize);
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                   {"parallax:face=32"}, kCausesSize);
+    const app::TechniqueResult truth = test::render_technique(request.scene, app::kReference,
+                                                              kCausesSize);
+    const app::TechniqueResult row = test::render_technique(request.scene, "parallax:face=32",
+                                                            kCausesSize);
     const Split found = split(request, "parallax:face=32");
     const auto squared = [&](const measure::Mask& mask) {
-        return std::pow(test::rmse(row.hdr, truth.hdr, mask), 2);
+        return std::pow(test::picture_rmse(row.hdr, truth.hdr, mask), 2);
     };
     EXPECT_NEAR(found.causes.squared_error, squared(measure::mask_mirror_pixels(truth.hits)),
                 1e-12);
@@ -183,18 +189,20 @@ scene::Scene over_a_mirror() {
 }
 
 TEST(CausesBesideRows, DirectionIsTheDifferenceBetweenReuseAndPyramid) {
-    expect_part_is_difference("direction", test::box({}), "reuse:face=128,shadow=none",
-                              "pyramid:face=128,shadow=none");
+    expect_part_is_difference("direction", test::make_coloured_box({}),
+                              "reuse:face=128,shadow=none", "pyramid:face=128,shadow=none");
 }
 
 TEST(CausesBesideRows, HiddenTargetIsTheDifferenceBetweenPyramidAndHybrid) {
-    expect_part_is_difference("hidden target",
-                              test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
-                              "pyramid:face=512,shadow=none", "hybrid:face=512,shadow=none");
+    expect_part_is_difference(
+        "hidden target",
+        test::make_coloured_box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+        "pyramid:face=512,shadow=none", "hybrid:face=512,shadow=none");
 }
 
 TEST(CausesBesideRows, TexelsAreTheDifferenceBetweenCoarseAndFineCaptures) {
-    expect_part_is_difference("texels", test::room(1, 1), "pyramid:face=16", "pyramid:face=256");
+    expect_part_is_difference("texels", test::make_lit_room(1, 1), "pyramid:face=16",
+                              "pyramid:face=256");
 }
 
 // With one bounce, mirrors are black in captures.
@@ -205,25 +213,26 @@ TEST(CausesBesideRows, MirrorInMirrorIsTheDifferenceBetweenOneAndThreeBounces) {
 }
 
 TEST(CausesBesideRows, ShadowMapIsTheDifferenceBetweenNoShadowsAndAMap) {
-    expect_part_is_difference("shadow map", test::room(1, 1), "pyramid:face=128,shadow=none",
-                              "pyramid:face=128");
+    expect_part_is_difference("shadow map", test::make_lit_room(1, 1),
+                              "pyramid:face=128,shadow=none", "pyramid:face=128");
 }
 
 // A cause that cannot occur in a scene must have no share there, whatever other causes occur.
 TEST(Causes, CauseThatCannotOccurHasNoShare) {
     constexpr double kRounding = 1e-8;
-    const Split one_ball = split(test::room(1, 1), "parallax:face=32", kCausesSmall);
+    const Split one_ball = split(test::make_lit_room(1, 1), "parallax:face=32", kCausesSmall);
     EXPECT_NEAR(one_ball.share("mirror in mirror"), 0, kRounding);
     EXPECT_EQ(one_ball.alone("mirror in mirror"), 0);
     EXPECT_GT(one_ball.share("texels"), .01);
-    const Split in_a_box = split(test::box({}), "parallax:face=32,shadow=none", kCausesSmall);
+    const Split in_a_box = split(test::make_coloured_box({}), "parallax:face=32,shadow=none",
+                                 kCausesSmall);
     EXPECT_NEAR(in_a_box.share("hidden target"), 0, kRounding) << "nothing is before a wall";
     EXPECT_NEAR(in_a_box.share("shadow map"), 0, kRounding) << "what glows has no shadow";
     EXPECT_NEAR(in_a_box.share("mirror in mirror"), 0, 1e-3) << "but for facets at the outline";
     EXPECT_GT(in_a_box.share("direction"), .01);
     EXPECT_GT(in_a_box.share("texels"), .01);
     // In this scene every visible surface except the mirrors emits the same radiance.
-    const Split bright = split(test::three_balls(), "naive:bounces=1,face=64,shadow=none",
+    const Split bright = split(test::make_three_ball_scene(), "naive:bounces=1,face=64,shadow=none",
                                kCausesSmall);
     EXPECT_NEAR(bright.share("shadow map"), 0, kRounding);
     EXPECT_GT(bright.share("mirror in mirror"), .5);
@@ -257,8 +266,8 @@ TEST(Causes, UncorrectedLookupCountsAsDirection) {
 }
 
 TEST(Causes, MissingShadowsCountAsShadowMap) {
-    const Split dark = split(test::room(1, 1), "pyramid:face=64,shadow=none"),
-                lit = split(test::room(1, 1), "pyramid:face=64");
+    const Split dark = split(test::make_lit_room(1, 1), "pyramid:face=64,shadow=none"),
+                lit = split(test::make_lit_room(1, 1), "pyramid:face=64");
     EXPECT_GT(dark.part("shadow map"), 10 * std::abs(lit.part("shadow map")));
     EXPECT_GT(dark.find("shadow map").alone, 10 * std::abs(lit.find("shadow map").alone));
 }
@@ -266,9 +275,9 @@ TEST(Causes, MissingShadowsCountAsShadowMap) {
 // Two boards at a right angle are one mirror that sees itself. Its own capture leaves out this
 // reflection.
 TEST(Causes, HollowMirrorsOwnReflectionCountsAsMirrorInMirror) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
-    test::add_mesh(scene, test::hollow_corner(), mirror);
+    test::add_mesh(scene, test::make_hollow_corner(), mirror);
     const Split found = split(scene, "pyramid:face=64");
     EXPECT_GT(found.share("mirror in mirror"), .3);
     EXPECT_LE(found.causes.rest_rmse, 1e-3);
@@ -276,7 +285,7 @@ TEST(Causes, HollowMirrorsOwnReflectionCountsAsMirrorInMirror) {
 }
 
 TEST(Causes, OnlyMovingScenesHaveLag) {
-    app::Request request = test::request(scene::make_cornell_mirrors(), {}, kCausesSize);
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {}, kCausesSize);
     request.warmup = 7;
     const Split still = split(request, "reuse:face=64");
     EXPECT_EQ(still.share("last frame"), 0.0);

@@ -35,28 +35,29 @@ scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool e
 /// Wrong pixels of a search, by what the traced ray meets after one reflection: the board (`board`)
 /// or the other ball (`ball`).
 struct Behind {
-    test::Compared board, ball;
+    test::PixelComparison board, ball;
 };
 
 Behind behind(const scene::Scene& scene, const app::TechniqueResult& truth,
               const std::string& search) {
     const measure::Picture picture =
-        test::render(scene, search + ":face=128,shadow=none,continue=8", kClaimsSize).hdr;
-    const Behind found{test::compared(picture, truth,
-                                      [](std::uint32_t hit, const vec3& colour) {
-                                          return !measure::second_mirror_of_hit(hit) &&
-                                                 colour.x < .01f;
-                                      }),
-                       test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
-                           return bool(measure::second_mirror_of_hit(hit));
-                       })};
+        test::render_technique(scene, search + ":face=128,shadow=none,continue=8", kClaimsSize).hdr;
+    const Behind found{
+        test::compare_mirror_pixels(picture, truth,
+                                    [](std::uint32_t hit, const vec3& colour) {
+                                        return !measure::second_mirror_of_hit(hit) &&
+                                               colour.x < .01f;
+                                    }),
+        test::compare_mirror_pixels(picture, truth, [](std::uint32_t hit, const vec3&) {
+            return bool(measure::second_mirror_of_hit(hit));
+        })};
     std::cout << "[ MEASURED ] " << search << ": board " << found.board << ", other ball "
               << found.ball << "\n";
     return found;
 }
 
 app::TechniqueResult claims_traced(const scene::Scene& scene, bool exact) {
-    return test::render(
+    return test::render_technique(
         scene, std::string("raytrace:depth=9,shadow=none,sphere=") + (exact ? "exact" : "mesh"),
         kClaimsSize);
 }
@@ -69,7 +70,7 @@ TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const Behind found = behind(scene, truth, search);
                 EXPECT_GT(found.board.pixels, 100u);
-                EXPECT_LE(found.board.share(), .25) << search << exact << seen;
+                EXPECT_LE(found.board.share_off(), .25) << search << exact << seen;
             }
         }
 }
@@ -84,7 +85,7 @@ TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const Behind found = behind(scene, truth, search);
                 EXPECT_GT(found.ball.pixels, 80u);
-                EXPECT_LE(found.ball.share(), .2) << search << exact << board.x;
+                EXPECT_LE(found.ball.share_off(), .2) << search << exact << board.x;
             }
         }
 }
@@ -109,9 +110,9 @@ TEST(Claims, NearerOfTwoMirrorsOnARayIsMet) {
         const scene::Scene scene = row_of_balls(near_first);
         const app::TechniqueResult truth = claims_traced(scene, true);
         for (const std::string search : {"secant", "pyramid"}) {
-            const test::Compared found = behind(scene, truth, search).ball;
+            const test::PixelComparison found = behind(scene, truth, search).ball;
             EXPECT_GT(found.pixels, 100u);
-            EXPECT_LE(found.share(), .15) << search << near_first;
+            EXPECT_LE(found.share_off(), .15) << search << near_first;
         }
     }
 }
@@ -136,14 +137,15 @@ TEST(Claims, SurfaceInTheSecondLayerBehindAMirrorIsNoMirror) {
     const scene::Scene scene = flat_mirrors_beside_a_ball();
     const app::TechniqueResult truth = claims_traced(scene, true);
     const measure::Picture picture =
-        test::render(scene, "layered:face=128,shadow=none,continue=8", kClaimsSize).hdr;
-    const test::Compared once = test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
-        return measure::first_mirror_of_hit(hit) == MirrorId(1) &&
-               !measure::second_mirror_of_hit(hit);
-    });
+        test::render_technique(scene, "layered:face=128,shadow=none,continue=8", kClaimsSize).hdr;
+    const test::PixelComparison once = test::compare_mirror_pixels(
+        picture, truth, [](std::uint32_t hit, const vec3&) {
+            return measure::first_mirror_of_hit(hit) == MirrorId(1) &&
+                   !measure::second_mirror_of_hit(hit);
+        });
     std::cout << "[ MEASURED ] no second mirror: " << once << "\n";
     EXPECT_GT(once.pixels, 1000u);
-    EXPECT_LE(once.share(), .02);
+    EXPECT_LE(once.share_off(), .02);
 }
 
 /// Returns a scene of a flat mirror, a second mirror behind a board, and a ball aside. The first
@@ -176,14 +178,14 @@ struct Answers {
 };
 
 Answers answers(const scene::Scene& scene, const std::string& search, const std::string& hops) {
-    const app::TechniqueResult truth = test::render(
+    const app::TechniqueResult truth = test::render_technique(
         scene, "raytrace:shadow=none,sphere=exact,depth=" + std::string(hops == "0" ? "1" : "9"),
         kClaimsSize);
     const std::string technique = search + ":face=128,shadow=none,continue=" + hops + ",captures=";
-    app::Request request = test::request(scene, {technique + "own", technique + "all"},
-                                         kClaimsSize);
+    app::Request request = test::make_test_request(scene, {technique + "own", technique + "all"},
+                                                   kClaimsSize);
     request.with_lookup = true;
-    const app::RunResult result = app::run(test::engine(), request);
+    const app::RunResult result = app::run(test::test_engine(), request);
     const auto is_unknown = [&](std::size_t part, std::size_t i) {
         return ((static_cast<int>(result.parts[part].lookup[i].w) - 1) & 3) == 1;
     };
@@ -192,7 +194,7 @@ Answers answers(const scene::Scene& scene, const std::string& search, const std:
         if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         if (!is_unknown(0, i) || is_unknown(1, i)) continue;
         const vec3 own = result.parts[0].hdr.pixels[i], all = result.parts[1].hdr.pixels[i];
-        const bool is_off = test::is_off(all, truth.hdr.pixels[i]),
+        const bool is_off = test::is_pixel_off(all, truth.hdr.pixels[i]),
                    meets = bool(measure::second_mirror_of_hit(truth.hits[i]));
         ++found.all, found.off += is_off;
         found.mirrors += meets, found.mirrors_off += meets && is_off;

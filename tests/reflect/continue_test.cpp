@@ -22,13 +22,16 @@ struct ColourError {
 ColourError continue_error_of(const scene::Scene& scene, const std::string& technique) {
     static std::map<std::string, app::TechniqueResult> truths; // cached by the scene's name
     if (!truths.contains(scene.name))
-        truths.emplace(scene.name, test::render(scene, app::kReference, kContinueSize));
+        truths.emplace(scene.name, test::render_technique(scene, app::kReference, kContinueSize));
     const app::TechniqueResult& truth = truths.at(scene.name);
-    const measure::Picture picture = test::last_of(test::request(scene, {technique}, kContinueSize),
-                                                   kContinueFrames)
+    const measure::Picture picture = test::render_last_frame(
+                                         test::make_test_request(scene, {technique}, kContinueSize),
+                                         kContinueFrames)
                                          .front()
                                          .hdr;
-    const auto of = [&](const measure::Mask& mask) { return test::rmse(picture, truth.hdr, mask); };
+    const auto of = [&](const measure::Mask& mask) {
+        return test::picture_rmse(picture, truth.hdr, mask);
+    };
     const ColourError error{of(measure::mask_mirror_pixels(truth.hits)),
                             of(measure::mask_first_order_pixels(truth.hits)),
                             of(measure::mask_mirror_in_mirror(truth.hits))};
@@ -42,15 +45,17 @@ ColourError continue_error_of(const scene::Scene& scene, const std::string& tech
 // not exact spheres, are continued with the surfaces in their captures.
 TEST(Continue, MirrorsInMirrorsOfAnyShapeAreFollowed) {
     for (const std::string search : {"secant", "march", "pyramid", "layered", "hybrid"}) {
-        const ColourError without = continue_error_of(test::hall(), search + ":continue=0"),
-                          with = continue_error_of(test::hall(), search);
+        const ColourError without = continue_error_of(test::make_mirror_hall(),
+                                                      search + ":continue=0"),
+                          with = continue_error_of(test::make_mirror_hall(), search);
         EXPECT_LE(with.mirror_in_mirror, .25 * without.mirror_in_mirror) << search;
         // One pixel at the lamp's edge holds nearly all of the first-order error, so this
         // comparison uses a lookup that mixes texels.
         EXPECT_LE(
-            continue_error_of(test::hall(), search + ":lookup=bilinear").first_order,
+            continue_error_of(test::make_mirror_hall(), search + ":lookup=bilinear").first_order,
             1.05 *
-                continue_error_of(test::hall(), search + ":continue=0,lookup=bilinear").first_order)
+                continue_error_of(test::make_mirror_hall(), search + ":continue=0,lookup=bilinear")
+                    .first_order)
             << search;
         // `march` may step over the edge of a mirror and continue in the wrong mirror, in about
         // twenty pixels.
@@ -62,19 +67,21 @@ TEST(Continue, MirrorsInMirrorsOfAnyShapeAreFollowed) {
 // Each mirror reflects half of the light. The colour of a pixel therefore tells how many mirrors
 // its ray met.
 TEST(Continue, EachMirrorOnTheWayHalvesTheLight) {
-    scene::Scene furnace = test::furnace(0);
+    scene::Scene furnace = test::make_furnace_scene(0);
     const std::size_t half = test::add_material(
         furnace, {.name = "half", .mirror = true, .reflectance = {.5f, .5f, .5f}});
     test::add_quad(furnace, "left", half, {-3, -2, 0}, {-3, -2, 4}, {-3, 2, 4}, {-3, 2, 0});
     test::add_quad(furnace, "right", half, {3, -2, 0}, {3, 2, 0}, {3, 2, 4}, {3, -2, 4});
     for (const std::string search : {"march", "pyramid", "layered"}) {
-        const measure::Picture picture = test::render(furnace, search + ":face=64,continue=8",
-                                                      kContinueSize)
+        const measure::Picture picture = test::render_technique(furnace,
+                                                                search + ":face=64,continue=8",
+                                                                kContinueSize)
                                              .hdr; // one frame, so no history contributes
         std::array<std::size_t, 4> met{};
         for (const vec3& pixel : picture.pixels)
             for (std::size_t k = 0; k < met.size(); ++k)
-                met[k] += std::abs(pixel.x - std::exp2(-float(k)) * test::kFurnace.x) < 1e-3f;
+                met[k] += std::abs(pixel.x - std::exp2(-float(k)) * test::kFurnaceRadiance.x) <
+                          1e-3f;
         EXPECT_GT(met[1], 200u) << search;
         EXPECT_GT(met[2], 20u) << search << ": both mirrors";
     }
@@ -82,8 +89,9 @@ TEST(Continue, EachMirrorOnTheWayHalvesTheLight) {
 
 TEST(Captures, OtherMirrorsCapturesAnswerUnknownPixels) {
     for (const std::string search : {"pyramid:face=128", "march:face=128", "secant:face=128"}) {
-        const auto judged = test::judge(scene::make_cornell_mirrors(), test::looks().front(),
-                                        {search, search + ",captures=all"});
+        const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(),
+                                                        test::search_test_views().front(),
+                                                        {search, search + ",captures=all"});
         const measure::LookupErrorSummary &own = judged[0].lookup, &all = judged[1].lookup;
         EXPECT_LE(all.unknown, .75 * own.unknown) << search;
         EXPECT_LE(all.wrong_object, own.wrong_object)
@@ -96,7 +104,7 @@ TEST(Captures, OtherMirrorsCapturesAnswerUnknownPixels) {
 // edges end behind the screens. A ball far away has a capture too, but two boxes enclose the ball.
 // The inner box is as far from the ball as the second screen is from the mirror.
 TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true}),
                       grey = test::add_material(scene, {.name = "grey"}),
                       red = test::add_material(scene, {.name = "red", .albedo = {.8f, .1f, .1f}});
@@ -112,11 +120,11 @@ TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
         for (int face = 0; face < 6; ++face)
             test::add_mesh(scene, test::wall(face, shut - half, shut + half), grey);
     for (const std::string search : {"pyramid", "layered", "march", "secant"}) {
-        app::Request request = test::request(
+        app::Request request = test::make_test_request(
             scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"},
             kContinueSize);
         request.with_lookup = true;
-        const app::RunResult result = app::run(test::engine(), request);
+        const app::RunResult result = app::run(test::test_engine(), request);
         const app::TechniqueResult &own = result.parts[0], &all = result.parts[1];
         std::size_t unknown = 0, changed = 0;
         for (std::size_t i = 0; i < own.lookup.size(); ++i) {
@@ -146,16 +154,17 @@ TEST(Mirrors, CapturesMayLeaveOutMirrorsWhereRaysAreFollowed) {
     // Captures without mirrors do not depend on the frame before, so the first picture equals the
     // last.
     const std::string settled = "pyramid:face=64,continue=8,mirrors=left_out";
-    EXPECT_TRUE(test::same_bytes(
-        test::render(scene::make_cornell_mirrors(), settled, kContinueSize, 1).hdr,
-        test::render(scene::make_cornell_mirrors(), settled, kContinueSize, 5).hdr));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(
+        test::render_technique(scene::make_cornell_mirrors(), settled, kContinueSize, 1).hdr,
+        test::render_technique(scene::make_cornell_mirrors(), settled, kContinueSize, 5).hdr));
 }
 
 TEST(Show, SearchStateAndResidualArePainted) {
-    app::Request request = test::request(
+    app::Request request = test::make_test_request(
         scene::make_cornell_mirrors(), {"pyramid:face=64,captures=own,show=state"}, kContinueSize);
     request.with_lookup = true;
-    const app::TechniqueResult part = std::move(app::run(test::engine(), request).parts.front());
+    const app::TechniqueResult part = std::move(
+        app::run(test::test_engine(), request).parts.front());
     const std::array<vec3, 3> paint{
         {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // colours of hit, unknown and miss
     std::array<std::size_t, 3> count{};
@@ -168,7 +177,7 @@ TEST(Show, SearchStateAndResidualArePainted) {
     for (const std::size_t pixels : count) EXPECT_GT(pixels, 10u);
     request.techniques = {"pyramid:face=64,show=residual"};
     const app::TechniqueResult residual = std::move(
-        app::run(test::engine(), request).parts.front());
+        app::run(test::test_engine(), request).parts.front());
     for (std::size_t i = 0; i < residual.lookup.size(); ++i) {
         const float code = residual.lookup[i].w;
         if (!(code > 0)) continue;

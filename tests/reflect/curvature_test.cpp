@@ -50,9 +50,9 @@ double need(const scene::Mesh& mesh, double eye, const dmat4& world_from_object 
     scene.objects.back().world_from_object = world_from_object;
     scene.cameras.push_back(
         {.eye = {0, 0, eye}, .target = {0, 0, 0}, .vertical_fov_degrees = kFov});
-    app::Request request = test::request(scene, {"reuse:face=auto,shadow=none"},
-                                         {kHeight, kHeight});
-    return app::run(test::engine(), request).parts.front().auto_face->needs.front();
+    app::Request request = test::make_test_request(scene, {"reuse:face=auto,shadow=none"},
+                                                   {kHeight, kHeight});
+    return app::run(test::test_engine(), request).parts.front().auto_face->needs.front();
 }
 
 /// Returns the edge in texels by the mirror equation. Two neighbouring pixels look in directions

@@ -94,7 +94,7 @@ TEST(Environment, BackgroundEqualsTheEnvironmentInRasterAndRays) {
                 const scene::Scene scene = void_scene(environment, ahead);
                 for (const std::string technique : {"raytrace", "naive"}) {
                     const measure::Picture picture =
-                        test::render(scene, technique, {kEdge, kEdge}).hdr;
+                        test::render_technique(scene, technique, {kEdge, kEdge}).hdr;
                     double worst = 0;
                     for (int y = 0; y < kEdge; ++y)
                         for (int x = 0; x < kEdge; ++x)
@@ -102,8 +102,8 @@ TEST(Environment, BackgroundEqualsTheEnvironmentInRasterAndRays) {
                                 worst,
                                 glm::length(dvec3(picture.at(x, y)) -
                                             scene::environment_radiance(
-                                                *environment,
-                                                test::pixel_direction(scene.cameras[0], x, y, kEdge))));
+                                                *environment, test::pixel_direction(
+                                                                  scene.cameras[0], x, y, kEdge))));
                     EXPECT_LE(worst, 1e-3)
                         << technique << (studio ? ", studio, " : ", map, ") << rotation
                         << " degrees, ahead " << ahead.x << ' ' << ahead.y << ' ' << ahead.z;
@@ -202,7 +202,8 @@ TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
             {.eye = 2.0 * n, .target = {0, 0, 0}, .up = up, .vertical_fov_degrees = 40});
         const dvec3 wanted = dvec3(.6, .5, .4) / test::kPi * falls_on(*environment, n);
         for (const std::string technique : {"raytrace", "naive"}) {
-            const measure::Picture picture = test::render_dark(scene, technique, {8, 8}).hdr;
+            const measure::Picture picture =
+                test::render_without_ambient(scene, technique, {8, 8}).hdr;
             for (const vec3& pixel : picture.pixels)
                 EXPECT_LE(glm::length(dvec3(pixel) - wanted), 1e-3 * glm::length(wanted))
                     << technique;
@@ -214,13 +215,14 @@ TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
 /// picture by more than .02.
 double off_in_mirrors(const scene::Scene& scene, const std::string& technique) {
     constexpr uvec2 kSize{96, 96};
-    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize),
-                               part = test::render(scene, technique, kSize, 3);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize),
+                               part = test::render_technique(scene, technique, kSize, 3);
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         ++all;
-        off += test::apart(part.hdr.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
+        off += test::max_channel_difference(part.hdr.pixels[i], truth.hdr.pixels[i]) >
+               float(measure::kVisibleDifference);
     }
     EXPECT_GT(all, 300u);
     return double(off) / double(all);
@@ -244,21 +246,22 @@ TEST(Environment, MirrorsShowTheEnvironmentInEveryTechnique) {
         EXPECT_LE(off_in_mirrors(scene, technique.name), .002) << technique.name;
 }
 
-/// Returns the test scene `yard` with an evening environment, a point light and a directional
-/// light.
+/// Returns the test scene `make_yard_scene` with an evening environment, a point light and a
+/// directional light.
 scene::Scene yard_at_dusk() {
-    scene::Scene scene = test::yard();
+    scene::Scene scene = test::make_yard_scene();
     scene.environment = dusk();
     scene.punctual.push_back(
-        {.intensity = vec3(4), .world_from_light = test::shining({1, 2, 2}, {0, 0, -1})});
-    scene.punctual.push_back({.kind = scene::PunctualLight::Kind::directional,
-                              .intensity = vec3(1),
-                              .world_from_light = test::shining({0, 0, 0}, {-.5, -1, -.4})});
+        {.intensity = vec3(4), .world_from_light = test::light_transform({1, 2, 2}, {0, 0, -1})});
+    scene.punctual.push_back(
+        {.kind = scene::PunctualLight::Kind::directional,
+         .intensity = vec3(1),
+         .world_from_light = test::light_transform({0, 0, 0}, {-.5, -1, -.4})});
     return scene;
 }
 
 TEST(Environment, RasterisationEqualsRayTracing) {
-    const double off = test::share_off_of_raster(yard_at_dusk(), {128, 128});
+    const double off = test::share_off_in_raster_picture(yard_at_dusk(), {128, 128});
     std::cout << "[ MEASURED ] share off " << off << "\n";
     EXPECT_LE(off, .005);
 }
@@ -287,21 +290,22 @@ TEST(Environment, MirrorsShowObjectsBeforeTheEnvironment) {
 TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
     scene::Scene scene = yard_at_dusk();
     scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
-    app::Request asked = test::request(scene, {"parallax"}, {64, 64});
-    const app::TechniqueResult truth = test::render(scene, "raytrace", {64, 64});
-    app::Session session(test::engine(), scene);
+    app::Request asked = test::make_test_request(scene, {"parallax"}, {64, 64});
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", {64, 64});
+    app::Session session(test::test_engine(), scene);
     app::FrameSpec spec = asked;
     session.frame(spec);
     const std::uint32_t causes = shared::kAblateDistance | shared::kAblateDirection |
-                                 shared::kAblateHidden | shared::kAblateTexels |
-                                 shared::kAblateMirrors | shared::kAblateOwn |
+                                 shared::kAblateHiddenPoints | shared::kAblateTexelColour |
+                                 shared::kAblateMirrorReflections | shared::kAblateSelfReflection |
                                  shared::kAblateShadows;
     const measure::Picture ablated =
-        app::Access::frame(session, spec, {.ablated = causes}).read().hdr;
+        app::Access::render_frame(session, spec, {.ablated = causes}).read().hdr;
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
-        ++all, off += test::apart(ablated.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
+        ++all, off += test::max_channel_difference(ablated.pixels[i], truth.hdr.pixels[i]) >
+                      float(measure::kVisibleDifference);
     }
     std::cout << "[ MEASURED ] off " << off << " of " << all << "\n";
     EXPECT_LE(double(off), .01 * double(all));

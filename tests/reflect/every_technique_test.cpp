@@ -28,7 +28,7 @@ protected:
             if (std::ranges::find(settings, cheap.first,
                                   &std::pair<std::string, std::string>::first) == settings.end())
                 settings.push_back(cheap);
-        return test::with(GetParam(), settings);
+        return test::technique_with_knobs(GetParam(), settings);
     }
 };
 INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::techniques()),
@@ -41,30 +41,30 @@ constexpr float kSlack = 0x1p-10f;
 
 TEST_P(EveryTechnique, MirrorInAFurnaceShowsTheFurnace) {
     const measure::Picture picture =
-        test::render(test::furnace(1), small(), kEveryTechniqueSize, 3).hdr;
+        test::render_technique(test::make_furnace_scene(1), small(), kEveryTechniqueSize, 3).hdr;
     for (const vec3& pixel : picture.pixels)
         for (int c = 0; c < 3; ++c)
-            ASSERT_NEAR(pixel[c], test::kFurnace[c], kSlack * test::kFurnace[c]);
+            ASSERT_NEAR(pixel[c], test::kFurnaceRadiance[c], kSlack * test::kFurnaceRadiance[c]);
 }
 
 /// Returns the share of pixels that are darker than the furnace. Fails if a pixel is brighter than
 /// 1.002 times the furnace.
 double dark_share(const scene::Scene& furnace, const std::string& technique, int frames) {
-    app::Request request = test::request(furnace, {technique}, kEveryTechniqueSize);
+    app::Request request = test::make_test_request(furnace, {technique}, kEveryTechniqueSize);
     request.warmup = frames - 1;
     request.ambient = 0;
-    const measure::Picture picture = app::run(test::engine(), request).parts.front().hdr;
+    const measure::Picture picture = app::run(test::test_engine(), request).parts.front().hdr;
     std::size_t dark = 0, bright = 0;
     for (const vec3& pixel : picture.pixels) {
-        dark += !glm::all(glm::greaterThanEqual(pixel, test::kFurnace * (1 - kSlack)));
-        bright += !glm::all(glm::lessThanEqual(pixel, test::kFurnace * 1.002f));
+        dark += !glm::all(glm::greaterThanEqual(pixel, test::kFurnaceRadiance * (1 - kSlack)));
+        bright += !glm::all(glm::lessThanEqual(pixel, test::kFurnaceRadiance * 1.002f));
     }
     EXPECT_EQ(bright, 0u) << technique << ", frame " << frames;
     return static_cast<double>(dark) / static_cast<double>(picture.pixels.size());
 }
 
 TEST_P(EveryTechnique, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
-    const scene::Scene furnace = test::furnace(2);
+    const scene::Scene furnace = test::make_furnace_scene(2);
     const auto expect_falling = [&](const std::string& what,
                                     const std::function<double(int)>& share_at) {
         double last = 1;
@@ -109,11 +109,11 @@ TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                                                 std::vector<std::string>(balls, "ball")),
                         std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
-                const app::Request asked = test::request(test::room(mirrors, lights), {text},
-                                                         {16, 16});
-                app::Session session(test::engine(), asked.scene);
+                const app::Request asked = test::make_test_request(
+                    test::make_lit_room(mirrors, lights), {text}, {16, 16});
+                app::Session session(test::test_engine(), asked.scene);
                 const auto plan = nlohmann::json::parse(
-                    app::Access::plan(session, asked, app::PlanFormat::json));
+                    app::Access::format_frame_plan(session, asked, app::PlanFormat::json));
                 EXPECT_EQ(plan.at("scene_passes"),
                           choice.technique->scene_passes(mirrors, lights, choice.settings))
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
@@ -139,7 +139,7 @@ std::vector<std::string> extremes(const app::KnobInfo& knob) {
 }
 
 TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
-    const scene::Scene room = test::room(2, 1);
+    const scene::Scene room = test::make_lit_room(2, 1);
     for (const app::KnobInfo& knob : GetParam().knobs)
         for (const std::string& value : extremes(knob)) {
             if (value == "float" && !test::has_float_colour()) continue;
@@ -148,8 +148,8 @@ TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
                 // `range` has an effect only on unorm8 distances.
                 settings.push_back({"distance", "unorm8"});
             const std::string text = small(settings);
-            const app::TechniqueResult part = test::render(room, text, {32, 24}, 3);
-            EXPECT_EQ(test::nonfinite(part.hdr), 0u) << text;
+            const app::TechniqueResult part = test::render_technique(room, text, {32, 24}, 3);
+            EXPECT_EQ(test::nonfinite_pixel_count(part.hdr), 0u) << text;
             EXPECT_EQ(
                 std::ranges::count_if(part.hdr.pixels,
                                       [](const vec3& c) { return c.x < 0 || c.y < 0 || c.z < 0; }),
@@ -159,17 +159,17 @@ TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
 }
 
 TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
-    app::Request request = test::request(scene::make_cornell_mirrors(), {small()},
-                                         kEveryTechniqueSize);
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {small()},
+                                                   kEveryTechniqueSize);
     for (const bool animate : {false, true}) {
         request.animate = animate;
         request.frames = 3;
         const app::TechniqueResult first = std::move(
-            app::run(test::engine(), request).parts.front());
+            app::run(test::test_engine(), request).parts.front());
         const app::TechniqueResult second = std::move(
-            app::run(test::engine(), request).parts.front());
-        EXPECT_TRUE(test::same_bytes(first.hdr, second.hdr));
-        EXPECT_TRUE(test::same_bytes(first.display, second.display));
+            app::run(test::test_engine(), request).parts.front());
+        EXPECT_TRUE(test::have_equal_pixel_bytes(first.hdr, second.hdr));
+        EXPECT_TRUE(test::have_equal_pixel_bytes(first.display, second.display));
         EXPECT_EQ(first.hits, second.hits);
     }
 }
@@ -178,20 +178,22 @@ TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
 /// mirrors seen in mirrors start black.
 TEST_P(EveryTechnique, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
     const std::string text = small({{"continue", "0"}});
-    const app::TechniqueResult first = test::render(test::room(3, 1), text, kEveryTechniqueSize),
-                               second = test::render(test::room(3, 1), text, kEveryTechniqueSize,
-                                                     2);
+    const app::TechniqueResult first = test::render_technique(test::make_lit_room(3, 1), text,
+                                                              kEveryTechniqueSize),
+                               second = test::render_technique(test::make_lit_room(3, 1), text,
+                                                               kEveryTechniqueSize, 2);
     EXPECT_EQ(first.remembers, second.remembers);
-    EXPECT_EQ(test::same_bytes(first.hdr, second.hdr), !first.remembers);
+    EXPECT_EQ(test::have_equal_pixel_bytes(first.hdr, second.hdr), !first.remembers);
 }
 
 TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
-    app::Request request = test::request(test::room(2, 2), {small()}, kEveryTechniqueSize);
+    app::Request request = test::make_test_request(test::make_lit_room(2, 2), {small()},
+                                                   kEveryTechniqueSize);
     request.frames = 3;
-    app::Session session(test::engine(), request.scene);
+    app::Session session(test::test_engine(), request.scene);
     const auto plan = nlohmann::json::parse(
-        app::Access::plan(session, request, app::PlanFormat::json));
-    for (const app::FrameTimes& frame : app::run(test::engine(), request).frames) {
+        app::Access::format_frame_plan(session, request, app::PlanFormat::json));
+    for (const app::FrameTimes& frame : app::run(test::test_engine(), request).frames) {
         ASSERT_EQ(frame.passes.size(), plan["passes"].size());
         double time = 0;
         for (std::size_t i = 0; i < frame.passes.size(); ++i) {
@@ -207,9 +209,9 @@ TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
 
 TEST_P(EveryTechnique, ScenesWithoutMirrorsOrLightsAreRendered) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
-        const app::TechniqueResult part = test::render(test::room(mirrors, lights), small(),
-                                                       {24, 24}, 2);
-        EXPECT_EQ(test::nonfinite(part.hdr), 0u);
+        const app::TechniqueResult part = test::render_technique(
+            test::make_lit_room(mirrors, lights), small(), {24, 24}, 2);
+        EXPECT_EQ(test::nonfinite_pixel_count(part.hdr), 0u);
         EXPECT_GT(measure::mean_of(part.hdr, measure::ValueRange::unclamped).all, 0.0)
             << "ambient light is left";
     }

@@ -15,14 +15,14 @@ constexpr uvec2 kExactSpheresSize{64, 48};
 const std::string kExact = "raytrace:sphere=exact,depth=3", kMesh = "raytrace:depth=3";
 
 measure::Picture picture(const scene::Scene& scene, const std::string& technique) {
-    return test::render(scene, technique, kExactSpheresSize).hdr;
+    return test::render_technique(scene, technique, kExactSpheresSize).hdr;
 }
 
 /// A session that shows meshes and spheres in turns must show moved objects at the same places as a
 /// new session.
 TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
-    scene::Scene scene = test::room(3, 1);
-    app::Session session(test::engine(), scene);
+    scene::Scene scene = test::make_lit_room(3, 1);
+    app::Session session(test::test_engine(), scene);
     const auto ball = [&](int number) { return scene.objects.size() - std::size_t(number); };
     for (int step = 0; step < 4; ++step) {
         if (step > 0) { // move a ball, then a wall, then two balls
@@ -35,8 +35,9 @@ TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
         }
         const std::string first = step % 2 ? kExact : kMesh, second = step % 2 ? kMesh : kExact;
         for (const std::string& technique : {first, second, kExact})
-            EXPECT_TRUE(test::same_bytes(
-                session.frame(test::request(scene, {technique}, kExactSpheresSize)).hdr(0),
+            EXPECT_TRUE(test::have_equal_pixel_bytes(
+                session.frame(test::make_test_request(scene, {technique}, kExactSpheresSize))
+                    .hdr(0),
                 picture(scene, technique)))
                 << technique << ", step " << step;
     }
@@ -44,12 +45,13 @@ TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
 
 /// Exact spheres, as their meshes, cast shadows even if the camera does not see them.
 TEST(ExactSpheres, SpheresHiddenFromTheCameraStillCastShadows) {
-    scene::Scene scene = test::room(2, 1), without = scene;
+    scene::Scene scene = test::make_lit_room(2, 1), without = scene;
     without.objects.erase(without.objects.end() - 1);
     scene.objects.back().seen_by_camera = false;
     const measure::Picture hidden = picture(scene, "raytrace:sphere=exact,depth=0"),
                            gone = picture(without, "raytrace:sphere=exact,depth=0");
-    const auto hits = test::render(scene, "raytrace:sphere=exact,depth=0", kExactSpheresSize).hits;
+    const auto hits =
+        test::render_technique(scene, "raytrace:sphere=exact,depth=0", kExactSpheresSize).hits;
     EXPECT_THAT(hits, testing::Each(testing::Ne(2u)));
     int darker = 0, brighter = 0;
     for (std::size_t i = 0; i < hidden.pixels.size(); ++i) {
@@ -63,12 +65,13 @@ TEST(ExactSpheres, SpheresHiddenFromTheCameraStillCastShadows) {
 /// The meshes have many triangles, so the pictures of sphere and mesh may differ only at the
 /// outlines.
 TEST(ExactSpheres, SpheresEqualTheirMeshesExceptAtOutlines) {
-    const scene::Scene scene = test::room(3, 2);
+    const scene::Scene scene = test::make_lit_room(3, 2);
     const measure::Picture exact = picture(scene, "raytrace:sphere=exact,depth=1"),
                            mesh = picture(scene, "raytrace:depth=1");
     int off = 0;
     for (std::size_t i = 0; i < exact.pixels.size(); ++i)
-        off += !(test::apart(exact.pixels[i], mesh.pixels[i]) <= float(measure::kOff));
+        off += !(test::max_channel_difference(exact.pixels[i], mesh.pixels[i]) <=
+                 float(measure::kVisibleDifference));
     EXPECT_LE(off, 120);
 }
 

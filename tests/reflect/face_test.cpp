@@ -12,8 +12,8 @@ using namespace catoptric;
 
 TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult chosen = test::render(scene, "secant:face=auto", test::kContractSize,
-                                                     2);
+    const app::TechniqueResult chosen = test::render_technique(scene, "secant:face=auto",
+                                                               test::kSearchTestSize, 2);
     ASSERT_TRUE(chosen.auto_face.has_value());
     ASSERT_EQ(chosen.auto_face->needs.size(), 4u);
     // Expected edge: (pi/2) / (p cos^2 (1 + 2 z / r)), for a pixel of size p at the ball's nearest
@@ -33,16 +33,16 @@ TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
         EXPECT_LE(chosen.auto_face->needs[i], 1.01 * next) << "ball " << i + 1;
     }
     EXPECT_EQ(chosen.auto_face->edge, 64u);
-    const app::TechniqueResult named = test::render(scene, "secant:face=64", test::kContractSize,
-                                                    2);
+    const app::TechniqueResult named = test::render_technique(scene, "secant:face=64",
+                                                              test::kSearchTestSize, 2);
     EXPECT_FALSE(named.auto_face.has_value());
-    EXPECT_TRUE(test::same_bytes(chosen.hdr, named.hdr));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(chosen.hdr, named.hdr));
 }
 
 TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
-    scene::Scene away = test::room(2, 1);
+    scene::Scene away = test::make_lit_room(2, 1);
     away.cameras = {{.name = "away", .eye = {0, 0, -2}, .target = {0, 0, -4}}};
-    const app::TechniqueResult part = test::render(away, "parallax:face=auto", {32, 32});
+    const app::TechniqueResult part = test::render_technique(away, "parallax:face=auto", {32, 32});
     ASSERT_TRUE(part.auto_face.has_value());
     EXPECT_EQ(part.auto_face->needs, std::vector<double>(2, 0));
     EXPECT_EQ(part.auto_face->edge, 16u);
@@ -51,7 +51,7 @@ TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
 TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
     scene::Scene scene = scene::make_cornell_mirrors();
     const auto needs = [&] {
-        return test::render(scene, "reuse:face=auto", {512, 512}).auto_face->needs;
+        return test::render_technique(scene, "reuse:face=auto", {512, 512}).auto_face->needs;
     };
     const std::vector<double> spheres = needs();
     for (scene::Object& object : scene.objects) object.sphere.reset();
@@ -60,21 +60,23 @@ TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
 }
 
 TEST(AutoFace, EdgeStaysTheSameWhileTheSceneMoves) {
-    app::Request asked = test::request(scene::make_cornell_mirrors(), {"secant:face=auto"},
-                                       {64, 64});
+    app::Request asked = test::make_test_request(scene::make_cornell_mirrors(),
+                                                 {"secant:face=auto"}, {64, 64});
     asked.animate = true;
     asked.frames = 3;
-    const app::TechniqueResult moving = std::move(app::run(test::engine(), asked).parts.front());
+    const app::TechniqueResult moving = std::move(
+        app::run(test::test_engine(), asked).parts.front());
     asked.techniques = {"secant:face=" + std::to_string(moving.auto_face->edge)};
-    EXPECT_TRUE(test::same_bytes(moving.hdr, app::run(test::engine(), asked).parts.front().hdr));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(
+        moving.hdr, app::run(test::test_engine(), asked).parts.front().hdr));
 }
 
-std::uint32_t auto_edge(const test::Look& look) {
-    app::Request asked = test::request(scene::make_cornell_mirrors(), {"secant:face=auto"},
-                                       test::kContractSize);
+std::uint32_t auto_edge(const test::SearchTestView& look) {
+    app::Request asked = test::make_test_request(scene::make_cornell_mirrors(),
+                                                 {"secant:face=auto"}, test::kSearchTestSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    return app::run(test::engine(), asked).parts.front().auto_face->edge;
+    return app::run(test::test_engine(), asked).parts.front().auto_face->edge;
 }
 
 std::vector<std::string> with_faces(const std::vector<std::uint32_t>& faces) {
@@ -87,12 +89,12 @@ std::vector<std::string> with_faces(const std::vector<std::uint32_t>& faces) {
 /// With half the edge the mean direction error grows by at least half a pixel. With twice the edge
 /// it falls by less than a third of a pixel.
 TEST(AutoFace, DoublingTheEdgeHardlyImprovesDirections) {
-    for (const test::Look& look : test::looks()) {
+    for (const test::SearchTestView& look : test::search_test_views()) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = auto_edge(look);
-        const auto judged = test::judge(scene::make_cornell_mirrors(), look,
-                                        with_faces({edge / 2, edge, 2 * edge}));
-        const double pixel = look.camera.vertical_fov_degrees / test::kContractSize.y;
+        const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(), look,
+                                                        with_faces({edge / 2, edge, 2 * edge}));
+        const double pixel = look.camera.vertical_fov_degrees / test::kSearchTestSize.y;
         const double half = judged[0].lookup.mean_degrees, at = judged[1].lookup.mean_degrees,
                      twice = judged[2].lookup.mean_degrees;
         EXPECT_GE(half - at, .5 * pixel);
@@ -104,12 +106,12 @@ TEST(AutoFace, DoublingTheEdgeHardlyImprovesDirections) {
 /// because they flicker more. The test uses a bilinear lookup. A lookup that does not mix objects
 /// flickers at any edge.
 TEST(AutoFace, LargerEdgeDoesNotImprovePixelColours) {
-    for (const test::Look& look : test::looks()) {
+    for (const test::SearchTestView& look : test::search_test_views()) {
         SCOPED_TRACE(look.camera.name);
         const std::uint32_t edge = auto_edge(look);
-        const auto judged = test::judge(scene::make_cornell_mirrors(), look,
-                                        with_faces({edge / 2, edge, 4 * edge}),
-                                        "raytrace:depth=16,samples=16");
+        const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(), look,
+                                                        with_faces({edge / 2, edge, 4 * edge}),
+                                                        "raytrace:depth=16,samples=16");
         EXPECT_GE(judged[0].first_order, 1.2 * judged[1].first_order);
         EXPECT_GE(judged[2].first_order, judged[1].first_order);
     }

@@ -26,16 +26,17 @@ std::size_t count_off(const measure::Picture& a, const measure::Picture& b) {
 
 /// Expects the traced picture, with a camera ray in at most 2 % of the pixels.
 void expect_traced(const scene::Scene& scene, const std::string& what, std::size_t most_off) {
-    const app::TechniqueResult wanted = test::render(scene, "raytrace:depth=4", kFirstSize),
-                               found = test::render(scene, "raytrace:depth=4,first=raster",
-                                                    kFirstSize);
+    const app::TechniqueResult wanted = test::render_technique(scene, "raytrace:depth=4",
+                                                               kFirstSize),
+                               found = test::render_technique(
+                                   scene, "raytrace:depth=4,first=raster", kFirstSize);
     ASSERT_TRUE(found.rays && wanted.rays) << what;
     const std::size_t off = count_off(found.hdr, wanted.hdr);
     std::cout << "[ MEASURED ] " << what << ": " << off << " pixels off, rays "
               << found.rays->primary << " " << found.rays->mirror << " " << found.rays->shadow
               << " instead of " << wanted.rays->primary << " " << wanted.rays->mirror << " "
               << wanted.rays->shadow << '\n';
-    EXPECT_EQ(test::nonfinite(found.hdr), 0u) << what;
+    EXPECT_EQ(test::nonfinite_pixel_count(found.hdr), 0u) << what;
     EXPECT_LE(off, most_off) << what;
     EXPECT_EQ(wanted.rays->primary, kFirstPixels) << what;
     EXPECT_LE(found.rays->primary, kFirstPixels / 50) << what;
@@ -50,13 +51,13 @@ TEST(FirstRaster, PictureOfBuiltInScenesIsTheTracedOne) {
 
 TEST(FirstRaster, PictureOfDrawnHallsIsTheTracedOne) {
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u})
-        expect_traced(test::drawn_hall(seed, 5), "hall " + std::to_string(seed), 8);
+        expect_traced(test::make_random_hall(seed, 5), "hall " + std::to_string(seed), 8);
 }
 
 /// Returns a room with masked, two-sided and smooth surfaces, none of which is a mirror, a sun and
 /// sixty copies of a mesh in object spaces.
 scene::Scene without_mirrors() {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     scene::Material masked{.name = "net", .albedo = vec3(.8f), .two_sided = true};
     auto image = std::make_shared<scene::Image>(
         scene::Image{"net", {2, 2}, {0xffffffffu, 0x00ffffffu, 0x00ffffffu, 0xffffffffu}});
@@ -83,21 +84,21 @@ scene::Scene without_mirrors() {
 TEST(FirstRaster, SurfacesThatReflectWithoutBeingMirrorsAreTraced) {
     const scene::Scene scene = without_mirrors();
     expect_traced(scene, "without mirrors", 8);
-    EXPECT_GT(test::render(scene, "raytrace:first=raster", kFirstSize).rays->mirror, 500u)
+    EXPECT_GT(test::render_technique(scene, "raytrace:first=raster", kFirstSize).rays->mirror, 500u)
         << "the varnish shows no reflection";
 }
 
 TEST(FirstRaster, OrthographicPictureIsTheTracedOne) {
-    scene::Scene scene = test::hall();
+    scene::Scene scene = test::make_mirror_hall();
     scene.cameras = {{.eye = {.2, .3, -2.8}, .target = {0, -.2, 0}, .orthographic_height = 3}};
     expect_traced(scene, "orthographic", 8);
 }
 
 /// Triangles have other places in the hierarchy after an object has moved.
 TEST(FirstRaster, PictureFollowsMovedObjects) {
-    for (scene::Scene scene : {test::hall(), without_mirrors()}) {
-        app::Session session(test::engine(), scene);
-        app::FrameSpec spec = test::request(scene, {"raytrace:first=raster"}, kFirstSize);
+    for (scene::Scene scene : {test::make_mirror_hall(), without_mirrors()}) {
+        app::Session session(test::test_engine(), scene);
+        app::FrameSpec spec = test::make_test_request(scene, {"raytrace:first=raster"}, kFirstSize);
         (void)session.frame(spec).read_all();
         for (const std::size_t object : {scene.objects.size() - 1, scene.objects.size() - 2}) {
             dmat4 place = scene.objects[object].world_from_object;
@@ -106,29 +107,36 @@ TEST(FirstRaster, PictureFollowsMovedObjects) {
             scene::apply_edit(scene, scene::move(object, place));
         }
         const std::vector<app::TechniqueResult> moved = session.frame(spec).read_all();
-        EXPECT_LE(count_off(moved.front().hdr, test::render(scene, "raytrace", kFirstSize).hdr),
-                  8u);
+        EXPECT_LE(
+            count_off(moved.front().hdr, test::render_technique(scene, "raytrace", kFirstSize).hdr),
+            8u);
         EXPECT_LE(moved.front().rays->primary, kFirstPixels / 50);
     }
 }
 
 TEST(FirstRaster, ShadowsOfTheMapAreThoseOfTheTracerWithTheMap) {
-    const scene::Scene scene = test::hall();
-    const app::TechniqueResult part = test::render(scene, "raytrace:first=raster,shadow=map",
-                                                   kFirstSize);
-    EXPECT_LE(count_off(part.hdr, test::render(scene, "raytrace:shadow=map", kFirstSize).hdr), 8u);
+    const scene::Scene scene = test::make_mirror_hall();
+    const app::TechniqueResult part = test::render_technique(
+        scene, "raytrace:first=raster,shadow=map", kFirstSize);
+    EXPECT_LE(
+        count_off(part.hdr, test::render_technique(scene, "raytrace:shadow=map", kFirstSize).hdr),
+        8u);
     EXPECT_EQ(part.rays->shadow, 0u);
-    const app::TechniqueResult lit = test::render(scene, "raytrace:first=raster,shadow=none",
-                                                  kFirstSize);
-    EXPECT_LE(count_off(lit.hdr, test::render(scene, "raytrace:shadow=none", kFirstSize).hdr), 8u);
+    const app::TechniqueResult lit = test::render_technique(
+        scene, "raytrace:first=raster,shadow=none", kFirstSize);
+    EXPECT_LE(
+        count_off(lit.hdr, test::render_technique(scene, "raytrace:shadow=none", kFirstSize).hdr),
+        8u);
     EXPECT_EQ(lit.rays->shadow, 0u);
 }
 
 /// The traced pixels of `hybrid` and of a plan start at drawn triangles, too.
 TEST(FirstRaster, TracedPixelsOfOtherTechniquesStartAtTheirTriangle) {
-    const scene::Scene scene = test::hall();
-    const measure::Picture wanted = test::render(scene, "raytrace:depth=16", kFirstSize).hdr;
-    const app::TechniqueResult all = test::render(scene, "hybrid:force=unknown", kFirstSize);
+    const scene::Scene scene = test::make_mirror_hall();
+    const measure::Picture wanted =
+        test::render_technique(scene, "raytrace:depth=16", kFirstSize).hdr;
+    const app::TechniqueResult all = test::render_technique(scene, "hybrid:force=unknown",
+                                                            kFirstSize);
     EXPECT_GT(all.rays->mirror, 1000u);
     EXPECT_LE(all.rays->primary, kFirstPixels / 100);
     EXPECT_LE(count_off(all.hdr, wanted), kFirstPixels / 100) << "edges of shadow maps";
@@ -138,10 +146,10 @@ TEST(FirstRaster, SettingsThatNeedOtherCameraRaysAreRefused) {
     const auto parse = [](const char* text) {
         return [text] { (void)reflect::parse_technique_choice(text); };
     };
-    test::expect_refused(parse("raytrace:samples=4,first=raster"), Failure::usage,
-                         {"first=raster", "wanted samples=1, found samples=4"});
-    test::expect_refused(parse("raytrace:first=raster,sphere=exact"), Failure::usage,
-                         {"wanted sphere=mesh, found sphere=exact"});
+    test::expect_error(parse("raytrace:samples=4,first=raster"), Failure::usage,
+                       {"first=raster", "wanted samples=1, found samples=4"});
+    test::expect_error(parse("raytrace:first=raster,sphere=exact"), Failure::usage,
+                       {"wanted sphere=mesh, found sphere=exact"});
     EXPECT_NO_THROW(parse("raytrace:samples=4,sphere=exact,first=ray")());
 }
 

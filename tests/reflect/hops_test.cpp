@@ -12,26 +12,28 @@ using namespace catoptric;
 constexpr uvec2 kHopsSize{64, 64};
 
 app::TechniqueResult hops_traced(const scene::Scene& scene, int depth) {
-    return test::render(scene, "raytrace:shadow=none,sphere=exact,depth=" + std::to_string(depth),
-                        kHopsSize);
+    return test::render_technique(
+        scene, "raytrace:shadow=none,sphere=exact,depth=" + std::to_string(depth), kHopsSize);
 }
 
 measure::Picture searched(const scene::Scene& scene, const std::string& search,
                           const std::string& settings, int frames = 1) {
-    return test::render(scene, search + ":face=128,shadow=none," + settings, kHopsSize, frames).hdr;
+    return test::render_technique(scene, search + ":face=128,shadow=none," + settings, kHopsSize,
+                                  frames)
+        .hdr;
 }
 
 /// Wrong pixels, by the number of mirrors that the traced ray met: any number, at least two, or at
 /// least three. `black`: rays that were ended early and are black.
 struct ByMirrors {
-    test::Compared all, two, three, black;
+    test::PixelComparison all, two, three, black;
 };
 
 ByMirrors by_mirrors(const std::string& what, const measure::Picture& picture,
                      const app::TechniqueResult& truth) {
     const auto where = [&](const auto& holds) {
-        return test::compared(picture, truth, [&](std::uint32_t, const vec3& colour) {
-            return holds(test::mirrors_met(colour));
+        return test::compare_mirror_pixels(picture, truth, [&](std::uint32_t, const vec3& colour) {
+            return holds(test::count_mirrors_met(colour));
         });
     };
     const ByMirrors found{where([](int) { return true; }), where([](int met) { return met >= 2; }),
@@ -42,10 +44,10 @@ ByMirrors by_mirrors(const std::string& what, const measure::Picture& picture,
     return found;
 }
 
-/// Returns the test scene `hall` with a ball, a block and a flat mirror, in which all other
-/// surfaces emit radiance 1.
+/// Returns the test scene `make_mirror_hall` with a ball, a block and a flat mirror, in which all
+/// other surfaces emit radiance 1.
 scene::Scene hops_bright_hall() {
-    scene::Scene hall = test::hall();
+    scene::Scene hall = test::make_mirror_hall();
     hall.name = "bright hall";
     for (scene::Material& material : hall.materials) {
         if (material.mirror) continue;
@@ -63,21 +65,22 @@ scene::Scene hops_bright_hall() {
 // followed through is black. Ray tracing with the same depth gives the same result.
 TEST(Hops, EachSphereOnTheWayReflectsItsOwnShare) {
     for (const int hops : {0, 1, 2}) {
-        const app::TechniqueResult truth = hops_traced(test::three_balls(), hops + 1);
+        const app::TechniqueResult truth = hops_traced(test::make_three_ball_scene(), hops + 1);
         for (const std::string search : {"secant", "march", "pyramid", "layered", "proxy"}) {
             SCOPED_TRACE(search + ", continue=" + std::to_string(hops));
             const std::string settings = "continue=" + std::to_string(hops);
             const ByMirrors found = by_mirrors(
-                search + ", " + settings, searched(test::three_balls(), search, settings), truth);
-            EXPECT_LE(found.all.share(), search == "proxy" ? .08 : .06);
+                search + ", " + settings, searched(test::make_three_ball_scene(), search, settings),
+                truth);
+            EXPECT_LE(found.all.share_off(), search == "proxy" ? .08 : .06);
             EXPECT_GT(found.black.pixels, 10u);
-            EXPECT_LE(found.black.share(), search == "secant" || search == "proxy" ? .33 : .16);
+            EXPECT_LE(found.black.share_off(), search == "secant" || search == "proxy" ? .33 : .16);
             if (hops < 1) continue;
             EXPECT_GT(found.two.pixels, 100u);
-            EXPECT_LE(found.two.share(), .12);
+            EXPECT_LE(found.two.share_off(), .12);
             if (hops < 2) continue;
             EXPECT_GT(found.three.pixels, 20u);
-            EXPECT_LE(found.three.share(), .25);
+            EXPECT_LE(found.three.share_off(), .25);
         }
     }
 }
@@ -91,10 +94,10 @@ TEST(Hops, EachMirrorOfAnyShapeOnTheWayReflectsItsOwnShare) {
             const ByMirrors found = by_mirrors("hall, " + search + ", " + settings,
                                                searched(hops_bright_hall(), search, settings),
                                                truth);
-            EXPECT_LE(found.all.share(), .06);
+            EXPECT_LE(found.all.share_off(), .06);
             EXPECT_GT(found.two.pixels, 100u);
-            EXPECT_LE(found.two.share(), .15);
-            EXPECT_LE(found.black.share(), .16);
+            EXPECT_LE(found.two.share_off(), .15);
+            EXPECT_LE(found.black.share_off(), .16);
         }
     }
 }
@@ -102,26 +105,29 @@ TEST(Hops, EachMirrorOfAnyShapeOnTheWayReflectsItsOwnShare) {
 /// Returns the number of pixels whose ray met at least two mirrors.
 std::size_t shows_two(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(
-        picture.pixels, [](const vec3& colour) { return test::mirrors_met(colour) >= 2; }));
+        picture.pixels, [](const vec3& colour) { return test::count_mirrors_met(colour) >= 2; }));
 }
 
 // If rays are not followed, the captured colours of a mirror must include that mirror's
 // reflectance. The captures show such colours in about as many pixels as ray tracing.
 TEST(Hops, CapturedMirrorsHaveTheirOwnReflectance) {
-    const app::TechniqueResult truth = hops_traced(test::three_balls(), 8);
+    const app::TechniqueResult truth = hops_traced(test::make_three_ball_scene(), 8);
     const double wanted = static_cast<double>(shows_two(truth.hdr));
     ASSERT_GT(wanted, 100);
     for (const std::string technique : {"naive:bounces=4,face=128", "reuse:face=128",
                                         "parallax:face=128", "pyramid:continue=0,face=128"}) {
-        const measure::Picture picture =
-            test::render(test::three_balls(), technique + ",shadow=none", kHopsSize, 6).hdr;
-        const test::Compared once = test::compared(
-            picture, truth,
-            [&](std::uint32_t, const vec3& colour) { return test::mirrors_met(colour) == 1; });
+        const measure::Picture picture = test::render_technique(test::make_three_ball_scene(),
+                                                                technique + ",shadow=none",
+                                                                kHopsSize, 6)
+                                             .hdr;
+        const test::PixelComparison once = test::compare_mirror_pixels(
+            picture, truth, [&](std::uint32_t, const vec3& colour) {
+                return test::count_mirrors_met(colour) == 1;
+            });
         const auto two = shows_two(picture);
         std::cout << "[ MEASURED ] " << technique << ": " << once
                   << " where one mirror is met, two in " << two << " pixels for " << wanted << "\n";
-        EXPECT_LE(once.share(), .12) << technique;
+        EXPECT_LE(once.share_off(), .12) << technique;
         EXPECT_GT(static_cast<double>(two), .6 * wanted) << technique;
         EXPECT_LT(static_cast<double>(two), 1.7 * wanted) << technique;
     }

@@ -14,9 +14,9 @@ constexpr std::uint32_t kUnknown = 1;
 
 /// Renders one frame and records where mirrors looked.
 app::TechniqueResult hybrid(const scene::Scene& scene, const std::string& technique, uvec2 size) {
-    app::Request request = test::request(scene, {technique}, size);
+    app::Request request = test::make_test_request(scene, {technique}, size);
     request.with_lookup = true;
-    return std::move(app::run(test::engine(), request).parts.front());
+    return std::move(app::run(test::test_engine(), request).parts.front());
 }
 
 struct Counted {
@@ -54,7 +54,7 @@ void expect_counted(const app::TechniqueResult& part, bool every_mirror) {
 /// wherever both see a mirror.
 void expect_traced(const scene::Scene& scene, const std::string& settings,
                    const std::string& reference, uvec2 size) {
-    const app::TechniqueResult traced = test::render(scene, reference, size);
+    const app::TechniqueResult traced = test::render_technique(scene, reference, size);
     const app::TechniqueResult part = hybrid(scene, "hybrid:force=unknown" + settings, size);
     expect_counted(part, true);
     const measure::Mask mirrors = measure::mask_mirror_pixels(traced.hits);
@@ -76,11 +76,11 @@ TEST(Hybrid, AllUnknownEqualsRayTracing) {
     expect_traced(scene::make_cornell_mirrors(), ",face=64", "raytrace:depth=16", kHybridSize);
     expect_traced(scene::make_cornell_mirrors(), ",face=64,shadow=none",
                   "raytrace:depth=16,shadow=none", kHybridSize);
-    expect_traced(test::room(3, 2), ",face=32", "raytrace:depth=16", kHybridSize);
+    expect_traced(test::make_lit_room(3, 2), ",face=32", "raytrace:depth=16", kHybridSize);
 }
 
 TEST(Hybrid, MoreWorkGroupsThanOneDimensionAllows) {
-    scene::Scene close = test::room(1, 1);
+    scene::Scene close = test::make_lit_room(1, 1);
     close.cameras = {{.name = "close",
                       .eye = {-.9, -1.2, -.9},
                       .target = {-.9, -1.2, .3},
@@ -102,8 +102,9 @@ TEST(Hybrid, ExactlyTheUnknownPixelsAreTraced) {
 TEST(Hybrid, OnlyTracedPixelsDifferFromTheSearch) {
     constexpr uvec2 kOdd{201, 177};
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const measure::Picture searched = test::render(scene, "pyramid:face=64,captures=all", kOdd).hdr;
-    const measure::Picture traced = test::render(scene, "raytrace:depth=16", kOdd).hdr;
+    const measure::Picture searched =
+        test::render_technique(scene, "pyramid:face=64,captures=all", kOdd).hdr;
+    const measure::Picture traced = test::render_technique(scene, "raytrace:depth=16", kOdd).hdr;
     const app::TechniqueResult part = hybrid(scene, "hybrid:face=64", kOdd);
     ASSERT_GT(count(part.lookup).unknown, 64u) << "more than one work group";
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {
@@ -115,11 +116,11 @@ TEST(Hybrid, OnlyTracedPixelsDifferFromTheSearch) {
 
 TEST(Hybrid, EmptyListOfPixelsTracesNothing) {
     const app::TechniqueResult one = hybrid(
-        test::furnace(1), "hybrid:face=32",
+        test::make_furnace_scene(1), "hybrid:face=32",
         {48, 48}); // no object hides another, so no pixel is unknown
     EXPECT_EQ(one.rays->primary, 0u);
     EXPECT_EQ(one.traced_fraction, 0.0);
-    scene::Scene away = test::furnace(1);
+    scene::Scene away = test::make_furnace_scene(1);
     std::swap(away.cameras.front().eye.z, away.cameras.front().target.z);
     away.cameras.front().eye.z = 4.5, away.cameras.front().target.z = 9;
     const app::TechniqueResult none = hybrid(away, "hybrid:face=32,force=unknown", {48, 48});

@@ -23,13 +23,13 @@ constexpr auto kFlip = &Difference::flip, kRmse = &Difference::rmse;
 
 app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
                             const std::vector<double>& speeds, int most_instants = 30) {
-    return {.base = test::request(scene, techniques, kLagSize),
+    return {.base = test::make_test_request(scene, techniques, kLagSize),
             .speeds = speeds,
             .most_instants = most_instants};
 }
 
 void measure_lag_of(const app::LagRequest& request, report::LagResults& lag) {
-    app::Session session(test::engine(), request.base.scene);
+    app::Session session(test::test_engine(), request.base.scene);
     app::measure_lag(session, request, lag);
 }
 
@@ -60,7 +60,7 @@ void expect_no_lag(const report::LagResults& lag, std::size_t rows, std::size_t 
 
 TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
     const report::LagResults lag = measure(
-        lag_request(test::room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
+        lag_request(test::make_lit_room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
     EXPECT_THAT(lag.seconds, ElementsAre(0.0))
         << "where nothing moves, one instant is all there is";
     expect_no_lag(lag, 2, 3);
@@ -75,7 +75,7 @@ TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
 /// A capture shows the surroundings of the present frame. Only other mirrors in the capture come
 /// from the frame before, and this scene has no other mirror.
 TEST(Lag, SingleMovingMirrorHasNoLag) {
-    scene::Scene scene = test::room(1, 1);
+    scene::Scene scene = test::make_lit_room(1, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.2, .4, 0}, .period = 1.6};
     const report::LagResults lag = measure(
         lag_request(scene, {"reuse:face=32", "parallax:face=32"}, {1, 4}, 6));
@@ -95,7 +95,7 @@ TEST(Lag, SingleMovingMirrorHasNoLag) {
 /// The scene has a large moving mirror that is seen in another mirror. Its lamps are no brighter
 /// than white, because the image of a brighter lamp in one pixel would dominate the error.
 TEST(Lag, LagGrowsWithSpeed) {
-    scene::Scene scene = test::room(2, 1);
+    scene::Scene scene = test::make_lit_room(2, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, .3, 0}, .period = 4};
     for (scene::Material& material : scene.materials) material.emission /= 9.0f;
     app::LagRequest request = lag_request(scene, {"reuse:face=64"}, {2, 4, 8}, 10);
@@ -129,15 +129,15 @@ TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
     const double instant = .25 + 8 / 60.0; // 30 frames give four instants, 8 frames apart
     ASSERT_DOUBLE_EQ(lag.seconds[1], instant);
 
-    app::Request moving = test::request(scene, {"reuse:face=32"}, kLagSize);
+    app::Request moving = test::make_test_request(scene, {"reuse:face=32"}, kLagSize);
     moving.animate = true, moving.warmup = 20, moving.time = instant - 20 / 60.0;
-    app::Request still = test::request(scene, {"naive:face=32,bounces=8"}, kLagSize),
-                 traced = test::request(scene, {"raytrace"}, kLagSize);
+    app::Request still = test::make_test_request(scene, {"naive:face=32,bounces=8"}, kLagSize),
+                 traced = test::make_test_request(scene, {"raytrace"}, kLagSize);
     still.time = traced.time = instant;
     const measure::Mask mirrors = measure::mask_mirror_pixels(
-        app::run(test::engine(), traced).parts.front().hits);
-    const app::TechniqueResult at_speed = app::run(test::engine(), moving).parts.front(),
-                               at_rest = app::run(test::engine(), still).parts.front();
+        app::run(test::test_engine(), traced).parts.front().hits);
+    const app::TechniqueResult at_speed = app::run(test::test_engine(), moving).parts.front(),
+                               at_rest = app::run(test::test_engine(), still).parts.front();
     const Difference wanted = measure::difference(
         at_speed.hdr, at_rest.hdr, mirrors,
         measure::flip(measure::to_unrounded_display(at_speed.hdr),
@@ -161,12 +161,12 @@ TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
     const report::SettlingAfterCut& cut = lag.rows[0].after_black;
 
     const auto naive = [&](int bounces) {
-        return test::render(scene, "naive:face=64,bounces=" + std::to_string(bounces),
-                            request.base.size)
+        return test::render_technique(scene, "naive:face=64,bounces=" + std::to_string(bounces),
+                                      request.base.size)
             .hdr;
     };
     const measure::Mask mirrors = measure::mask_mirror_pixels(
-        test::render(scene, "raytrace", request.base.size).hits);
+        test::render_technique(scene, "raytrace", request.base.size).hits);
     const measure::Picture converged = naive(8);
     int rmse_settled = 0,
         max_settled = 0; // first number of bounces from which the error stays within 1/255
@@ -186,8 +186,8 @@ TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
 }
 
 TEST(Lag, RowsWithoutHistoryAreNotMeasured) {
-    const report::LagResults lag = measure(
-        lag_request(test::room(2, 1), {"naive:face=32", "raytrace", "reuse:face=32"}, {1}));
+    const report::LagResults lag = measure(lag_request(
+        test::make_lit_room(2, 1), {"naive:face=32", "raytrace", "reuse:face=32"}, {1}));
     EXPECT_THAT(lag.without_history, ElementsAre("naive:face=32", "raytrace"));
     ASSERT_EQ(lag.rows.size(), 1u);
     EXPECT_EQ(lag.rows[0].label, "reuse:face=32");
@@ -196,9 +196,9 @@ TEST(Lag, RowsWithoutHistoryAreNotMeasured) {
 
 TEST(Lag, InvalidRequestsAreRefused) {
     const auto refused = [](const app::LagRequest& request, const std::vector<std::string>& words) {
-        test::expect_refused([&] { measure(request); }, Failure::usage, words);
+        test::expect_error([&] { measure(request); }, Failure::usage, words);
     };
-    const scene::Scene scene = test::room(1, 1);
+    const scene::Scene scene = test::make_lit_room(1, 1);
     refused(lag_request(scene, {"reuse"}, {3, 8}),
             {"whole number of times into the fastest, 8", "found 3"});
     refused(lag_request(scene, {"reuse"}, {0, 1}), {"positive speeds", "found 0"});
@@ -211,8 +211,8 @@ TEST(Lag, InvalidRequestsAreRefused) {
 }
 
 TEST(Lag, FinishedRowsAreKeptWhenStopped) {
-    app::LagRequest request = lag_request(test::room(2, 1), {"reuse:face=32", "parallax:face=32"},
-                                          {1, 2});
+    app::LagRequest request = lag_request(test::make_lit_room(2, 1),
+                                          {"reuse:face=32", "parallax:face=32"}, {1, 2});
     std::atomic<int> signal{0};
     request.watcher.stop = &signal;
     request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t count) {
@@ -222,7 +222,7 @@ TEST(Lag, FinishedRowsAreKeptWhenStopped) {
     int finished = 0;
     request.on_finished_row = [&] { ++finished; };
     report::LagResults lag;
-    test::expect_refused([&] { measure_lag_of(request, lag); }, Failure::interrupted, {"signal 2"});
+    test::expect_error([&] { measure_lag_of(request, lag); }, Failure::interrupted, {"signal 2"});
     EXPECT_EQ(finished, 1);
     EXPECT_FALSE(lag.complete);
     ASSERT_EQ(lag.rows.size(), 1u);

@@ -27,7 +27,7 @@ scene::Scene floor_below(double albedo) {
 }
 
 double floor_pixel(const scene::Scene& scene, const std::string& technique) {
-    return test::render_dark(scene, technique, {1, 1}).hdr.at(0, 0).x;
+    return test::render_without_ambient(scene, technique, {1, 1}).hdr.at(0, 0).x;
 }
 
 TEST(Lamp, SphereLampEqualsItsClosedForm) {
@@ -129,10 +129,11 @@ double lamp_farthest(const measure::Picture& a, const measure::Picture& b) {
 
 TEST(Facets, FacetsAreInvisibleOnABallOf4096Triangles) {
     const scene::Scene scene = lit_ball(5);
-    const measure::Picture exact = test::render_dark(scene, "raytrace:sphere=exact", kBallSize).hdr;
+    const measure::Picture exact =
+        test::render_without_ambient(scene, "raytrace:sphere=exact", kBallSize).hdr;
     for (const std::string& technique : kLampWorlds) {
-        const double most = lamp_farthest(test::render_dark(scene, technique, kBallSize).hdr,
-                                          exact);
+        const double most = lamp_farthest(
+            test::render_without_ambient(scene, technique, kBallSize).hdr, exact);
         std::cout << "[ MEASURED ] " << technique << ": off by at most " << most << " of 1.44\n";
         EXPECT_LE(most, .02) << technique;
     }
@@ -142,7 +143,8 @@ TEST(Facets, FacetsAreInvisibleOnABallOf4096Triangles) {
 /// fades at the facets of a coarse mesh, but not on its exact sphere.
 TEST(Facets, FacetsDoNotAffectAnExactSphere) {
     const auto picture = [](int levels) {
-        return test::render_dark(lit_ball(levels), "raytrace:sphere=exact", kBallSize).hdr;
+        return test::render_without_ambient(lit_ball(levels), "raytrace:sphere=exact", kBallSize)
+            .hdr;
     };
     EXPECT_LE(lamp_farthest(picture(3), picture(5)), 1e-5);
 }

@@ -75,7 +75,7 @@ TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
                 ++hidden;
                 solid_angle += 4 / (kFace * kFace * std::pow(length(at), 3));
                 int wall = 0;
-                const float expected = first.space.length(
+                const float expected = first.space.to_scene_length(
                     wall_distance(centre, normalize(at), wall));
                 EXPECT_GT(two, one * (1 + 0x1p-10f));
                 // Interpolated positions are exact to a few roundings of the scene's size, which is
@@ -103,19 +103,19 @@ TEST(Layered, ParallelMirrorsAreAsBrightAsInRayTracing) {
     test::add_quad(scene, "right", mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
     scene.cameras.push_back(
         {.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60});
-    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", {96, 96});
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16", {96, 96});
     const measure::Mask seen = measure::mask_mirror_in_mirror(truth.hits);
     const double wanted = measure::mean_of(truth.hdr, measure::ValueRange::unclamped, seen).all;
     const auto judged = [&](const std::string& technique) {
-        const app::TechniqueResult part = test::render(scene, technique + ":continue=8,face=128",
-                                                       {96, 96}, 4);
+        const app::TechniqueResult part = test::render_technique(
+            scene, technique + ":continue=8,face=128", {96, 96}, 4);
         const double found = measure::mean_of(part.hdr, measure::ValueRange::unclamped, seen).all;
         std::cout << "[ MEASURED ] " << technique << ": " << found << " where rays say " << wanted
                   << "\n";
         EXPECT_LE(found, (technique == "layered" ? 1.01 : 1.03) * wanted);
         EXPECT_GE(found, wanted);
         for (const vec3& pixel : part.hdr.pixels) EXPECT_LE(pixel.x, 1.001f);
-        return test::rmse(part.hdr, truth.hdr, seen);
+        return test::picture_rmse(part.hdr, truth.hdr, seen);
     };
     EXPECT_LE(judged("layered"), judged("pyramid"));
 }
@@ -123,7 +123,7 @@ TEST(Layered, ParallelMirrorsAreAsBrightAsInRayTracing) {
 TEST(Layered, SecondLayerLiesBehindTheFirstInEveryFormat) {
     constexpr std::uint32_t kFace = 32;
     for (const Format format : {Format::r32f, Format::r16f, Format::r8_unorm}) {
-        const auto [first, second] = test::capture_layers(test::room(3, 1), kFace, format);
+        const auto [first, second] = test::capture_layers(test::make_lit_room(3, 1), kFace, format);
         std::size_t behind = 0;
         for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
             for (int face = 0; face < 6; ++face)
@@ -142,10 +142,10 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
     constexpr uvec2 kSize{256, 256};
     const scene::Scene scene = hidden_wall();
     const auto render = [&](const std::string& technique) {
-        app::Request request = test::request(scene, {technique}, kSize);
+        app::Request request = test::make_test_request(scene, {technique}, kSize);
         request.warmup = 1;
         request.ambient = 0;
-        return std::move(app::run(test::engine(), request).parts.front());
+        return std::move(app::run(test::test_engine(), request).parts.front());
     };
     const app::TechniqueResult truth = render("raytrace:depth=4");
     const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr,
@@ -182,14 +182,14 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
 // The distance by which the second layer must lie behind the first covers the rounding of eight
 // bits. It must not depend on the number that is given as range.
 TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
-    const app::TechniqueResult truth = test::render(scene::make_cornell_mirrors(),
-                                                    "raytrace:depth=16", {256, 256});
+    const app::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
+                                                              "raytrace:depth=16", {256, 256});
     const auto error = [&](const std::string& range) {
-        return test::rmse(test::render(scene::make_cornell_mirrors(),
-                                       "layered:face=128,distance=unorm8,range=" + range,
-                                       {256, 256}, 4)
-                              .hdr,
-                          truth.hdr, measure::mask_mirror_pixels(truth.hits));
+        return test::picture_rmse(
+            test::render_technique(scene::make_cornell_mirrors(),
+                                   "layered:face=128,distance=unorm8,range=" + range, {256, 256}, 4)
+                .hdr,
+            truth.hdr, measure::mask_mirror_pixels(truth.hits));
     };
     // On the device the built-in scene is divided by 1024. With a range of 1024 world units, stored
     // distances therefore equal distances in scene units. A range of 1023 avoids this special case.
@@ -200,8 +200,8 @@ TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
 }
 
 TEST(Layered, SceneIsRenderedTwicePerMirror) {
-    const app::TechniqueResult part = test::render(scene::make_cornell_mirrors(),
-                                                   "layered:face=16,shadow_map=16", {16, 16});
+    const app::TechniqueResult part = test::render_technique(
+        scene::make_cornell_mirrors(), "layered:face=16,shadow_map=16", {16, 16});
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);
 }
 

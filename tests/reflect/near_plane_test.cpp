@@ -70,7 +70,7 @@ scene::Scene plates() {
 std::size_t wrong_texels(const scene::Scene& scene, const std::vector<Board>& boards,
                          const vec3& colour) {
     constexpr std::uint32_t kFace = 32;
-    const test::CapturedCubes captured = test::capture(scene, kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(scene, kFace, Format::r32f);
     std::size_t wrong = 0, shown = 0;
     stress::for_each_cube_texel(
         kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
@@ -130,14 +130,14 @@ TEST(NearPlane, ViewShowsBoardsInItsCorners) {
                 Board(camera.eye, glm::normalize(dvec3(3.8 * x * tangent, .95 * y * tangent, 1)),
                       .03, .004)
                     .add(scene, add_glow(scene));
-        const app::TechniqueResult truth = test::render(scene, "raytrace:shadow=none",
-                                                        kNearPlaneSize),
-                                   drawn = test::render(scene, "naive:shadow=none,face=1,bounces=1",
-                                                        kNearPlaneSize);
+        const app::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
+                                                                  kNearPlaneSize),
+                                   drawn = test::render_technique(
+                                       scene, "naive:shadow=none,face=1,bounces=1", kNearPlaneSize);
         std::size_t shown = 0, off = 0;
         for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
             shown += truth.hdr.pixels[i] == kGlow;
-            off += test::is_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
+            off += test::is_pixel_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
         }
         EXPECT_GT(shown, 20u) << fov;
         EXPECT_LE(off, shown / 20) << fov; // pixels whose centre lies on an outline
@@ -160,14 +160,15 @@ TEST(NearPlane, ShadowMapsHoldBoardsInTheCornersOfFaces) {
     scene.cameras.push_back(
         {.eye = {0, 1.5, 0}, .target = {0, -2, 0}, .up = {0, 0, 1}, .vertical_fov_degrees = 130});
     constexpr uvec2 kSquare{48, 48};
-    const app::TechniqueResult lit = test::render(scene, "raytrace:shadow=none", kSquare),
-                               truth = test::render(scene, "raytrace:shadow=ray", kSquare),
-                               drawn = test::render(scene, "naive:face=1,bounces=1,shadow_map=512",
-                                                    kSquare);
+    const app::TechniqueResult lit = test::render_technique(scene, "raytrace:shadow=none", kSquare),
+                               truth = test::render_technique(scene, "raytrace:shadow=ray",
+                                                              kSquare),
+                               drawn = test::render_technique(
+                                   scene, "naive:face=1,bounces=1,shadow_map=512", kSquare);
     std::size_t dark = 0, off = 0;
     for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
-        dark += test::is_off(lit.hdr.pixels[i], truth.hdr.pixels[i]);
-        off += test::is_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
+        dark += test::is_pixel_off(lit.hdr.pixels[i], truth.hdr.pixels[i]);
+        off += test::is_pixel_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
     }
     std::cout << "[ MEASURED ] in shadow " << dark << " pixels, off " << off << "\n";
     EXPECT_GT(dark, 50u);

@@ -49,7 +49,7 @@ scene::Scene make_patched_floor(float roughness) {
 class SeededTracer {
 public:
     SeededTracer(const scene::Scene& scene, uvec2 size)
-        : session_(test::engine(), scene), spec_(test::request(scene, {}, size)) {}
+        : session_(test::test_engine(), scene), spec_(test::make_test_request(scene, {}, size)) {}
     measure::Picture trace(int rays, int seed) {
         spec_.techniques = {"raytrace:depth=2,rays=" + std::to_string(rays) +
                             ",seed=" + std::to_string(seed)};
@@ -65,9 +65,9 @@ TEST(NoisyReference, SeedsGiveIndependentPicturesOfTheSameMean) {
     SeededTracer tracer(make_patched_floor(.4f), {32, 32});
     const measure::Picture one = tracer.trace(4, 1), again = tracer.trace(4, 1),
                            two = tracer.trace(4, 2), none = tracer.trace(4, 0);
-    EXPECT_TRUE(test::same_bytes(one, again));
-    EXPECT_FALSE(test::same_bytes(one, two));
-    EXPECT_FALSE(test::same_bytes(one, none));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(one, again));
+    EXPECT_FALSE(test::have_equal_pixel_bytes(one, two));
+    EXPECT_FALSE(test::have_equal_pixel_bytes(one, none));
     EXPECT_NEAR(measure::mean_of(one, measure::ValueRange::unclamped).all,
                 measure::mean_of(two, measure::ValueRange::unclamped).all, .01);
 }
@@ -81,7 +81,7 @@ TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
         a.add(tracer.trace(64, ++seed));
         b.add(tracer.trace(64, ++seed));
         if (frames != 1 && frames != 4 && frames != 16) continue;
-        rmse.push_back(test::rmse(a.mean(), b.mean()));
+        rmse.push_back(test::picture_rmse(a.mean(), b.mean()));
         double sum = 0;
         for (std::size_t i = 0; i < a.mean().pixels.size(); ++i) {
             const vec3 both = a.variance().pixels[i] + b.variance().pixels[i];
@@ -128,7 +128,7 @@ TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
 
 app::CompareRequest ask_for_rough_floor(const std::vector<std::string>& rows, double seconds) {
     app::CompareRequest request;
-    request.base = test::request(make_patched_floor(.3f), rows, {64, 64});
+    request.base = test::make_test_request(make_patched_floor(.3f), rows, {64, 64});
     request.reference_seconds = seconds;
     return request;
 }
@@ -139,7 +139,7 @@ TEST(NoisyReference, SharesNoSeedWithARow) {
     app::CompareRequest request = ask_for_rough_floor(
         {"raytrace:depth=2,rays=4,seed=1", "raytrace:depth=2,rays=4,seed=2"}, 0);
     request.reference = "raytrace:depth=2,rays=4";
-    const report::Comparison found = app::compare(test::engine(), request);
+    const report::Comparison found = app::compare(test::test_engine(), request);
     ASSERT_TRUE(found.noise);
     EXPECT_EQ(found.noise->frames, 1);
     for (const report::Row& row : found.rows) {
@@ -157,7 +157,7 @@ TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
         EXPECT_LE(index, count);
         told.push_back(label);
     };
-    const report::Comparison found = app::compare(test::engine(), request);
+    const report::Comparison found = app::compare(test::test_engine(), request);
     ASSERT_TRUE(found.noise);
     ASSERT_FALSE(found.stopped);
     EXPECT_GT(found.noise->frames, 1);
@@ -167,10 +167,10 @@ TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
     EXPECT_EQ(found.rows[0].error.flip_floor, found.noise->flip_floor);
     EXPECT_NEAR(found.noise->predicted_rmse / found.noise->halves_rmse, 1, .2);
     EXPECT_THAT(told, testing::Contains(testing::HasSubstr("frames a half")));
-    EXPECT_GT(measure::studied(found.rows[0], measure::kNoise).index(), 0u);
+    EXPECT_GT(measure::studied_value(found.rows[0], measure::kNoise).index(), 0u);
 
     request.reference_seconds = 0;
-    const report::Comparison brief = app::compare(test::engine(), request);
+    const report::Comparison brief = app::compare(test::test_engine(), request);
     EXPECT_EQ(brief.noise->frames, 1);
     EXPECT_FALSE(brief.noise->is_reached());
     EXPECT_GT(brief.noise->flip_floor, found.noise->flip_floor);
@@ -179,18 +179,18 @@ TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
 TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
     app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 0);
     request.base.size = {32, 32};
-    const report::Comparison rough = app::compare(test::engine(), request);
+    const report::Comparison rough = app::compare(test::test_engine(), request);
     EXPECT_EQ(rough.reference_label, app::kRoughReference);
     EXPECT_TRUE(rough.noise);
     request.reference = "raytrace:depth=16";
-    EXPECT_FALSE(app::compare(test::engine(), request).noise);
+    EXPECT_FALSE(app::compare(test::test_engine(), request).noise);
     request.base.scene = make_patched_floor(.04f);
     request.reference = "";
-    const report::Comparison sharp = app::compare(test::engine(), request);
+    const report::Comparison sharp = app::compare(test::test_engine(), request);
     EXPECT_EQ(sharp.reference_label, app::kReference);
     // A perfect mirror has no noise, even if rays are drawn from lobes.
     request.reference = "raytrace:depth=16,rays=2";
-    const report::Comparison drawn = app::compare(test::engine(), request);
+    const report::Comparison drawn = app::compare(test::test_engine(), request);
     for (const report::Comparison* without : {&sharp, &drawn}) {
         EXPECT_FALSE(without->noise);
         EXPECT_THAT(report::to_json(*without), testing::Not(testing::HasSubstr("noise")));
@@ -206,24 +206,27 @@ TEST_F(NoisyReferenceInFolder, FileContinuesTheHalves) {
     request.base.size = {32, 32};
     request.reference = "raytrace:depth=2,rays=2";
     request.reference_file = (folder / "halves.exr").string();
-    const report::Comparison first = app::compare(test::engine(), request),
-                             again = app::compare(test::engine(), request);
+    const report::Comparison first = app::compare(test::test_engine(), request),
+                             again = app::compare(test::test_engine(), request);
     EXPECT_EQ(again.noise->frames, 1);
     EXPECT_EQ(again.rows[0].error.rmse, first.rows[0].error.rmse);
     request.reference_seconds = .2; // one frame a half more, at least
-    const report::Comparison longer = app::compare(test::engine(), request);
+    const report::Comparison longer = app::compare(test::test_engine(), request);
     EXPECT_GT(longer.noise->frames, 1);
     EXPECT_LT(longer.noise->halves_rmse, first.noise->halves_rmse);
     request.base.size = {16, 32};
-    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { app::compare(test::engine(), request); }),
-                testing::HasSubstr("the size 16x32"));
+    EXPECT_THAT(
+        test::error_text_of(Failure::bad_data, [&] { app::compare(test::test_engine(), request); }),
+        testing::HasSubstr("the size 16x32"));
     request.base.size = {32, 32};
     request.base.techniques = {"raytrace:depth=2,rays=2,seed=1"};
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { app::compare(test::engine(), request); }),
-                testing::HasSubstr("the seed 1"));
+    EXPECT_THAT(
+        test::error_text_of(Failure::usage, [&] { app::compare(test::test_engine(), request); }),
+        testing::HasSubstr("the seed 1"));
     request.reference = "raytrace:depth=2";
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { app::compare(test::engine(), request); }),
-                testing::HasSubstr("wanted a reference with noise"));
+    EXPECT_THAT(
+        test::error_text_of(Failure::usage, [&] { app::compare(test::test_engine(), request); }),
+        testing::HasSubstr("wanted a reference with noise"));
 }
 
 TEST(NoisyReference, ViewsAreJudgedByHalvesAsWell) {
@@ -231,7 +234,7 @@ TEST(NoisyReference, ViewsAreJudgedByHalvesAsWell) {
     request.base.size = {32, 32};
     request.reference = "raytrace:depth=2,rays=2";
     request.studies = {{"views", 6}};
-    const report::Comparison found = app::compare(test::engine(), request);
+    const report::Comparison found = app::compare(test::test_engine(), request);
     ASSERT_EQ(found.rows[0].views.size(), 6u);
     for (const measure::Errors& view : found.rows[0].views) EXPECT_GT(view.error.flip_floor, 0);
 }

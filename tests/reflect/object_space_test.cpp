@@ -51,9 +51,11 @@ TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
     for (const std::string technique :
          {"raytrace", "raytrace:sphere=exact", "raytrace:hit=f64", "raytrace:shadow=map",
           "parallax", "pyramid", "hybrid", "layered"}) {
-        const app::TechniqueResult wanted = test::render(alone, technique, kObjectSpaceSize),
-                                   found = test::render(both, technique, kObjectSpaceSize);
-        EXPECT_EQ(test::nonfinite(found.hdr), 0u) << technique;
+        const app::TechniqueResult wanted = test::render_technique(alone, technique,
+                                                                   kObjectSpaceSize),
+                                   found = test::render_technique(both, technique,
+                                                                  kObjectSpaceSize);
+        EXPECT_EQ(test::nonfinite_pixel_count(found.hdr), 0u) << technique;
         EXPECT_LE(flip(found, wanted), .001) << technique;
     }
 }
@@ -63,17 +65,18 @@ TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
 TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
     for (const bool mirrors : {true, false}) {
         const scene::Scene scene = far_balls(2, mirrors);
-        const app::Request request = test::request(scene, {"raytrace:sphere=exact"},
-                                                   kObjectSpaceSize);
-        const app::TechniqueResult part = test::render(scene, "raytrace:sphere=exact",
-                                                       kObjectSpaceSize);
+        const app::Request request = test::make_test_request(scene, {"raytrace:sphere=exact"},
+                                                             kObjectSpaceSize);
+        const app::TechniqueResult part = test::render_technique(scene, "raytrace:sphere=exact",
+                                                                 kObjectSpaceSize);
         const stress::DoubleTracer tracer(scene, request.ambient);
         measure::Picture truth(static_cast<int>(kObjectSpaceSize.x),
                                static_cast<int>(kObjectSpaceSize.y));
         std::size_t off = 0;
         for (std::uint32_t y = 0; y < kObjectSpaceSize.y; ++y)
             for (std::uint32_t x = 0; x < kObjectSpaceSize.x; ++x) {
-                const dvec3 wanted = tracer.pixel(scene.cameras.front(), kObjectSpaceSize, x, y, 8),
+                const dvec3 wanted = tracer.trace_pixel(scene.cameras.front(), kObjectSpaceSize, x,
+                                                        y, 8),
                             found(part.hdr.pixels[x + kObjectSpaceSize.x * y]);
                 const dvec3 apart = glm::abs(wanted - found);
                 off += !(std::max({apart.x, apart.y, apart.z}) <= .01);
@@ -90,7 +93,7 @@ TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
 /// Returns eighty rotated and stretched balls. `shared`: all balls are copies of one mesh, too many
 /// to be stored in scene units. Otherwise each has its own mesh.
 scene::Scene many(bool shared) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     for (int i = 0; i < 80; ++i) {
         const double turn = .3 * i;
@@ -107,8 +110,8 @@ scene::Scene many(bool shared) {
 TEST(ObjectSpace, CopiesOfOneMeshEqualSingleMeshes) {
     for (const std::string technique :
          {"raytrace", "raytrace:hit=f64", "raytrace:shadow=map", "pyramid", "hybrid"})
-        EXPECT_LE(flip(test::render(many(true), technique, kObjectSpaceSize),
-                       test::render(many(false), technique, kObjectSpaceSize)),
+        EXPECT_LE(flip(test::render_technique(many(true), technique, kObjectSpaceSize),
+                       test::render_technique(many(false), technique, kObjectSpaceSize)),
                   .001)
             << technique;
 }

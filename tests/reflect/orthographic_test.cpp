@@ -28,7 +28,7 @@ TEST(Orthographic, PositionDoesNotDependOnDepth) {
     for (const double z : {4.0, 5.0})
         for (const std::string technique : {"raytrace", "naive"}) {
             scene.cameras = {along({0, 0, z}, {0, 0, 0}, 2)};
-            const measure::Picture picture = test::render(scene, technique, {64, 32}).hdr;
+            const measure::Picture picture = test::render_technique(scene, technique, {64, 32}).hdr;
             const auto is_in = [](int x, int y, int left, int top, int right, int bottom) {
                 return x >= left && x < right && y >= top && y < bottom;
             };
@@ -46,13 +46,14 @@ TEST(Orthographic, PositionDoesNotDependOnDepth) {
 /// Tests that the picture does not depend on the distance of the camera, as long as the scene is in
 /// front of it.
 TEST(Orthographic, RasterisationEqualsRayTracing) {
-    scene::Scene scene = test::yard();
-    scene.punctual.push_back({.kind = scene::PunctualLight::Kind::directional,
-                              .intensity = vec3(2),
-                              .world_from_light = test::shining({0, 0, 0}, {-.4, -1, -.6})});
+    scene::Scene scene = test::make_yard_scene();
+    scene.punctual.push_back(
+        {.kind = scene::PunctualLight::Kind::directional,
+         .intensity = vec3(2),
+         .world_from_light = test::light_transform({0, 0, 0}, {-.4, -1, -.6})});
     for (const double far : {1.0, 200.0}) {
         scene.cameras = {along(far * dvec3(1.2, 2, 3), {0, .3, 0}, 4)};
-        const double off = test::share_off_of_raster(scene, {128, 96});
+        const double off = test::share_off_in_raster_picture(scene, {128, 96});
         std::cout << "[ MEASURED ] " << far << ": share off " << off << "\n";
         EXPECT_LE(off, .005) << far;
     }
@@ -61,19 +62,20 @@ TEST(Orthographic, RasterisationEqualsRayTracing) {
 /// Mirrors must reflect parallel rays as the ray tracer does, and `face=auto` must find a
 /// resolution for them.
 TEST(Orthographic, MirrorsReflectParallelViewRays) {
-    scene::Scene scene = test::room(2, 1);
+    scene::Scene scene = test::make_lit_room(2, 1);
     scene.cameras = {along({.1, .2, -2.9}, {0, -.2, 0}, 3)};
     constexpr uvec2 kSize{96, 96};
-    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize);
     const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
     for (const auto& [technique, most] :
          {std::pair{"hybrid", .02}, {"secant:face=auto", .1}, {"layered", .05}}) {
-        const app::TechniqueResult part = test::render(scene, technique, kSize, 4);
+        const app::TechniqueResult part = test::render_technique(scene, technique, kSize, 4);
         std::size_t off = 0, all = 0;
         for (std::size_t i = 0; i < mirrors.size(); ++i) {
             if (mirrors[i] == 0) continue;
             ++all;
-            off += test::apart(part.hdr.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
+            off += test::max_channel_difference(part.hdr.pixels[i], truth.hdr.pixels[i]) >
+                   float(measure::kVisibleDifference);
         }
         ASSERT_GT(all, 500u);
         const double share = double(off) / double(all);

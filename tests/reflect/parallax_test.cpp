@@ -15,14 +15,16 @@ constexpr int kParallaxFrames = 4; // enough frames for deeper bounces to arrive
 
 TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
-    const measure::Picture reuse = test::render(scene, "reuse", kParallaxSize, kParallaxFrames).hdr;
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
+                                                              kParallaxSize);
+    const measure::Picture reuse =
+        test::render_technique(scene, "reuse", kParallaxSize, kParallaxFrames).hdr;
     const measure::Picture parallax =
-        test::render(scene, "parallax", kParallaxSize, kParallaxFrames).hdr;
+        test::render_technique(scene, "parallax", kParallaxSize, kParallaxFrames).hdr;
     const auto expect_share = [&](const std::string& where, const measure::Mask& mask,
                                   double most) {
-        const double with = test::rmse(parallax, truth.hdr, mask),
-                     without = test::rmse(reuse, truth.hdr, mask);
+        const double with = test::picture_rmse(parallax, truth.hdr, mask),
+                     without = test::picture_rmse(reuse, truth.hdr, mask);
         std::cout << "[ MEASURED ] " << where << ": rmse " << with << " (parallax), " << without
                   << " (reuse), share " << with / without << "\n";
         EXPECT_LE(with, most * without) << where;
@@ -44,10 +46,10 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
                    {.1, 2, .2}, 1);
     scene.cameras.push_back({.eye = {0, 3, -7}, .target = {0, 2, 0}, .vertical_fov_degrees = 30});
     const auto misses = [&](const std::string& technique) {
-        app::Request request = test::request(scene, {technique}, {192, 192});
+        app::Request request = test::make_test_request(scene, {technique}, {192, 192});
         request.with_lookup = true;
         double mirror = 0, miss = 0;
-        const app::RunResult result = app::run(test::engine(), request);
+        const app::RunResult result = app::run(test::test_engine(), request);
         for (const vec4& pixel : result.parts.front().lookup) {
             if (!(pixel.w > 0)) continue;
             ++mirror;
@@ -64,11 +66,13 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
 
 TEST(Parallax, DistancesClampedAt200AreWorseThanNoCorrection) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=16", kParallaxSize);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
+                                                              kParallaxSize);
     const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto error = [&](const std::string& technique) {
-        const double value = test::rmse(
-            test::render(scene, technique, kParallaxSize, kParallaxFrames).hdr, truth.hdr, mask);
+        const double value = test::picture_rmse(
+            test::render_technique(scene, technique, kParallaxSize, kParallaxFrames).hdr, truth.hdr,
+            mask);
         std::cout << "[ MEASURED ] " << technique << ": rmse " << value << " on mirror pixels\n";
         return value;
     };

@@ -26,8 +26,8 @@ bool is_off(const vec3& a, const vec3& b) {
 
 /// Returns whether the direction from the capture's centre may show a ball other than `mirror`,
 /// with a margin of 1.5 texels. Ignores objects that hide the ball. Mirrors are numbered from 0.
-bool may_show_mirror(const scene::Scene& scene, std::size_t mirror, const dvec3& direction,
-                     int face) {
+bool capture_may_show(const scene::Scene& scene, std::size_t mirror, const dvec3& direction,
+                      int face) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[mirror]]).centre();
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -53,7 +53,7 @@ Alike alike(const scene::Scene& scene, const app::TechniqueResult& mixed,
             const vec4& lookup = uniform.lookup[i];
             const int looked_into = static_cast<int>(lookup.w) / 8;
             if (lookup.w == 0 || looked_into != static_cast<int>(mirror.index())) continue;
-            if (may_show_mirror(scene, mirror.index(), dvec3(lookup), face)) continue;
+            if (capture_may_show(scene, mirror.index(), dvec3(lookup), face)) continue;
         }
         ++result.compared;
         const vec3 &a = mixed.hdr.pixels[i], &b = uniform.hdr.pixels[i];
@@ -68,11 +68,12 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
     // Two frames are enough, because pixels with deeper bounces are left out.
     constexpr int kFrames = 2;
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize);
-    app::Request asked = test::request(
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize);
+    app::Request asked = test::make_test_request(
         scene, {"1=reuse:face=64 2=hybrid 3=secant *=raytrace:shadow=map"}, kSize);
     asked.warmup = kFrames - 1;
-    const app::TechniqueResult mixed = std::move(app::run(test::engine(), asked).parts.front());
+    const app::TechniqueResult mixed = std::move(
+        app::run(test::test_engine(), asked).parts.front());
     // Mirror 4 is traced, but has a capture, because the captures of other mirrors show it.
     EXPECT_EQ(mixed.scene_passes, 4 + 2);
     const std::vector<std::string> uniform{"reuse:face=64", "hybrid", "secant",
@@ -81,7 +82,8 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
         const bool is_traced = i == 3;
         asked.techniques = {uniform[i]};
         asked.with_lookup = !is_traced;
-        const app::TechniqueResult part = std::move(app::run(test::engine(), asked).parts.front());
+        const app::TechniqueResult part = std::move(
+            app::run(test::test_engine(), asked).parts.front());
         const Alike found = alike(scene, mixed, part, truth, MirrorId::at(i), i == 0 ? 64 : 256);
         std::cout << "[ MEASURED ] " << uniform[i] << ": of " << found.compared << " pixels "
                   << found.other << " differ, " << found.off << " by more than 1/255\n";
@@ -96,7 +98,7 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
 /// Returns three balls in a row with boards between them. Each board hides the balls from each
 /// other by more than a ball's radius, the tolerance of the searches (shaders/lib/mirror.glsl).
 scene::Scene walled_off() {
-    scene::Scene scene = test::room(0, 2);
+    scene::Scene scene = test::make_lit_room(0, 2);
     scene.name = "walled off";
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     const std::size_t white = add_material(scene, {.name = "board", .albedo = {.6f, .5f, .4f}});
@@ -113,13 +115,13 @@ scene::Scene walled_off() {
 TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
     constexpr uvec2 kSize{256, 96};
     const scene::Scene scene = walled_off();
-    const app::TechniqueResult truth = test::render(scene, "raytrace", kSize);
-    app::Request asked = test::request(scene, {}, kSize);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize);
+    app::Request asked = test::make_test_request(scene, {}, kSize);
     asked.warmup = 1;
     asked.with_lookup = true;
     const auto rendered = [&](const std::string& technique) {
         asked.techniques = {technique};
-        return std::move(app::run(test::engine(), asked).parts.front());
+        return std::move(app::run(test::test_engine(), asked).parts.front());
     };
     for (const std::vector<std::string>& rows :
          {std::vector<std::string>{"reuse:face=32", "secant:face=64", "pyramid:face=48"},
@@ -151,42 +153,43 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
 TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
     const scene::Scene scene = scene::load("courtyard");
     const uvec2 size{48, 48};
-    const app::TechniqueResult mixed = test::render(
+    const app::TechniqueResult mixed = test::render_technique(
         scene, "1=parallax:face=32,shadow_map=256 *=parallax:face=16,shadow_map=256", size, 2);
-    const app::TechniqueResult alike = test::render(scene, "parallax:face=32,shadow_map=256", size,
-                                                    2);
-    const app::TechniqueResult traced = test::render(scene, "raytrace:depth=1", size);
+    const app::TechniqueResult alike = test::render_technique(
+        scene, "parallax:face=32,shadow_map=256", size, 2);
+    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=1", size);
     // Numbers of pixels of no mirror, of mirror 1 and of other mirrors.
     std::array<std::size_t, 3> same{}, other{};
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         const std::size_t mirror = std::min(traced.hits[i] & 0xffff, 2u);
         ++(mixed.hdr.pixels[i] == alike.hdr.pixels[i] ? same : other)[mirror];
     }
-    EXPECT_EQ(test::nonfinite(mixed.hdr), 0u);
+    EXPECT_EQ(test::nonfinite_pixel_count(mixed.hdr), 0u);
     EXPECT_LE(other[0], same[0] / 20) << "outlines, of which rays and triangles may differ";
     EXPECT_GT(same[1], 4 * other[1]) << "all but what it shows of other mirrors";
     EXPECT_GT(other[2], same[2]) << "their captures are coarser";
 }
 
 TEST(Plan, PlanOfOneTechniqueEqualsThatTechnique) {
-    const scene::Scene scene = test::room(3, 1);
+    const scene::Scene scene = test::make_lit_room(3, 1);
     for (const std::string technique : {"hybrid", "naive:bounces=2", "raytrace:shadow=map"}) {
-        const app::TechniqueResult alone = test::render(scene, technique, {64, 48}, 2),
-                                   plan = test::render(scene, "2=" + technique + " *=" + technique,
-                                                       {64, 48}, 2);
-        EXPECT_TRUE(test::same_bytes(alone.hdr, plan.hdr)) << technique;
+        const app::TechniqueResult alone = test::render_technique(scene, technique, {64, 48}, 2),
+                                   plan = test::render_technique(
+                                       scene, "2=" + technique + " *=" + technique, {64, 48}, 2);
+        EXPECT_TRUE(test::have_equal_pixel_bytes(alone.hdr, plan.hdr)) << technique;
         EXPECT_EQ(alone.scene_passes, plan.scene_passes) << technique;
         EXPECT_EQ(alone.hits, plan.hits) << technique;
     }
 }
 
 TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
-    const scene::Scene scene = test::hall();
+    const scene::Scene scene = test::make_mirror_hall();
     const uvec2 size{96, 72};
-    const app::TechniqueResult shown = test::render(scene, "1=secant:face=64 *=raytrace", size, 3),
-                               black = test::render(
+    const app::TechniqueResult shown = test::render_technique(scene, "1=secant:face=64 *=raytrace",
+                                                              size, 3),
+                               black = test::render_technique(
                                    scene, "1=secant:face=64 *=raytrace:capture=none", size, 3),
-                               truth = test::render(scene, "raytrace", size);
+                               truth = test::render_technique(scene, "raytrace", size);
     EXPECT_EQ(shown.scene_passes, black.scene_passes + 2) << "two captures less";
     std::size_t dark = 0, lit = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
@@ -203,19 +206,19 @@ TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
 }
 
 TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
-    const scene::Scene scene = test::room(3, 1);
+    const scene::Scene scene = test::make_lit_room(3, 1);
     const uvec2 size{96, 72};
-    const app::TechniqueResult mixed = test::render(
+    const app::TechniqueResult mixed = test::render_technique(
         scene,
         "1=raytrace:depth=1,shadow=map 2=raytrace:depth=3,shadow=map "
         "*=raytrace:depth=8,shadow=map,samples=4",
         size);
     EXPECT_EQ(mixed.scene_passes, 2); // scene passes: the shadow map and the view
-    const app::TechniqueResult truth = test::render(scene, "raytrace", size);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", size);
     for (const auto& [mirror, technique] : {std::pair{1u, "raytrace:depth=1,shadow=map"},
                                             {2u, "raytrace:depth=3,shadow=map"},
                                             {3u, "raytrace:depth=8,shadow=map,samples=4"}}) {
-        const app::TechniqueResult alone = test::render(scene, technique, size);
+        const app::TechniqueResult alone = test::render_technique(scene, technique, size);
         std::size_t pixels = 0, off = 0;
         for (std::size_t i = 0; i < truth.hits.size(); ++i) {
             if (measure::first_mirror_of_hit(truth.hits[i]) != MirrorId(mirror)) continue;
@@ -232,7 +235,7 @@ TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
 /// Returns a room with `count` small exact balls. With 350 balls, one image array cannot hold all
 /// captures.
 scene::Scene many_balls(int count) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     scene.name = "many balls";
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int i = 0; i < count; ++i)
@@ -246,9 +249,9 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const scene::Scene scene = many_balls(350);
     const uvec2 size{64, 64};
     const std::vector<std::string> techniques{"parallax:face=4"};
-    const app::TechniqueResult part = test::render(scene, techniques.front(), size, 1);
+    const app::TechniqueResult part = test::render_technique(scene, techniques.front(), size, 1);
     EXPECT_EQ(part.scene_passes, 350 + 2);
-    const app::TechniqueResult truth = test::render(scene, "raytrace:depth=1", size);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=1", size);
     // Compare with a scene without the first ten mirrors, whose captures fit into one array. In a
     // first frame, captures show mirrors black. The pictures may therefore differ only where the
     // removed mirrors were seen.
@@ -256,7 +259,7 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const std::size_t first = scene::mirrors(scene).front();
     const auto begin = fewer.objects.begin() + static_cast<std::ptrdiff_t>(first);
     fewer.objects.erase(begin, begin + 10);
-    const app::TechniqueResult alone = test::render(fewer, techniques.front(), size, 1);
+    const app::TechniqueResult alone = test::render_technique(fewer, techniques.front(), size, 1);
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         const MirrorId mirror = measure::first_mirror_of_hit(truth.hits[i]);
@@ -273,7 +276,7 @@ TEST(Plan, TooManyCaptureEdgesAreEnlargedWithANote) {
     std::string plan;
     for (int i = 1; i <= 10; ++i)
         plan += std::to_string(i) + "=reuse:face=" + std::to_string(8 + i) + " ";
-    const app::TechniqueResult part = test::render(scene, plan, {32, 32});
+    const app::TechniqueResult part = test::render_technique(scene, plan, {32, 32});
     ASSERT_EQ(part.notes.size(), 2u);
     EXPECT_EQ(
         part.notes[0],
@@ -284,21 +287,25 @@ TEST(Plan, TooManyCaptureEdgesAreEnlargedWithANote) {
         "1 mirror is captured with 12 texels an edge instead of 11: a frame has at most 8 arrays "
         "of captures");
     EXPECT_EQ(part.scene_passes, 12);
-    test::expect_refused(
+    test::expect_error(
         [&] {
             std::string kinds;
             for (int i = 1; i <= 10; ++i)
                 kinds += std::to_string(i) +
                          "=parallax:face=8,distance=unorm8,range=" + std::to_string(i) + " ";
-            test::render(scene, kinds, {32, 32});
+            test::render_technique(scene, kinds, {32, 32});
         },
         Failure::exhausted, {"10 arrays", "a frame has 8"});
 }
 
 TEST(Plan, PlanThatDoesNotFitTheSceneIsRefused) {
-    const scene::Scene scene = test::room(3, 1);
+    const scene::Scene scene = test::make_lit_room(3, 1);
     const auto refused = [&](const std::string& plan, const std::vector<std::string>& words) {
-        test::expect_refused([&] { test::render(scene, plan, {16, 16}); }, Failure::usage, words);
+        test::expect_error(
+            [&] {
+                test::render_technique(scene, plan, {16, 16});
+            },
+            Failure::usage, words);
     };
     refused("1=reuse 2=secant", {"no rule for mirror 3 'ball3'", "'*=TECHNIQUE'"});
     refused("4=reuse *=secant", {"pattern '4' matches no mirror", "3 mirrors", "2 'ball2'"});

@@ -3,7 +3,7 @@
 #include "core/mirror_id.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/shapes.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "support/lit.hpp"
 #include "support/paths.hpp"
 
@@ -56,7 +56,8 @@ measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_
         object.material = test::add_material(
             scene, {.name = "painted", .emission = vec3(is_wall ? 1 : ++next)});
     }
-    const measure::Picture painted = test::render(scene, "raytrace:depth=1,shadow=none", size).hdr;
+    const measure::Picture painted =
+        test::render_technique(scene, "raytrace:depth=1,shadow=none", size).hdr;
     const int width = painted.width;
     const auto differ = [&](int a, int b) {
         return painted.pixels[a] != painted.pixels[b] ||
@@ -78,7 +79,8 @@ double planar_share_off(const measure::Picture& a, const measure::Picture& b,
                         const measure::Mask& mask) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < mask.size(); ++i)
-        off += mask[i] && !(test::apart(a.pixels[i], b.pixels[i]) <= float(measure::kOff));
+        off += mask[i] && !(test::max_channel_difference(a.pixels[i], b.pixels[i]) <=
+                            float(measure::kVisibleDifference));
     return double(off) / double(measure::count_mask_pixels(mask));
 }
 
@@ -112,9 +114,10 @@ TEST(Planar, FlatMirrorsEqualRayTracing) {
     low.cameras.front() = low.cameras.at(1);
     for (const scene::Scene& scene :
          {flat(), low, flat(" parallel"), flat(" orthogonal"), flat(" touched")}) {
-        const app::TechniqueResult truth = test::render(scene, app::kReference, size),
-                                   planar = test::render(scene, "planar", size),
-                                   lit = test::render(scene, "raytrace:depth=16,shadow=none", size);
+        const app::TechniqueResult truth = test::render_technique(scene, app::kReference, size),
+                                   planar = test::render_technique(scene, "planar", size),
+                                   lit = test::render_technique(
+                                       scene, "raytrace:depth=16,shadow=none", size);
         const Found whole = off_of(planar, truth, measure::Mask(truth.hits.size(), 0));
         print(scene.name + ", nothing left out", whole);
         EXPECT_LE(whole.share_off, .003) << scene.name;
@@ -127,7 +130,7 @@ TEST(Planar, FlatMirrorsEqualRayTracing) {
         EXPECT_LE(found.mae, .00005) << scene.name;
         EXPECT_LE(found.rmse, .0016) << scene.name;
         EXPECT_LE(found.left_out, .07) << scene.name << ": lines, two pixels wide";
-        const measure::Mask shadows = test::shadow_edges(lit.hdr, truth.hdr);
+        const measure::Mask shadows = test::mask_shadow_edges(lit.hdr, truth.hdr);
         for (std::size_t i = 0; i < left_out.size(); ++i)
             if (shadows[i]) left_out[i] = 255;
         const Found away = off_of(planar, truth, left_out);
@@ -148,8 +151,8 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
     const std::size_t index = scene::mirrors(quad).front();
     const Bounds<double> bounds = scene::bounds(quad, quad.objects[index]);
     const auto rmse_of = [&](const scene::Scene& scene) {
-        const app::TechniqueResult truth = test::render(scene, app::kReference, size),
-                                   planar = test::render(scene, "planar", size);
+        const app::TechniqueResult truth = test::render_technique(scene, app::kReference, size),
+                                   planar = test::render_technique(scene, "planar", size);
         EXPECT_EQ(planar.plan.front().technique, "planar");
         EXPECT_THAT(planar.notes, testing::IsEmpty());
         return off_of(planar, truth, measure::Mask(truth.hits.size(), 0)).rmse;
@@ -170,8 +173,8 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
 
 /// A note must name each mirror that `planar` cannot draw and the technique that draws it instead.
 TEST(Planar, NoteNamesMirrorsDrawnByAnotherTechnique) {
-    const scene::Scene hall = test::hall();
-    const app::TechniqueResult part = test::render(hall, "planar", kPlanarSmall, 2);
+    const scene::Scene hall = test::make_mirror_hall();
+    const app::TechniqueResult part = test::render_technique(hall, "planar", kPlanarSmall, 2);
     ASSERT_EQ(part.notes.size(), 1u);
     EXPECT_THAT(part.notes[0], testing::MatchesRegex("mirror 1 '.*': not flat, drawn by reuse"));
 }
@@ -189,9 +192,9 @@ TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
     scene.cameras = {{.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60}};
     for (const int bounces : {0, 1, 2, 5}) {
         const std::string number = std::to_string(bounces);
-        const app::TechniqueResult planar = test::render(
+        const app::TechniqueResult planar = test::render_technique(
                                        scene, "planar:shadow=none,bounces=" + number, kPlanarSmall),
-                                   truth = test::render(
+                                   truth = test::render_technique(
                                        scene, "raytrace:shadow=none,depth=" + number, kPlanarSmall);
         EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, measure::mask_all_pixels(truth.hits)),
                   .01)
@@ -211,22 +214,27 @@ TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
 /// Counts the scene passes R: two, plus one for each mirrored view. A mirror out of sight needs no
 /// view, and neither does a mirror that cannot be seen in another mirror.
 TEST(Planar, OnlyVisibleMirrorsGetViews) {
-    EXPECT_EQ(test::render(flat(), "planar", kPlanarSmall).scene_passes, 3);
-    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=1", kPlanarSmall).scene_passes, 3);
-    EXPECT_EQ(test::render(flat(" parallel"), "planar", kPlanarSmall).scene_passes, 4);
-    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=4", kPlanarSmall).scene_passes, 6);
+    EXPECT_EQ(test::render_technique(flat(), "planar", kPlanarSmall).scene_passes, 3);
+    EXPECT_EQ(
+        test::render_technique(flat(" parallel"), "planar:bounces=1", kPlanarSmall).scene_passes,
+        3);
+    EXPECT_EQ(test::render_technique(flat(" parallel"), "planar", kPlanarSmall).scene_passes, 4);
+    EXPECT_EQ(
+        test::render_technique(flat(" parallel"), "planar:bounces=4", kPlanarSmall).scene_passes,
+        6);
     scene::Scene away = flat();
     std::swap(away.cameras.front().eye, away.cameras.front().target);
-    EXPECT_EQ(test::render(away, "planar", kPlanarSmall).scene_passes, 2);
+    EXPECT_EQ(test::render_technique(away, "planar", kPlanarSmall).scene_passes, 2);
 }
 
 /// Tests a mirror seen from the front, from behind and by an orthographic camera. Objects behind
 /// the mirror's plane must not appear in the mirror.
 TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
-    scene::Scene scene = test::yard();
-    scene.punctual.push_back({.kind = scene::PunctualLight::Kind::directional,
-                              .intensity = vec3(2),
-                              .world_from_light = test::shining({0, 0, 0}, {-.4, -1, -.6})});
+    scene::Scene scene = test::make_yard_scene();
+    scene.punctual.push_back(
+        {.kind = scene::PunctualLight::Kind::directional,
+         .intensity = vec3(2),
+         .world_from_light = test::light_transform({0, 0, 0}, {-.4, -1, -.6})});
     test::add_quad(scene, "screen", add_mirror(scene), {-1.5, 0, -.4}, {1.8, 0, .6}, {1.8, 1.4, .6},
                    {-1.5, 1.4, -.4});
     const scene::Camera before{
@@ -237,11 +245,12 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
     for (const scene::Camera& camera : {before, behind, parallel}) {
         scene.cameras = {camera};
         const uvec2 size(160, 128);
-        const app::TechniqueResult truth = test::render_dark(scene, "raytrace", size),
-                                   lit = test::render_dark(scene, "raytrace:shadow=none", size),
-                                   planar = test::render_dark(scene, "planar", size);
+        const app::TechniqueResult truth = test::render_without_ambient(scene, "raytrace", size),
+                                   lit = test::render_without_ambient(scene, "raytrace:shadow=none",
+                                                                      size),
+                                   planar = test::render_without_ambient(scene, "planar", size);
         measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
-        const measure::Mask shadows = test::shadow_edges(lit.hdr, truth.hdr),
+        const measure::Mask shadows = test::mask_shadow_edges(lit.hdr, truth.hdr),
                             outlines = beside_outlines(scene, truth.hits, size);
         for (std::size_t i = 0; i < mask.size(); ++i)
             if (shadows[i] || outlines[i]) mask[i] = 0;
@@ -254,10 +263,12 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
 /// Mirrors that are not flat must be drawn by the technique that the knob `rest` names, with the
 /// same result as in a plan.
 TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
-    const scene::Scene hall = test::hall();
-    const app::TechniqueResult planar = test::render(hall, "planar:rest=secant", kPlanarSmall, 3),
-                               plan = test::render(hall, "1=secant *=planar", kPlanarSmall, 3);
-    EXPECT_TRUE(test::same_bytes(planar.hdr, plan.hdr));
+    const scene::Scene hall = test::make_mirror_hall();
+    const app::TechniqueResult planar = test::render_technique(hall, "planar:rest=secant",
+                                                               kPlanarSmall, 3),
+                               plan = test::render_technique(hall, "1=secant *=planar",
+                                                             kPlanarSmall, 3);
+    EXPECT_TRUE(test::have_equal_pixel_bytes(planar.hdr, plan.hdr));
     ASSERT_EQ(planar.plan.size(), 3u);
     EXPECT_EQ(planar.plan[0].technique, "secant");
     EXPECT_THAT(
@@ -266,30 +277,32 @@ TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     EXPECT_EQ(planar.plan[1].technique, "planar") << "a block, whose faces are flat";
     EXPECT_EQ(planar.plan[2].technique, "planar");
     EXPECT_EQ(planar.plan[2].why, "one technique was asked for");
-    const app::TechniqueResult dark = test::render(hall, "planar:shadow=none", kPlanarSmall, 3),
-                               all_dark = test::render(hall,
-                                                       "1=reuse:shadow=none *=planar:shadow=none",
-                                                       kPlanarSmall, 3);
-    EXPECT_TRUE(test::same_bytes(dark.hdr, all_dark.hdr)) << "shadows are the row's";
+    const app::TechniqueResult dark = test::render_technique(hall, "planar:shadow=none",
+                                                             kPlanarSmall, 3),
+                               all_dark = test::render_technique(
+                                   hall, "1=reuse:shadow=none *=planar:shadow=none", kPlanarSmall,
+                                   3);
+    EXPECT_TRUE(test::have_equal_pixel_bytes(dark.hdr, all_dark.hdr)) << "shadows are the row's";
 }
 
 /// Curved mirrors seen in a flat mirror are drawn by their own technique, from the mirrored view.
 /// The test judges the pixels of the flat panel that show another mirror: the ball, or the block.
 TEST(Planar, CurvedMirrorInAFlatMirrorIsDrawnByItsTechnique) {
     constexpr uvec2 size{160, 160};
-    const scene::Scene hall = test::hall();
-    const app::TechniqueResult truth = test::render(hall, app::kReference, size);
+    const scene::Scene hall = test::make_mirror_hall();
+    const app::TechniqueResult truth = test::render_technique(hall, app::kReference, size);
     measure::Mask ball = measure::mask_mirror_in_mirror(truth.hits);
     const measure::Mask panel = measure::mask_one_mirror(truth.hits, MirrorId(3));
     for (std::size_t i = 0; i < ball.size(); ++i)
         if (!panel[i]) ball[i] = 0;
     EXPECT_GT(measure::count_mask_pixels(ball), 300u);
-    const double black = test::rmse(test::render(hall, "planar:bounces=0", size).hdr, truth.hdr,
-                                    ball);
+    const double black = test::picture_rmse(
+        test::render_technique(hall, "planar:bounces=0", size).hdr, truth.hdr, ball);
     for (const std::string rest : {"secant", "hybrid", "raytrace"}) {
-        app::Request asked = test::request(hall, {"planar:bounces=4,rest=" + rest}, size);
+        app::Request asked = test::make_test_request(hall, {"planar:bounces=4,rest=" + rest}, size);
         asked.with_lookup = false;
-        const double off = test::rmse(test::last_of(asked, 5).front().hdr, truth.hdr, ball);
+        const double off = test::picture_rmse(test::render_last_frame(asked, 5).front().hdr,
+                                              truth.hdr, ball);
         std::cout << "[ MEASURED ] a ball in a flat mirror by " << rest << ": rmse " << off
                   << ", black " << black << "\n";
         EXPECT_LT(off, .2 * black) << rest;
@@ -309,8 +322,10 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
     scene.objects.back().world_from_object[3] = dvec4(1.5, .3, 3e-4, 1);
     scene.cameras = {
         {.eye = {1.5, .9, .8}, .target = {1.5, .3, 1e-4}, .vertical_fov_degrees = .08}};
-    const app::TechniqueResult truth = test::render(scene, "raytrace:shadow=none", kPlanarSmall),
-                               planar = test::render(scene, "planar:shadow=none", kPlanarSmall);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
+                                                              kPlanarSmall),
+                               planar = test::render_technique(scene, "planar:shadow=none",
+                                                               kPlanarSmall);
     const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto is_red = [](const vec3& pixel) { return pixel.x > .5f; };
     EXPECT_GT(std::ranges::count_if(truth.hdr.pixels, is_red), 400) << "the grain and its image";
@@ -322,7 +337,7 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
 TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
     const auto rows_of = [](const char* name) {
         const scene::Scene scene = scene::load(name);
-        return app::list_default_techniques(test::request(scene, {}, kPlanarSmall));
+        return app::list_default_techniques(test::make_test_request(scene, {}, kPlanarSmall));
     };
     for (const char* name : {"flat", "room", "gallery"})
         EXPECT_THAT(rows_of(name), testing::Contains("planar")) << name;
@@ -333,7 +348,7 @@ TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
 /// Mirrored views change between frames in flight while the scene stays the same.
 TEST(Planar, FrameUsesTheViewsItWasSubmittedWith) {
     const scene::Scene scene = flat(" orthogonal");
-    app::Session session(test::engine(), scene, 3);
+    app::Session session(test::test_engine(), scene, 3);
     app::FrameSpec spec{.techniques = {"planar:bounces=4"},
                         .camera = scene.cameras.front(),
                         .size = kPlanarSmall,
@@ -343,11 +358,11 @@ TEST(Planar, FrameUsesTheViewsItWasSubmittedWith) {
         app::FrameSpec other = spec; // a frame with other mirrored views
         other.techniques = {"mirror=reuse:face=16 *=planar:bounces=1"};
         session.frame(other);
-        EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), wanted)) << i;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), wanted)) << i;
         app::FrameSpec beside = spec;
         beside.camera = scene.cameras.at(1);
         session.frame(beside);
-        EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), wanted)) << i;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), wanted)) << i;
     }
 }
 

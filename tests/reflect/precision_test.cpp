@@ -15,7 +15,7 @@ using namespace catoptric;
 /// whose centre lies on an edge.
 double off_double(const scene::Scene& scene, const std::string& technique, uvec2 size,
                   int mirrors = 1) {
-    const app::TechniqueResult part = test::render(scene, technique, size);
+    const app::TechniqueResult part = test::render_technique(scene, technique, size);
     const stress::DoubleTracer tracer(scene, .05);
     double sum = 0;
     std::size_t count = 0;
@@ -23,7 +23,7 @@ double off_double(const scene::Scene& scene, const std::string& technique, uvec2
         for (std::uint32_t x = 0; x < size.x; ++x) {
             const std::uint32_t hits = part.hits[x + y * size.x];
             if ((hits & 0xffff) == 0 || (mirrors == 2 && hits >> 16 == 0)) continue;
-            const dvec3 wanted = tracer.pixel(scene.cameras.front(), size, x, y, 8);
+            const dvec3 wanted = tracer.trace_pixel(scene.cameras.front(), size, x, y, 8);
             const dvec3 off = abs(dvec3(part.hdr.at(static_cast<int>(x), static_cast<int>(y))) -
                                   wanted);
             const double most = std::max({off.x, off.y, off.z});
@@ -36,7 +36,7 @@ double off_double(const scene::Scene& scene, const std::string& technique, uvec2
 }
 
 TEST(Precision, DoubleHitPointsReduceTheError) {
-    const scene::Scene room = test::room(3, 1);
+    const scene::Scene room = test::make_lit_room(3, 1);
     for (const int mirrors : {1, 2}) {
         const double f32 = off_double(room, "raytrace:sphere=exact,depth=8", {96, 96}, mirrors);
         const double f64 = off_double(room, "raytrace:sphere=exact,depth=8,hit=f64", {96, 96},
@@ -49,11 +49,11 @@ TEST(Precision, DoubleHitPointsReduceTheError) {
 TEST(Precision, DoubleHitPointsChangeOnlyRoundings) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     for (const std::string knobs : {"", "shadow=map,"}) {
-        const app::TechniqueResult f32 = test::render(scene, "raytrace:" + knobs + "hit=f32",
-                                                      {128, 128}),
-                                   f64 = test::render(scene, "raytrace:" + knobs + "hit=f64",
-                                                      {128, 128});
-        EXPECT_FALSE(test::same_bytes(f32.hdr, f64.hdr));
+        const app::TechniqueResult f32 = test::render_technique(
+                                       scene, "raytrace:" + knobs + "hit=f32", {128, 128}),
+                                   f64 = test::render_technique(
+                                       scene, "raytrace:" + knobs + "hit=f64", {128, 128});
+        EXPECT_FALSE(test::have_equal_pixel_bytes(f32.hdr, f64.hdr));
         std::vector<float> off;
         for (std::size_t i = 0; i < f32.hdr.pixels.size(); ++i)
             off.push_back(glm::length(f32.hdr.pixels[i] - f64.hdr.pixels[i]));
@@ -66,14 +66,14 @@ TEST(Precision, DoubleHitPointsChangeOnlyRoundings) {
 /// unless captures hold floats.
 TEST(Precision, HalfFloatCapturesSaturateAt65504) {
     constexpr float kEmission = 1e5f;
-    scene::Scene room = test::room(1, 1);
+    scene::Scene room = test::make_lit_room(1, 1);
     for (scene::Material& material : room.materials)
         if (material.emission != vec3(0)) material.emission = vec3(kEmission);
-    const app::TechniqueResult truth = test::render(room, "raytrace", {256, 256});
+    const app::TechniqueResult truth = test::render_technique(room, "raytrace", {256, 256});
     for (const std::string technique : {"reuse", "parallax", "pyramid"}) {
         const auto brightest = [&](const std::string& colour) {
             float most = 0;
-            const app::TechniqueResult part = test::render(
+            const app::TechniqueResult part = test::render_technique(
                 room, technique + ":face=256,colour=" + colour, {256, 256});
             for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
                 if (truth.hits[i] != 0) most = std::max(most, part.hdr.pixels[i].x);
@@ -87,11 +87,11 @@ TEST(Precision, HalfFloatCapturesSaturateAt65504) {
 }
 
 TEST(Precision, SaturatedTexelsAreCounted) {
-    scene::Scene room = test::room(1, 1);
+    scene::Scene room = test::make_lit_room(1, 1);
     const auto counted = [&](const std::string& technique) {
-        app::Request asked = test::request(room, {technique}, {32, 32});
+        app::Request asked = test::make_test_request(room, {technique}, {32, 32});
         asked.with_lookup = true;
-        return app::run(test::engine(), asked).parts.front().saturated;
+        return app::run(test::test_engine(), asked).parts.front().saturated;
     };
     for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"})
         EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;
@@ -118,18 +118,19 @@ TEST(Precision, SaturatedTexelsAreCounted) {
 
 /// Tests a ball of radius 0.3, seen from about two thousand units away.
 TEST(Precision, TextbookSphereTestFailsFarAway) {
-    scene::Scene room = test::room(1, 1);
+    scene::Scene room = test::make_lit_room(1, 1);
     room.objects.erase(room.objects.begin() + 5); // remove the wall behind which the camera moves
     scene::Camera& camera = room.cameras.front();
     const dvec3 back = camera.eye - camera.target;
     camera.eye = camera.target + back * 1000.0;
     camera.vertical_fov_degrees = .06;
     const double stable = off_double(room, "raytrace:sphere=exact,depth=8", {64, 64});
-    const app::TechniqueResult with = test::render(room, "raytrace:sphere=exact", {64, 64}),
-                               without = test::render(
+    const app::TechniqueResult with = test::render_technique(room, "raytrace:sphere=exact",
+                                                             {64, 64}),
+                               without = test::render_technique(
                                    room, "raytrace:sphere=exact,without=stable_sphere", {64, 64});
-    const double changed = test::rmse(with.hdr, without.hdr,
-                                      measure::mask_mirror_pixels(with.hits));
+    const double changed = test::picture_rmse(with.hdr, without.hdr,
+                                              measure::mask_mirror_pixels(with.hits));
     std::cout << "[ MEASURED ] rmse without the stable sphere: " << changed << "\n";
     EXPECT_LT(stable, 1e-4);
     EXPECT_GT(changed, 100 * stable);
@@ -138,7 +139,7 @@ TEST(Precision, TextbookSphereTestFailsFarAway) {
 /// The lamp lies exactly in the plane of the ceiling. A shadow ray that runs to the lamp's full
 /// distance hits the ceiling.
 TEST(Precision, ShadowRaysWithoutAnEndGapHitTheCeilingAtTheLamp) {
-    scene::Scene room = test::room(1, 1);
+    scene::Scene room = test::make_lit_room(1, 1);
     const double ceiling = scene::bounds(room).hi.y;
     for (const scene::Object& object : room.objects)
         if (room.materials[object.material].emission != vec3(0))
@@ -148,9 +149,9 @@ TEST(Precision, ShadowRaysWithoutAnEndGapHitTheCeilingAtTheLamp) {
     scene::PunctualLight above{.name = "above", .intensity = vec3(1e-6f)};
     above.world_from_light[3] = dvec4(0, ceiling + 1, 0, 1);
     room.punctual.push_back(above);
-    const app::TechniqueResult with = test::render(room, "raytrace", {96, 96}),
-                               without = test::render(room, "raytrace:without=shadow_end",
-                                                      {96, 96});
+    const app::TechniqueResult with = test::render_technique(room, "raytrace", {96, 96}),
+                               without = test::render_technique(room, "raytrace:without=shadow_end",
+                                                                {96, 96});
     std::size_t darker = 0, brighter = 0;
     for (std::size_t i = 0; i < with.hdr.pixels.size(); ++i) {
         darker += without.hdr.pixels[i].x < with.hdr.pixels[i].x;

@@ -79,10 +79,11 @@ struct Room {
 /// Returns the sphere's radius in world units, as the median over the mirror's pixels.
 double radius_of(const Room& room, std::size_t mirror, const std::string& settings) {
     const scene::Scene scene = room.scene(mirror);
-    app::Request request = test::request(scene, {"proxy:shape=sphere,shadow=none," + settings},
-                                         kProxyMeanSize);
+    app::Request request = test::make_test_request(
+        scene, {"proxy:shape=sphere,shadow=none," + settings}, kProxyMeanSize);
     request.with_lookup = true;
-    const app::TechniqueResult part = std::move(app::run(test::engine(), request).parts.front());
+    const app::TechniqueResult part = std::move(
+        app::run(test::test_engine(), request).parts.front());
     const shared::View view = render::make_camera_view(request.camera, {}, kProxyMeanSize, 0);
     std::vector<double> radii;
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {

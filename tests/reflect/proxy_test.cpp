@@ -32,8 +32,8 @@ measure::LookupErrorSummary proxy_error_of(const std::string& what,
 
 TEST(Proxy, BoxOfAnEmptyRoomIsExact) {
     for (const std::string face : {"16", "37", "64", "256"}) {
-        const auto pixels = test::looked_up(stress::GlyphRoom().scene(), "proxy:face=" + face,
-                                            kProxySize);
+        const auto pixels = test::measure_lookup_directions(stress::GlyphRoom().make_scene(),
+                                                            "proxy:face=" + face, kProxySize);
         ASSERT_GT(pixels.size(), 1000u);
         double worst;
         EXPECT_LT(proxy_error_of("box, face " + face, pixels, worst).p99_degrees, kMostSnapped);
@@ -52,7 +52,8 @@ TEST(Proxy, SphereOfARoundRoomIsExact) {
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    {.5, .5, .5}, 2, 5);
     scene.cameras.push_back({.eye = {.5, .5, -6}, .target = {.5, .5, .5}});
-    const auto pixels = test::looked_up(scene, "proxy:shape=sphere,face=64", kProxySize);
+    const auto pixels = test::measure_lookup_directions(scene, "proxy:shape=sphere,face=64",
+                                                        kProxySize);
     ASSERT_GT(pixels.size(), 1000u);
     double worst;
     EXPECT_LT(proxy_error_of("sphere", pixels, worst).p99_degrees,
@@ -68,7 +69,7 @@ TEST(Proxy, RaysBesideAFloorHitTheFloorOrMiss) {
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    {0, 2, 0}, 1);
     scene.cameras.push_back({.eye = {0, 2.5, -5}, .target = {0, 2, 0}});
-    const auto pixels = test::looked_up(scene, "proxy:face=64", kProxySize);
+    const auto pixels = test::measure_lookup_directions(scene, "proxy:face=64", kProxySize);
     double worst;
     const measure::LookupErrorSummary error = proxy_error_of("floor", pixels, worst);
     EXPECT_LT(error.mean_degrees, .1);
@@ -87,11 +88,12 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
     for (const std::string shape : {"box", "sphere"})
         for (const std::string distance : {"r32f", "unorm8"}) {
-            const auto pixels = test::looked_up(
+            const auto pixels = test::measure_lookup_directions(
                 scene, "proxy:face=16,shape=" + shape + ",distance=" + distance, kProxySize);
-            EXPECT_EQ(test::nonfinite(
-                          test::render(scene, "proxy:face=16,shape=" + shape, kProxySize).hdr),
-                      0u);
+            EXPECT_EQ(
+                test::nonfinite_pixel_count(
+                    test::render_technique(scene, "proxy:face=16,shape=" + shape, kProxySize).hdr),
+                0u);
             ASSERT_GT(pixels.size(), 1000u);
             // unorm8 cannot store infinity, so the number of misses is not checked for that format.
             const auto misses = std::ranges::count(pixels, kMiss,
@@ -108,8 +110,9 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
 /// With rays followed through the other balls, the box of the room leaves only the objects in the
 /// room as an error.
 TEST(Proxy, BoxReducesTheErrorInTheBuiltInScene) {
-    const auto judged = test::judge(scene::make_cornell_mirrors(), test::looks().front(),
-                                    {"parallax", "proxy", "proxy:continue=4"});
+    const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(),
+                                                    test::search_test_views().front(),
+                                                    {"parallax", "proxy", "proxy:continue=4"});
     EXPECT_LE(judged[2].all, .80 * judged[0].all);
     EXPECT_LE(judged[1].lookup.mean_degrees, .05 * judged[0].lookup.mean_degrees);
 }

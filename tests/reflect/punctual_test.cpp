@@ -43,11 +43,11 @@ double illuminance(const PunctualCase& lit, const dvec3& place) {
 /// Intensities in candela grow with the square of the scale.
 scene::Scene under(const PunctualCase& lit, double scale) {
     const dvec3 origin(300, -20, 70);
-    scene::Scene scene = test::floor_alone();
+    scene::Scene scene = test::make_floor_scene();
     scene.objects.front().world_from_object = dmat4(scale);
     scene.objects.front().world_from_object[3] = dvec4(origin, 1);
     scene::PunctualLight light = lit.light;
-    light.world_from_light = test::shining(origin + scale * lit.from, lit.axis);
+    light.world_from_light = test::light_transform(origin + scale * lit.from, lit.axis);
     light.range *= scale;
     if (light.kind != Kind::directional) light.intensity *= float(scale * scale);
     scene.punctual.push_back(light);
@@ -93,7 +93,8 @@ TEST_P(Punctual, FloorIsLitAsSpecified) {
     for (const double scale : {1.0, 37.0}) {
         const scene::Scene scene = under(lit, scale);
         for (const std::string technique : {"raytrace", "naive:bounces=0", "raytrace:shadow=map"}) {
-            const measure::Picture picture = test::render_dark(scene, technique, kPunctualSize).hdr;
+            const measure::Picture picture =
+                test::render_without_ambient(scene, technique, kPunctualSize).hdr;
             double worst = 0, brightest = 0, darkest = 1e9;
             for (int y = 0; y < picture.height; ++y)
                 for (int x = 0; x < picture.width; ++x) {
@@ -113,18 +114,19 @@ TEST_P(Punctual, FloorIsLitAsSpecified) {
 }
 
 TEST_P(Punctual, ShadowsAreTheSameInRasterAndRays) {
-    scene::Scene scene = test::yard();
+    scene::Scene scene = test::make_yard_scene();
     const PunctualCase& lit = GetParam();
     scene::PunctualLight light = lit.light;
-    light.world_from_light = test::shining(lit.from + dvec3(0, .5, 0), lit.axis);
+    light.world_from_light = test::light_transform(lit.from + dvec3(0, .5, 0), lit.axis);
     scene.punctual.push_back(light);
-    const double off = test::share_off_of_raster(scene, {128, 128});
+    const double off = test::share_off_in_raster_picture(scene, {128, 128});
     std::cout << "[ MEASURED ] share off " << off << "\n";
     EXPECT_LE(off, .005);
     // The scene must contain shadows.
-    const measure::Picture shadowed = test::render_dark(scene, "raytrace", {64, 64}).hdr,
-                           lit_up = test::render_dark(scene, "raytrace:shadow=none", {64, 64}).hdr;
-    EXPECT_GT(test::share_off(shadowed, lit_up, measure::Mask(64 * 64, 0)), .01);
+    const measure::Picture
+        shadowed = test::render_without_ambient(scene, "raytrace", {64, 64}).hdr,
+        lit_up = test::render_without_ambient(scene, "raytrace:shadow=none", {64, 64}).hdr;
+    EXPECT_GT(test::share_of_off_pixels(shadowed, lit_up, measure::Mask(64 * 64, 0)), .01);
 }
 
 /// Renders the floor lit by all of these lights.
@@ -132,7 +134,7 @@ measure::Picture under_these(const std::vector<PunctualCase>& all, const std::st
     scene::Scene scene = under(all.front(), 1);
     for (std::size_t i = 1; i < all.size(); ++i)
         scene.punctual.push_back(under(all[i], 1).punctual.front());
-    return test::render_dark(scene, technique, kPunctualSize).hdr;
+    return test::render_without_ambient(scene, technique, kPunctualSize).hdr;
 }
 
 // One light and several lights are drawn by different shader variants.
@@ -157,7 +159,7 @@ TEST(Lights, SeveralLightsAddUp) {
 
 // Objects far outside the main part of the scene must also cast and receive shadows.
 TEST(Directional, LightReachesObjectsFarFromTheSceneCore) {
-    scene::Scene scene = test::yard();
+    scene::Scene scene = test::make_yard_scene();
     const std::size_t grey = scene.objects.front().material;
     for (const double x : {-60.0, 50.0}) {
         test::add_quad(scene, "far", grey, {x - 2, 0, 2}, {x + 2, 0, 2}, {x + 2, 0, -2},
@@ -167,11 +169,11 @@ TEST(Directional, LightReachesObjectsFarFromTheSceneCore) {
     }
     scene.punctual.push_back({.kind = Kind::directional,
                               .intensity = vec3(1.5f),
-                              .world_from_light = test::shining({0, 0, 0}, {.4, -1, -.3})});
+                              .world_from_light = test::light_transform({0, 0, 0}, {.4, -1, -.3})});
     for (const double x : {-60.0, 0.0, 50.0}) {
         scene.cameras.front() = {
             .eye = {x + 1, 2.5, 4}, .target = {x, .3, 0}, .vertical_fov_degrees = 50};
-        const double off = test::share_off_of_raster(scene, {96, 96});
+        const double off = test::share_off_in_raster_picture(scene, {96, 96});
         std::cout << "[ MEASURED ] at " << x << ": share off " << off << "\n";
         EXPECT_LE(off, .005) << "at " << x;
     }

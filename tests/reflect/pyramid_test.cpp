@@ -51,7 +51,7 @@ struct Read {
 
 Read read_pyramid(const scene::Scene& scene, const std::string& technique,
                   const std::vector<vec4>& directions) {
-    auto& [device, pipelines] = test::bench();
+    auto& [device, pipelines] = test::test_device();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, .05);
     graph::GraphRunner runner(device, pipelines);
@@ -67,13 +67,14 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
     asked.write(std::span<const vec4>(directions));
     std::array<graph::BufferHandle, 2> found;
     for (int i = 0; i < 2; ++i) {
-        found[i] = graph.buffer({"found" + std::to_string(i), directions.size() * sizeof(vec4)});
-        graph.pass("look" + std::to_string(i))
+        found[i] = graph.add_buffer(
+            {"found" + std::to_string(i), directions.size() * sizeof(vec4)});
+        graph.add_pass("look" + std::to_string(i))
             .reads(colour, graph::ResourceUse::sampled)
             .reads(distance, graph::ResourceUse::sampled)
             .writes(found[i], graph::ResourceUse::storage_write)
             .record([=, &asked, count = directions.size()](graph::PassCommands& commands) {
-                commands.use(gpu::ComputeState{"tests/cube_sample.comp", {}});
+                commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
                 commands.bind("colour_cubes", colour, graph::TextureFilter::linear);
                 commands.bind("distance_cubes", distance,
                               i == 0 ? graph::TextureFilter::linear
@@ -85,9 +86,9 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
         graph.mark_output(found[i]);
     }
     graph.mark_output(pyramid);
-    test::run(runner, graph);
-    return {*choice.shared.face, test::read_as<std::uint32_t>(runner, pyramid),
-            test::read_as<vec4>(runner, found[0]), test::read_as<vec4>(runner, found[1])};
+    test::run_graph(runner, graph);
+    return {*choice.shared.face, test::read_values<std::uint32_t>(runner, pyramid),
+            test::read_values<vec4>(runner, found[0]), test::read_values<vec4>(runner, found[1])};
 }
 
 /// Returns random directions, many of them along edges and at corners of cube faces. The component
@@ -179,7 +180,7 @@ TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
 TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
     constexpr std::uint32_t kFace = 64;
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const test::CapturedCubes captured = test::capture(scene, kFace, Format::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(scene, kFace, Format::r32f);
     const Read read = read_pyramid(scene, "pyramid:face=64", directions(4));
     std::size_t wrong = 0;
     for (std::uint32_t layer = 0; layer < 24; ++layer)
@@ -204,8 +205,8 @@ TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
 
 TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
     for (const int face : {16, 37, 64, 256}) {
-        const auto pixels = test::looked_up(stress::GlyphRoom().scene(),
-                                            "pyramid:face=" + std::to_string(face), {128, 128});
+        const auto pixels = test::measure_lookup_directions(
+            stress::GlyphRoom().make_scene(), "pyramid:face=" + std::to_string(face), {128, 128});
         ASSERT_GT(pixels.size(), 1000u);
         EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookupDirectionError::state),
                   std::ssize(pixels))
@@ -225,8 +226,8 @@ TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
 }
 
 TEST(Pyramid, HitsAreExactAndMissesAreTrue) {
-    const auto pixels = test::looked_up(scene::make_cornell_mirrors(),
-                                        "pyramid:face=256,continue=0", test::kContractSize);
+    const auto pixels = test::measure_lookup_directions(
+        scene::make_cornell_mirrors(), "pyramid:face=256,continue=0", test::kSearchTestSize);
     std::array<std::size_t, 3> count{}, wrong{};
     double hit_angle = 0, miss_angle = 0;
     for (const measure::LookupDirectionError& pixel : pixels) {

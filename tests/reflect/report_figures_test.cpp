@@ -23,31 +23,31 @@ constexpr int kReportFiguresFrames = 8, kWarmup = 3;
 const std::vector<std::size_t> kRounds{2, 2, 1, 1, 1, 1}; ///< measured frames in each round
 constexpr double kStops = -1;
 
-/// Returns the test scene `hall` with a camera that sees the lamp.
+/// Returns the test scene `make_mirror_hall` with a camera that sees the lamp.
 scene::Scene report_figures_bright_hall() {
-    scene::Scene scene = test::hall();
+    scene::Scene scene = test::make_mirror_hall();
     scene.cameras.front().target = {0, .5, 0};
     return scene;
 }
 
 app::CompareRequest report_figures_asked(const std::vector<std::string>& rows) {
     app::CompareRequest request;
-    request.base = test::request(report_figures_bright_hall(), rows, kReportFiguresSize);
+    request.base = test::make_test_request(report_figures_bright_hall(), rows, kReportFiguresSize);
     request.base.frames = kReportFiguresFrames, request.base.warmup = kWarmup;
     request.base.exposure = kStops;
     return request;
 }
 
 json compared(const app::CompareRequest& request) {
-    return json::parse(report::to_json(app::compare(test::engine(), request)));
+    return json::parse(report::to_json(app::compare(test::test_engine(), request)));
 }
 
 app::TechniqueResult rendered(const std::string& technique) {
-    app::Request request = test::request(report_figures_bright_hall(), {technique},
-                                         kReportFiguresSize);
+    app::Request request = test::make_test_request(report_figures_bright_hall(), {technique},
+                                                   kReportFiguresSize);
     request.frames = kReportFiguresFrames, request.warmup = kWarmup;
     request.exposure = kStops;
-    return std::move(app::run(test::engine(), request).parts.front());
+    return std::move(app::run(test::test_engine(), request).parts.front());
 }
 
 /// Returns whether a figure includes a pixel, given the first and second mirror that its ray meets;
@@ -237,7 +237,7 @@ TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
         for (const char* name :
              {"gpu_ms", "cpu_record_ms", "wall_ms", "closure", "host_ms", "frame_ms", "wait_ms"})
             expect_summary(row[name], kRounds);
-        if (test::engine().device().type == "cpu") {
+        if (test::test_engine().device().type == "cpu") {
             expect_summary(row["cpu_ms"], kRounds);
             EXPECT_GE(row["cpu_ms"]["median"].get<double>(), row["host_parts"]["record"]);
         }
@@ -299,7 +299,7 @@ TEST(ReportFigures, FewFramesAreOneRoundEach) {
     EXPECT_EQ(times["rounds"], times["samples"]);
     EXPECT_TRUE(times["ci95"].is_null());
     request.rounds = 5;
-    EXPECT_EQ(test::refusal(Failure::usage, [&] { compared(request); }),
+    EXPECT_EQ(test::error_text_of(Failure::usage, [&] { compared(request); }),
               "rounds: wanted at least 6, fewer bound no median, found 5");
 }
 
@@ -309,7 +309,7 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     const std::vector<std::string> rows{"reuse:face=32", "pyramid:face=auto", "raytrace",
                                         "naive:face=16", "reuse:face=16"};
     app::CompareRequest request;
-    request.base = test::request(scene::make_cornell_mirrors(), rows, kReportFiguresSize);
+    request.base = test::make_test_request(scene::make_cornell_mirrors(), rows, kReportFiguresSize);
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
     request.base.frames = kReportFiguresFrames, request.base.warmup = kWarmup;
@@ -317,18 +317,20 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     request.on_finished_row = [&](const report::Comparison& so_far) {
         pictured.push_back(so_far.rows.back().pictured);
     };
-    const report::Comparison compared = app::compare(test::engine(), request);
+    const report::Comparison compared = app::compare(test::test_engine(), request);
     EXPECT_EQ(pictured, (std::vector<int>{5, 5, 5, 5, 5, 5, 5, 5, 5, 11}))
         << "told after each row of the first round, then after each round";
     for (std::size_t i = 0; i < rows.size(); ++i) {
         app::Request alone = request.base;
         alone.techniques = {rows[i]};
-        const app::TechniqueResult part = std::move(app::run(test::engine(), alone).parts.front());
-        EXPECT_TRUE(test::same_bytes(compared.rows[i].hdr, part.hdr)) << rows[i];
+        const app::TechniqueResult part = std::move(
+            app::run(test::test_engine(), alone).parts.front());
+        EXPECT_TRUE(test::have_equal_pixel_bytes(compared.rows[i].hdr, part.hdr)) << rows[i];
         alone.techniques = {"raytrace:depth=16"};
         alone.time = alone.instant(alone.total()), alone.animate = false;
         alone.frames = 1, alone.warmup = 0;
-        const app::TechniqueResult truth = std::move(app::run(test::engine(), alone).parts.front());
+        const app::TechniqueResult truth = std::move(
+            app::run(test::test_engine(), alone).parts.front());
         const std::vector<float> map = flip_of(part, truth, request.base.exposure);
         EXPECT_EQ(compared.rows[i].flip_map, map) << rows[i];
     }
@@ -360,7 +362,7 @@ TEST(Rounds, OrderOfRowsAlternates) {
         if (label.find(", round ") != std::string::npos)
             measured.push_back(label.substr(0, label.find(':')));
     };
-    const report::Comparison found = app::compare(test::engine(), request);
+    const report::Comparison found = app::compare(test::test_engine(), request);
     ASSERT_EQ(measured.size(), 2 * kRounds.size());
     for (std::size_t i = 0; i < measured.size(); ++i)
         EXPECT_EQ(measured[i], i % 4 == 0 || i % 4 == 3 ? "reuse" : "raytrace") << i;

@@ -20,14 +20,14 @@ constexpr std::uint32_t kRequireFace = 32, kShadowEdge = 128;
 
 /// Returns a random hall with one mirror and one moving object.
 scene::Scene hall(std::uint64_t seed) {
-    scene::Scene scene = test::drawn_hall(seed, 3);
+    scene::Scene scene = test::make_random_hall(seed, 3);
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (const std::size_t other : {mirrors[1], mirrors[2]}) scene.objects[other].material = 0;
-    test::Numbers numbers(seed + 500);
-    scene.objects[mirrors[1 + numbers.below(2)]].motion = scene::HarmonicMotion{
-        .amplitude = dvec3(numbers.direction()), .period = 2};
+    test::RandomNumbers numbers(seed + 500);
+    scene.objects[mirrors[1 + numbers.integer_below(2)]].motion = scene::HarmonicMotion{
+        .amplitude = dvec3(numbers.unit_direction()), .period = 2};
     const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[0]]).centre();
-    scene.cameras[0] = {.eye = centre + 2. * dvec3(numbers.direction()), .target = centre};
+    scene.cameras[0] = {.eye = centre + 2. * dvec3(numbers.unit_direction()), .target = centre};
     return scene;
 }
 
@@ -47,7 +47,7 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
         const scene::Scene scene = hall(seed);
         require::ModelBuilder requirements(scene);
-        app::Session session(test::engine(), scene);
+        app::Session session(test::test_engine(), scene);
         app::FrameSpec spec{.techniques = {"parallax:face=" + std::to_string(kRequireFace) +
                                            ",shadow_map=" + std::to_string(kShadowEdge)},
                             .camera = scene.cameras[0],
@@ -57,7 +57,7 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
             const scene::Scene now = scene::scene_at_time(scene, seconds);
             const require::Model model = requirements.model_for(
                 {now, spec.camera, spec.size, kShadowEdge});
-            return std::pair(model.mirrors[0], app::Access::captures(app::Access::frame(
+            return std::pair(model.mirrors[0], app::Access::read_captures(app::Access::render_frame(
                                                    session, spec, {.with_captures = true})));
         };
         const auto [needs, captured] = at(.2);
@@ -86,7 +86,7 @@ TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
     std::size_t looked = 0, left_out = 0;
     for (const scene::Scene& scene :
          {scene::make_flat_mirror_room(), scene::furnished_room(), scene::make_gallery()}) {
-        app::Session session(test::engine(), scene);
+        app::Session session(test::test_engine(), scene);
         for (const scene::Camera& camera : scene.cameras) {
             if (&camera != &scene.cameras.front() && scene.name == "gallery")
                 continue; // skip the other cameras, because the gallery takes long

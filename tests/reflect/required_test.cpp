@@ -47,20 +47,23 @@ class Pair {
 public:
     Pair(const scene::Scene& scene, std::vector<std::string> techniques,
          std::uint32_t in_flight = 1)
-        : spec(test::request(scene, techniques, kRequiredSize)),
-          all_(test::engine(), scene, in_flight), few_(test::engine(), scene, in_flight) {}
+        : spec(test::make_test_request(scene, techniques, kRequiredSize)),
+          all_(test::test_engine(), scene, in_flight), few_(test::test_engine(), scene, in_flight) {
+    }
 
     /// Renders the next frame in both sessions and compares the pictures. Returns the names of the
     /// passes of the session that renders what is required.
     Names frame() {
         const auto [wanted, found] = next();
-        model_ = app::Access::model(found);
+        model_ = app::Access::rendered_model(found);
         EXPECT_TRUE(same_pictures(wanted, found)) << "frame " << number_;
         if (!spec.keeps_history) {
-            EXPECT_EQ(app::Access::remembers(found), app::Access::remembers(wanted));
+            EXPECT_EQ(app::Access::depends_on_last_frame(found),
+                      app::Access::depends_on_last_frame(wanted));
             // If not all faces are needed, some hold nothing, so the states differ.
-            const bool is_whole = needs_all_faces(app::Access::model(found));
-            EXPECT_TRUE(!is_whole || app::Access::state(found) == app::Access::state(wanted))
+            const bool is_whole = needs_all_faces(app::Access::rendered_model(found));
+            EXPECT_TRUE(!is_whole || app::Access::next_frame_state(found) ==
+                                         app::Access::next_frame_state(wanted))
                 << "frame " << number_;
         }
         return names_of(found.times());
@@ -92,7 +95,7 @@ public:
         act(few_);
     }
     const scene::Scene& scene() const { return all_.scene(); }
-    app::SessionCounters counts() const { return app::Access::counts(few_); }
+    app::SessionCounters counts() const { return app::Access::session_counters(few_); }
     const require::Model& model() const { return model_; } ///< model of the last frame
 
     app::FrameSpec spec;
@@ -108,7 +111,7 @@ private:
     static bool same_pictures(const app::Frame& wanted, const app::Frame& found) {
         bool same = true;
         for (std::size_t part = 0; part < wanted.size(); ++part)
-            same = same && test::same_bytes(found.hdr(part), wanted.hdr(part));
+            same = same && test::have_equal_pixel_bytes(found.hdr(part), wanted.hdr(part));
         return same;
     }
 
@@ -131,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, Required,
 TEST_P(Required, PicturesEqualThoseOfEverything) {
     if (std::string_view(GetParam()).ends_with("colour=float") && !test::has_float_colour())
         GTEST_SKIP() << "this device does not filter images of 32-bit floats";
-    Pair pair(test::room(3, 2), {GetParam()});
+    Pair pair(test::make_lit_room(3, 2), {GetParam()});
     for (int k = 0; k < 6; ++k) pair.frame();
     scene::Material dark = pair.scene().materials[1];
     dark.albedo = {.1f, .2f, .6f};
@@ -148,7 +151,7 @@ TEST_P(Required, PicturesEqualThoseOfEverything) {
 }
 
 TEST(RequiredFrames, StillSceneNeedsOnlyViewAndCompose) {
-    Pair pair(test::hall(), {"parallax:face=32"});
+    Pair pair(test::make_mirror_hall(), {"parallax:face=32"});
     // No mirror pixel looks at the part of the panel's capture behind the wall, so that face is
     // cleared.
     EXPECT_EQ(pair.frame(), (Names{"shadow", "capture/1", "capture/2", "capture/3.1-4",
@@ -168,7 +171,7 @@ TEST(RequiredFrames, StillSceneNeedsOnlyViewAndCompose) {
 // The first mirror is out of sight and has no capture. The options of the captures must come from a
 // mirror that has one.
 TEST(RequiredFrames, FirstMirrorNeedsNoCapture) {
-    scene::Scene scene = test::hall();
+    scene::Scene scene = test::make_mirror_hall();
     test::add_ball(scene, "outside", scene.objects.back().material, {9, 0, 0}, .5, 2);
     std::rotate(scene.objects.begin(), scene.objects.end() - 1, scene.objects.end());
     Pair pair(scene, {"secant:face=32"});
@@ -179,7 +182,7 @@ TEST(RequiredFrames, FirstMirrorNeedsNoCapture) {
 }
 
 TEST(RequiredFrames, FlatMirrorsAreShownBesideCaptures) {
-    Pair pair(test::hall(), {"3=planar *=parallax:face=16"});
+    Pair pair(test::make_mirror_hall(), {"3=planar *=parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
     pair.settle();
     pair.spec.camera.eye.x += .1;
@@ -187,7 +190,7 @@ TEST(RequiredFrames, FlatMirrorsAreShownBesideCaptures) {
 }
 
 TEST(RequiredFrames, ChangedLightAndMaterialsAreDrawnAgain) {
-    Pair pair(test::room(3, 2), {"parallax:face=16"});
+    Pair pair(test::make_lit_room(3, 2), {"parallax:face=16"});
     pair.settle();
     const std::size_t lamp = pair.scene().materials.size() - 2;
     scene::Material off = pair.scene().materials[lamp];
@@ -273,7 +276,7 @@ TEST(RequiredFrames, OnlyFacesThatShowTheMoverAreDrawn) {
 TEST(RequiredFrames, PicturesAreRightAfterRandomEvents) {
     for (const std::uint64_t seed : {3, 11, 12}) {
         SCOPED_TRACE(seed);
-        const scene::Scene hall = test::drawn_hall(seed, 4);
+        const scene::Scene hall = test::make_random_hall(seed, 4);
         Pair pair(hall, {"1=parallax:face=16,shadow_map=64 *=secant:face=16,shadow_map=64"});
         const auto object = [&](const std::string& name, std::size_t count) {
             for (std::size_t i = 0; i < hall.objects.size(); ++i)
@@ -313,7 +316,7 @@ TEST(RequiredFrames, PicturesAreRightAfterRandomEvents) {
 }
 
 TEST(RequiredFrames, CapturesAreDrawnAgainAfterACut) {
-    Pair pair(test::room(3, 1), {"reuse:face=16"});
+    Pair pair(test::make_lit_room(3, 1), {"reuse:face=16"});
     pair.settle();
     pair.both([](app::Session& session) { session.forget(); });
     EXPECT_TRUE(draws_captures(pair.frame()));
@@ -324,7 +327,7 @@ TEST(RequiredFrames, CapturesAreDrawnAgainAfterACut) {
 }
 
 TEST(RequiredFrames, CapturesAreDrawnAgainAtAnotherResolution) {
-    Pair pair(test::room(3, 1), {"parallax:face=auto"});
+    Pair pair(test::make_lit_room(3, 1), {"parallax:face=auto"});
     for (int k = 0; k < 3; ++k) pair.frame();
     pair.spec.size = {72, 56}; // a larger picture needs finer captures
     EXPECT_TRUE(draws_captures(pair.frame()));
@@ -332,23 +335,29 @@ TEST(RequiredFrames, CapturesAreDrawnAgainAtAnotherResolution) {
 }
 
 TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
-    Pair pair(test::room(3, 1), {"parallax:face=16"});
+    Pair pair(test::make_lit_room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
     std::vector<app::FrameSequence> aside;
-    pair.both([&](app::Session& session) { aside.push_back(app::Access::suspend(session)); });
+    pair.both(
+        [&](app::Session& session) { aside.push_back(app::Access::suspend_sequence(session)); });
     for (int k = 0; k < 2; ++k) pair.frame(); // frames of another sequence with the same technique
     std::size_t i = 0;
-    pair.both([&](app::Session& session) { app::Access::resume(session, std::move(aside[i++])); });
+    pair.both([&](app::Session& session) {
+        app::Access::resume_sequence(session, std::move(aside[i++]));
+    });
     pair.settle();
     aside.clear(), i = 0;
-    pair.both([&](app::Session& session) { aside.push_back(app::Access::suspend(session)); });
+    pair.both(
+        [&](app::Session& session) { aside.push_back(app::Access::suspend_sequence(session)); });
     pair.frame();
-    pair.both([&](app::Session& session) { app::Access::resume(session, std::move(aside[i++])); });
+    pair.both([&](app::Session& session) {
+        app::Access::resume_sequence(session, std::move(aside[i++]));
+    });
     EXPECT_EQ(pair.frame(), kSettled);
 }
 
 TEST(RequiredFrames, FramesThatKeepHistoryLeaveTheSequenceAlone) {
-    Pair pair(test::room(3, 1), {"parallax:face=16"});
+    Pair pair(test::make_lit_room(3, 1), {"parallax:face=16"});
     const app::FrameSpec still = pair.spec;
     const auto aside = [&](const char* technique, double ambient) {
         pair.spec.keeps_history = true;
@@ -371,14 +380,14 @@ TEST(RequiredFrames, FramesThatKeepHistoryLeaveTheSequenceAlone) {
 
 /// With frames in flight, results of comparisons arrive late, and no frame waits for them.
 TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
-    const scene::Scene scene = test::room(3, 1);
-    app::Session all(test::engine(), scene, 3), few(test::engine(), scene, 3);
-    app::FrameSpec spec = test::request(scene, {"parallax:face=16"}, kRequiredSize);
+    const scene::Scene scene = test::make_lit_room(3, 1);
+    app::Session all(test::test_engine(), scene, 3), few(test::test_engine(), scene, 3);
+    app::FrameSpec spec = test::make_test_request(scene, {"parallax:face=16"}, kRequiredSize);
     app::FrameSpec required = spec;
     required.model = app::RenderedWork::required;
     std::optional<app::Frame> wanted, found;
     for (int k = 0; k < 48; ++k) wanted = all.frame(spec), found = few.frame(required);
-    EXPECT_TRUE(test::same_bytes(found->hdr(), wanted->hdr()));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(found->hdr(), wanted->hdr()));
     EXPECT_EQ(names_of(found->times()), kSettled);
 }
 
@@ -394,16 +403,16 @@ TEST(RequiredFrames, MemoryStaysConstantOverTime) {
 }
 
 TEST(RequiredFrames, FramesReportTheirModel) {
-    const scene::Scene scene = test::room(1, 1);
-    app::Session session(test::engine(), scene);
-    app::FrameSpec spec = test::request(scene, {"reuse:face=16"}, kRequiredSize);
+    const scene::Scene scene = test::make_lit_room(1, 1);
+    app::Session session(test::test_engine(), scene);
+    app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=16"}, kRequiredSize);
     EXPECT_EQ(session.frame(spec).read().model, app::RenderedWork::everything);
     spec.model = app::RenderedWork::required;
     const app::Frame frame = session.frame(spec);
     EXPECT_EQ(frame.read().model, app::RenderedWork::required);
-    EXPECT_FALSE(app::Access::model(frame).is_everything);
-    EXPECT_EQ(app::Access::model(frame).mirrors.size(), 1u);
-    const std::string plan = app::Access::plan(session, spec, app::PlanFormat::text);
+    EXPECT_FALSE(app::Access::rendered_model(frame).is_everything);
+    EXPECT_EQ(app::Access::rendered_model(frame).mirrors.size(), 1u);
+    const std::string plan = app::Access::format_frame_plan(session, spec, app::PlanFormat::text);
     EXPECT_EQ(plan.find("capture/1"), std::string::npos) << plan;
 }
 

@@ -15,23 +15,23 @@ constexpr uvec2 kReuseSize{512, 512};
 
 TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Request request = test::request(scene, {"reuse:face=128"}, {256, 256});
+    app::Request request = test::make_test_request(scene, {"reuse:face=128"}, {256, 256});
     request.frames = 8;
     std::vector<app::TechniqueResult> reused;
-    app::Session session(test::engine(), scene);
-    for (app::Frames frames(session, request); frames.next();)
+    app::Session session(test::test_engine(), scene);
+    for (app::FrameLoop frames(session, request); frames.render_next();)
         reused.push_back(frames.frame().read());
     ASSERT_EQ(reused.size(), 8u);
     for (std::size_t k = 1; k <= reused.size(); ++k) {
         const app::TechniqueResult& reuse = reused[k - 1];
-        const app::TechniqueResult naive = test::render(
+        const app::TechniqueResult naive = test::render_technique(
             scene, "naive:face=128,bounces=" + std::to_string(k), request.size);
-        EXPECT_TRUE(test::same_bytes(reuse.hdr, naive.hdr)) << "frame " << k;
-        EXPECT_TRUE(test::same_bytes(reuse.display, naive.display)) << "frame " << k;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(reuse.hdr, naive.hdr)) << "frame " << k;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(reuse.display, naive.display)) << "frame " << k;
         EXPECT_EQ(reuse.scene_passes, 6);
         EXPECT_EQ(naive.scene_passes, 4 * static_cast<int>(k) + 2);
         if (k > 1 && k <= 5) {
-            EXPECT_FALSE(test::same_bytes(reuse.hdr, reused[k - 2].hdr))
+            EXPECT_FALSE(test::have_equal_pixel_bytes(reuse.hdr, reused[k - 2].hdr))
                 << "bounce " << k << " must show";
         }
     }
@@ -66,12 +66,12 @@ Change change(const measure::Picture& a, const measure::Picture& b, const measur
 TEST(Naive, EachBounceChangesThePictureLess) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     const measure::Mask mirrors = measure::mask_mirror_pixels(
-        test::render(scene, "raytrace", kReuseSize).hits);
-    measure::Picture last = test::render(scene, "naive:bounces=0", kReuseSize).hdr;
+        test::render_technique(scene, "raytrace", kReuseSize).hits);
+    measure::Picture last = test::render_technique(scene, "naive:bounces=0", kReuseSize).hdr;
     std::vector<Change> steps;
     for (int k = 0; k <= 4; ++k) {
         const measure::Picture next =
-            test::render(scene, "naive:bounces=" + std::to_string(k + 1), kReuseSize).hdr;
+            test::render_technique(scene, "naive:bounces=" + std::to_string(k + 1), kReuseSize).hdr;
         steps.push_back(change(last, next, mirrors));
         std::cout << "[ MEASURED ] naive:" << k << " to naive:" << k + 1 << ": rmse "
                   << steps.back().rmse(false) << ", " << steps.back().rmse(true)
@@ -90,12 +90,14 @@ TEST(Naive, EachBounceChangesThePictureLess) {
 TEST(Naive, ScenePassesEqualThoseOfTheSeedReport) {
     const int expected[] = {2, 6, 10, 14, 18};
     for (int i = 0; i <= 4; ++i)
-        EXPECT_EQ(test::render(scene::make_cornell_mirrors(),
-                               "naive:face=16,bounces=" + std::to_string(i), {16, 16})
+        EXPECT_EQ(test::render_technique(scene::make_cornell_mirrors(),
+                                         "naive:face=16,bounces=" + std::to_string(i), {16, 16})
                       .scene_passes,
                   expected[i]);
     for (const char* technique : {"reuse:face=16", "parallax:face=16"})
-        EXPECT_EQ(test::render(scene::make_cornell_mirrors(), technique, {16, 16}).scene_passes, 6);
+        EXPECT_EQ(
+            test::render_technique(scene::make_cornell_mirrors(), technique, {16, 16}).scene_passes,
+            6);
 }
 
 } // namespace

@@ -64,9 +64,9 @@ dvec3 wanted_radiance(const scene::Scene& scene, double roughness, int x, int y)
 
 measure::Picture trace_with_seed(const scene::Scene& scene, const std::string& technique,
                                  std::uint64_t seed) {
-    app::Request asked = test::request(scene, {technique}, kRoughSize);
+    app::Request asked = test::make_test_request(scene, {technique}, kRoughSize);
     asked.seed = seed;
-    return app::run(test::engine(), asked).parts.front().hdr;
+    return app::run(test::test_engine(), asked).parts.front().hdr;
 }
 
 /// Pixels lie within their own error bars of the integral as often as chance allows.
@@ -80,9 +80,10 @@ TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
                                                static_cast<std::uint64_t>(seed)));
         int compared = 0, apart = 0;
         double largest = 0;
-        test::Numbers numbers(5);
+        test::RandomNumbers numbers(5);
         for (int k = 0; k < 12; ++k) {
-            const int x = int(numbers.below(kRoughEdge)), y = 6 + int(numbers.below(10));
+            const int x = int(numbers.integer_below(kRoughEdge)),
+                      y = 6 + int(numbers.integer_below(10));
             const dvec3 wanted = wanted_radiance(scene, roughness, x, y);
             for (int channel = 0; channel < 3; ++channel) {
                 double mean = 0, squares = 0;
@@ -106,8 +107,8 @@ TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
 TEST(RoughRays, ErrorFallsWithTheNumberOfRays) {
     const scene::Scene scene = make_rough_floor(.4f, make_smooth_environment());
     const auto error = [&](const std::string& rays) {
-        return test::rmse(trace_with_seed(scene, "raytrace:rays=" + rays, 1),
-                          trace_with_seed(scene, "raytrace:rays=" + rays, 2));
+        return test::picture_rmse(trace_with_seed(scene, "raytrace:rays=" + rays, 1),
+                                  trace_with_seed(scene, "raytrace:rays=" + rays, 2));
     };
     const double few = error("4"), many = error("64");
     std::cout << "[ MEASURED ] difference of two seeds: " << few << " with 4 rays, " << many
@@ -119,8 +120,8 @@ TEST(RoughRays, ErrorFallsWithTheNumberOfRays) {
 TEST(RoughRays, SmoothSurfacesAreAsWithoutRays) {
     for (const char* name : {"cornell-mirrors", "gallery"}) {
         const scene::Scene scene = scene::load(name);
-        EXPECT_EQ(test::render(scene, "raytrace:rays=1", {48, 48}).hdr.pixels,
-                  test::render(scene, "raytrace", {48, 48}).hdr.pixels)
+        EXPECT_EQ(test::render_technique(scene, "raytrace:rays=1", {48, 48}).hdr.pixels,
+                  test::render_technique(scene, "raytrace", {48, 48}).hdr.pixels)
             << name;
     }
     // Up to the sharp limit, a surface is a perfect mirror.
@@ -143,15 +144,17 @@ TEST(RoughRays, PictureIsAFunctionOfItsSeed) {
 /// A closed white furnace: the light that rough balls reflect between each other stays below that
 /// of perfect mirrors, because a single-scattering lobe loses light, and is never above it.
 TEST(RoughRays, RoughMirrorsInAFurnaceGainNoLight) {
-    scene::Scene furnace = test::furnace(2);
+    scene::Scene furnace = test::make_furnace_scene(2);
     for (scene::Material& material : furnace.materials)
         if (material.mirror) {
             material.mirror = false;
             material.albedo = vec3(1), material.metallic = 1, material.roughness = .5f;
         }
     furnace.mirror_max_roughness = .6f; // the walls are rougher and stay diffuse
-    const measure::Picture sharp = test::render(furnace, "raytrace:depth=16", {32, 32}).hdr;
-    const measure::Picture rough = test::render(furnace, "raytrace:depth=16,rays=64", {32, 32}).hdr;
+    const measure::Picture sharp =
+        test::render_technique(furnace, "raytrace:depth=16", {32, 32}).hdr;
+    const measure::Picture rough =
+        test::render_technique(furnace, "raytrace:depth=16,rays=64", {32, 32}).hdr;
     double most = 0, sharp_sum = 0, rough_sum = 0;
     for (std::size_t i = 0; i < sharp.pixels.size(); ++i) {
         most = std::max(most, double(rough.pixels[i].x));
@@ -160,25 +163,27 @@ TEST(RoughRays, RoughMirrorsInAFurnaceGainNoLight) {
     std::cout << "[ MEASURED ] furnace: brightest " << most << ", mean "
               << rough_sum / double(rough.pixels.size()) << " instead of "
               << sharp_sum / double(sharp.pixels.size()) << '\n';
-    EXPECT_NEAR(sharp_sum / double(sharp.pixels.size()), test::kFurnace.x, 1e-6);
-    EXPECT_LE(most, test::kFurnace.x * 1.001); // a lobe that gained light would be brighter
+    EXPECT_NEAR(sharp_sum / double(sharp.pixels.size()), test::kFurnaceRadiance.x, 1e-6);
+    EXPECT_LE(most, test::kFurnaceRadiance.x * 1.001); // a lobe that gained light would be brighter
     EXPECT_LT(rough_sum, sharp_sum);
     EXPECT_GT(rough_sum, .8 * sharp_sum);
 }
 
 TEST(RoughRays, TooManyRaysAreRefused) {
-    EXPECT_THAT(test::refusal(Failure::usage,
-                              [] {
-                                  test::render(scene::load("flat"),
-                                               "raytrace:rays=1000,samples=100", kRoughSize);
-                              }),
+    EXPECT_THAT(test::error_text_of(Failure::usage,
+                                    [] {
+                                        test::render_technique(scene::load("flat"),
+                                                               "raytrace:rays=1000,samples=100",
+                                                               kRoughSize);
+                                    }),
                 testing::HasSubstr("rays=1000 for each of samples=100: wanted at most 65536 in "
                                    "all"));
-    EXPECT_THAT(test::refusal(Failure::usage,
-                              [] {
-                                  test::render(scene::load("flat"), "raytrace:rays=2,first=raster",
-                                               kRoughSize);
-                              }),
+    EXPECT_THAT(test::error_text_of(Failure::usage,
+                                    [] {
+                                        test::render_technique(scene::load("flat"),
+                                                               "raytrace:rays=2,first=raster",
+                                                               kRoughSize);
+                                    }),
                 testing::HasSubstr("wanted rays=0 or rays=1, found rays=2"));
 }
 

@@ -34,11 +34,11 @@ std::set<int> drawn(const app::FrameTimes& times) {
     return mirrors;
 }
 
-scene::Scene coarse_room() { return test::with_coarse_balls(test::room(3, 1)); }
+scene::Scene coarse_room() { return test::with_coarse_balls(test::make_lit_room(3, 1)); }
 
 app::FrameSpec limited(const scene::Scene& scene, std::uint32_t most,
                        const std::string& technique = "parallax:face=32,shadow_map=64") {
-    app::FrameSpec spec = test::request(scene, {technique}, kSlicesSize);
+    app::FrameSpec spec = test::make_test_request(scene, {technique}, kSlicesSize);
     spec.model = app::RenderedWork::required;
     spec.most_captures = most;
     return spec;
@@ -85,7 +85,7 @@ scene::Scene cells() {
 // its capture was drawn.
 TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
     for (const std::uint32_t most : {1u, 2u, 3u}) {
-        app::Session session(test::engine(), cells());
+        app::Session session(test::test_engine(), cells());
         const app::FrameSpec spec = limited(session.scene(), most, "parallax:face=32,shadow=none");
         const int round = static_cast<int>(round_of(kCells, most));
         std::vector<int> oldest(kCells, 0);
@@ -114,15 +114,17 @@ TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
 TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
     for (const std::uint32_t most : {1u, 2u}) {
         const scene::Scene scene = coarse_room();
-        app::Session all(test::engine(), scene), few(test::engine(), scene);
+        app::Session all(test::test_engine(), scene), few(test::test_engine(), scene);
         const app::FrameSpec spec = limited(scene, most);
         app::FrameSpec everything = spec;
         everything.model = app::RenderedWork::everything, everything.most_captures = 0;
         const auto settle = [&] {
-            std::vector<std::byte> state, next = app::Access::state(all.frame(everything));
+            std::vector<std::byte> state,
+                next = app::Access::next_frame_state(all.frame(everything));
             int bounces = 0;
             for (; state != next; ++bounces)
-                state = std::move(next), next = app::Access::state(all.frame(everything));
+                state = std::move(next),
+                next = app::Access::next_frame_state(all.frame(everything));
             return bounces;
         };
         const auto follow = [&] {
@@ -131,12 +133,12 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
                 const app::Frame frame = few.frame(spec);
                 expect_told(frame, most);
                 EXPECT_LE(drawn(frame.times()).size(),
-                          app::Access::counts(few).frames == 1 ? 3 : most);
+                          app::Access::session_counters(few).frames == 1 ? 3 : most);
             }
             const app::Frame last = few.frame(spec);
             EXPECT_EQ(drawn(last.times()), std::set<int>()) << "at rest";
             EXPECT_EQ(last.waiting(), 0u);
-            EXPECT_TRUE(test::same_bytes(last.hdr(), all.frame(everything).hdr()));
+            EXPECT_TRUE(test::have_equal_pixel_bytes(last.hdr(), all.frame(everything).hdr()));
         };
         follow();
         const auto change = [&](const scene::Edit& edit) { all.change(edit), few.change(edit); };
@@ -154,20 +156,20 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
 // Changes cameras and moves objects at random, faster than mirrors have their turns.
 TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
     for (const std::uint64_t seed : {3, 11}) {
-        const scene::Scene hall = test::drawn_hall(seed, 4);
-        app::Session all(test::engine(), hall), few(test::engine(), hall);
+        const scene::Scene hall = test::make_random_hall(seed, 4);
+        app::Session all(test::test_engine(), hall), few(test::test_engine(), hall);
         app::FrameSpec spec = limited(hall, 1, "parallax:face=16,shadow_map=64");
-        test::Numbers numbers(seed);
+        test::RandomNumbers numbers(seed);
         const std::vector<std::size_t> mirrors = scene::mirrors(hall);
         for (int k = 0; k < 24; ++k) {
             if (k % 3 == 0) {
-                const std::size_t mirror = mirrors[numbers.below(mirrors.size())];
+                const std::size_t mirror = mirrors[numbers.integer_below(mirrors.size())];
                 const dvec3 place(hall.objects[mirror].world_from_object[3]);
                 spec.camera = {.eye = place + dvec3(.3, .2, -1.7), .target = place};
             }
-            const std::size_t moved = numbers.below(hall.objects.size());
+            const std::size_t moved = numbers.integer_below(hall.objects.size());
             dmat4 to = hall.objects[moved].world_from_object;
-            to[3] += dvec4(dvec3(numbers.in_cube()) * .3, 0);
+            to[3] += dvec4(dvec3(numbers.point_in_cube()) * .3, 0);
             for (app::Session* session : {&all, &few}) session->change(scene::move(moved, to));
             expect_told(few.frame(spec), 1);
         }
@@ -178,7 +180,7 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
         const measure::Picture wanted = all.frame(spec).hdr();
         spec.model = app::RenderedWork::required, spec.most_captures = 1;
         const app::Frame last = few.frame(spec);
-        EXPECT_TRUE(test::same_bytes(last.hdr(), wanted)) << seed;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(last.hdr(), wanted)) << seed;
         EXPECT_EQ(drawn(last.times()), std::set<int>()) << seed;
     }
 }
@@ -186,7 +188,7 @@ TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
 // Something moves in every frame, so every capture always waits to be drawn.
 TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
     const scene::Scene scene = test::with_coarse_balls(scene::make_cornell_mirrors());
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     app::FrameSpec spec = limited(scene, 1);
     std::vector<int> since(4, 0);
     for (int k = 1; k <= 14; ++k) {
@@ -202,12 +204,12 @@ TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
 
 TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
     const scene::Scene scene = test::with_coarse_balls(scene::make_cornell_mirrors());
-    app::Session one(test::engine(), scene), other(test::engine(), scene);
+    app::Session one(test::test_engine(), scene), other(test::test_engine(), scene);
     for (int k = 0; k < 6; ++k) {
         app::FrameSpec spec = limited(scene, 4), whole = limited(scene, 0);
         spec.time = whole.time = k < 4 ? k / 20.0 : .2;
         const app::Frame found = one.frame(spec), wanted = other.frame(whole);
-        EXPECT_TRUE(test::same_bytes(found.hdr(), wanted.hdr())) << k;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr(), wanted.hdr())) << k;
         EXPECT_EQ(drawn(found.times()), drawn(wanted.times())) << k;
         EXPECT_FALSE(wanted.slices());
     }
@@ -217,7 +219,7 @@ TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
 // frame, and very much time draws all mirrors.
 TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
     const scene::Scene scene = coarse_room();
-    app::Session little(test::engine(), scene), much(test::engine(), scene);
+    app::Session little(test::test_engine(), scene), much(test::test_engine(), scene);
     app::FrameSpec spec = limited(scene, 0);
     for (int k = 1; k <= 5; ++k) {
         spec.ambient = .05 * k; // a change of the ambient light, so all captures must be drawn
@@ -229,9 +231,9 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
         aside.keeps_history = true;
         EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
         if (k == 3) { // the times measured before and after this other sequence still count
-            app::FrameSequence sequence = app::Access::suspend(little);
+            app::FrameSequence sequence = app::Access::suspend_sequence(little);
             EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
-            app::Access::resume(little, std::move(sequence));
+            app::Access::resume_sequence(little, std::move(sequence));
         }
         spec.budget_ms = 1e9;
         EXPECT_EQ(much.frame(spec).slices()->drawn, 3u);
@@ -240,18 +242,18 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
 
 TEST(CaptureBudget, PicturesDoNotDependOnFramesInFlight) {
     const scene::Scene scene = coarse_room();
-    app::Session one(test::engine(), scene), more(test::engine(), scene, 3);
+    app::Session one(test::test_engine(), scene), more(test::test_engine(), scene, 3);
     for (int k = 0; k < 8; ++k) {
         app::FrameSpec spec = limited(scene, 1);
         spec.ambient = k < 3 ? .05 * (k + 1) : .2;
         const app::Frame wanted = one.frame(spec), found = more.frame(spec);
-        EXPECT_TRUE(test::same_bytes(found.hdr(), wanted.hdr())) << k;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr(), wanted.hdr())) << k;
     }
     // Without a budget, the captures that were put off are drawn.
     app::FrameSpec whole = limited(scene, 0);
     std::optional<app::Frame> wanted, found;
     for (int k = 0; k < 40; ++k) wanted = one.frame(whole), found = more.frame(whole);
-    EXPECT_TRUE(test::same_bytes(found->hdr(), wanted->hdr()));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(found->hdr(), wanted->hdr()));
     EXPECT_EQ(drawn(found->times()), std::set<int>());
 }
 
@@ -263,16 +265,17 @@ TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
     shell.name = "shell", shell.material = 0, shell.sphere.reset();
     shell.world_from_object = shell.world_from_object * glm::scale(dmat4(1), dvec3(1.05));
     scene.objects.push_back(shell);
-    app::Request request = test::request(scene, {"parallax:face=32,shadow_map=64"}, kSlicesSize);
+    app::Request request = test::make_test_request(scene, {"parallax:face=32,shadow_map=64"},
+                                                   kSlicesSize);
     request.model = app::RenderedWork::required;
     request.frames = 28, request.until_settled = true;
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     const app::RunResult whole = app::run(session, request);
     request.most_captures = 1;
     const app::RunResult sliced = app::run(session, request);
     EXPECT_TRUE(whole.settled && sliced.settled);
     EXPECT_GT(sliced.frames.size(), whole.frames.size());
-    EXPECT_TRUE(test::same_bytes(sliced.parts.front().hdr, whole.parts.front().hdr));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(sliced.parts.front().hdr, whole.parts.front().hdr));
     EXPECT_EQ(sliced.parts.front().slices->waiting, 0u);
     request.frames = 1; // under a budget, one frame counts as a round of three
     EXPECT_EQ(app::run(session, request).frames.size(), 3u);
@@ -280,9 +283,9 @@ TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
 
 TEST(CaptureBudget, InvalidBudgetsAreRefused) {
     const scene::Scene scene = coarse_room();
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     const auto refused = [&](app::FrameSpec spec, const std::string& text) {
-        test::expect_refused([&] { session.frame(spec); }, Failure::usage, {text});
+        test::expect_error([&] { session.frame(spec); }, Failure::usage, {text});
     };
     app::FrameSpec spec = limited(scene, 2);
     spec.model = app::RenderedWork::everything;

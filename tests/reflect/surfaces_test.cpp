@@ -140,7 +140,7 @@ TEST_P(Textures, TexturesEqualTheDoublePrecisionComputation) {
         square(low, high),
         {.name = "page", .albedo = vec3(1), .unlit = true, .albedo_texture = texture});
     for (const char* world : kSurfacesWorlds) {
-        const measure::Picture picture = test::render(scene, world, {36, 36}).hdr;
+        const measure::Picture picture = test::render_technique(scene, world, {36, 36}).hdr;
         int off = 0;
         for (int y = 0; y < 36; ++y)
             for (int x = 0; x < 36; ++x) {
@@ -160,7 +160,7 @@ TEST(TexelCentres, TexelCentresShowTheirTexels) {
         square({0, 0}, {1, 1}),
         {.albedo = {1, .5f, .25f}, .unlit = true, .albedo_texture = texture});
     for (const char* world : kSurfacesWorlds) {
-        const measure::Picture picture = test::render(scene, world, {8, 8}).hdr;
+        const measure::Picture picture = test::render_technique(scene, world, {8, 8}).hdr;
         for (int i = 0; i < 64; ++i) {
             const std::uint32_t texel = texture.image->texels[static_cast<std::size_t>(i)];
             for (int c = 0; c < 3; ++c)
@@ -179,7 +179,7 @@ TEST(SecondTextureSpace, SecondSetOfTextureCoordinatesIsUsed) {
     const scene::Scene scene = showing(
         mesh, {.albedo = vec3(1), .unlit = true, .albedo_texture = texture});
     for (const char* world : kSurfacesWorlds)
-        EXPECT_LE(surfaces_farthest(test::render(scene, world, {16, 16}).hdr,
+        EXPECT_LE(surfaces_farthest(test::render_technique(scene, world, {16, 16}).hdr,
                                     [&](dvec2 at) {
                                         return sampled(texture, {1 - at.y, .5});
                                     }),
@@ -192,7 +192,7 @@ TEST(VertexColours, VertexColoursAreInterpolatedAndMultiplied) {
     mesh.colours = {{1, 0, 0, 1}, {1, 0, 1, 1}, {1, 1, 1, 1}, {1, 1, 0, 1}};
     const scene::Scene scene = showing(mesh, {.albedo = {.5f, 1, 1}, .unlit = true});
     for (const char* world : kSurfacesWorlds)
-        EXPECT_LE(surfaces_farthest(test::render(scene, world, {16, 16}).hdr,
+        EXPECT_LE(surfaces_farthest(test::render_technique(scene, world, {16, 16}).hdr,
                                     [](dvec2 at) { return dvec3(.5, 1 - at.y, at.x); }),
                   1e-5)
             << world;
@@ -207,7 +207,7 @@ TEST(EmissionTexture, EmissionTextureIsVisibleAndLightsNothing) {
     EXPECT_TRUE(scene::list_lights(scene).empty());
     for (const char* world : kSurfacesWorlds)
         EXPECT_LE(surfaces_farthest(
-                      test::render(scene, world, {16, 16}).hdr,
+                      test::render_technique(scene, world, {16, 16}).hdr,
                       [&](dvec2 at) { return dvec3(2, 3, 4) * dvec3(sampled(texture, at)); }),
                   4e-4)
             << world;
@@ -227,7 +227,7 @@ TEST(SharpSurfaces, ReflectanceFollowsSchlick) {
     for (const Case& each :
          {Case{{.8f, .5f, .2f}, 1, vec3(.04f)}, Case{{.8f, .5f, .2f}, 1, vec3(.04f), true},
           Case{{.8f, .5f, .2f}, 0, vec3(.25f)}, Case{{.6f, .6f, .6f}, .5f, {.1f, .2f, .3f}}}) {
-        scene::Scene scene = test::furnace(1);
+        scene::Scene scene = test::make_furnace_scene(1);
         scene.objects.pop_back();           // remove the mirror ball
         scene.materials[0].light = vec3(0); // the box is visible but lights nothing
         const std::size_t floor = test::add_material(scene, {.name = "floor",
@@ -244,7 +244,7 @@ TEST(SharpSurfaces, ReflectanceFollowsSchlick) {
         const vec3 c = each.colour;
         const vec3 f0 = glm::mix(each.f0, c, each.metallic);
         for (const char* technique : {"raytrace", "reuse:face=64", "hybrid:face=64"}) {
-            const app::TechniqueResult part = test::render(scene, technique, {32, 32}, 3);
+            const app::TechniqueResult part = test::render_technique(scene, technique, {32, 32}, 3);
             double off = 0;
             int seen = 0;
             for (int y = 0; y < 32; ++y)
@@ -263,7 +263,7 @@ TEST(SharpSurfaces, ReflectanceFollowsSchlick) {
                         const double r = f0[i] + (1 - f0[i]) * away;
                         const double wanted = (1 - r) * c[i] * (1 - each.metallic) *
                                                   .05 + // diffuse part, lit by ambient light only
-                                              r * test::kFurnace[i];
+                                              r * test::kFurnaceRadiance[i];
                         off = std::max(off, std::abs(part.hdr.at(x, y)[i] - wanted));
                     }
                 }
@@ -288,7 +288,7 @@ TEST(GlowingMirror, GlowingMirrorShowsItsOwnLight) {
                            {-12, -4, 3}, {-12, 12, 19}, {13, 12, 19}, {13, -4, 3});
         for (const char* technique : {"raytrace", "reuse:face=64", "secant:face=64,continue=4",
                                       "hybrid:face=64,continue=4"})
-            EXPECT_LE(surfaces_farthest(test::render(scene, technique, {16, 16}, 3).hdr,
+            EXPECT_LE(surfaces_farthest(test::render_technique(scene, technique, {16, 16}, 3).hdr,
                                         [&](dvec2) { return dvec3(glow); }),
                       in_mirror ? 2e-3 : 1e-6)
                 << technique << ' ' << in_mirror;
@@ -320,11 +320,11 @@ scene::Scene hole(float cutoff) {
 TEST(CutOut, CutOutPartIsInvisibleAndCastsNoShadow) {
     // Seen from above, the floor left of the middle is visible through the hole, and is lit.
     for (const char* world : kSurfacesWorlds) {
-        const measure::Picture cut = test::render(hole(.5f), world, {32, 32}).hdr,
-                               whole = test::render(hole(0), world, {32, 32}).hdr;
+        const measure::Picture cut = test::render_technique(hole(.5f), world, {32, 32}).hdr,
+                               whole = test::render_technique(hole(0), world, {32, 32}).hdr;
         scene::Scene without = hole(.5f);
         without.objects.erase(without.objects.begin() + 1);
-        const measure::Picture open = test::render(without, world, {32, 32}).hdr;
+        const measure::Picture open = test::render_technique(without, world, {32, 32}).hdr;
         EXPECT_LE(glm::length(cut.at(12, 16) - open.at(12, 16)), 1e-5) << world;
         EXPECT_LE(glm::length(cut.at(20, 16) - whole.at(20, 16)), 1e-5) << world;
         EXPECT_GT(glm::length(cut.at(12, 16) - whole.at(12, 16)), .01) << world;
@@ -353,7 +353,9 @@ TEST(Sides, SidesAreSeenAndLitAsTheMaterialSays) {
     };
     for (const char* world : kSurfacesWorlds) {
         const auto colour = [&](bool front_only, bool two_sided, bool away) {
-            return test::render(board(front_only, two_sided, away), world, {8, 8}).hdr.at(3, 4).x;
+            return test::render_technique(board(front_only, two_sided, away), world, {8, 8})
+                .hdr.at(3, 4)
+                .x;
         };
         const float lit = colour(false, false, false);
         EXPECT_GT(lit, .1f) << world;
@@ -378,8 +380,8 @@ TEST(Sides, OneSidedBoardCastsItsShadowEitherWay) {
         scene::Scene without = scene;
         without.objects.erase(without.objects.begin() + 1);
         for (const char* world : kSurfacesWorlds)
-            EXPECT_LT(test::render(scene, world, {32, 32}).hdr.at(25, 16).x,
-                      .6f * test::render(without, world, {32, 32}).hdr.at(25, 16).x)
+            EXPECT_LT(test::render_technique(scene, world, {32, 32}).hdr.at(25, 16).x,
+                      .6f * test::render_technique(without, world, {32, 32}).hdr.at(25, 16).x)
                 << world << away;
     }
 }
@@ -390,7 +392,7 @@ scene::Scene motley(std::uint32_t seed) {
     const auto real = [&](double low, double high) {
         return std::uniform_real_distribution(low, high)(random);
     };
-    scene::Scene scene = test::room(0, 2);
+    scene::Scene scene = test::make_lit_room(0, 2);
     scene.name = "motley";
     for (int k = 0; k < 10; ++k) {
         scene::Mesh mesh = scene::ball("thing " + std::to_string(k), 3);
@@ -424,10 +426,10 @@ TEST(Worlds, RasterisationEqualsRayTracingOnAllMaterials) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const scene::Scene scene = motley(seed);
         const uvec2 size{96, 96};
-        const app::TechniqueResult raster = test::render(scene, "hybrid:face=64,shadow_map=1024",
-                                                         size, 3),
-                                   rays = test::render(scene, "raytrace:shadow=map,shadow_map=1024",
-                                                       size);
+        const app::TechniqueResult raster = test::render_technique(
+                                       scene, "hybrid:face=64,shadow_map=1024", size, 3),
+                                   rays = test::render_technique(
+                                       scene, "raytrace:shadow=map,shadow_map=1024", size);
         int off = 0, judged = 0;
         const auto hit = [&](int x, int y) {
             return rays.hits[std::size_t(y) * size.x + x] & 0xffff;
@@ -452,7 +454,7 @@ TEST(Worlds, RasterisationEqualsRayTracingOnAllMaterials) {
 
 /// Copies of a textured mesh, kept in object spaces, must look like single meshes.
 TEST(Copies, TexturedCopiesEqualSingleMeshes) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     scene::Mesh mesh = scene::ball("copy", 4);
     for (const vec3& n : mesh.normals) mesh.uv[0].push_back({n.x * 3, n.y * 3});
     const std::size_t material = test::add_material(
@@ -472,8 +474,8 @@ TEST(Copies, TexturedCopiesEqualSingleMeshes) {
         single.objects.push_back(object);
     }
     for (const char* world : kSurfacesWorlds) {
-        const measure::Picture a = test::render(scene, world, {64, 64}).hdr,
-                               b = test::render(single, world, {64, 64}).hdr;
+        const measure::Picture a = test::render_technique(scene, world, {64, 64}).hdr,
+                               b = test::render_technique(single, world, {64, 64}).hdr;
         int off = 0;
         for (std::size_t i = 0; i < a.pixels.size(); ++i)
             off += f32::largest(abs(a.pixels[i] - b.pixels[i])) > .02f;

@@ -39,7 +39,7 @@ struct Hits {
 Hits hits(double nearer, const std::string& technique, double degrees) {
     Hits found;
     for (const measure::LookupDirectionError& pixel :
-         test::looked_up(slats(nearer), technique, kToleranceSize)) {
+         test::measure_lookup_directions(slats(nearer), technique, kToleranceSize)) {
         ++found.pixels;
         if (pixel.state != 0) continue;
         ++found.hits;

@@ -13,7 +13,7 @@ using namespace catoptric;
 
 app::CompareRequest views_asked(const std::vector<std::string>& rows) {
     app::CompareRequest request;
-    request.base = test::request(test::room(2, 1), rows, {32, 32});
+    request.base = test::make_test_request(test::make_lit_room(2, 1), rows, {32, 32});
     request.studies = {{"views", 6}};
     return request;
 }
@@ -22,7 +22,7 @@ app::CompareRequest views_asked(const std::vector<std::string>& rows) {
 /// in any view.
 TEST(ComparedViews, RowIsComparedAtItsOwnSampleCount) {
     const report::Comparison found = app::compare(
-        test::engine(),
+        test::test_engine(),
         views_asked({"raytrace:depth=16,samples=4", "raytrace:depth=16", "raytrace:depth=0"}));
     ASSERT_EQ(found.rows.size(), 3u);
     for (const report::Row& row : found.rows) {
@@ -58,7 +58,7 @@ TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
         EXPECT_FALSE(so_far.complete);
         known.push_back(so_far.rows.front().views.size());
     };
-    const report::Comparison found = app::compare(test::engine(), request);
+    const report::Comparison found = app::compare(test::test_engine(), request);
     EXPECT_THAT(labels,
                 testing::IsSupersetOf({"view 1 of 6: reference", "view 2 of 6: naive:bounces=0",
                                        "view 3 of 6: reuse:face=32"}));
@@ -85,7 +85,7 @@ TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
          "1=secant:face=64 2=secant:face=16", "secant:face=64"});
     request.base.size = {96, 96};
     request.studies.clear();
-    const report::Comparison found = app::compare(test::engine(), request);
+    const report::Comparison found = app::compare(test::test_engine(), request);
     ASSERT_EQ(found.rows.size(), 5u);
     for (const report::Row& row : found.rows) {
         EXPECT_EQ(row.light_edges.has_value(), row.lookup.has_value()) << row.label;

@@ -22,10 +22,10 @@ constexpr std::uint64_t kWorkPixels = std::uint64_t{kWorkSize.x} * kWorkSize.y;
 
 std::vector<PassWork> count_work(const scene::Scene& scene, const std::string& technique,
                                  app::RenderedWork model = app::RenderedWork::everything) {
-    app::Request asked = test::request(scene, {technique}, kWorkSize);
+    app::Request asked = test::make_test_request(scene, {technique}, kWorkSize);
     asked.model = model;
     asked.warmup = 3;
-    app::Session session(test::engine(), scene);
+    app::Session session(test::test_engine(), scene);
     return app::count_frame_work(session, asked);
 }
 
@@ -35,7 +35,7 @@ std::uint64_t total(const std::vector<PassWork>& passes, WorkKind kind) {
 
 /// Returns the work of all camera rays, by the traversal on the CPU.
 bvh::TraversalCounters count_on_cpu(const scene::Scene& scene) {
-    const app::Request asked = test::request(scene, {"raytrace"}, kWorkSize);
+    const app::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkSize);
     const render::SceneUnits units = render::make_scene_units(scene);
     const render::Geometry geometry = render::make_geometry(scene, units);
     const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
@@ -46,7 +46,7 @@ bvh::TraversalCounters count_on_cpu(const scene::Scene& scene) {
         bvh::TraversalCounters one;
         bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, kWorkSize, pixel),
                                      std::numeric_limits<float>::max(),
-                                     bvh::kHidden | bvh::kOneSided, &one);
+                                     bvh::kHiddenFromCamera | bvh::kOneSided, &one);
         sum.nodes += one.nodes, sum.triangles += one.triangles;
     }
     return sum;
@@ -77,10 +77,10 @@ TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
 }
 
 TEST(Work, RaysAreThoseOfTheTracersOwnCounters) {
-    const scene::Scene scene = test::drawn_hall(3, 5);
+    const scene::Scene scene = test::make_random_hall(3, 5);
     for (const char* technique : {"raytrace:depth=4", "raytrace:depth=4,first=raster", "hybrid"}) {
         const auto work = count_work(scene, technique);
-        const app::TechniqueResult drawn = test::render(scene, technique, kWorkSize, 4);
+        const app::TechniqueResult drawn = test::render_technique(scene, technique, kWorkSize, 4);
         ASSERT_TRUE(drawn.rays) << technique;
         EXPECT_EQ(total(work, WorkKind::camera_rays), drawn.rays->primary) << technique;
         EXPECT_EQ(total(work, WorkKind::mirror_rays), drawn.rays->mirror) << technique;
@@ -100,7 +100,7 @@ TEST(Work, LiveLanesLieBetweenOneAndTheSubgroup) {
 }
 
 TEST(Work, CountsRepeatToTheLastDigit) {
-    const scene::Scene scene = test::drawn_hall(5, 4);
+    const scene::Scene scene = test::make_random_hall(5, 4);
     for (const char* technique :
          {"parallax", "layered", "hybrid", "raytrace:depth=4", "raytrace:depth=4,first=raster"})
         EXPECT_EQ(count_work(scene, technique, app::RenderedWork::required),
@@ -112,26 +112,26 @@ TEST(Work, CountingChangesNoPixel) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     for (const char* technique : {"parallax", "pyramid", "layered", "hybrid", "raytrace:depth=4",
                                   "raytrace:depth=4,first=raster"}) {
-        const app::Request asked = test::request(scene, {technique}, kWorkSize);
-        app::Session session(test::engine(), scene);
+        const app::Request asked = test::make_test_request(scene, {technique}, kWorkSize);
+        app::Session session(test::test_engine(), scene);
         const measure::Picture plain = session.frame(asked).hdr();
         session.forget();
-        const app::Frame counted = app::Access::frame(session, asked, {.counts_work = true});
-        EXPECT_FALSE(app::Access::work(counted).empty());
+        const app::Frame counted = app::Access::render_frame(session, asked, {.counts_work = true});
+        EXPECT_FALSE(app::Access::pass_work(counted).empty());
         EXPECT_EQ(counted.hdr().pixels, plain.pixels) << technique;
     }
 }
 
 TEST(Work, FrameThatDoesNotCountHasNoWork) {
     const scene::Scene scene = scene::load("flat");
-    app::Session session(test::engine(), scene);
-    const app::Frame frame = session.frame(test::request(scene, {"parallax"}, kWorkSize));
-    EXPECT_TRUE(app::Access::work(frame).empty());
+    app::Session session(test::test_engine(), scene);
+    const app::Frame frame = session.frame(test::make_test_request(scene, {"parallax"}, kWorkSize));
+    EXPECT_TRUE(app::Access::pass_work(frame).empty());
 }
 
 TEST(Work, LookupsFollowFromTheMasks) {
     const scene::Scene scene = scene::load("flat"); // mirrors do not overlap in its view
-    const app::TechniqueResult traced = test::render(scene, "raytrace", kWorkSize);
+    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", kWorkSize);
     const measure::Mask mask = measure::mask_mirror_pixels(traced.hits);
     const auto mirror_pixels = static_cast<double>(
         std::ranges::count_if(mask, [](auto in) { return in != 0; }));
@@ -155,8 +155,9 @@ TEST(Work, LookupsFollowFromTheMasks) {
 TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     const auto work = count_work(scene, "naive:bounces=1");
-    app::Session session(test::engine(), scene);
-    const app::Frame frame = session.frame(test::request(scene, {"naive:bounces=1"}, kWorkSize));
+    app::Session session(test::test_engine(), scene);
+    const app::Frame frame = session.frame(
+        test::make_test_request(scene, {"naive:bounces=1"}, kWorkSize));
     ASSERT_EQ(work.size(), frame.times().passes.size());
     for (std::size_t i = 0; i < work.size(); ++i) {
         EXPECT_EQ(work[i].name, frame.times().passes[i].name);

@@ -11,27 +11,29 @@ namespace {
 using namespace catoptric;
 
 TEST(Worth, EachSearchMeetsItsErrorBounds) {
-    for (const auto& [search, worth] : test::kWorths) {
+    for (const auto& [search, worth] : test::kSearchErrorLimits) {
         SCOPED_TRACE(search);
-        test::expect_worth(search, test::looks().front());
+        test::expect_errors_within_limits(search, test::search_test_views().front());
     }
 }
 
 TEST(Worth, SecantNeedsSmallerCapturesThanParallax) {
-    test::expect_small_captures(test::looks().front());
+    test::expect_small_captures(test::search_test_views().front());
 }
 
-TEST(Worth, HybridTracesFewPixelsForItsErrorBounds) { test::expect_hybrid(test::looks().front()); }
+TEST(Worth, HybridTracesFewPixelsForItsErrorBounds) {
+    test::expect_hybrid(test::search_test_views().front());
+}
 
 /// The more expensive of two searches must be the better one, also from cameras that were not used
 /// in development. No search may draw long false lines.
 TEST(Searches, OrderOfTheSearchesHoldsFromEveryCamera) {
-    std::vector<test::Look> looks = test::looks();
-    std::ranges::copy(test::unforeseen_looks(), std::back_inserter(looks));
-    for (const test::Look& look : looks) {
+    std::vector<test::SearchTestView> looks = test::search_test_views();
+    std::ranges::copy(test::unseen_search_test_views(), std::back_inserter(looks));
+    for (const test::SearchTestView& look : looks) {
         SCOPED_TRACE(look.camera.name);
-        const auto seen = test::seen_in_mirrors(scene::make_cornell_mirrors(), look,
-                                                {"secant", "march", "pyramid", "layered"});
+        const auto seen = test::compare_mirror_pictures(scene::make_cornell_mirrors(), look,
+                                                        {"secant", "march", "pyramid", "layered"});
         const measure::Difference &secant = seen[0], &march = seen[1], &pyramid = seen[2],
                                   &layered = seen[3];
         EXPECT_LE(march.flip, secant.flip);

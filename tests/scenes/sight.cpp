@@ -47,8 +47,8 @@ vec4 sample(const scene::Texture& texture, const vec4& uv) {
     const auto [u, v] = place_in(texture, uv);
     int x[2], y[2];
     float across, down;
-    f32::texels_around(u, size.x, std::uint32_t(texture.wrap_u), x[0], x[1], across);
-    f32::texels_around(v, size.y, std::uint32_t(texture.wrap_v), y[0], y[1], down);
+    f32::bilinear_texels(u, size.x, std::uint32_t(texture.wrap_u), x[0], x[1], across);
+    f32::bilinear_texels(v, size.y, std::uint32_t(texture.wrap_v), y[0], y[1], down);
     return mix(mix(texel(texture, x[0], y[0]), texel(texture, x[1], y[0]), across),
                mix(texel(texture, x[0], y[1]), texel(texture, x[1], y[1]), across), down);
 }
@@ -73,8 +73,8 @@ Sight::Sight(const app::Request& request)
             all.push_back({geometry_.vertices[corners.x].position,
                            geometry_.vertices[corners.y].position,
                            geometry_.vertices[corners.z].position, std::uint32_t(object),
-                           (range.seen_by_camera ? 0 : bvh::kHidden) |
-                               (range.casts_shadow ? 0 : bvh::kShadowless) |
+                           (range.seen_by_camera ? 0 : bvh::kHiddenFromCamera) |
+                               (range.casts_shadow ? 0 : bvh::kCastsNoShadow) |
                                (range.one_sided ? bvh::kOneSided : 0)});
         }
     }
@@ -114,14 +114,14 @@ std::uint32_t Sight::shadows(const Seen& seen, std::uint32_t triangle) const {
     for (std::size_t i = 0; i < lights_.size() && i < 32; ++i) {
         const scene::PointLight& light = lights_[i];
         const vec3 to = light.directional ? -vec3(light.axis)
-                                          : space_.point(light.position) - seen.place;
+                                          : space_.to_scene_point(light.position) - seen.place;
         const bool is_dark_side = !light.directional && light.normal != dvec3(0) &&
                                   dot(dvec3(to), light.normal) >= 0;
         if (is_dark_side || dot(to, seen.normal) <= 0) continue;
         const vec3 side = dot(to, seen.facet) > 0 ? seen.facet : -seen.facet;
         int cut = 0;
         if (meet({seen.place + side * 1e-5f, to, triangle + 1},
-                 light.directional ? kInfinity : .9999f, bvh::kShadowless, cut))
+                 light.directional ? kInfinity : .9999f, bvh::kCastsNoShadow, cut))
             hidden |= 1u << i;
     }
     return hidden;
@@ -129,8 +129,8 @@ std::uint32_t Sight::shadows(const Seen& seen, std::uint32_t triangle) const {
 
 Seen Sight::see(const f32::Ray& ray) const {
     Seen seen;
-    const auto met = meet(ray, std::numeric_limits<float>::max(), bvh::kHidden | bvh::kOneSided,
-                          seen.cut);
+    const auto met = meet(ray, std::numeric_limits<float>::max(),
+                          bvh::kHiddenFromCamera | bvh::kOneSided, seen.cut);
     if (!met) return seen;
     const uvec3 corners = triangles_[met->hit.triangle];
     vec3 at[3], normal(0);

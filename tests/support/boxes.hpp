@@ -9,7 +9,7 @@ namespace test {
 
 /// Returns a box with a mirror ball near its middle. Each wall emits its own colour. `open` leaves
 /// out the wall behind the eye. `boards` are the centres of green light-emitting boards.
-inline scene::Scene box(const std::vector<dvec3>& boards, bool open = false) {
+inline scene::Scene make_coloured_box(const std::vector<dvec3>& boards, bool open = false) {
     scene::Scene scene{.name = open ? "open box" : "box"};
     for (int face = 0; face < (open ? 5 : 6); ++face)
         add_mesh(

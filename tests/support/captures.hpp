@@ -23,17 +23,18 @@ namespace test {
 using render::CapturedCubes;
 
 /// A capture that was read back, with its second depth layer if that was requested.
-struct Layers {
+struct CapturedLayers {
     CapturedCubes first;
     std::optional<CapturedCubes>
         second; ///< second depth layer; only with CaptureOptions::second_layer
 };
 
 /// Captures every mirror once, without shadows and with all other mirrors black. `range_world`: the
-/// range of r8_unorm distances, in world units. `staged`: see bench().
-inline Layers captured(const scene::Scene& scene, render::CaptureOptions options,
-                       double range_world, bool staged = false) {
-    auto& [device, pipelines] = bench(staged);
+/// range of r8_unorm distances, in world units. `staged`: see test_device().
+inline CapturedLayers capture_with_options(const scene::Scene& scene,
+                                           render::CaptureOptions options, double range_world,
+                                           bool staged = false) {
+    auto& [device, pipelines] = test_device(staged);
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(
         scene, scene.cameras.empty() ? scene::make_default_camera(scene) : scene.cameras.front(),
@@ -42,26 +43,26 @@ inline Layers captured(const scene::Scene& scene, render::CaptureOptions options
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     if (options.distance == Format::r8_unorm)
-        options.stored_unit = gpu_scene.space().length(range_world);
+        options.stored_unit = gpu_scene.space().to_scene_length(range_world);
     const render::CubeArray cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
         if (image) graph.mark_output(*image);
-    run(runner, graph);
+    run_graph(runner, graph);
     const auto read = [&](graph::ImageHandle colour, graph::ImageHandle distance) {
-        return CapturedCubes{options.face, runner.read(colour), runner.read(distance),
-                             gpu_scene.space()};
+        return CapturedCubes{options.face, runner.read_resource(colour),
+                             runner.read_resource(distance), gpu_scene.space()};
     };
-    Layers layers{read(cubes.colour, *cubes.distance), {}};
+    CapturedLayers layers{read(cubes.colour, *cubes.distance), {}};
     if (options.second_layer) layers.second = read(*cubes.colour2, *cubes.distance2);
     return layers;
 }
 
-inline CapturedCubes capture(const scene::Scene& scene, std::uint32_t face, Format distance,
-                             double range_world = 1, bool staged = false) {
+inline CapturedCubes capture_mirrors(const scene::Scene& scene, std::uint32_t face, Format distance,
+                                     double range_world = 1, bool staged = false) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance;
-    return captured(scene, options, range_world, staged).first;
+    return capture_with_options(scene, options, range_world, staged).first;
 }
 
 /// Captures both depth layers. Distances as r8_unorm range over 10 world units.
@@ -69,7 +70,7 @@ inline std::pair<CapturedCubes, CapturedCubes> capture_layers(const scene::Scene
                                                               std::uint32_t face, Format distance) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance, options.second_layer = true;
-    Layers layers = captured(scene, options, 10);
+    CapturedLayers layers = capture_with_options(scene, options, 10);
     return {std::move(layers.first), std::move(*layers.second)};
 }
 

@@ -9,14 +9,14 @@
 namespace test {
 
 /// A ray with `low`, the rounding error of its origin as floats.
-struct CrowdRay {
+struct InstanceSceneRay {
     f32::Ray ray;
     vec3 low{0};
     float t_max = std::numeric_limits<float>::infinity();
 };
 
 /// Returns the place and axes that the record of an instance stores (bvh/tlas.hpp).
-inline f32::ObjectPlacement place_of(const bvh::BvhInstance& instance) {
+inline f32::ObjectPlacement placement_of_instance(const bvh::BvhInstance& instance) {
     const dmat3 to = instance.scene_from_own, back = glm::transpose(glm::inverse(to));
     return {vec3(back[0]),         vec3(back[1]),
             vec3(back[2]),         vec3(to[0]),
@@ -26,41 +26,43 @@ inline f32::ObjectPlacement place_of(const bvh::BvhInstance& instance) {
 
 /// Returns a random rotation after a scale of each axis. The scale squeezes the second axis and
 /// mirrors the third.
-inline dmat3 turned_to(Numbers& numbers, double size, double squeeze) {
-    const dvec3 x(numbers.direction()), y = glm::normalize(cross(x, dvec3(numbers.direction())));
+inline dmat3 random_scaled_rotation(RandomNumbers& numbers, double size, double squeeze) {
+    const dvec3 x(numbers.unit_direction()),
+        y = glm::normalize(cross(x, dvec3(numbers.unit_direction())));
     return dmat3(x, y, cross(x, y)) * dmat3(size, 0, 0, 0, size * squeeze, 0, 0, 0, -size);
 }
 
 /// A random scene of 60 instances among 40 triangles. The instances are balls and tori with sizes
 /// of 1e-6 to 1, which are rotated, squeezed and mirrored.
-class Crowd {
+class RandomInstanceScene {
 public:
-    explicit Crowd(std::uint64_t seed) : numbers_(seed) {
+    explicit RandomInstanceScene(std::uint64_t seed) : numbers_(seed) {
         for (int i = 0; i < 40; ++i) {
-            const vec3 a = numbers_.in_cube();
-            room_.push_back({a, a + numbers_.in_cube(), a + numbers_.in_cube(), 0, flags()});
+            const vec3 a = numbers_.point_in_cube();
+            room_.push_back({a, a + numbers_.point_in_cube(), a + numbers_.point_in_cube(), 0,
+                             random_triangle_flags()});
         }
         auto next = static_cast<std::uint32_t>(room_.size());
         for (std::uint32_t k = 0; k < 60; ++k) {
-            const double size = std::pow(10., numbers_.between(-6, 0)),
-                         squeeze = numbers_.between(.1f, 1);
-            const dmat3 to = turned_to(numbers_, size, squeeze);
-            const dvec3 fine = 1e-9 * dvec3(numbers_.in_cube());
-            things_.push_back(
-                {nullptr, to, dvec3(numbers_.in_cube()) + fine, k + 1, flags(), next});
-            next += static_cast<std::uint32_t>(shape_of(k).size());
+            const double size = std::pow(10., numbers_.number_between(-6, 0)),
+                         squeeze = numbers_.number_between(.1f, 1);
+            const dmat3 to = random_scaled_rotation(numbers_, size, squeeze);
+            const dvec3 fine = 1e-9 * dvec3(numbers_.point_in_cube());
+            things_.push_back({nullptr, to, dvec3(numbers_.point_in_cube()) + fine, k + 1,
+                               random_triangle_flags(), next});
+            next += static_cast<std::uint32_t>(triangles_of_instance(k).size());
         }
     }
 
-    const std::vector<bvh::BvhInstance>& things() const { return things_; }
-    std::vector<bvh::BvhInstance>& things() { return things_; }
+    const std::vector<bvh::BvhInstance>& instances() const { return things_; }
+    std::vector<bvh::BvhInstance>& instances() { return things_; }
 
     /// Returns the tree of the scene, with scene lengths multiplied by `scene` and lengths in
     /// object space multiplied by `own`. Both factors are powers of two. The objects keep their
     /// places relative to each other.
-    bvh::Bvh hierarchy(float scene = 1, float own = 1) const {
-        const bvh::Bvh trees[]{bvh::build_bvh(scaled(shapes_[0], own)),
-                               bvh::build_bvh(scaled(shapes_[1], own))};
+    bvh::Bvh build_scene_bvh(float scene = 1, float own = 1) const {
+        const bvh::Bvh trees[]{bvh::build_bvh(scale_triangles(shapes_[0], own)),
+                               bvh::build_bvh(scale_triangles(shapes_[1], own))};
         std::vector<bvh::BvhInstance> placed = things_;
         for (std::size_t k = 0; k < placed.size(); ++k) {
             placed[k].tree = &trees[k % 2];
@@ -68,19 +70,21 @@ public:
             placed[k].centre *= double{scene};
             placed[k].radius *= own;
         }
-        return bvh::assemble_two_level_bvh(bvh::build_bvh(scaled(room_, scene)), placed);
+        return bvh::assemble_two_level_bvh(bvh::build_bvh(scale_triangles(room_, scene)), placed);
     }
 
     /// Returns random rays of four kinds in turn: anywhere; from near an instance to a point on it;
     /// from a triangle of an instance; from anywhere to the centre of an instance. A quarter of the
     /// rays have a finite t_max.
-    std::vector<CrowdRay> rays(std::size_t count) {
-        std::vector<CrowdRay> rays(count);
+    std::vector<InstanceSceneRay> make_random_rays(std::size_t count) {
+        std::vector<InstanceSceneRay> rays(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t k = numbers_.below(things_.size());
-            rays[i] = i % 4 == 1 ? beside(k) : i % 4 == 2 ? leaving(k) : anywhere();
+            const std::size_t k = numbers_.integer_below(things_.size());
+            rays[i] = i % 4 == 1   ? random_ray_near_instance(k)
+                      : i % 4 == 2 ? random_ray_from_triangle(k)
+                                   : random_ray();
             if (i % 4 == 3) rays[i].ray.direction = vec3(things_[k].centre) - rays[i].ray.origin;
-            if (numbers_.word() % 4 == 0) rays[i].t_max = numbers_.between(0, 2);
+            if (numbers_.random_word() % 4 == 0) rays[i].t_max = numbers_.number_between(0, 2);
         }
         return rays;
     }
@@ -88,50 +92,52 @@ public:
 private:
     using Triangles = std::vector<bvh::Triangle>;
 
-    const Triangles& shape_of(std::size_t thing) const { return shapes_[thing % 2]; }
-    std::uint32_t flags() {
-        constexpr std::uint32_t kFlags[]{0, 0, bvh::kHidden, bvh::kOneSided};
-        return kFlags[numbers_.below(4)];
+    const Triangles& triangles_of_instance(std::size_t thing) const { return shapes_[thing % 2]; }
+    std::uint32_t random_triangle_flags() {
+        constexpr std::uint32_t kFlags[]{0, 0, bvh::kHiddenFromCamera, bvh::kOneSided};
+        return kFlags[numbers_.integer_below(4)];
     }
-    static Triangles scaled(Triangles triangles, float times) {
+    static Triangles scale_triangles(Triangles triangles, float times) {
         for (bvh::Triangle& t : triangles) t.a *= times, t.b *= times, t.c *= times;
         return triangles;
     }
-    CrowdRay anywhere() {
-        const vec3 origin = 2.0f * numbers_.in_cube();
-        return {{origin, numbers_.direction(), 0}};
+    InstanceSceneRay random_ray() {
+        const vec3 origin = 2.0f * numbers_.point_in_cube();
+        return {{origin, numbers_.unit_direction(), 0}};
     }
-    CrowdRay beside(std::size_t thing) {
-        const f32::ObjectPlacement place = place_of(things_[thing]);
-        const bvh::Triangle& aim = shape_of(thing)[numbers_.below(shape_of(thing).size())];
-        const vec3 from = 2.0f * numbers_.in_cube(), at = aim.a + numbers_.unit() * (aim.b - aim.a);
-        CrowdRay result;
+    InstanceSceneRay random_ray_near_instance(std::size_t thing) {
+        const f32::ObjectPlacement place = placement_of_instance(things_[thing]);
+        const bvh::Triangle& aim = triangles_of_instance(
+            thing)[numbers_.integer_below(triangles_of_instance(thing).size())];
+        const vec3 from = 2.0f * numbers_.point_in_cube(),
+                   at = aim.a + numbers_.unit_fraction() * (aim.b - aim.a);
+        InstanceSceneRay result;
         result.ray = {scene_point(place, offset_from_centre(place, from), result.low),
                       offset_from_centre(place, at - from), 0};
         return result;
     }
-    CrowdRay leaving(std::size_t thing) {
-        const f32::ObjectPlacement place = place_of(things_[thing]);
-        const std::size_t number = numbers_.below(shape_of(thing).size());
-        const bvh::Triangle& t = shape_of(thing)[number];
-        const vec3 w = numbers_.weights(), own = w.x * t.a + w.y * t.b + w.z * t.c;
-        CrowdRay result;
+    InstanceSceneRay random_ray_from_triangle(std::size_t thing) {
+        const f32::ObjectPlacement place = placement_of_instance(things_[thing]);
+        const std::size_t number = numbers_.integer_below(triangles_of_instance(thing).size());
+        const bvh::Triangle& t = triangles_of_instance(thing)[number];
+        const vec3 w = numbers_.barycentric_weights(), own = w.x * t.a + w.y * t.b + w.z * t.c;
+        InstanceSceneRay result;
         result.ray = {scene_point(place, offset_from_centre(place, own), result.low),
-                      numbers_.direction(),
+                      numbers_.unit_direction(),
                       things_[thing].shift + static_cast<std::uint32_t>(number) + 1};
         return result;
     }
 
-    Numbers numbers_;
+    RandomNumbers numbers_;
     Triangles room_;
-    Triangles shapes_[2]{*placed(scene::ball("ball", 2), .5, dvec3(0)),
-                         *placed(torus().mesh, .3, dvec3(0))};
+    Triangles shapes_[2]{*place_triangles(scene::ball("ball", 2), .5, dvec3(0)),
+                         *place_triangles(make_closed_torus().mesh, .3, dvec3(0))};
     std::vector<bvh::BvhInstance> things_;
 };
 
-/// Returns the ray with its origin multiplied by `scene`. If `direction` is true, the direction is
-/// multiplied as well and t stays the same.
-inline CrowdRay scaled(CrowdRay ray, float scene, bool direction) {
+/// Returns the ray with its origin multiplied by `scene`. If `direction` is true, the
+/// direction is multiplied as well and t stays the same.
+inline InstanceSceneRay scale_ray(InstanceSceneRay ray, float scene, bool direction) {
     ray.ray.origin *= scene, ray.low *= scene;
     if (direction)
         ray.ray.direction *= scene;

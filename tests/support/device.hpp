@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graph/run.hpp"
+#include "graph/graph_runner.hpp"
 #include "session/access.hpp"
 #include "session/run.hpp"
 #include "support/refusal.hpp"
@@ -21,21 +21,23 @@ namespace test {
 using namespace catoptric;
 
 /// A device with its pipelines, for tests that build their own render graphs.
-struct Bench {
-    explicit Bench(const gpu::DeviceOptions& options) : device(options), pipelines(device) {}
+struct TestDevice {
+    explicit TestDevice(const gpu::DeviceOptions& options) : device(options), pipelines(device) {}
     gpu::Device device;
     gpu::Pipelines pipelines;
 };
 
 namespace detail {
 
-struct Devices {
-    std::map<bool, std::unique_ptr<Bench>> benches;       ///< devices, by the argument of bench()
-    std::map<bool, std::unique_ptr<app::Engine>> engines; ///< engines, by the argument of engine()
+struct TestDevices {
+    std::map<bool, std::unique_ptr<TestDevice>>
+        benches; ///< devices, by the argument of test_device()
+    std::map<bool, std::unique_ptr<app::Engine>>
+        engines; ///< engines, by the argument of test_engine()
 };
-inline Devices devices;
+inline TestDevices devices;
 
-inline std::string what_of(const std::function<void()>& check) {
+inline std::string error_message_of(const std::function<void()>& check) {
     try {
         check();
     } catch (const std::exception& error) {
@@ -46,22 +48,22 @@ inline std::string what_of(const std::function<void()>& check) {
 
 /// Destroys the devices before main ends, because drivers can crash if they are called while the
 /// program is unloaded.
-class CloseDevices : public testing::Environment {
+class DestroyDevicesAtEnd : public testing::Environment {
     void TearDown() override { devices = {}; }
 };
 
-class WatchValidation : public testing::EmptyTestEventListener {
+class CheckValidationAfterTest : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
         for (const auto& [staged, bench] : devices.benches)
-            EXPECT_EQ(what_of([&] { bench->device.check_validation(); }), "");
+            EXPECT_EQ(error_message_of([&] { bench->device.check_validation(); }), "");
         for (const auto& [layered, engine] : devices.engines)
-            EXPECT_EQ(what_of([&] { engine->check_validation(); }), "");
+            EXPECT_EQ(error_message_of([&] { engine->check_validation(); }), "");
     }
 };
 
 inline const bool watched = [] {
-    testing::AddGlobalTestEnvironment(new CloseDevices);
-    testing::UnitTest::GetInstance()->listeners().Append(new WatchValidation);
+    testing::AddGlobalTestEnvironment(new DestroyDevicesAtEnd);
+    testing::UnitTest::GetInstance()->listeners().Append(new CheckValidationAfterTest);
     return true;
 }();
 
@@ -69,17 +71,17 @@ inline const bool watched = [] {
 
 /// Returns the device of the test program and creates it at first use. With `staged`, the device
 /// behaves as if its memory could not be mapped.
-inline Bench& bench(bool staged = false) {
+inline TestDevice& test_device(bool staged = false) {
     auto& made = detail::devices.benches[staged];
     if (!made)
-        made = std::make_unique<Bench>(
+        made = std::make_unique<TestDevice>(
             gpu::DeviceOptions{.wanted = wanted_device(), .validate = true, .staged = staged});
     return *made;
 }
 
 /// Returns the engine of the test program and creates it at first use. Without `layered`, the
 /// engine draws captures face by face.
-inline app::Engine& engine(bool layered = true) {
+inline app::Engine& test_engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
         made.reset(new app::Engine(app::Access::make_engine(
@@ -89,18 +91,18 @@ inline app::Engine& engine(bool layered = true) {
 
 /// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
 /// limits/limits_test.cpp tests the error on devices that do not support it.
-inline bool has_float_colour() { return bench().device.filters_floats(); }
+inline bool has_float_colour() { return test_device().device.has_float_filtering(); }
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
-inline graph::GraphFrameTimes run(graph::GraphRunner& runner, const graph::Graph& graph,
-                                  graph::PassTiming timing = graph::PassTiming::isolated) {
-    return runner.run(graph, timing);
+inline graph::GraphFrameTimes run_graph(graph::GraphRunner& runner, const graph::Graph& graph,
+                                        graph::PassTiming timing = graph::PassTiming::isolated) {
+    return runner.run_and_wait(graph, timing);
 }
 
 /// Returns the texels of an image, or the contents of a buffer, as numbers of type T.
 template <typename T, typename Resource>
-std::vector<T> read_as(graph::GraphRunner& runner, Resource resource) {
-    const std::vector<std::byte> bytes = runner.read(resource);
+std::vector<T> read_values(graph::GraphRunner& runner, Resource resource) {
+    const std::vector<std::byte> bytes = runner.read_resource(resource);
     std::vector<T> values(bytes.size() / sizeof(T));
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
     return values;

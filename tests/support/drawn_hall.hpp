@@ -14,7 +14,7 @@
 namespace test {
 
 /// Returns the transform that rotates by `angle` about `axis` and then moves the origin to `at`.
-inline dmat4 turned(dvec3 axis, double angle, dvec3 at) {
+inline dmat4 rotation_about_axis(dvec3 axis, double angle, dvec3 at) {
     const dvec3 x = glm::normalize(
                     cross(axis, std::abs(axis.x) < .5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0))),
                 y = cross(axis, x);
@@ -32,8 +32,8 @@ inline dmat4 turned(dvec3 axis, double angle, dvec3 at) {
 ///
 /// Up to three partitions cross the hall. A partition is whole, has a gap at a side, or is seen
 /// only from its front.
-inline scene::Scene drawn_hall(std::uint64_t seed, int mirrors) {
-    Numbers numbers(seed);
+inline scene::Scene make_random_hall(std::uint64_t seed, int mirrors) {
+    RandomNumbers numbers(seed);
     scene::Scene scene{.name = "hall"};
     const std::size_t white = add_material(scene, {.name = "white", .albedo = vec3(.7f)}),
                       front = add_material(scene, {.albedo = vec3(.5f), .front_only = true}),
@@ -42,20 +42,22 @@ inline scene::Scene drawn_hall(std::uint64_t seed, int mirrors) {
     for (int face = 0; face < 6; ++face)
         add_mesh(scene, wall(face, {-8, -6, -10}, {8, 6, 10}), white);
     for (int i = 0; i < 3; ++i) {
-        const double z = -5. + 5. * i + numbers.between(-1, 1), tilt = numbers.between(-.5f, .5f);
-        const double to = numbers.below(2) == 0 ? 8 : numbers.between(0, 6);
-        if (numbers.below(4) == 0) continue;
-        add_quad(scene, "partition", numbers.below(3) == 0 ? front : white, {-8, -6, z},
+        const double z = -5. + 5. * i + numbers.number_between(-1, 1),
+                     tilt = numbers.number_between(-.5f, .5f);
+        const double to = numbers.integer_below(2) == 0 ? 8 : numbers.number_between(0, 6);
+        if (numbers.integer_below(4) == 0) continue;
+        add_quad(scene, "partition", numbers.integer_below(3) == 0 ? front : white, {-8, -6, z},
                  {to, -6, z + tilt}, {to, 6, z + tilt}, {-8, 6, z});
-        scene.objects.back().seen_by_camera = numbers.below(6) != 0;
+        scene.objects.back().seen_by_camera = numbers.integer_below(6) != 0;
     }
     const auto place = [&] {
-        return dvec3(numbers.between(-7, 7), numbers.between(-5, 5), numbers.between(-9, 9));
+        return dvec3(numbers.number_between(-7, 7), numbers.number_between(-5, 5),
+                     numbers.number_between(-9, 9));
     };
     for (int i = 0; i < 2 * mirrors; ++i) {
         const std::size_t material = i < mirrors ? mirror : white;
-        const double size = numbers.between(.2f, .9f);
-        const auto kind = numbers.below(3);
+        const double size = numbers.number_between(.2f, .9f);
+        const auto kind = numbers.integer_below(3);
         if (kind == 0) {
             add_ball(scene, "ball", material, place(), size, 2);
             continue;
@@ -65,9 +67,9 @@ inline scene::Scene drawn_hall(std::uint64_t seed, int mirrors) {
         else
             add_quad(scene, "panel", material, {-size, -size, 0}, {size, -size, 0}, {size, size, 0},
                      {-size, size, 0});
-        const dvec3 axis(numbers.direction());
-        const double angle = numbers.below(2) == 0 ? 0 : numbers.between(0, 6);
-        scene.objects.back().world_from_object = turned(axis, angle, place());
+        const dvec3 axis(numbers.unit_direction());
+        const double angle = numbers.integer_below(2) == 0 ? 0 : numbers.number_between(0, 6);
+        scene.objects.back().world_from_object = rotation_about_axis(axis, angle, place());
     }
     add_quad(scene, "lamp", lamp, {-1, 5.9, -1}, {1, 5.9, -1}, {1, 5.9, 1}, {-1, 5.9, 1});
     scene::PunctualLight bare{.name = "bare", .intensity = vec3(5)};
@@ -75,60 +77,60 @@ inline scene::Scene drawn_hall(std::uint64_t seed, int mirrors) {
     scene.punctual.push_back(bare);
     scene.cameras.push_back({.eye = place(),
                              .target = place(),
-                             .vertical_fov_degrees = numbers.between(20, 80),
-                             .orthographic_height = numbers.below(4) == 0 ? 8. : 0.});
+                             .vertical_fov_degrees = numbers.number_between(20, 80),
+                             .orthographic_height = numbers.integer_below(4) == 0 ? 8. : 0.});
     return scene;
 }
 
 /// Finds the objects that rays meet in a scene at an instant, in double precision.
-class Tree {
+class ObjectRayCaster {
 public:
-    explicit Tree(const scene::Scene& now) {
-        for (std::size_t i = 0; i < now.objects.size(); ++i) add(now, i);
+    explicit ObjectRayCaster(const scene::Scene& now) {
+        for (std::size_t i = 0; i < now.objects.size(); ++i) add_object_triangles(now, i);
         tree_ = bvh::build_bvh(triangles_);
     }
-    struct Met {
+    struct ObjectHit {
         std::size_t object = 0;
         double t = 0;
-        bool operator==(const Met&) const = default;
+        bool operator==(const ObjectHit&) const = default;
     };
     /// Returns the first object that a ray meets, except object `but`. Pass the number of objects
     /// as `but` to exclude none. `skipped`: flags of triangles that the ray ignores.
-    std::optional<Met> meets(dvec3 from, const dvec3& direction, std::size_t but,
-                             std::uint32_t skipped) const {
+    std::optional<ObjectHit> find_first_object(dvec3 from, const dvec3& direction, std::size_t but,
+                                               std::uint32_t skipped) const {
         double passed = 0;
         for (;;) {
             const auto hit = bvh::find_closest_hit<double>(
                 tree_, {from, direction, 0}, std::numeric_limits<double>::infinity(), skipped);
             if (!hit) return std::nullopt;
-            if (hit->object != but) return Met{hit->object, passed + hit->t};
+            if (hit->object != but) return ObjectHit{hit->object, passed + hit->t};
             const double step = hit->t * (1 + 1e-9) + 1e-9;
             passed += step, from += step * direction;
         }
     }
     /// Returns whether an object that casts shadows lies between the place and the light.
-    bool is_shaded(const dvec3& place, const dvec3& light) const {
+    bool is_in_shadow(const dvec3& place, const dvec3& light) const {
         const dvec3 way = light - place;
         const auto hit = bvh::find_closest_hit<double>(tree_, {place + 1e-6 * way, way, 0}, 1.,
-                                                       bvh::kShadowless);
+                                                       bvh::kCastsNoShadow);
         return hit.has_value();
     }
     /// Returns a random place on the object's surface.
-    dvec3 place_on(std::size_t object, Numbers& numbers) const {
+    dvec3 random_point_on_object(std::size_t object, RandomNumbers& numbers) const {
         const auto [first, count] = ranges_[object];
-        const bvh::Triangle& t = triangles_[first + numbers.below(count)];
-        const vec3 w = numbers.weights();
+        const bvh::Triangle& t = triangles_[first + numbers.integer_below(count)];
+        const vec3 w = numbers.barycentric_weights();
         return dvec3(w.x * t.a + w.y * t.b + w.z * t.c);
     }
 
 private:
-    void add(const scene::Scene& now, std::size_t index) {
+    void add_object_triangles(const scene::Scene& now, std::size_t index) {
         const scene::Object& object = now.objects[index];
         const scene::Material& material = now.materials[object.material];
         const scene::Mesh& mesh = now.meshes[object.mesh];
         std::uint32_t flags = 0;
-        if (!object.seen_by_camera) flags |= bvh::kHidden;
-        if (scene::emitted_radiance(material) != vec3(0)) flags |= bvh::kShadowless;
+        if (!object.seen_by_camera) flags |= bvh::kHiddenFromCamera;
+        if (scene::emitted_radiance(material) != vec3(0)) flags |= bvh::kCastsNoShadow;
         if (!scene::is_mirror(now, object) && scene::is_one_sided(material))
             flags |= bvh::kOneSided;
         ranges_.emplace_back(triangles_.size(), mesh.triangles.size());

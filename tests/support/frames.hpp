@@ -12,13 +12,13 @@ using namespace catoptric;
 /// Returns the graph that technique `reuse` declares for this number of mirrors: a shadow pass, one
 /// capture pass per mirror, a view pass and a compose pass. Each capture reads the cubes of the
 /// last frame.
-inline graph::Graph reuse_frame(std::uint32_t mirrors) {
+inline graph::Graph make_reuse_graph(std::uint32_t mirrors) {
     using graph::ResourceUse;
     constexpr graph::ClearValue kBlack{};
     const auto nothing = [](graph::PassCommands&) {};
     graph::Graph g;
     const auto add = [&](const std::string& name, Format format, std::uint32_t layers, bool cube) {
-        return g.image({name, format, 64, 64, layers, cube});
+        return g.add_image({name, format, 64, 64, layers, cube});
     };
     const graph::ImageHandle shadow = add("shadow", Format::d32f, 5, false);
     const graph::ImageHandle cubes = add("cubes", Format::rgba16f, 6 * mirrors, true);
@@ -26,30 +26,30 @@ inline graph::Graph reuse_frame(std::uint32_t mirrors) {
     const graph::ImageHandle hdr = add("hdr", Format::rgba32f, 1, false);
     const graph::ImageHandle view_depth = add("view.depth", Format::d32f, 1, false);
     const graph::ImageHandle display = add("display", Format::rgba8_unorm, 1, false);
-    g.pass("shadow", graph::PassTag::scene)
+    g.add_pass("shadow", graph::PassTag::scene)
         .writes(shadow, ResourceUse::depth, kBlack)
-        .layers(5)
+        .set_layer_count(5)
         .record(nothing);
     for (std::uint32_t n = 0; n < mirrors; ++n) {
         const std::string name = "capture/" + std::to_string(n + 1);
         const graph::ImageHandle depth = add(name + ".depth", Format::d32f, 6, true);
-        g.pass(name, graph::PassTag::scene)
+        g.add_pass(name, graph::PassTag::scene)
             .reads(shadow, ResourceUse::sampled)
-            .reads(g.previous(cubes), ResourceUse::sampled)
+            .reads(g.previous_contents(cubes), ResourceUse::sampled)
             .writes(cubes.layers(6 * n, 6), ResourceUse::colour, kBlack)
             .writes(distance.layers(6 * n, 6), ResourceUse::colour, kBlack)
             .writes(depth, ResourceUse::depth, kBlack)
-            .layers(6)
+            .set_layer_count(6)
             .record(nothing);
     }
-    g.pass("view", graph::PassTag::scene)
+    g.add_pass("view", graph::PassTag::scene)
         .reads(shadow, ResourceUse::sampled)
         .reads(cubes, ResourceUse::sampled)
         .reads(distance, ResourceUse::sampled)
         .writes(hdr, ResourceUse::colour, kBlack)
         .writes(view_depth, ResourceUse::depth, kBlack)
         .record(nothing);
-    g.pass("compose")
+    g.add_pass("compose")
         .reads(hdr, ResourceUse::sampled)
         .writes(display, ResourceUse::storage_write)
         .record(nothing);

@@ -26,18 +26,18 @@ constexpr double kInsideMargin = 0.12; ///< least distance of these cubes from t
 
 /// Returns a torus of 64 x 32 quadrilaterals. Its circle has radius 1, its tube radius 0.4.
 /// Neighbouring triangles share their corners.
-inline ClosedMesh torus() {
-    constexpr std::uint32_t kRings = 64, kSides = 32;
+inline ClosedMesh make_closed_torus() {
+    constexpr std::uint32_t kTorusRings = 64, kTorusSides = 32;
     scene::Mesh mesh{.name = "torus"};
-    for (std::uint32_t ring = 0; ring < kRings; ++ring)
-        for (std::uint32_t side = 0; side < kSides; ++side) {
-            const double around = 2 * std::numbers::pi * ring / kRings,
-                         about = 2 * std::numbers::pi * side / kSides;
+    for (std::uint32_t ring = 0; ring < kTorusRings; ++ring)
+        for (std::uint32_t side = 0; side < kTorusSides; ++side) {
+            const double around = 2 * std::numbers::pi * ring / kTorusRings,
+                         about = 2 * std::numbers::pi * side / kTorusSides;
             const double out = 1 + 0.4 * std::cos(about);
             mesh.positions.push_back(
                 {out * std::cos(around), out * std::sin(around), 0.4 * std::sin(about)});
             const auto corner = [&](std::uint32_t i, std::uint32_t k) {
-                return (ring + i) % kRings * kSides + (side + k) % kSides;
+                return (ring + i) % kTorusRings * kTorusSides + (side + k) % kTorusSides;
             };
             mesh.triangles.push_back({corner(0, 0), corner(1, 0), corner(1, 1)});
             mesh.triangles.push_back({corner(0, 0), corner(1, 1), corner(0, 1)});
@@ -47,7 +47,7 @@ inline ClosedMesh torus() {
 
 /// Returns a closed box of twelve triangles whose coordinates are no round numbers. `stretch` makes
 /// the box longer along z.
-inline ClosedMesh box(std::string name, double stretch) {
+inline ClosedMesh make_closed_box(std::string name, double stretch) {
     scene::Mesh mesh{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
         const scene::Mesh side = wall(face, {-0.91, -0.63, -1.17 * stretch},
@@ -59,12 +59,12 @@ inline ClosedMesh box(std::string name, double stretch) {
     return {std::move(mesh), 0, 0.5};
 }
 
-inline ClosedMesh ball() { return {scene::ball("ball", 5), 0, 0.5}; }
+inline ClosedMesh make_closed_ball() { return {scene::ball("ball", 5), 0, 0.5}; }
 
 /// Returns the mesh times `scale` plus `offset`, rounded to float. Returns nothing if rounding
 /// leaves a triangle without area.
-inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh, double scale,
-                                                        dvec3 offset) {
+inline std::optional<std::vector<bvh::Triangle>> place_triangles(const scene::Mesh& mesh,
+                                                                 double scale, dvec3 offset) {
     std::vector<bvh::Triangle> result;
     for (const uvec3& t : mesh.triangles) {
         const auto corner = [&](std::uint32_t i) {
@@ -80,20 +80,21 @@ inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh,
 
 /// Returns whether float precision suffices for a mesh times `scale` plus `offset`: rounding moves
 /// points by less than the distance between the starts of rays and the mesh.
-inline bool is_resolved(double scale, dvec3 offset) {
+inline bool is_float_precise_enough(double scale, dvec3 offset) {
     const double largest = 2 * scale + glm::length(offset);
     return std::sqrt(3.0) * std::ldexp(largest, -23) < kInsideMargin * scale;
 }
 
 /// Returns a random start of a ray inside the placed mesh, rounded to float. The start is strictly
-/// inside if is_resolved is true.
-inline vec3 inside(const ClosedMesh& closed, double scale, dvec3 offset, Numbers& numbers) {
+/// inside if is_float_precise_enough is true.
+inline vec3 random_point_inside(const ClosedMesh& closed, double scale, dvec3 offset,
+                                RandomNumbers& numbers) {
     dvec3 core(0);
     if (closed.core_radius > 0) {
-        const double around = 2 * std::numbers::pi * static_cast<double>(numbers.unit());
+        const double around = 2 * std::numbers::pi * static_cast<double>(numbers.unit_fraction());
         core = closed.core_radius * dvec3(std::cos(around), std::sin(around), 0);
     }
-    return vec3((core + closed.reach * dvec3(numbers.in_cube())) * scale + offset);
+    return vec3((core + closed.reach * dvec3(numbers.point_in_cube())) * scale + offset);
 }
 
 } // namespace test

@@ -32,23 +32,23 @@ inline double textbook_lobe(double roughness, const dvec3& o, const dvec3& i) {
 /// are spread by the distribution's own width, so that narrow lobes are resolved.
 template <typename Function>
 double integrate_over_half_vectors(double roughness, const dvec3& o, Function&& function) {
-    constexpr int kAround = 512, kOut = 2048;
+    constexpr int kAzimuthSteps = 512, kPolarSteps = 2048;
     const double alpha = roughness * roughness;
     double sum = 0;
-    for (int k = 0; k < kOut; ++k) {
+    for (int k = 0; k < kPolarSteps; ++k) {
         // tan(theta) = alpha s / (1 - s) for s in (0, 1) covers all half vectors.
-        const double s = (k + .5) / kOut, tangent = alpha * s / (1 - s);
+        const double s = (k + .5) / kPolarSteps, tangent = alpha * s / (1 - s);
         const double theta = std::atan(tangent);
-        const double step = alpha / ((1 - s) * (1 - s)) / (1 + tangent * tangent) / kOut;
-        for (int j = 0; j < kAround; ++j) {
-            const double phi = 2 * std::numbers::pi * (j + .5) / kAround;
+        const double step = alpha / ((1 - s) * (1 - s)) / (1 + tangent * tangent) / kPolarSteps;
+        for (int j = 0; j < kAzimuthSteps; ++j) {
+            const double phi = 2 * std::numbers::pi * (j + .5) / kAzimuthSteps;
             const dvec3 h{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                           std::cos(theta)};
             const double cosine = glm::dot(o, h);
             if (cosine <= 0) continue;
             const dvec3 i = 2 * cosine * h - o;
             // A solid angle of half vectors is 1 / (4 o.h) of that of lights.
-            const double angle = std::sin(theta) * step * 2 * std::numbers::pi / kAround;
+            const double angle = std::sin(theta) * step * 2 * std::numbers::pi / kAzimuthSteps;
             sum += function(i) * 4 * cosine * angle;
         }
     }

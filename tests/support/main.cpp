@@ -28,9 +28,9 @@ double processor_seconds() {
     return seconds;
 }
 
-class WriteSeconds : public testing::EmptyTestEventListener {
+class TestTimeWriter : public testing::EmptyTestEventListener {
 public:
-    explicit WriteSeconds(const std::filesystem::path& folder) {
+    explicit TestTimeWriter(const std::filesystem::path& folder) {
         std::filesystem::create_directories(folder);
         file_.open(folder / (std::to_string(getpid()) + ".tsv"));
     }
@@ -49,7 +49,7 @@ private:
 
 /// Returns a GoogleTest filter with the names of all tests of a source file; empty if the file has
 /// no tests.
-std::string filter_of(const std::string& file) {
+std::string test_filter_of_arguments(const std::string& file) {
     std::string filter;
     const testing::UnitTest& all = *testing::UnitTest::GetInstance();
     for (int s = 0; s < all.total_test_suite_count(); ++s) {
@@ -68,7 +68,7 @@ std::string filter_of(const std::string& file) {
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     if (argc > 2 && std::string(argv[1]) == "--from") {
-        const std::string filter = filter_of(argv[2]);
+        const std::string filter = test_filter_of_arguments(argv[2]);
         if (filter.empty()) {
             std::cerr << "wanted tests from " << argv[2] << ", found none\n";
             return 1;
@@ -76,6 +76,6 @@ int main(int argc, char** argv) {
         GTEST_FLAG_SET(filter, filter);
     }
     if (const char* folder = std::getenv("CATOPTRIC_TEST_SECONDS"))
-        testing::UnitTest::GetInstance()->listeners().Append(new WriteSeconds(folder));
+        testing::UnitTest::GetInstance()->listeners().Append(new TestTimeWriter(folder));
     return RUN_ALL_TESTS();
 }

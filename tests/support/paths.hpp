@@ -32,7 +32,7 @@ inline void add_bright_box(scene::Scene& scene, dvec3 lo, dvec3 hi) {
 
 /// Returns a scene of three mirror balls in a bright box. The balls reflect each other and are
 /// exact spheres.
-inline scene::Scene three_balls() {
+inline scene::Scene make_three_ball_scene() {
     scene::Scene scene{.name = "three balls"};
     add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
     const std::array<dvec3, 3> places{{{-1.25, -.3, .6}, {1.2, .1, .3}, {.05, 1, 2.2}}};
@@ -55,21 +55,22 @@ inline void add_glowing_board(scene::Scene& scene, vec3 emission, dvec3 centre, 
 }
 
 /// Number of compared mirror pixels, and number of those that are off.
-struct Compared {
+struct PixelComparison {
     std::size_t pixels = 0, off = 0;
-    double share() const { return static_cast<double>(off) / static_cast<double>(pixels); }
+    double share_off() const { return static_cast<double>(off) / static_cast<double>(pixels); }
 };
 
-inline bool is_off(const vec3& a, const vec3& b) {
+inline bool is_pixel_off(const vec3& a, const vec3& b) {
     // A channel that is NaN counts as off, because the comparison is then false.
     for (int i = 0; i < 3; ++i)
-        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kOff))) return true;
+        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kVisibleDifference)))
+            return true;
     return false;
 }
 
 /// Returns how many mirrors a traced ray has met, from the colour of its pixel; 0 for black. The
 /// surroundings of the mirrors must have radiance 1.
-inline int mirrors_met(const vec3& colour) {
+inline int count_mirrors_met(const vec3& colour) {
     const float product = colour.x * colour.y * colour.z;
     return product > 0 ? static_cast<int>(std::lround(-std::log2(product))) : 0;
 }
@@ -77,22 +78,23 @@ inline int mirrors_met(const vec3& colour) {
 /// Compares a picture with the ray-traced one over the mirror pixels for which `counts(hit,
 /// colour)` is true. Hit and colour are those of the ray-traced picture.
 template <typename Counts>
-Compared compared(const measure::Picture& picture, const app::TechniqueResult& truth,
-                  Counts&& counts) {
-    Compared result;
+PixelComparison compare_mirror_pixels(const measure::Picture& picture,
+                                      const app::TechniqueResult& truth, Counts&& counts) {
+    PixelComparison result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
         if (!counts(truth.hits[i], truth.hdr.pixels[i])) continue;
         ++result.pixels;
-        result.off += is_off(picture.pixels[i], truth.hdr.pixels[i]);
+        result.off += is_pixel_off(picture.pixels[i], truth.hdr.pixels[i]);
     }
     return result;
 }
-inline Compared compared(const measure::Picture& picture, const app::TechniqueResult& truth) {
-    return compared(picture, truth, [](std::uint32_t, const vec3&) { return true; });
+inline PixelComparison compare_mirror_pixels(const measure::Picture& picture,
+                                             const app::TechniqueResult& truth) {
+    return compare_mirror_pixels(picture, truth, [](std::uint32_t, const vec3&) { return true; });
 }
 
-inline std::ostream& operator<<(std::ostream& out, const Compared& found) {
+inline std::ostream& operator<<(std::ostream& out, const PixelComparison& found) {
     return out << found.off << " of " << found.pixels << " off";
 }
 

@@ -37,7 +37,7 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 }
 
 /// Prepares the child process after fork as `start` says, and then executes the program.
-[[noreturn]] void become(const Start& start, int out, int err) {
+[[noreturn]] void execute_program(const ProcessStart& start, int out, int err) {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     for (const auto& [resource, most] :
          {std::pair{RLIMIT_FSIZE, start.file_limit}, std::pair{RLIMIT_AS, start.memory_limit},
@@ -62,17 +62,17 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 
 } // namespace
 
-Ended run_process(const Start& start) {
+ProcessResult run_process(const ProcessStart& start) {
     int out[2], err[2];
     if (::pipe2(out, O_CLOEXEC) != 0 || ::pipe2(err, O_CLOEXEC) != 0) return {};
     if (start.no_reader) ::close(out[0]);
     const Clock::time_point begin = Clock::now();
     Clock::time_point signalled = begin;
     const pid_t child = ::fork();
-    if (child == 0) become(start, out[1], err[1]);
+    if (child == 0) execute_program(start, out[1], err[1]);
     ::close(out[1]);
     ::close(err[1]);
-    Ended ended;
+    ProcessResult ended;
     std::thread reader([&] {
         if (!start.no_reader) ended.out = read_all(out[0]);
     });
@@ -100,7 +100,7 @@ Ended run_process(const Start& start) {
     return ended;
 }
 
-std::string in_child(const std::function<std::string()>& work) {
+std::string run_in_forked_process(const std::function<std::string()>& work) {
     int out[2];
     if (::pipe2(out, O_CLOEXEC) != 0) return "no pipe";
     const pid_t child = ::fork();

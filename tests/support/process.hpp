@@ -10,7 +10,7 @@
 
 namespace test {
 
-struct Ended {
+struct ProcessResult {
     int exit_code = -1; ///< 128 + n if signal n ended the process
     std::string out, err;
     double seconds = 0;              ///< seconds from the start of the process to its end
@@ -19,7 +19,7 @@ struct Ended {
     double seconds_after_signal = 0; ///< seconds from the signal to the end; 0: no signal sent
 };
 
-struct Start {
+struct ProcessStart {
     /// The path of the program, then its arguments.
     std::vector<std::string> command;
     /// Variables that are added to the environment of this process.
@@ -37,11 +37,11 @@ struct Start {
 };
 
 /// Runs a program until it ends and returns its exit code, output, time and memory.
-Ended run_process(const Start& start);
+ProcessResult run_process(const ProcessStart& start);
 
 /// Runs `work` in a forked copy of this process, which then ends without running destructors.
 /// Returns the text that `work` returned. If a signal or an exception ended the copy, the text says
 /// which one.
-std::string in_child(const std::function<std::string()>& work);
+std::string run_in_forked_process(const std::function<std::string()>& work);
 
 } // namespace test

@@ -25,8 +25,8 @@ inline void PrintTo(const TechniqueInfo& technique, std::ostream* out) { *out <<
 namespace test {
 
 /// Returns a request for one measured frame without warm-up, seen by the scene's first camera.
-inline app::Request request(const scene::Scene& scene, const std::vector<std::string>& techniques,
-                            uvec2 size) {
+inline app::Request make_test_request(const scene::Scene& scene,
+                                      const std::vector<std::string>& techniques, uvec2 size) {
     app::Request asked;
     asked.scene = scene;
     asked.techniques = techniques;
@@ -48,19 +48,20 @@ inline dvec3 pixel_direction(const scene::Camera& camera, int x, int y, int edge
                           tangent * (2 * (y + .5) / edge - 1) * down);
 }
 
-inline app::TechniqueResult render(const scene::Scene& scene, const std::string& technique,
-                                   uvec2 size, int frames = 1) {
-    app::Request asked = request(scene, {technique}, size);
+inline app::TechniqueResult render_technique(const scene::Scene& scene,
+                                             const std::string& technique, uvec2 size,
+                                             int frames = 1) {
+    app::Request asked = make_test_request(scene, {technique}, size);
     asked.warmup = frames - 1;
-    return std::move(app::run(engine(), asked).parts.front());
+    return std::move(app::run(test_engine(), asked).parts.front());
 }
 
 /// Renders `frames` frames of a still scene and returns the last. Only the last frame has the
 /// requested size and lookup directions. The earlier frames are small, which saves time: the last
 /// frame needs only their captures, which do not depend on the picture's size. Not for face=auto,
 /// whose captures do.
-inline std::vector<app::TechniqueResult> last_of(const app::Request& asked, int frames) {
-    app::Session session(engine(), asked.scene);
+inline std::vector<app::TechniqueResult> render_last_frame(const app::Request& asked, int frames) {
+    app::Session session(test_engine(), asked.scene);
     app::FrameSpec early = asked;
     early.model = app::RenderedWork::required; // gives the same pictures in less time
     app::FrameSpec last = early;
@@ -70,8 +71,9 @@ inline std::vector<app::TechniqueResult> last_of(const app::Request& asked, int 
 }
 
 /// Returns "name:knob=value,..." with those of the settings for which the technique has a knob.
-inline std::string with(const app::TechniqueInfo& technique,
-                        const std::vector<std::pair<std::string, std::string>>& settings) {
+inline std::string
+technique_with_knobs(const app::TechniqueInfo& technique,
+                     const std::vector<std::pair<std::string, std::string>>& settings) {
     std::string text = technique.name;
     char separator = ':';
     for (const auto& [knob, value] : settings) {
@@ -83,21 +85,21 @@ inline std::string with(const app::TechniqueInfo& technique,
     return text;
 }
 
-inline double rmse(const measure::Picture& a, const measure::Picture& b,
-                   const measure::Mask& mask = {}) {
+inline double picture_rmse(const measure::Picture& a, const measure::Picture& b,
+                           const measure::Mask& mask = {}) {
     const std::vector<float> no_flip(a.pixels.size(), 0.0f);
     const measure::Difference difference = measure::difference(a, b, mask, no_flip);
     EXPECT_EQ(difference.nonfinite, 0u);
     return difference.rmse;
 }
 
-inline bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
+inline bool have_equal_pixel_bytes(const measure::Picture& a, const measure::Picture& b) {
     return a.width == b.width && a.height == b.height &&
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
 }
 
 /// Returns how many pixels of the picture are not finite numbers.
-inline std::size_t nonfinite(const measure::Picture& picture) {
+inline std::size_t nonfinite_pixel_count(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& c) {
         return !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
     }));

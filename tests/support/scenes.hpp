@@ -16,13 +16,13 @@ using namespace catoptric;
 using scene::add_ball, scene::add_material, scene::add_mesh, scene::add_quad, scene::wall;
 
 /// Radiance of every wall of a furnace; exact in 16-bit floats.
-constexpr vec3 kFurnace{0.5f, 0.25f, 0.75f};
+constexpr vec3 kFurnaceRadiance{0.5f, 0.25f, 0.75f};
 
 /// Returns a furnace: a closed box with one or two mirror balls. Every point of the box emits
-/// kFurnace and reflects nothing, so every pixel must show kFurnace.
-inline scene::Scene furnace(int mirrors) {
+/// kFurnaceRadiance and reflects nothing, so every pixel must show kFurnaceRadiance.
+inline scene::Scene make_furnace_scene(int mirrors) {
     scene::Scene scene{.name = "furnace"};
-    const std::size_t hot = add_material(scene, {.name = "hot", .emission = kFurnace});
+    const std::size_t hot = add_material(scene, {.name = "hot", .emission = kFurnaceRadiance});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int face = 0; face < 6; ++face) add_mesh(scene, wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
     add_ball(scene, "ball1", mirror, {-1.2, -0.3, 1}, 1);
@@ -44,7 +44,7 @@ inline scene::Scene with_coarse_balls(scene::Scene scene) {
 
 /// Returns a white room with coloured side walls, `lights` lamps under the ceiling and `mirrors` (0
 /// to 3) mirror balls.
-inline scene::Scene room(int mirrors, int lights) {
+inline scene::Scene make_lit_room(int mirrors, int lights) {
     scene::Scene scene{.name = "room"};
     const std::size_t white = add_material(scene, {.name = "white", .albedo = {.7f, .7f, .7f}});
     const std::size_t red = add_material(scene, {.name = "red", .albedo = {.6f, .1f, .1f}});
@@ -74,8 +74,8 @@ inline scene::Scene room(int mirrors, int lights) {
 
 /// Returns the room with one lamp, a mirror ball, a mirrored block, and a flat mirror on the wall
 /// behind them. The mirrors reflect each other, and only the ball is an exact sphere.
-inline scene::Scene hall() {
-    scene::Scene scene = room(0, 1);
+inline scene::Scene make_mirror_hall() {
+    scene::Scene scene = make_lit_room(0, 1);
     scene.name = "hall";
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     add_ball(scene, "ball", mirror, {-.9, -1.2, -.2}, .7);
@@ -96,7 +96,7 @@ inline scene::Scene hall() {
 
 /// Returns a mesh of two boards at a right angle that face each other. As a mirror, the mesh
 /// reflects itself.
-inline scene::Mesh hollow_corner() {
+inline scene::Mesh make_hollow_corner() {
     scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9},
                                      {-1.5, 1.5, 1.5});
     const scene::Mesh other = scene::quad("", {0, -1.5, 1.9}, {.4, -1.5, .4}, {.4, 1.5, .4},

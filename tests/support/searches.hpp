@@ -13,18 +13,18 @@
 /// several cameras.
 namespace test {
 
-inline constexpr uvec2 kContractSize{512, 512};
+inline constexpr uvec2 kSearchTestSize{512, 512};
 inline constexpr int kConvergedFrames = 4; ///< frames until deeper bounces have arrived
 
 /// A camera and the instant of its picture.
-struct Look {
+struct SearchTestView {
     scene::Camera camera;
     double time = 0;
 };
 
 /// Returns three cameras: the scene's own, one at the side and one above. Ball 4 is at another
 /// place at each camera's instant.
-inline std::vector<Look> looks() {
+inline std::vector<SearchTestView> search_test_views() {
     return {{scene::make_cornell_mirrors().cameras.front(), 0},
             {{.name = "side",
               .eye = {400, 330, -760},
@@ -40,7 +40,7 @@ inline std::vector<Look> looks() {
 
 /// Returns three cameras that were not used while searches were developed: low at the open front of
 /// the room, along the floor, and down from below the ceiling.
-inline std::vector<Look> unforeseen_looks() {
+inline std::vector<SearchTestView> unseen_search_test_views() {
     return {{{.name = "low",
               .eye = {540, 12, -60},
               .target = {300, 60, 400},
@@ -60,7 +60,7 @@ inline std::vector<Look> unforeseen_looks() {
 
 /// Errors of a technique against ray tracing: rmse in linear RGB by what the reflected ray meets,
 /// and errors of the looked-up directions.
-struct Judged {
+struct SearchErrors {
     double all = 0, first_order = 0, mirror_in_mirror = 0;
     measure::LookupErrorSummary lookup;
     double traced_fraction = 0; ///< share of mirror pixels that are traced (`hybrid`)
@@ -74,23 +74,24 @@ struct ReferencePicture {
     app::LookupOracle oracle;
 };
 
-inline app::Request request_from(const scene::Scene& scene, const Look& look,
-                                 const std::string& technique) {
-    app::Request asked = request(scene, {technique}, kContractSize);
+inline app::Request make_view_request(const scene::Scene& scene, const SearchTestView& look,
+                                      const std::string& technique) {
+    app::Request asked = make_test_request(scene, {technique}, kSearchTestSize);
     asked.camera = look.camera;
     asked.time = look.time;
     return asked;
 }
 
-inline Judged judge(const scene::Scene& scene, const Look& look, const std::string& technique,
-                    const ReferencePicture& truth) {
-    app::Request asked = request_from(scene, look, technique);
+inline SearchErrors measure_search_errors(const scene::Scene& scene, const SearchTestView& look,
+                                          const std::string& technique,
+                                          const ReferencePicture& truth) {
+    app::Request asked = make_view_request(scene, look, technique);
     asked.with_lookup = true;
-    const app::TechniqueResult part = std::move(last_of(asked, kConvergedFrames).front());
-    const Judged error{
-        rmse(part.hdr, truth.part.hdr, measure::mask_mirror_pixels(truth.part.hits)),
-        rmse(part.hdr, truth.part.hdr, measure::mask_first_order_pixels(truth.part.hits)),
-        rmse(part.hdr, truth.part.hdr, measure::mask_mirror_in_mirror(truth.part.hits)),
+    const app::TechniqueResult part = std::move(render_last_frame(asked, kConvergedFrames).front());
+    const SearchErrors error{
+        picture_rmse(part.hdr, truth.part.hdr, measure::mask_mirror_pixels(truth.part.hits)),
+        picture_rmse(part.hdr, truth.part.hdr, measure::mask_first_order_pixels(truth.part.hits)),
+        picture_rmse(part.hdr, truth.part.hdr, measure::mask_mirror_in_mirror(truth.part.hits)),
         measure::summarise_lookup_errors(truth.oracle.judge_lookups(part.lookup)),
         part.traced_fraction.value_or(0)};
     std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all
@@ -106,23 +107,25 @@ inline Judged judge(const scene::Scene& scene, const Look& look, const std::stri
 
 /// Returns the errors of techniques from one camera. A program renders each technique and reference
 /// only once per camera name, because tests of several searches share the results.
-inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
-                                 const std::vector<std::string>& techniques,
-                                 const std::string& reference = "raytrace:depth=16") {
+inline std::vector<SearchErrors>
+measure_search_errors(const scene::Scene& scene, const SearchTestView& look,
+                      const std::vector<std::string>& techniques,
+                      const std::string& reference = "raytrace:depth=16") {
     static std::map<std::string, detail::ReferencePicture> truths;
-    static std::map<std::string, Judged> known;
+    static std::map<std::string, SearchErrors> known;
     const std::string place = scene.name + ", " + look.camera.name + ", " + reference;
     if (!truths.contains(place)) {
-        const app::Request asked = detail::request_from(scene, look, reference);
-        truths.emplace(place,
-                       detail::ReferencePicture{std::move(app::run(engine(), asked).parts.front()),
-                                                app::LookupOracle(asked)});
+        const app::Request asked = detail::make_view_request(scene, look, reference);
+        truths.emplace(
+            place, detail::ReferencePicture{std::move(app::run(test_engine(), asked).parts.front()),
+                                            app::LookupOracle(asked)});
     }
-    std::vector<Judged> judged;
+    std::vector<SearchErrors> judged;
     for (const std::string& technique : techniques) {
         const std::string key = place + ", " + technique;
         if (!known.contains(key))
-            known.emplace(key, detail::judge(scene, look, technique, truths.at(place)));
+            known.emplace(key,
+                          detail::measure_search_errors(scene, look, technique, truths.at(place)));
         judged.push_back(known.at(key));
     }
     return judged;
@@ -131,13 +134,14 @@ inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
 /// Returns FLIP and other differences from ray tracing over the mirrors, for the second frame of
 /// each technique. The second frame suffices, because searches follow rays to deeper mirrors
 /// themselves.
-inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scene, const Look& look,
-                                                        std::vector<std::string> techniques) {
+inline std::vector<measure::Difference>
+compare_mirror_pictures(const scene::Scene& scene, const SearchTestView& look,
+                        std::vector<std::string> techniques) {
     techniques.push_back("raytrace:depth=16");
-    app::Request asked = request(scene, techniques, kContractSize);
+    app::Request asked = make_test_request(scene, techniques, kSearchTestSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    const std::vector<app::TechniqueResult> parts = last_of(asked, 2);
+    const std::vector<app::TechniqueResult> parts = render_last_frame(asked, 2);
     const app::TechniqueResult& truth = parts.back();
     std::vector<measure::Difference> seen;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
@@ -155,10 +159,11 @@ inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scen
 /// Returns the error of the looked-up direction of each first-order pixel, seen by the scene's
 /// first camera.
 inline std::vector<measure::LookupDirectionError>
-looked_up(const scene::Scene& scene, const std::string& technique, uvec2 size) {
-    app::Request asked = request(scene, {technique}, size);
+measure_lookup_directions(const scene::Scene& scene, const std::string& technique, uvec2 size) {
+    app::Request asked = make_test_request(scene, {technique}, size);
     asked.with_lookup = true;
-    return app::LookupOracle(asked).judge_lookups(app::run(engine(), asked).parts.front().lookup);
+    return app::LookupOracle(asked).judge_lookups(
+        app::run(test_engine(), asked).parts.front().lookup);
 }
 
 } // namespace test

@@ -19,7 +19,7 @@ using Names = std::vector<std::string>;
 Names backdrops(const scene::Scene& scene, const dvec3& place, bool directional = false) {
     const render::SceneUnits space = render::make_scene_units(scene);
     shared::Light light{};
-    light.kind = directional ? shared::kLightDirectional : shared::kLightAtPoint;
+    light.kind = directional ? shared::kLightKindDirectional : shared::kLightKindPoint;
     light.position = vec3(space.to_scene_units(place));
     light.forward = vec3(place);
     const std::vector<std::uint8_t> found = render::find_shadowless_backdrops(

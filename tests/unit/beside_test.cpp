@@ -37,7 +37,7 @@ protected:
         return app::resolve_scene(scene, {.overrides = overrides});
     }
     std::string refused(const std::string& beside) const {
-        return test::refusal(Failure::bad_data, [&] { load(beside); });
+        return test::error_text_of(Failure::bad_data, [&] { load(beside); });
     }
 };
 
@@ -125,9 +125,9 @@ TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
     EXPECT_THAT(refused(R"({"dielectric_mirrors": 1})"), HasSubstr("wanted true or false"));
     EXPECT_THAT(refused(R"({"up": "x"})"), HasSubstr("up: wanted \"y\" or \"z\", found \"x\""));
     EXPECT_THAT(refused(R"({"environment": "../sky.exr"})"), HasSubstr("--root"));
-    EXPECT_THAT(
-        test::refusal(Failure::missing_input, [&] { load(R"({"environment": "gone.exr"})"); }),
-        HasSubstr("x.obj.catoptric.json: environment: 'gone.exr' is not there"));
+    EXPECT_THAT(test::error_text_of(Failure::missing_input,
+                                    [&] { load(R"({"environment": "gone.exr"})"); }),
+                HasSubstr("x.obj.catoptric.json: environment: 'gone.exr' is not there"));
 }
 
 /// Errors of an override file that appear only once the scene is known, such as names of missing
@@ -162,7 +162,8 @@ TEST_F(Beside, AnimationNameIsRefusedForAFileWithoutAnimations) {
     const std::string path = write("x.obj", kDark);
     for (const std::string& scene : {path, std::string("cornell-mirrors")})
         EXPECT_THAT(
-            test::refusal(Failure::usage, [&] { app::resolve_scene(scene, {.overrides = walk}); }),
+            test::error_text_of(Failure::usage,
+                                [&] { app::resolve_scene(scene, {.overrides = walk}); }),
             HasSubstr("--animation: " + scene + " has no animation 'walk': wanted one of none"));
     walk.animation = "none";
     EXPECT_NO_THROW(app::resolve_scene(path, {.overrides = walk}));
@@ -185,8 +186,9 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.environment = resolve_real_path(folder / "sky.exr").string();
     EXPECT_EQ(found->overrides, overrides);
     overrides.environment = "/dev/null";
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { write_scene_file_text(overrides, scene); }),
-                HasSubstr("wanted a picture below"));
+    EXPECT_THAT(
+        test::error_text_of(Failure::usage, [&] { write_scene_file_text(overrides, scene); }),
+        HasSubstr("wanted a picture below"));
 }
 
 /// Returns OBJ text of a closed box. The walls face inwards or outwards, and a mirror may hang at
@@ -269,9 +271,9 @@ TEST_F(Beside, NoEnvironmentIsAddedToALitSceneOrIfTheUserChoseNone) {
     EXPECT_EQ(app::resolve_scene(lit, {}).scene.environment, nullptr);
     SceneOverrides turned;
     turned.environment_rotation = 3;
-    EXPECT_THAT(
-        test::refusal(Failure::usage, [&] { app::resolve_scene(lit, {.overrides = turned}); }),
-        HasSubstr("--environment-rotate: wanted an environment, found none"));
+    EXPECT_THAT(test::error_text_of(Failure::usage,
+                                    [&] { app::resolve_scene(lit, {.overrides = turned}); }),
+                HasSubstr("--environment-rotate: wanted an environment, found none"));
 }
 
 TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
@@ -281,12 +283,12 @@ TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
     SceneOverrides overrides;
     overrides.environment = (folder / "sky.exr").string();
     const std::string path = write("x.obj", kDark);
-    EXPECT_THAT(test::refusal(Failure::bad_data,
-                              [&] { app::resolve_scene(path, {.overrides = overrides}); }),
+    EXPECT_THAT(test::error_text_of(Failure::bad_data,
+                                    [&] { app::resolve_scene(path, {.overrides = overrides}); }),
                 HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
     overrides.environment = "gone.hdr";
-    EXPECT_THAT(test::refusal(Failure::missing_input,
-                              [&] { app::resolve_scene(path, {.overrides = overrides}); }),
+    EXPECT_THAT(test::error_text_of(Failure::missing_input,
+                                    [&] { app::resolve_scene(path, {.overrides = overrides}); }),
                 HasSubstr("gone.hdr"));
 }
 

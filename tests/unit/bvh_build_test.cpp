@@ -12,13 +12,13 @@
 namespace catoptric::bvh {
 namespace {
 
-using test::expect_sound, test::same, test::soup;
+using test::expect_valid_bvh, test::have_equal_bytes, test::make_random_triangles;
 
 std::vector<TriangleReference> references(std::span<const Triangle> triangles) {
     std::vector<TriangleReference> result;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const BoundingBox box = triangle_bounds(triangles[i].a, triangles[i].b, triangles[i].c, 0);
-        result.push_back({load_lanes(box.lo, id_to_float_word(i)), load_lanes(box.hi, 0)});
+        result.push_back({load_simd(box.lo, id_to_float_word(i)), load_simd(box.hi, 0)});
     }
     return result;
 }
@@ -27,7 +27,7 @@ std::vector<TriangleReference> references(std::span<const Triangle> triangles) {
 double cost_of(std::span<const TriangleReference> references) {
     Bounds<double> box;
     for (const TriangleReference& r : references)
-        box.add(Bounds<double>{dvec3(lanes_to_vec3(r.lo)), dvec3(lanes_to_vec3(r.hi))});
+        box.add(Bounds<double>{dvec3(simd_to_vec3(r.lo)), dvec3(simd_to_vec3(r.hi))});
     return box.area() / 2 * static_cast<double>(references.size());
 }
 
@@ -43,8 +43,8 @@ std::vector<TriangleReference> sorted(std::vector<TriangleReference> references,
 
 TEST(BvhDivision, SweepFindsTheCheapestDivision) {
     for (unsigned seed = 1; seed <= 200; ++seed) {
-        const std::size_t count = 2 + seed % (kSweepCount - 1), most = count - seed % 2;
-        std::vector<TriangleReference> few = references(soup(count, seed));
+        const std::size_t count = 2 + seed % (kMaxSweepTriangles - 1), most = count - seed % 2;
+        std::vector<TriangleReference> few = references(make_random_triangles(count, seed));
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis)
             for (std::size_t middle = 1; middle < count; ++middle)
@@ -62,15 +62,15 @@ TEST(BvhDivision, SweepFindsTheCheapestDivision) {
 TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const std::size_t count = 50 * seed, most = seed % 2 == 0 ? count : 3 * count / 4;
-        std::vector<TriangleReference> all = references(soup(count, seed));
+        std::vector<TriangleReference> all = references(make_random_triangles(count, seed));
         ReferenceRange part;
         for (const TriangleReference& r : all) part.add(r);
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const std::vector<TriangleReference> along = sorted(all, axis);
-            for (int plane = 1; plane < kBinCount; ++plane) {
+            for (int plane = 1; plane < kSplitBinCount; ++plane) {
                 const double lo = double{part.centres.lo[axis]}, hi = double{part.centres.hi[axis]},
-                             place = lo + (hi - lo) * plane / kBinCount;
+                             place = lo + (hi - lo) * plane / kSplitBinCount;
                 const auto middle = static_cast<std::size_t>(
                     std::ranges::count_if(along, [&](const TriangleReference& r) {
                         return double{r.centre()[axis]} < place;
@@ -80,21 +80,22 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
             }
         }
         SplitBins bins;
-        bins.add(all, BinMapping(part.centres));
+        bins.add_references(all, BinMapping(part.centres));
         const std::optional<BinSplit> split = find_best_split(bins, most);
         ASSERT_TRUE(split);
         const std::size_t middle = bins.left_count(*split);
         std::vector<TriangleReference> sides(count);
-        std::array<BoxExtent, 2> centres;
-        split->scatter(all, BinMapping(part.centres), {sides.data(), &sides[middle]}, centres);
+        std::array<SimdBox, 2> centres;
+        split->scatter_references(all, BinMapping(part.centres), {sides.data(), &sides[middle]},
+                                  centres);
         EXPECT_NEAR(cost_of(sides, middle), least, 1e-6 * least);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
                                                       side == 0 ? middle : count - middle);
             ReferenceRange made;
             for (const TriangleReference& r : own) made.add(r);
-            EXPECT_EQ(bins.extents(*split)[side].box(), made.box.box());
-            EXPECT_EQ(centres[side].box(), made.centres.box());
+            EXPECT_EQ(bins.extents(*split)[side].to_bounding_box(), made.box.to_bounding_box());
+            EXPECT_EQ(centres[side].to_bounding_box(), made.centres.to_bounding_box());
             EXPECT_TRUE(std::ranges::is_sorted(own, {}, &TriangleReference::triangle))
                 << "in their order";
         }
@@ -113,38 +114,41 @@ struct Input {
 std::vector<Input> inputs() {
     constexpr std::size_t kMany = 20000;
     std::vector<Input> list{{"nothing", {}, 0},
-                            {"one", soup(1, 1), 1},
-                            {"two", soup(2, 2), 2},
-                            {"soup", soup(kMany, 3), kMany}};
-    Input flat{"points and lines", soup(kMany, 4), kMany};
+                            {"one", make_random_triangles(1, 1), 1},
+                            {"two", make_random_triangles(2, 2), 2},
+                            {"soup", make_random_triangles(kMany, 3), kMany}};
+    Input flat{"points and lines", make_random_triangles(kMany, 4), kMany};
     for (std::size_t i = 0; i < kMany; ++i) {
         Triangle& t = flat.triangles[i];
         t.c = t.b;
         if (i % 2 == 0) t.b = t.c = t.a;
     }
     list.push_back(flat);
-    Input heap{"one centre", soup(kMany, 5), kMany};
+    Input heap{"one centre", make_random_triangles(kMany, 5), kMany};
     for (Triangle& t : heap.triangles) t.b = -t.a, t.c = vec3(0);
     list.push_back(heap);
     // Copies and triangles with NaN are dropped, which leaves gaps between the kept triangles.
-    Input holes{"holes", soup(kMany, 6), 0};
+    Input holes{"holes", make_random_triangles(kMany, 6), 0};
     for (std::size_t i = 0; i < kMany; ++i) {
         Triangle& t = holes.triangles[i];
         if (i % 3 == 0) t = holes.triangles[i / 3 % 20];
         if (i % 1000 == 999) t.a.x = std::numeric_limits<float>::quiet_NaN();
     }
     list.push_back(holes);
-    Input bits{
-        "any finite numbers, most of them far out", soup(kMany, 7), kMany, {vec3(-1), vec3(1)}};
-    test::Numbers random(8);
+    Input bits{"any finite numbers, most of them far out",
+               make_random_triangles(kMany, 7),
+               kMany,
+               {vec3(-1), vec3(1)}};
+    test::RandomNumbers random(8);
     for (std::size_t i = 0; i < kMany; ++i) {
         // Triangles of distinct objects do not count as copies.
         bits.triangles[i].object = static_cast<std::uint32_t>(i);
         for (vec3* corner : {&bits.triangles[i].a, &bits.triangles[i].b, &bits.triangles[i].c})
             for (int k = 0; k < 3; ++k)
-                (*corner)[k] = i % 100 == 0 ? std::copysign(f32::kLargest, (*corner)[k])
-                                            : std::ldexp((*corner)[k],
-                                                         static_cast<int>(random.below(250)) - 125);
+                (*corner)[k] = i % 100 == 0
+                                   ? std::copysign(f32::kLargestFloat, (*corner)[k])
+                                   : std::ldexp((*corner)[k],
+                                                static_cast<int>(random.integer_below(250)) - 125);
     }
     list.push_back(bits);
     return list;
@@ -153,18 +157,18 @@ std::vector<Input> inputs() {
 TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
     for (const Input& input : inputs()) {
         SCOPED_TRACE(input.name);
-        const Bvh one = build_bvh(input.triangles, input.core, kMaxLeaf, 1);
+        const Bvh one = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 1);
         const std::size_t kept = input.triangles.size() - one.dropped - one.copies;
         EXPECT_EQ(count_triangles(one), kept);
-        if (input.core.empty()) expect_sound(one, kept);
+        if (input.core.empty()) expect_valid_bvh(one, kept);
         if (input.name == std::string("holes"))
             EXPECT_GT(one.dropped * one.copies, 0u);
         else
             EXPECT_EQ(kept, input.kept);
         for (const unsigned threads : {2U, 3U, 8U}) {
-            const Bvh many = build_bvh(input.triangles, input.core, kMaxLeaf, threads);
-            EXPECT_TRUE(same(one.nodes, many.nodes)) << threads;
-            EXPECT_TRUE(same(one.triangles, many.triangles)) << threads;
+            const Bvh many = build_bvh(input.triangles, input.core, kMaxLeafTriangles, threads);
+            EXPECT_TRUE(have_equal_bytes(one.nodes, many.nodes)) << threads;
+            EXPECT_TRUE(have_equal_bytes(one.triangles, many.triangles)) << threads;
             EXPECT_EQ(one.dropped, many.dropped);
             EXPECT_EQ(one.copies, many.copies);
         }
@@ -175,7 +179,7 @@ TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
 TEST(BvhBuild, ThreadedBuildStoresTrianglesOnceAndUnchanged) {
     for (const Input& input : inputs()) {
         SCOPED_TRACE(input.name);
-        const Bvh bvh = build_bvh(input.triangles, input.core, kMaxLeaf, 3);
+        const Bvh bvh = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 3);
         std::vector<char> seen(input.triangles.size());
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
             const std::uint32_t number = float_word_to_integer(bvh.triangles[i + 1].w);

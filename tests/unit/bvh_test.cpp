@@ -16,7 +16,7 @@
 namespace catoptric::bvh {
 namespace {
 
-using test::expect_sound, test::same, test::soup;
+using test::expect_valid_bvh, test::have_equal_bytes, test::make_random_triangles;
 
 /// Builds a ball by dividing the faces of an octahedron `levels` times. Neighbouring faces compute
 /// the midpoint of their shared edge from the same two corners, so both get the same floats.
@@ -44,8 +44,8 @@ std::vector<Triangle> bvh_ball(int levels, float scale = 1, vec3 offset = vec3(0
 TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
     for (std::size_t count : {0, 1, 2, 3, 4, 5, 8, 9, 100, 5000}) {
         SCOPED_TRACE(count);
-        const Bvh bvh = build_bvh(soup(count, 1));
-        expect_sound(bvh, count);
+        const Bvh bvh = build_bvh(make_random_triangles(count, 1));
+        expect_valid_bvh(bvh, count);
         EXPECT_EQ(bvh.dropped, 0u);
     }
 }
@@ -54,7 +54,7 @@ TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
 std::size_t count_casters_before(const Bvh& bvh, std::size_t place) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < place; ++i)
-        count += (float_word_to_integer(bvh.triangles[3 * i + 2].w) & kShadowless) == 0 ? 1 : 0;
+        count += (float_word_to_integer(bvh.triangles[3 * i + 2].w) & kCastsNoShadow) == 0 ? 1 : 0;
     return count;
 }
 
@@ -62,21 +62,22 @@ TEST(Bvh, AFewTrianglesWithoutShadowsGetATreeOfTheirOwn) {
     constexpr std::size_t kCount = 20000; // more than one task reads
     for (const std::size_t shadowless : {0, 1, 7, 256, 257, 20000}) {
         SCOPED_TRACE(shadowless);
-        std::vector<Triangle> triangles = soup(kCount, 31);
+        std::vector<Triangle> triangles = make_random_triangles(kCount, 31);
         for (std::size_t i = 0; i < shadowless; ++i)
-            triangles[7919 * i % kCount].flags = kShadowless;
+            triangles[7919 * i % kCount].flags = kCastsNoShadow;
         for (std::size_t i = 3; i < kCount; i += 1000)
             if (triangles[i].flags == 0) triangles[i].b.x = test::kInfinity;
-        const Bvh bvh = build_bvh(triangles, {}, kMaxLeaf, 1);
+        const Bvh bvh = build_bvh(triangles, {}, kMaxLeafTriangles, 1);
         const std::size_t stored = kCount - bvh.dropped,
                           casters = stored - std::min(shadowless, stored);
-        expect_sound(bvh, stored);
-        EXPECT_TRUE(same(bvh.nodes, build_bvh(triangles, {}, kMaxLeaf, 3).nodes));
+        expect_valid_bvh(bvh, stored);
+        EXPECT_TRUE(
+            have_equal_bytes(bvh.nodes, build_bvh(triangles, {}, kMaxLeafTriangles, 3).nodes));
         const bool is_apart = shadowless > 0 && shadowless <= kMaxShadowlessApart;
         const std::uint32_t first = float_to_bits(bvh.nodes[3].x),
                             second = float_to_bits(bvh.nodes[3].y);
         EXPECT_EQ(first, is_apart ? float_to_bits(bvh.nodes[4].w) : f32::kBvhRoot);
-        EXPECT_EQ(second, is_apart ? float_to_bits(bvh.nodes[5].w) : f32::kBvhNothing);
+        EXPECT_EQ(second, is_apart ? float_to_bits(bvh.nodes[5].w) : f32::kBvhEmptyChild);
         EXPECT_EQ(count_casters_before(bvh, stored), casters);
         EXPECT_EQ(count_casters_before(bvh, casters) == casters,
                   is_apart || shadowless % kCount == 0)
@@ -91,9 +92,10 @@ TEST(Bvh, RaysMissAnEmptyTree) {
 }
 
 TEST(Bvh, EqualInputsGiveEqualBytes) {
-    const Bvh a = build_bvh(soup(3000, 2)), b = build_bvh(soup(3000, 2));
-    EXPECT_TRUE(same(a.nodes, b.nodes));
-    EXPECT_TRUE(same(a.triangles, b.triangles));
+    const Bvh a = build_bvh(make_random_triangles(3000, 2)),
+              b = build_bvh(make_random_triangles(3000, 2));
+    EXPECT_TRUE(have_equal_bytes(a.nodes, b.nodes));
+    EXPECT_TRUE(have_equal_bytes(a.triangles, b.triangles));
 }
 
 TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
@@ -114,12 +116,12 @@ TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
     };
     EXPECT_TRUE(meets(3, kOneSided));
     EXPECT_FALSE(meets(-1, kOneSided));
-    EXPECT_TRUE(meets(3, kShadowless));
-    EXPECT_TRUE(meets(-1, kShadowless)) << "whichever side it turns, it casts a shadow";
+    EXPECT_TRUE(meets(3, kCastsNoShadow));
+    EXPECT_TRUE(meets(-1, kCastsNoShadow)) << "whichever side it turns, it casts a shadow";
 }
 
 TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
-    const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHidden};
+    const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHiddenFromCamera};
     const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};
     const Bvh bvh = build_bvh(std::vector{far, near});
     const Ray<float> ray{vec3(0), vec3(0, 0, 1)};
@@ -128,7 +130,7 @@ TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
     EXPECT_EQ(first->triangle, 1u);
     EXPECT_EQ(first->object, 7u);
     EXPECT_EQ(first->t, 1);
-    const auto seen = find_closest_hit<float>(bvh, ray, test::kInfinity, kHidden);
+    const auto seen = find_closest_hit<float>(bvh, ray, test::kInfinity, kHiddenFromCamera);
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->triangle, 0u) << "camera rays pass through";
     EXPECT_EQ(seen->object, 0x1ffffffeu);
@@ -138,13 +140,13 @@ TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
 }
 
 TEST(Bvh, NonFiniteTrianglesAreDroppedAndCounted) {
-    std::vector<Triangle> triangles = soup(100, 3);
+    std::vector<Triangle> triangles = make_random_triangles(100, 3);
     triangles[10].b.y = test::kNan;
     triangles[20].c.x = test::kInfinity;
     triangles[99].a.z = -test::kInfinity;
     const Bvh bvh = build_bvh(triangles);
     EXPECT_EQ(bvh.dropped, 3u);
-    expect_sound(bvh, 97);
+    expect_valid_bvh(bvh, 97);
 }
 
 TEST(Bvh, BuildSurvivesCornersOfRandomBits) {
@@ -163,7 +165,7 @@ TEST(Bvh, BuildSurvivesCornersOfRandomBits) {
         }
         const Bvh bvh = build_bvh(triangles);
         EXPECT_EQ(bvh.dropped, triangles.size() - finite);
-        expect_sound(bvh, finite);
+        expect_valid_bvh(bvh, finite);
         find_closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, test::kInfinity);
     }
 }
@@ -177,13 +179,13 @@ TEST(Bvh, LowestNumberWinsAmongCoincidentTriangles) {
     const Bvh bvh = build_bvh(copies);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     EXPECT_LT(time.count(), 5);
-    expect_sound(bvh, copies.size());
+    expect_valid_bvh(bvh, copies.size());
     const auto hit = find_closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0u);
     TraversalCounters steps;
     EXPECT_TRUE(has_any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity, 0, &steps));
-    EXPECT_LE(steps.total(), kMaxDepth + kMaxLeaf);
+    EXPECT_LE(steps.total_steps(), kMaxTreeDepth + kMaxLeafTriangles);
 }
 
 TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
@@ -191,19 +193,20 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
     // distinct triangles.
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < 8000; ++i) {
-        Triangle t{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, i / 2 % 2, i / 4 % 2 == 0 ? 0 : kHidden};
+        Triangle t{
+            {-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, i / 2 % 2, i / 4 % 2 == 0 ? 0 : kHiddenFromCamera};
         if (i % 2 == 0) std::swap(t.a, t.b);
         if (i / 8 % 2 == 0) t.a.z = t.b.z = t.c.z = 2;
         triangles.push_back(t);
     }
     const Bvh bvh = build_bvh(triangles);
-    expect_sound(bvh, 16);
+    expect_valid_bvh(bvh, 16);
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
     for (std::size_t i = 0; i < 16; ++i)
         EXPECT_LT(float_word_to_integer(bvh.triangles[3 * i + 1].w), 16u)
             << "the lowest number of each stays";
-    const std::vector<Triangle> few(kMaxLeaf, triangles.front());
+    const std::vector<Triangle> few(kMaxLeafTriangles, triangles.front());
     EXPECT_EQ(build_bvh(few).copies, 0u) << "a leaf has room for them";
 }
 
@@ -212,10 +215,10 @@ TEST(Bvh, LowestNumberWinsAmongCopiesInDifferentLeaves) {
     const std::vector<Triangle> original = triangles;
     triangles.insert(triangles.end(), original.begin(), original.end());
     const Bvh bvh = build_bvh(triangles);
-    test::Numbers random(5);
+    test::RandomNumbers random(5);
     for (int i = 0; i < 2000; ++i) {
-        const auto hit = find_closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()},
-                                                 test::kInfinity);
+        const auto hit = find_closest_hit<float>(
+            bvh, {0.5f * random.point_in_cube(), random.unit_direction()}, test::kInfinity);
         ASSERT_TRUE(hit);
         ASSERT_LT(hit->triangle, original.size());
     }
@@ -229,24 +232,25 @@ TEST(Bvh, DepthIsBoundedForGeometricallyShrinkingTriangles) {
         const float x = std::ldexp(1.0f, i / 8 - 125) * (1 + 0.1f * static_cast<float>(i % 8));
         triangles.push_back({{x, 0, 0}, {1.1f * x, 0, 0}, {x, 0.1f * x, 0}});
     }
-    expect_sound(build_bvh(triangles), triangles.size());
+    expect_valid_bvh(build_bvh(triangles), triangles.size());
 }
 
 template <typename Real>
 void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int rays, unsigned seed) {
     const Bvh bvh = build_bvh(triangles);
-    test::Numbers random(seed);
+    test::RandomNumbers random(seed);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
-        const vec3 origin = 2.0f * random.in_cube();
+        const vec3 origin = 2.0f * random.point_in_cube();
         // Most rays aim at edges and corners of triangles, which lie on the faces of bounding
         // boxes.
-        const Triangle& aim = triangles[random.below(triangles.size())];
-        const float along = i % 4 == 0 ? 0 : random.between(0, 1);
-        const vec3 target = i % 4 == 1 ? random.in_cube() : aim.a + along * (aim.b - aim.a);
+        const Triangle& aim = triangles[random.integer_below(triangles.size())];
+        const float along = i % 4 == 0 ? 0 : random.number_between(0, 1);
+        const vec3 target = i % 4 == 1 ? random.point_in_cube() : aim.a + along * (aim.b - aim.a);
         Ray<Real> ray{Vec3<Real>(origin), Vec3<Real>(target - origin)};
         if (i % 8 == 0) ray.direction[i / 8 % 3] = i % 16 == 0 ? Real(0) : Real(-0.0);
-        const Real t_max = i % 2 == 0 ? Real(test::kInfinity) : Real(random.between(0, 1.5f));
+        const Real t_max = i % 2 == 0 ? Real(test::kInfinity)
+                                      : Real(random.number_between(0, 1.5f));
         const auto tree = find_closest_hit<Real>(bvh, ray, t_max);
         const auto all = find_closest_hit_by_brute_force<Real>(bvh, ray, t_max);
         ASSERT_EQ(tree, all) << "ray " << i;
@@ -257,28 +261,29 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
 }
 
 TEST(ClosestHit, TreeHitsEqualBruteForceHitsBitForBit) {
-    expect_equal_to_brute_force<float>(soup(500, 6), 10000, 7);
-    expect_equal_to_brute_force<double>(soup(500, 6), 5000, 8);
+    expect_equal_to_brute_force<float>(make_random_triangles(500, 6), 10000, 7);
+    expect_equal_to_brute_force<double>(make_random_triangles(500, 6), 5000, 8);
     expect_equal_to_brute_force<float>(bvh_ball(3), 10000, 9);
 }
 
 /// Triangles without shadows are out of the way of shadow rays. No other hit changes.
 TEST(ClosestHit, ShadowRaysDoNotWalkTrianglesWithoutShadows) {
-    std::vector<Triangle> triangles = soup(500, 6);
-    for (std::size_t i = 0; i < 90; ++i) triangles[5 * i].flags = kShadowless;
+    std::vector<Triangle> triangles = make_random_triangles(500, 6);
+    for (std::size_t i = 0; i < 90; ++i) triangles[5 * i].flags = kCastsNoShadow;
     std::vector<Triangle> casters = triangles;
     std::erase_if(casters, [](const Triangle& t) { return t.flags != 0; });
     const Bvh bvh = build_bvh(triangles), only_casters = build_bvh(casters);
-    test::Numbers random(17);
+    test::RandomNumbers random(17);
     std::size_t blocked = 0;
     for (int i = 0; i < 5000; ++i) {
-        const Ray<float> ray{2.0f * random.in_cube(), random.direction()};
+        const Ray<float> ray{2.0f * random.point_in_cube(), random.unit_direction()};
         TraversalCounters steps, steps_of_casters;
-        const bool is_blocked = has_any_hit<float>(bvh, ray, 2, kShadowless, &steps);
+        const bool is_blocked = has_any_hit<float>(bvh, ray, 2, kCastsNoShadow, &steps);
         ASSERT_EQ(is_blocked,
-                  has_any_hit<float>(only_casters, ray, 2, kShadowless, &steps_of_casters));
-        ASSERT_TRUE(is_blocked || steps.total() == steps_of_casters.total()) << "the same tree";
-        for (const std::uint32_t skipped : {0u, kShadowless})
+                  has_any_hit<float>(only_casters, ray, 2, kCastsNoShadow, &steps_of_casters));
+        ASSERT_TRUE(is_blocked || steps.total_steps() == steps_of_casters.total_steps())
+            << "the same tree";
+        for (const std::uint32_t skipped : {0u, kCastsNoShadow})
             ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity, skipped),
                       find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity, skipped));
         blocked += is_blocked ? 1 : 0;
@@ -289,17 +294,19 @@ TEST(ClosestHit, ShadowRaysDoNotWalkTrianglesWithoutShadows) {
 /// Rays pass close to a very long edge. There, rounding errors of the triangle test exceed those of
 /// the box test. Without the slack in box_ray, boxes would cull half of these hits.
 TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
-    test::Numbers random(21);
+    test::RandomNumbers random(21);
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
         const float length = i % 2 == 0 ? 100 : 1e4f;
-        const vec2 edge(random.between(-1, 1), random.between(-1, 1));
+        const vec2 edge(random.number_between(-1, 1), random.number_between(-1, 1));
         Triangle t;
-        t.a = vec3(edge, -length * random.between(0, 1));
-        t.b = vec3(edge, length * random.between(0, 1));
-        t.c = vec3(edge, 0) + 0.5f * (random.in_cube() + vec3(1));
-        const vec3 origin = vec3(edge, 0) + vec3(random.between(0, 1), -random.between(0, 1), 0);
-        const vec3 target(edge.x - length * random.between(0, 1e-7f), edge.y, random.between(1, 3));
+        t.a = vec3(edge, -length * random.number_between(0, 1));
+        t.b = vec3(edge, length * random.number_between(0, 1));
+        t.c = vec3(edge, 0) + 0.5f * (random.point_in_cube() + vec3(1));
+        const vec3 origin = vec3(edge, 0) +
+                            vec3(random.number_between(0, 1), -random.number_between(0, 1), 0);
+        const vec3 target(edge.x - length * random.number_between(0, 1e-7f), edge.y,
+                          random.number_between(1, 3));
         const Bvh bvh = build_bvh(std::span(&t, 1));
         const Ray<float> ray{origin, target - origin};
         const auto expected = find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity);
@@ -311,9 +318,9 @@ TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
 
 TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
     const Bvh bvh = build_bvh(bvh_ball(4));
-    test::Numbers random(10);
+    test::RandomNumbers random(10);
     for (int i = 0; i < 20000; ++i) {
-        const vec3 origin = 0.5f * random.in_cube(), direction = random.direction();
+        const vec3 origin = 0.5f * random.point_in_cube(), direction = random.unit_direction();
         const auto single = find_closest_hit<float>(bvh, {origin, direction}, test::kInfinity);
         const auto precise_hit = find_closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)},
                                                           test::kInfinity);
@@ -330,12 +337,12 @@ TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
 int leaks(float scale, vec3 offset, int rays, unsigned seed) {
     const std::vector<Triangle> triangles = bvh_ball(4, scale, offset);
     const Bvh bvh = build_bvh(triangles);
-    test::Numbers random(seed);
+    test::RandomNumbers random(seed);
     int result = 0;
     for (int i = 0; i < rays; ++i) {
-        const Triangle& t = triangles[random.below(triangles.size())];
-        const vec3 target = i % 4 == 0 ? t.a : t.a + random.between(0, 1) * (t.b - t.a);
-        const vec3 origin = offset + 0.4f * scale * random.in_cube();
+        const Triangle& t = triangles[random.integer_below(triangles.size())];
+        const vec3 target = i % 4 == 0 ? t.a : t.a + random.number_between(0, 1) * (t.b - t.a);
+        const vec3 origin = offset + 0.4f * scale * random.point_in_cube();
         if (!find_closest_hit<float>(bvh, {origin, target - origin}, test::kInfinity)) ++result;
     }
     return result;
@@ -365,10 +372,10 @@ TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
 
 TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
     const Bvh bvh = build_bvh(bvh_ball(4));
-    test::Numbers random(15);
+    test::RandomNumbers random(15);
     for (float bad : {test::kNan, test::kInfinity, -test::kInfinity})
         for (int k = 0; k < 7; ++k) {
-            vec3 origin(0), direction = random.direction();
+            vec3 origin(0), direction = random.unit_direction();
             float t_max = test::kInfinity;
             if (k < 3)
                 origin[k] = bad;
@@ -381,7 +388,7 @@ TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
             EXPECT_FALSE(find_closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
             EXPECT_FALSE(has_any_hit<float>(bvh, {origin, direction}, t_max));
             EXPECT_FALSE(find_closest_hit_by_brute_force<float>(bvh, {origin, direction}, t_max));
-            EXPECT_EQ(steps.total(), 0u);
+            EXPECT_EQ(steps.total_steps(), 0u);
         }
     EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kInfinity))
         << "no direction";
@@ -389,16 +396,16 @@ TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
 }
 
 TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
-    const std::vector<Triangle> triangles = soup(500, 16);
+    const std::vector<Triangle> triangles = make_random_triangles(500, 16);
     const Bvh one = build_bvh(triangles);
     for (int k : {-20, -7, 13, 20}) {
         const float s = std::ldexp(1.0f, k);
         std::vector<Triangle> scaled = triangles;
         for (Triangle& t : scaled) t.a *= s, t.b *= s, t.c *= s;
         const Bvh other = build_bvh(scaled);
-        test::Numbers random(17);
+        test::RandomNumbers random(17);
         for (int i = 0; i < 2000; ++i) {
-            const vec3 origin = 2.0f * random.in_cube(), direction = random.direction();
+            const vec3 origin = 2.0f * random.point_in_cube(), direction = random.unit_direction();
             const auto a = find_closest_hit<float>(one, {origin, direction}, test::kInfinity);
             const auto b = find_closest_hit<float>(other, {s * origin, direction}, test::kInfinity);
             ASSERT_EQ(a.has_value(), b.has_value());
@@ -411,10 +418,10 @@ TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
 
 /// The coordinates of corners range from 1e-8 to 1e8, so that most triangles are slivers.
 TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
-    test::Numbers random(19);
+    test::RandomNumbers random(19);
     const auto wide = [&] {
-        return random.between(-1, 1) < 0 ? -std::pow(10.0f, random.between(-8, 8))
-                                         : std::pow(10.0f, random.between(-8, 8));
+        return random.number_between(-1, 1) < 0 ? -std::pow(10.0f, random.number_between(-8, 8))
+                                                : std::pow(10.0f, random.number_between(-8, 8));
     };
     for (int i = 0; i < 100; ++i) {
         Triangle t;
@@ -422,10 +429,10 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
             for (int k = 0; k < 3; ++k) (*corner)[k] = wide();
         const Bvh bvh = build_bvh(std::span(&t, 1));
         for (int k = 0; k < 100; ++k) {
-            const float s = std::sqrt(random.between(0, 1)), r = random.between(0, 1);
+            const float s = std::sqrt(random.number_between(0, 1)), r = random.number_between(0, 1);
             vec3 error;
             const vec3 p = f32::triangle_point(t.a, t.b, t.c, {1 - s, s * (1 - r), s * r}, error);
-            const vec3 direction = random.direction();
+            const vec3 direction = random.unit_direction();
             const vec3 n = f32::facet_normal(t.a, t.b, t.c);
             const Ray<float> ray{f32::spawn_origin(p, error, n, direction), direction, 1};
             ASSERT_FALSE(find_closest_hit<float>(bvh, ray, test::kInfinity));
@@ -439,13 +446,13 @@ TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
     for (float scale : {1e-3f, 1.0f, 1e3f}) {
         const std::vector<Triangle> triangles = bvh_ball(3, scale, vec3(2, 3, 5) * scale);
         const Bvh bvh = build_bvh(triangles);
-        test::Numbers random(20);
+        test::RandomNumbers random(20);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const auto& [a, b, c, object, flags] = triangles[i];
             vec3 error;
             const vec3 p = f32::triangle_point(a, b, c, vec3(1.0f / 3), error);
             const vec3 inward = vec3(2, 3, 5) * scale - p;
-            const vec3 direction = glm::normalize(inward + 0.5f * scale * random.direction());
+            const vec3 direction = glm::normalize(inward + 0.5f * scale * random.unit_direction());
             const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
             const auto hit = find_closest_hit<float>(bvh, {origin, direction, 0}, test::kInfinity);
             ASSERT_TRUE(hit);
@@ -456,38 +463,38 @@ TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
 
 TEST(Refit, RefitWithoutMovementChangesNothing) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
-        std::vector<Triangle> triangles = soup(500, 3);
+        std::vector<Triangle> triangles = make_random_triangles(500, 3);
         triangles[7].b.y = test::kNan;
         const Bvh built = build_bvh(triangles, core);
         Bvh refitted = built;
         triangles[7] = triangles[8]; // triangle 7 was dropped at build, so refit ignores it
         refit_bvh(refitted, triangles, core);
-        EXPECT_TRUE(same(built.nodes, refitted.nodes));
-        EXPECT_TRUE(same(built.triangles, refitted.triangles));
+        EXPECT_TRUE(have_equal_bytes(built.nodes, refitted.nodes));
+        EXPECT_TRUE(have_equal_bytes(built.triangles, refitted.triangles));
     }
 }
 
 /// Hits in a tree after repeated refits equal the hits in a newly built tree bit for bit. This also
 /// holds for coincident triangles.
 TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
-    test::Numbers random(21);
+    test::RandomNumbers random(21);
     std::vector<Triangle> triangles = bvh_ball(3);
     const std::size_t room = triangles.size();
-    for (const Triangle& t : soup(400, 4)) triangles.push_back(t);
+    for (const Triangle& t : make_random_triangles(400, 4)) triangles.push_back(t);
     for (std::size_t i = 0; i < 50; ++i)
         triangles.push_back(triangles[room + i]); // coincident copies
     Bvh refitted = build_bvh(triangles);
     std::size_t found = 0;
     for (int step = 0; step < 6; ++step) {
-        const vec3 move = random.in_cube();
+        const vec3 move = random.point_in_cube();
         for (std::size_t i = 0; i < room; ++i)
             for (vec3* corner : {&triangles[i].a, &triangles[i].b, &triangles[i].c})
                 *corner += move;
         refit_bvh(refitted, triangles);
         const Bvh rebuilt = build_bvh(triangles);
         for (int k = 0; k < 3000; ++k) {
-            const Triangle& aim = triangles[random.below(triangles.size())];
-            const vec3 origin = 2.0f * random.in_cube();
+            const Triangle& aim = triangles[random.integer_below(triangles.size())];
+            const vec3 origin = 2.0f * random.point_in_cube();
             const Ray<float> ray{origin, (k % 2 ? aim.a : (aim.a + aim.b) * 0.5f) - origin, 0};
             const auto hit = find_closest_hit<float>(refitted, ray, test::kInfinity),
                        wanted = find_closest_hit<float>(rebuilt, ray, test::kInfinity);
@@ -516,15 +523,15 @@ IndexRange bvh_run_of(const Bvh& before, const Bvh& after) {
 /// Another core in between forces the refit of all boxes.
 TEST(Refit, PartialRefitEqualsFullRefit) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
-        std::vector<Triangle> triangles = soup(500, 6);
+        std::vector<Triangle> triangles = make_random_triangles(500, 6);
         for (std::size_t i = 0; i < triangles.size(); ++i)
             triangles[i].object = i >= 80 && i < 150 ? 1 : 0;
         Bvh few = build_bvh(triangles, core), all = few;
         const RefitRegion reach = find_refit_region(few, std::vector<char>{0, 1});
         EXPECT_LT(reach.boxes.size(), count_nodes(few)) << "half of them";
-        test::Numbers random(23);
+        test::RandomNumbers random(23);
         for (int step = 0; step < 5; ++step) {
-            for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.in_cube();
+            for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.point_in_cube();
             triangles[90].a =
                 -triangles[90].a; // a zero that changes its sign counts as a move, too
             const auto run = refit_bvh(few, triangles, core, &reach);
@@ -533,8 +540,8 @@ TEST(Refit, PartialRefitEqualsFullRefit) {
             for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
             refit_bvh(all, elsewhere, {vec3(-9), vec3(9)});
             refit_bvh(all, triangles, core);
-            ASSERT_TRUE(same(few.nodes, all.nodes)) << step;
-            ASSERT_TRUE(same(few.triangles, all.triangles)) << step;
+            ASSERT_TRUE(have_equal_bytes(few.nodes, all.nodes)) << step;
+            ASSERT_TRUE(have_equal_bytes(few.triangles, all.triangles)) << step;
             for (const Bvh* tree : {&few, &all})
                 EXPECT_NEAR(tree->cost, compute_sah_cost(*tree), 1e-12 * compute_sah_cost(*tree))
                     << step;
@@ -543,12 +550,12 @@ TEST(Refit, PartialRefitEqualsFullRefit) {
 }
 
 TEST(Refit, CostRisesIfNeighbouringTrianglesMoveApart) {
-    std::vector<Triangle> triangles = soup(500, 5);
+    std::vector<Triangle> triangles = make_random_triangles(500, 5);
     Bvh tree = build_bvh(triangles);
     const double before = compute_sah_cost(tree);
-    test::Numbers random(22);
+    test::RandomNumbers random(22);
     for (Triangle& t : triangles) {
-        const vec3 move = 2.0f * random.in_cube();
+        const vec3 move = 2.0f * random.point_in_cube();
         t.a += move, t.b += move, t.c += move;
     }
     refit_bvh(tree, triangles);
@@ -558,13 +565,13 @@ TEST(Refit, CostRisesIfNeighbouringTrianglesMoveApart) {
 
 TEST(ClosestHit, RaysVisitFewNodes) {
     const Bvh bvh = build_bvh(bvh_ball(5)); // the ball has 8192 triangles
-    test::Numbers random(18);
+    test::RandomNumbers random(18);
     std::size_t total = 0;
     for (int i = 0; i < 1000; ++i) {
         TraversalCounters steps;
-        find_closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, test::kInfinity,
-                                0, &steps);
-        total += steps.total();
+        find_closest_hit<float>(bvh, {0.5f * random.point_in_cube(), random.unit_direction()},
+                                test::kInfinity, 0, &steps);
+        total += steps.total_steps();
     }
     EXPECT_LT(total / 1000, 60u);
 }

@@ -152,20 +152,21 @@ dvec3 ray_of(int face, int k) {
 
 /// Returns three results for each ray through a face of a capture: the object that the ray hits,
 /// the distance, and the lights that are shaded at the hit.
-std::vector<std::vector<double>> seen_in_face(const test::Tree& tree, const scene::Scene& now,
-                                              std::size_t mirror, int face) {
+std::vector<std::vector<double>> seen_in_face(const test::ObjectRayCaster& tree,
+                                              const scene::Scene& now, std::size_t mirror,
+                                              int face) {
     const dvec3 centre = scene::bounds(now, now.objects[mirror]).centre();
     const std::vector<scene::PointLight> lights = scene::list_lights(now);
     std::vector<std::vector<double>> seen;
     for (int k = 0; k < kRays * kRays; ++k) {
         const dvec3 direction = ray_of(face, k);
-        const auto met = tree.meets(centre, direction, mirror, bvh::kOneSided);
+        const auto met = tree.find_first_object(centre, direction, mirror, bvh::kOneSided);
         std::vector<double>& ray = seen.emplace_back();
         ray.push_back(met ? static_cast<double>(met->object) : -1);
         ray.push_back(met ? met->t : 0);
         for (std::size_t i = 0; met && i < lights.size(); ++i) {
             const dvec3 place = centre + met->t * direction;
-            ray.push_back(tree.is_shaded(place, lights[i].position) ? 1 : 0);
+            ray.push_back(tree.is_in_shadow(place, lights[i].position) ? 1 : 0);
         }
     }
     return seen;
@@ -190,17 +191,17 @@ int outside(const MirrorNeeds& before, const MirrorNeeds& after, int face,
 TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
     int stays = 0, changes = 0, faces = 0, parts = 0;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
-        scene::Scene scene = test::drawn_hall(seed, 3);
-        test::Numbers numbers(seed + 1000);
+        scene::Scene scene = test::make_random_hall(seed, 3);
+        test::RandomNumbers numbers(seed + 1000);
         // Chooses one of the six objects before the lamp.
-        const std::size_t mover = scene.objects.size() - 2 - numbers.below(6);
-        scene.objects[mover].motion = scene::HarmonicMotion{.amplitude = dvec3(numbers.direction()),
-                                                            .period = 2};
+        const std::size_t mover = scene.objects.size() - 2 - numbers.integer_below(6);
+        scene.objects[mover].motion = scene::HarmonicMotion{
+            .amplitude = dvec3(numbers.unit_direction()), .period = 2};
         Instants instants(scene);
         const Model before = instants.at(.2), after = instants.at(.5);
         const scene::Scene then = scene::scene_at_time(scene, .2),
                            now = scene::scene_at_time(scene, .5);
-        const test::Tree old_tree(then), new_tree(now);
+        const test::ObjectRayCaster old_tree(then), new_tree(now);
         const std::vector<std::size_t> mirrors = scene::mirrors(scene);
         for (std::size_t i = 0; i < mirrors.size(); ++i) {
             if (!before.mirrors[i].is_captured || !after.mirrors[i].is_captured) continue;

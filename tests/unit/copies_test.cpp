@@ -46,7 +46,7 @@ std::size_t steps_past(std::size_t count) {
             EXPECT_EQ(hit->object, 0u) << "the first of them is seen";
         }
     EXPECT_GT(hits, 100);
-    return steps.total();
+    return steps.total_steps();
 }
 
 TEST(CopiesInOnePlace, ManyCopiesCostARayNoMoreStepsThanFewCopies) {
@@ -61,8 +61,8 @@ TEST(CopiesInOnePlace, CopiesOfMaskedSurfacesAreKept) {
     std::vector<bvh::Triangle> triangles;
     for (std::uint32_t i = 0; i < 40; ++i)
         triangles.push_back(
-            {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kMasked : 0});
-    const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::CopyHandling::of_all);
+            {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kAlphaMasked : 0});
+    const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::DuplicateScope::across_objects);
     // Ten masked objects keep one copy each, and the other ten objects keep one copy together.
     EXPECT_EQ(bvh::count_triangles(tree), 11u);
     EXPECT_EQ(bvh::count_triangles(bvh::build_bvh(triangles)), 20u);

@@ -43,7 +43,7 @@ bool overlap(const Facet& a, const Facet& b, double slack) {
 }
 
 TEST(ShippedScenes, NoTwoObjectsOverlapInOnePlane) {
-    for (const BuiltInScene& built_in : built_in_scenes()) {
+    for (const BuiltInScene& built_in : list_built_in_scenes()) {
         const std::string name = built_in.name;
         const Scene scene = load(name);
         const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;

@@ -4,8 +4,8 @@
 #include "core/error.hpp"
 #include "render/geometry.hpp"
 #include "scene/built_in.hpp"
-#include "scene/core.hpp"
 #include "scene/repair.hpp"
+#include "scene/scene_core.hpp"
 #include "scene/transform.hpp"
 #include "support/numbers.hpp"
 #include "support/scenes.hpp"
@@ -36,8 +36,8 @@ void core_expect_same(const Bounds<double>& found, const Bounds<double>& wanted)
 }
 
 TEST(Core, CoreIsTheWholeSceneIfNothingIsFarOutside) {
-    for (const scene::Scene& scene :
-         {scene::make_cornell_mirrors(), test::room(3, 2), test::furnace(1), with_stray(1500)})
+    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(3, 2),
+                                      test::make_furnace_scene(1), with_stray(1500)})
         core_expect_same(compute_core_bounds(scene), scene::bounds(scene));
     EXPECT_TRUE(compute_core_bounds({}).empty());
 }
@@ -75,7 +75,7 @@ TEST(Core, CoreLeavesOutAFarTriangleOfTheOnlyMesh) {
 }
 
 TEST(Core, CoreLeavesOutADistantSkyOfManyTriangles) {
-    scene::Scene scene = test::room(3, 1);
+    scene::Scene scene = test::make_lit_room(3, 1);
     const Bounds<double> room = scene::bounds(scene);
     scene::Mesh sky = scene::ball("sky", 6);
     for (dvec3& position : sky.positions) position = 1e6 * position + dvec3(3e5, 0, 0);
@@ -96,7 +96,7 @@ TEST(Core, ObjectsFarOutsideDoNotChangeSceneUnits) {
 
 /// Builds a room about 5 units long with mirror balls of the given radii and places.
 scene::Scene room_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     for (const auto& [radius, place] : mirrors)
         test::add_ball(scene, "ball", mirror, place, radius);
@@ -110,7 +110,7 @@ dvec3 origin_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
 /// Floats keep 24 bits, so a mirror that is small compared with its distance from the origin loses
 /// precision. The origin moves to such a mirror.
 TEST(Core, OriginMovesToSmallMirrors) {
-    const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::room(0, 1)).centre();
+    const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::make_lit_room(0, 1)).centre();
     EXPECT_EQ(origin_with({{.1, place}}), middle);
     EXPECT_EQ(origin_with({{.001, place}}), middle) << "2^-11 of the distance";
     EXPECT_LT(glm::length(origin_with({{1e-4, place}}) - place), 1e-5);
@@ -124,12 +124,12 @@ TEST(Core, OriginMovesToSmallMirrors) {
 }
 
 TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
-    const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::room(0, 1)).centre();
+    const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::make_lit_room(0, 1)).centre();
     const std::vector<std::pair<double, dvec3>> apart{{1e-4, place}, {1e-4, -place}};
     EXPECT_EQ(origin_with(apart), middle);
     const scene::Scene scene = room_with(apart);
     const render::Geometry geometry = render::make_geometry(scene, render::make_scene_units(scene),
-                                                            render::ObjectSpaceChoice::own);
+                                                            render::VertexSpace::object_space);
     for (const std::size_t mirror : scene::mirrors(scene))
         EXPECT_TRUE(geometry.ranges[mirror].own) << mirror;
 }
@@ -139,9 +139,9 @@ TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
 TEST(Core, MirrorFarOutsideDoesNotMoveTheOrigin) {
     const scene::Scene scene = room_with({{.5, {1e6, 2e5, 0}}});
     const render::SceneUnits space = render::make_scene_units(scene);
-    EXPECT_EQ(space.origin_world, scene::bounds(test::room(0, 1)).centre());
+    EXPECT_EQ(space.origin_world, scene::bounds(test::make_lit_room(0, 1)).centre());
     const render::Geometry geometry = render::make_geometry(scene, space,
-                                                            render::ObjectSpaceChoice::own);
+                                                            render::VertexSpace::object_space);
     EXPECT_TRUE(geometry.ranges.back().own);
     for (std::size_t i = 0; i + 1 < geometry.ranges.size(); ++i)
         EXPECT_FALSE(geometry.ranges[i].own) << scene.objects[i].name;
@@ -213,22 +213,22 @@ TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
                            geometry = render::make_geometry(scene, render::make_scene_units(scene));
     const bvh::Bvh alone = bvh::build_bvh(triangles_of(plain), plain.core),
                    with = bvh::build_bvh(triangles_of(geometry), geometry.core);
-    test::Numbers random(3);
+    test::RandomNumbers random(3);
     bvh::TraversalCounters steps_alone, steps_with;
     for (int i = 0; i < 2000; ++i) {
-        const f32::Ray ray{.4f * random.in_cube(), random.direction(), 0};
+        const f32::Ray ray{.4f * random.point_in_cube(), random.unit_direction(), 0};
         const auto wanted = bvh::find_closest_hit<float>(alone, ray, 1e30f, 0, &steps_alone),
                    found = bvh::find_closest_hit<float>(with, ray, 1e30f, 0, &steps_with);
         ASSERT_EQ(found.has_value(), wanted.has_value());
         ASSERT_EQ(found ? found->triangle : 0, wanted ? wanted->triangle : 0);
     }
-    EXPECT_LE(steps_with.total(), steps_alone.total() * 11 / 10);
+    EXPECT_LE(steps_with.total_steps(), steps_alone.total_steps() * 11 / 10);
 
     const std::vector<bvh::Triangle> all = triangles_of(geometry);
     const bvh::Triangle& stray = all.back();
     std::size_t missed = 0;
     for (int i = 0; i < 1000; ++i) {
-        const vec3 w = random.weights(), from = .4f * random.in_cube();
+        const vec3 w = random.barycentric_weights(), from = .4f * random.point_in_cube();
         const vec3 at = w.x * stray.a + w.y * stray.b + w.z * stray.c;
         const f32::Ray ray{from, at - from, 0};
         float t;

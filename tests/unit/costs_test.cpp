@@ -53,7 +53,7 @@ TEST(Costs, FitRecoversTheCostsOfALinearDevice) {
     EXPECT_NEAR(cost_of(costs, WorkKind::fragments), 2, 1e-5);
     EXPECT_NEAR(cost_of(costs, WorkKind::passes), 5e4, 1);
     ASSERT_TRUE(costs.fit);
-    EXPECT_EQ(costs.fit->share_within(1.0001), 1);
+    EXPECT_EQ(costs.fit->fraction_within(1.0001), 1);
     EXPECT_EQ(costs.origin, measure::CostOrigin::fitted);
 }
 
@@ -61,8 +61,8 @@ TEST(Costs, FitOfNoisyTimesIsNear) {
     const measure::DeviceCosts costs = measure::fit_costs("d", draw_samples(60, .1), kCostKinds);
     EXPECT_NEAR(cost_of(costs, WorkKind::camera_rays), 100, 5);
     EXPECT_NEAR(cost_of(costs, WorkKind::fragments), 2, .2);
-    EXPECT_EQ(costs.fit->share_within(1.2), 1);
-    EXPECT_LT(costs.fit->share_within(1.01), 1);
+    EXPECT_EQ(costs.fit->fraction_within(1.2), 1);
+    EXPECT_LT(costs.fit->fraction_within(1.01), 1);
 }
 
 TEST(Costs, NoCostIsNegative) {
@@ -83,14 +83,15 @@ TEST(Costs, RowIsPredictedByTheOtherRows) {
 }
 
 TEST(Costs, FitRefusesTooFewRowsAndTimesThatAreNotPositive) {
-    EXPECT_EQ(test::refusal(Failure::usage,
-                            [] { measure::fit_costs("d", draw_samples(2, 0), kCostKinds); }),
+    EXPECT_EQ(test::error_text_of(Failure::usage,
+                                  [] { measure::fit_costs("d", draw_samples(2, 0), kCostKinds); }),
               "fitting the costs of 3 kinds of work: wanted at least as many measured rows, found "
               "2");
     std::vector<measure::CostSample> samples = draw_samples(9, 0);
     samples[3].ms = 0;
-    EXPECT_EQ(test::refusal(Failure::usage, [&] { measure::fit_costs("d", samples, kCostKinds); }),
-              "row 'row 3': wanted a time above 0 ms, found 0");
+    EXPECT_EQ(
+        test::error_text_of(Failure::usage, [&] { measure::fit_costs("d", samples, kCostKinds); }),
+        "row 'row 3': wanted a time above 0 ms, found 0");
 }
 
 measure::DeviceCosts make_costs() {
@@ -153,7 +154,7 @@ TEST(Costs, FileIsReadBack) {
 }
 
 std::string refuse_costs(const std::string& text) {
-    return test::refusal(Failure::bad_data, [&] { report::read_costs(text, "c.json"); });
+    return test::error_text_of(Failure::bad_data, [&] { report::read_costs(text, "c.json"); });
 }
 
 TEST(Costs, FileIsRefusedWithPlaceWantedAndFound) {

@@ -20,7 +20,7 @@ std::vector<int> by_tree(const render::Geometry& geometry, const shared::View& v
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
         const auto hit = bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, size, pixel),
                                                       std::numeric_limits<float>::max(),
-                                                      bvh::kHidden | bvh::kOneSided);
+                                                      bvh::kHiddenFromCamera | bvh::kOneSided);
         seen.push_back(hit ? static_cast<int>(hit->object) : -1);
     }
     return seen;

@@ -168,18 +168,18 @@ TEST(Difference, FiguresAgreeWithAnIndependentComputation) {
 
 TEST(Difference, PicturesMasksAndMapsOfDifferentSizesAreRefused) {
     const std::vector<float> map(6);
-    EXPECT_EQ(test::refusal(Failure::bad_data,
-                            [&] { difference(Picture(3, 2), Picture(2, 3), {}, map); }),
+    EXPECT_EQ(test::error_text_of(Failure::bad_data,
+                                  [&] { difference(Picture(3, 2), Picture(2, 3), {}, map); }),
               "a difference wants two pictures of the same size, found 3x2 and 2x3");
-    EXPECT_EQ(test::refusal(Failure::bad_data,
-                            [&] { difference(Picture(3, 2), Picture(3, 2), Mask(5), map); }),
+    EXPECT_EQ(test::error_text_of(Failure::bad_data,
+                                  [&] { difference(Picture(3, 2), Picture(3, 2), Mask(5), map); }),
               "a difference of 6 pixels wants a mask of as many, found 5");
-    EXPECT_EQ(
-        test::refusal(Failure::bad_data,
-                      [&] { difference(Picture(3, 2), Picture(3, 2), {}, std::vector<float>(7)); }),
-        "a difference of 6 pixels wants a FLIP map of as many, found 7");
-    EXPECT_THAT(test::refusal(Failure::bad_data,
-                              [&] { mean_of(Picture(3, 2), ValueRange::clamped, Mask(5)); }),
+    EXPECT_EQ(test::error_text_of(
+                  Failure::bad_data,
+                  [&] { difference(Picture(3, 2), Picture(3, 2), {}, std::vector<float>(7)); }),
+              "a difference of 6 pixels wants a FLIP map of as many, found 7");
+    EXPECT_THAT(test::error_text_of(Failure::bad_data,
+                                    [&] { mean_of(Picture(3, 2), ValueRange::clamped, Mask(5)); }),
                 HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
 }
 

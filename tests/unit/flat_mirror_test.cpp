@@ -37,7 +37,7 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
     scene.materials.front().roughness = .03f;
     const scene::FlatFaces sharp = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_FALSE(sharp.is_rough);
-    EXPECT_TRUE(sharp.is_one());
+    EXPECT_TRUE(sharp.is_single_plane());
 }
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
@@ -84,7 +84,7 @@ TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     const scene::FlatFaces flats = scene::find_flat_faces(box, kTurned);
     ASSERT_EQ(flats.faces.size(), 6u);
     EXPECT_TRUE(flats.bent.empty());
-    EXPECT_NEAR(flats.share(1e-9), 1, 1e-9);
+    EXPECT_NEAR(flats.flat_area_share(1e-9), 1, 1e-9);
     std::uint32_t triangles = 0;
     for (const scene::FlatFace& face : flats.faces) {
         EXPECT_TRUE(face.is_one_sided);
@@ -113,13 +113,13 @@ TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
                 rounded.normals[t[k]] = glm::normalize(rounded.normals[t[k]] + vec3(0, 0, .2f));
     const scene::FlatFaces flats = scene::find_flat_faces(rounded, dmat4(1));
     EXPECT_EQ(flats.faces.size(), 2u);
-    EXPECT_NEAR(flats.share(1e-6), 8 / 9.6, 1e-6);
+    EXPECT_NEAR(flats.flat_area_share(1e-6), 8 / 9.6, 1e-6);
     ASSERT_FALSE(flats.bent.empty());
     const scene::FlatFaces ball = scene::find_flat_faces(scene::ball("ball", 3), dmat4(1));
     EXPECT_TRUE(ball.faces.empty());
     EXPECT_EQ(ball.bent.size(), 1u);
     const scene::FlatFaces quad = scene::find_flat_faces(board(), kTurned);
-    EXPECT_TRUE(quad.is_one());
+    EXPECT_TRUE(quad.is_single_plane());
     EXPECT_FALSE(quad.faces.front().is_one_sided) << "a mirror has two sides";
 }
 
@@ -220,7 +220,7 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
     }
     int most = 16;
     const auto views = render::find_mirrored_views(eye, corner, {64, 64}, most);
-    EXPECT_LE(views.size(), render::kMostMirroredViews);
+    EXPECT_LE(views.size(), render::kMaxMirroredViews);
     EXPECT_LT(most, 16);
     EXPECT_GT(most, 2);
     corner[0]->bounces = 0;

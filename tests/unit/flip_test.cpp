@@ -193,7 +193,7 @@ TEST(Flip, MeanCountsOnlyPixelsOfTheMask) {
 
 std::string flip_refusal(catoptric::Failure failure, int width_a, int height_a, int width_b,
                          int height_b, double ppd = 67) {
-    return test::refusal(
+    return test::error_text_of(
         failure, [&] { flip(Picture(width_a, height_a), Picture(width_b, height_b), ppd); });
 }
 

@@ -26,8 +26,8 @@ PixelGrid pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height 
 }
 
 /// Returns the direction of a ray, as an angle, after reflection at a circle of radius |r| around
-/// (centre, 0). The ray starts at the origin with `angle` to +x. If r < 0, the circle's far side
-/// reflects, as a hollow mirror.
+/// (centre, 0). The ray starts at the origin with `angle` to +x. If r < 0, the circle's
+/// far side reflects, as a hollow mirror.
 double onward(double centre, double r, double angle) {
     const dvec3 d(std::cos(angle), std::sin(angle), 0), c(centre, 0, 0);
     const double along = dot(c, d), half = std::sqrt(r * r - dot(c, c) + along * along);
@@ -59,7 +59,7 @@ TEST(Footprint, FootprintOfAFlatOrFocusingMirrorIsThePixelAngle) {
 
 TEST(Footprint, FaceEdgesEqualHandComputedValues) {
     const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
-    EXPECT_NEAR(pixels.angle(1), kPixel, 1e-7 * kPixel);
+    EXPECT_NEAR(pixels.angle_per_pixel(1), kPixel, 1e-7 * kPixel);
     EXPECT_NEAR(texels_for_footprint(kPixel), 1184.62,
                 .01); // the face edge that a flat mirror needs
     // At the nearest point of a ball straight ahead, a reflected pixel covers 1 + 2 distance /
@@ -67,7 +67,7 @@ TEST(Footprint, FaceEdgesEqualHandComputedValues) {
     EXPECT_NEAR(texels_needed_by_sphere(pixels, {0, 0, 12}, 2),
                 texels_for_footprint(kPixel * (1 + 2 * 10 / 2.)), .01);
     EXPECT_EQ(texels_needed_by_sphere(pixels, {0, 0, 1}, 2),
-              texels_for_footprint(pixels.angle(0))); // the eye is inside the ball
+              texels_for_footprint(pixels.angle_per_pixel(0))); // the eye is inside the ball
 }
 
 TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
@@ -76,11 +76,11 @@ TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
     // `place` from the axis.
     for (const double place : {.0, .1, .3}) {
         const double between = std::atan(place + kPixel / 2) - std::atan(place - kPixel / 2);
-        EXPECT_NEAR(pixels.angle(std::cos(std::atan(place))) / between, 1, 1e-6);
+        EXPECT_NEAR(pixels.angle_per_pixel(std::cos(std::atan(place))) / between, 1, 1e-6);
     }
     const double corner = std::sqrt(2.) * std::tan(glm::radians(37.5) / 2);
-    EXPECT_NEAR(pixels.corner(), std::cos(std::atan(corner)), 1e-7);
-    EXPECT_EQ(pixels.angle(0), pixels.angle(pixels.corner()));
+    EXPECT_NEAR(pixels.corner_cosine(), std::cos(std::atan(corner)), 1e-7);
+    EXPECT_EQ(pixels.angle_per_pixel(0), pixels.angle_per_pixel(pixels.corner_cosine()));
     const double ahead = texels_needed_by_sphere(pixels, {0, 0, 12}, .1);
     const double aside = texels_needed_by_sphere(pixels,
                                                  vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);

@@ -9,7 +9,7 @@
 namespace catoptric::graph {
 namespace {
 
-using test::kBlack;
+using test::kClearToBlack;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -21,42 +21,45 @@ struct Dump : ::testing::Test {
     Graph g;
     ImageHandle first = add("first"), second = add("second"), third = add("third");
     ImageHandle kept = add("kept"), out = add("out"), unused = add("say \"no\"");
-    BufferHandle args = g.buffer({.name = "args", .bytes = 64});
+    BufferHandle args = g.add_buffer({.name = "args", .bytes = 64});
     GraphPlan plan;
 
     Dump() {
         const auto body = [](PassCommands&) {};
-        g.pass("one", PassTag::scene)
-            .writes(first, ResourceUse::colour, kBlack)
+        g.add_pass("one", PassTag::scene)
+            .writes(first, ResourceUse::colour, kClearToBlack)
             .writes(args, ResourceUse::storage_write)
-            .layers(2)
+            .set_layer_count(2)
             .record(body);
-        g.pass("two")
+        g.add_pass("two")
             .reads(first, ResourceUse::sampled)
             .reads(args, ResourceUse::indirect)
             .writes(second, ResourceUse::storage_write)
             .record(body);
-        g.pass("three")
+        g.add_pass("three")
             .reads(second, ResourceUse::sampled)
             .writes(third, ResourceUse::storage_write)
             .record(body);
-        g.pass("vain")
+        g.add_pass("vain")
             .reads(third, ResourceUse::sampled)
             .writes(unused, ResourceUse::storage_write)
             .record(body);
-        g.pass("four")
+        g.add_pass("four")
             .reads(third, ResourceUse::sampled)
-            .reads(g.previous(kept), ResourceUse::sampled)
+            .reads(g.previous_contents(kept), ResourceUse::sampled)
             .writes(out, ResourceUse::storage_write)
             .record(body);
-        g.pass("five").writes(kept, ResourceUse::colour, kBlack).layers(2).record(body);
-        g.pass("six").writes(kept.layers(0, 1), ResourceUse::colour).record(body);
+        g.add_pass("five")
+            .writes(kept, ResourceUse::colour, kClearToBlack)
+            .set_layer_count(2)
+            .record(body);
+        g.add_pass("six").writes(kept.layers(0, 1), ResourceUse::colour).record(body);
         g.mark_output(out);
         plan = graph::plan_graph(g, {}, make_default_sizer());
     }
 
     ImageHandle add(const std::string& name) {
-        return g.image({.name = name, .width = 8, .height = 8, .layers = 2});
+        return g.add_image({.name = name, .width = 8, .height = 8, .layers = 2});
     }
 };
 
@@ -152,7 +155,7 @@ TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
 
 // In a frame of 100 mirrors, the depth images of all captures share the same memory.
 TEST(LargeDump, DumpNamesTheFirstSharingImagesAndCountsTheOthers) {
-    const Graph g = test::reuse_frame(100);
+    const Graph g = test::make_reuse_graph(100);
     const std::string text = to_text(g, graph::plan_graph(g, {}, make_default_sizer()));
     EXPECT_THAT(text, HasSubstr("shares with 'view.depth', 'capture/1.depth', 'capture/2.depth'"));
     EXPECT_THAT(text, HasSubstr(", 'capture/31.depth' and 68 more\n"));

@@ -1,7 +1,7 @@
 // Tests of persistent and imported resources, of mips, and of attachments that no pass reads: their
 // planned barriers, and the errors for invalid graphs.
 #include "graph/dump.hpp"
-#include "graph/shape.hpp"
+#include "graph/graph_shape.hpp"
 #include "support/graphs.hpp"
 #include "support/refusal.hpp"
 
@@ -10,14 +10,14 @@
 namespace catoptric::graph {
 namespace {
 
-using test::kBlack, test::nothing, test::planned;
+using test::kClearToBlack, test::record_nothing, test::plan_test_graph;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::string graph_lifetime_refusal(const Graph& graph) {
-    return test::refusal(Failure::internal, [&] { planned(graph); });
+    return test::error_text_of(Failure::internal, [&] { plan_test_graph(graph); });
 }
 
 /// Returns a barrier as text, "image 0 mips [0,1) layers [0,2) before > after", and the number of
@@ -47,28 +47,28 @@ const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
 /// Returns a history in which layers [first, end) of image "cubes" have the content hash `stamp`.
 GraphHistory held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
     LayerHashes stamps(12);
-    stamps.set(first, end, stamp);
+    stamps.fill_range(first, end, stamp);
     return {.previous = {}, .persistent = {{"cubes", {kDesc, stamps}}}};
 }
 
 struct View {
     explicit View(GraphHistory history = {}) : g(std::move(history)) {}
     Graph g;
-    ImageHandle cubes = g.persistent(kDesc);
-    ImageHandle out = g.image({.name = "out", .width = 8, .height = 8});
+    ImageHandle cubes = g.add_persistent_image(kDesc);
+    ImageHandle out = g.add_image({.name = "out", .width = 8, .height = 8});
 
     void make(ImageHandle part, std::uint64_t stamp) {
-        g.pass("make")
-            .writes(part, ResourceUse::colour, kBlack)
-            .layers(part.layer_count)
-            .record(nothing);
+        g.add_pass("make")
+            .writes(part, ResourceUse::colour, kClearToBlack)
+            .set_layer_count(part.layer_count)
+            .record(record_nothing);
         g.set_content_hash(part, stamp);
     }
     void view(ImageHandle part) {
-        g.pass("view")
+        g.add_pass("view")
             .reads(part, ResourceUse::sampled)
-            .writes(out, ResourceUse::colour, kBlack)
-            .record(nothing);
+            .writes(out, ResourceUse::colour, kClearToBlack)
+            .record(record_nothing);
         g.mark_output(out);
     }
 };
@@ -84,14 +84,14 @@ TEST(PersistentImages, HistoryDecidesWhichContentIsHeld) {
     Graph other(held(0, 12, 7));
     ImageDesc desc = kDesc;
     desc.width = 16;
-    EXPECT_FALSE(other.holds_content(other.persistent(desc), 7));
+    EXPECT_FALSE(other.holds_content(other.add_persistent_image(desc), 7));
 }
 
 TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
     View first;
     first.make(first.cubes, 7);
     first.view(first.cubes);
-    const GraphPlan made = planned(first.g);
+    const GraphPlan made = plan_test_graph(first.g);
     EXPECT_THAT(texts(made.passes.at(0).barriers),
                 ElementsAre("image 0 mips [0,1) layers [0,12) sampled > colour! +1"));
     EXPECT_THAT(texts(made.last),
@@ -99,7 +99,7 @@ TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
                             "image 1 mips [0,1) layers [0,1) colour! > copy_from"));
     View second(held(0, 12, 7));
     second.view(second.cubes);
-    const GraphPlan plan = planned(second.g);
+    const GraphPlan plan = plan_test_graph(second.g);
     EXPECT_THAT(texts(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
     EXPECT_THAT(texts(plan.last),
@@ -112,7 +112,7 @@ TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
 TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
     View v(held(0, 12, 7));
     v.g.mark_output(v.cubes.layers(0, 6));
-    const GraphPlan plan = planned(v.g);
+    const GraphPlan plan = plan_test_graph(v.g);
     EXPECT_THAT(plan.passes, IsEmpty());
     EXPECT_THAT(plan.last, IsEmpty()); // the image is already readable
 }
@@ -120,7 +120,7 @@ TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
 TEST(PersistentImages, PassThatWritesAPersistentImageIsNotCulled) {
     View v;
     v.make(v.cubes.layers(6, 6), 7);
-    const GraphPlan plan = planned(v.g);
+    const GraphPlan plan = plan_test_graph(v.g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
 }
@@ -135,7 +135,10 @@ TEST(PersistentImages, ReadingUnwrittenLayersIsRefused) {
 
 TEST(PersistentImages, WritingWithoutAContentHashIsRefused) {
     View v;
-    v.g.pass("make").writes(v.cubes, ResourceUse::colour, kBlack).layers(12).record(nothing);
+    v.g.add_pass("make")
+        .writes(v.cubes, ResourceUse::colour, kClearToBlack)
+        .set_layer_count(12)
+        .record(record_nothing);
     v.g.set_content_hash(v.cubes.layers(0, 6), 7);
     EXPECT_EQ(graph_lifetime_refusal(v.g),
               "pass 'make' writes 'cubes' [0,12), which is kept, but nobody says what "
@@ -160,10 +163,11 @@ TEST(PersistentImages, ContentHashWithoutAWriteIsRefused) {
 TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
     View v;
     try {
-        v.g.previous(v.cubes);
+        v.g.previous_contents(v.cubes);
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "previous() of image 'cubes', which is kept and has one copy");
+        EXPECT_STREQ(error.what(),
+                     "previous_contents() of image 'cubes', which is kept and has one copy");
     }
     try {
         v.g.set_content_hash(v.out, 1);
@@ -175,38 +179,39 @@ TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
 
 TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
     Graph g;
-    const ImageHandle texture = g.import(kDesc, nullptr, ResourceUse::sampled,
-                                         ResourceUse::sampled);
-    const ImageHandle out = g.image({.name = "out"});
-    g.pass("view")
+    const ImageHandle texture = g.import_external(kDesc, nullptr, ResourceUse::sampled,
+                                                  ResourceUse::sampled);
+    const ImageHandle out = g.add_image({.name = "out"});
+    g.add_pass("view")
         .reads(texture, ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     g.mark_output(out);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(texts(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
     EXPECT_EQ(plan.last.size(), 1u);
     EXPECT_EQ(plan.images[0].bytes, 0u);
-    EXPECT_EQ(plan.bytes,
-              planned([] {
-                  Graph alone;
-                  const ImageHandle image = alone.image({.name = "out"});
-                  alone.pass("view").writes(image, ResourceUse::colour, kBlack).record(nothing);
-                  alone.mark_output(image);
-                  return alone;
-              }())
-                  .bytes);
+    EXPECT_EQ(plan.bytes, plan_test_graph([] {
+                              Graph alone;
+                              const ImageHandle image = alone.add_image({.name = "out"});
+                              alone.add_pass("view")
+                                  .writes(image, ResourceUse::colour, kClearToBlack)
+                                  .record(record_nothing);
+                              alone.mark_output(image);
+                              return alone;
+                          }())
+                              .bytes);
     EXPECT_THAT(to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
 }
 
 TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
     Graph g;
-    const ImageHandle window = g.import({.name = "window"}, nullptr, std::nullopt,
-                                        ResourceUse::present);
+    const ImageHandle window = g.import_external({.name = "window"}, nullptr, std::nullopt,
+                                                 ResourceUse::present);
     // No output depends on the window.
-    g.pass("show").writes(window, ResourceUse::colour, kBlack).record(nothing);
-    const GraphPlan plan = planned(g);
+    g.add_pass("show").writes(window, ResourceUse::colour, kClearToBlack).record(record_nothing);
+    const GraphPlan plan = plan_test_graph(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
     EXPECT_THAT(texts(plan.passes[0].barriers),
@@ -216,39 +221,39 @@ TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
 
 TEST(Imported, AllLayersEndInTheDeclaredUse) {
     Graph g;
-    const ImageHandle image = g.import(kDesc, nullptr, ResourceUse::copy_from,
-                                       ResourceUse::sampled);
-    g.pass("some")
-        .writes(image.layers(0, 6), ResourceUse::colour, kBlack)
-        .layers(6)
-        .record(nothing);
-    EXPECT_THAT(texts(planned(g).last),
+    const ImageHandle image = g.import_external(kDesc, nullptr, ResourceUse::copy_from,
+                                                ResourceUse::sampled);
+    g.add_pass("some")
+        .writes(image.layers(0, 6), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(6)
+        .record(record_nothing);
+    EXPECT_THAT(texts(plan_test_graph(g).last),
                 ElementsAre("image 0 mips [0,1) layers [0,6) colour! > sampled",
                             "image 0 mips [0,1) layers [6,12) copy_from > sampled +1"));
 }
 
 TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
     Graph g;
-    const ImageHandle image = g.import({.name = "window"}, nullptr, std::nullopt,
-                                       ResourceUse::present);
-    const ImageHandle out = g.image({.name = "out"});
-    g.pass("view")
+    const ImageHandle image = g.import_external({.name = "window"}, nullptr, std::nullopt,
+                                                ResourceUse::present);
+    const ImageHandle out = g.add_image({.name = "out"});
+    g.add_pass("view")
         .reads(image, ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     EXPECT_THAT(graph_lifetime_refusal(g),
                 HasSubstr("pass 'view' reads 'window' [0,1) as sampled before any"));
 }
 
 TEST(Imported, ImportedResourceAsOutputIsRefused) {
     Graph g;
-    const ImageHandle image = g.import({.name = "window"}, nullptr, ResourceUse::sampled,
-                                       ResourceUse::sampled);
+    const ImageHandle image = g.import_external({.name = "window"}, nullptr, ResourceUse::sampled,
+                                                ResourceUse::sampled);
     g.mark_output(image);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "'window' [0,1) is wanted, but imported: read it where it comes from");
     Graph h;
-    const BufferHandle buffer = h.import(BufferDesc{.name = "back", .bytes = 4}, nullptr);
+    const BufferHandle buffer = h.import_external(BufferDesc{.name = "back", .bytes = 4}, nullptr);
     h.mark_output(buffer);
     EXPECT_EQ(graph_lifetime_refusal(h),
               "buffer 'back' is wanted, but imported: read it where it comes from");
@@ -256,13 +261,13 @@ TEST(Imported, ImportedResourceAsOutputIsRefused) {
 
 TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
     Graph g;
-    const BufferHandle list = g.import(BufferDesc{.name = "list", .bytes = 64}, nullptr);
-    const BufferHandle back = g.import(BufferDesc{.name = "back", .bytes = 64}, nullptr);
-    g.pass("fill")
+    const BufferHandle list = g.import_external(BufferDesc{.name = "list", .bytes = 64}, nullptr);
+    const BufferHandle back = g.import_external(BufferDesc{.name = "back", .bytes = 64}, nullptr);
+    g.add_pass("fill")
         .reads(list, ResourceUse::storage_read) // no pass of this frame writes the list
         .writes(back, ResourceUse::storage_write)
-        .record(nothing);
-    const GraphPlan plan = planned(g);
+        .record(record_nothing);
+    const GraphPlan plan = plan_test_graph(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_THAT(plan.passes[0].barriers, IsEmpty());
     EXPECT_THAT(texts(plan.last), ::testing::Contains("buffer storage_write! > copy_from"));
@@ -271,20 +276,20 @@ TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
 
 struct Mips : ::testing::Test {
     Graph g;
-    ImageHandle image = g.image(
+    ImageHandle image = g.add_image(
         {.name = "pyramid", .width = 8, .height = 4, .layers = 2, .mips = 4});
-    ImageHandle out = g.image({.name = "out", .width = 8, .height = 4});
+    ImageHandle out = g.add_image({.name = "out", .width = 8, .height = 4});
 
     void write(std::uint32_t mip) {
-        PassBuilder pass = g.pass("mip" + std::to_string(mip));
+        PassBuilder pass = g.add_pass("mip" + std::to_string(mip));
         if (mip > 0) pass.reads(image.mip(mip - 1), ResourceUse::sampled);
-        pass.writes(image.mip(mip), ResourceUse::storage_write).record(nothing);
+        pass.writes(image.mip(mip), ResourceUse::storage_write).record(record_nothing);
     }
     void view(ImageHandle part) {
-        g.pass("view")
+        g.add_pass("view")
             .reads(part, ResourceUse::sampled)
-            .writes(out, ResourceUse::colour, kBlack)
-            .record(nothing);
+            .writes(out, ResourceUse::colour, kClearToBlack)
+            .record(record_nothing);
         g.mark_output(out);
     }
 };
@@ -292,7 +297,7 @@ struct Mips : ::testing::Test {
 TEST_F(Mips, EachMipHasItsOwnBarriers) {
     for (std::uint32_t m = 0; m < 4; ++m) write(m);
     view(image);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(texts(plan.passes.at(2).barriers),
                 ElementsAre("image 0 mips [1,2) layers [0,2) storage_write! > sampled",
                             "image 0 mips [2,3) layers [0,2) nothing > storage_write!"));
@@ -306,7 +311,7 @@ TEST_F(Mips, EachMipHasItsOwnBarriers) {
 TEST_F(Mips, BarriersCoverRangesOfMipsAndLayers) {
     for (std::uint32_t m = 0; m < 4; ++m) write(m);
     view(image.layers(1, 1));
-    EXPECT_THAT(texts(planned(g).passes.at(4).barriers),
+    EXPECT_THAT(texts(plan_test_graph(g).passes.at(4).barriers),
                 ElementsAre("image 0 mips [0,3) layers [1,2) sampled > sampled",
                             "image 0 mips [3,4) layers [1,2) storage_write! > sampled",
                             "image 1 mips [0,1) layers [0,1) nothing > colour!"));
@@ -322,21 +327,21 @@ TEST_F(Mips, ReadingUnwrittenMipsIsRefused) {
 }
 
 TEST_F(Mips, WritingSeveralMipsAtOnceIsRefused) {
-    g.pass("all").writes(image, ResourceUse::storage_write).record(nothing);
+    g.add_pass("all").writes(image, ResourceUse::storage_write).record(record_nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'all' uses 'pyramid' [0,2) mips [0,4) as storage_write: one mip at "
               "a time");
 }
 
 TEST_F(Mips, MipOutOfRangeIsRefused) {
-    g.pass("all").writes(image.mip(4), ResourceUse::storage_write).record(nothing);
+    g.add_pass("all").writes(image.mip(4), ResourceUse::storage_write).record(record_nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'all' uses 'pyramid' [0,2) mip 4 as storage_write, but the image has "
               "mips [0,4)");
 }
 
 TEST_F(Mips, MoreMipsThanTheSizeAllowsAreRefused) {
-    g.image({.name = "deep", .width = 8, .height = 4, .mips = 5});
+    g.add_image({.name = "deep", .width = 8, .height = 4, .mips = 5});
     EXPECT_EQ(graph_lifetime_refusal(g), "image 'deep' wants 5 mips, but of 8x4 there are 1 to 4");
 }
 
@@ -348,12 +353,12 @@ TEST_F(Mips, OutputOfMipsOutOfRangeIsRefused) {
 }
 
 TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
-    const ImageHandle depth = g.image(
+    const ImageHandle depth = g.add_image(
         {.name = "depth", .format = Format::d32f, .width = 8, .height = 4});
-    g.pass("draw")
-        .writes(image.mip(1).layers(0, 1), ResourceUse::colour, kBlack)
-        .writes(depth, ResourceUse::depth, kBlack)
-        .record(nothing);
+    g.add_pass("draw")
+        .writes(image.mip(1).layers(0, 1), ResourceUse::colour, kClearToBlack)
+        .writes(depth, ResourceUse::depth, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'draw' attaches 'pyramid' [0,1) mip 1 as colour (4x2) and 'depth' "
               "[0,1) as depth (8x4): attachments have one size");
@@ -361,10 +366,10 @@ TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
 
 TEST_F(Mips, ReadingAndWritingOneMipInTheSamePassIsRefused) {
     write(0);
-    g.pass("twice")
+    g.add_pass("twice")
         .reads(image.mip(0), ResourceUse::sampled)
         .writes(image.mip(0), ResourceUse::storage_write)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_EQ(graph_lifetime_refusal(g),
               "pass 'twice' reads 'pyramid' [0,2) mip 0 as sampled while it writes "
               "'pyramid' [0,2) mip 0 as storage_write, in layers [0,2) of mip 0");
@@ -372,24 +377,24 @@ TEST_F(Mips, ReadingAndWritingOneMipInTheSamePassIsRefused) {
 
 TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
     Graph g;
-    const ImageHandle depth = g.image({.name = "depth", .format = Format::d32f, .layers = 2});
-    const ImageHandle a = g.image({.name = "a", .layers = 2}),
-                      b = g.image({.name = "b", .layers = 2});
+    const ImageHandle depth = g.add_image({.name = "depth", .format = Format::d32f, .layers = 2});
+    const ImageHandle a = g.add_image({.name = "a", .layers = 2}),
+                      b = g.add_image({.name = "b", .layers = 2});
     const auto draw = [&](const std::string& name, ImageHandle colour,
                           std::optional<ClearValue> clear) {
-        g.pass(name)
-            .writes(colour, ResourceUse::colour, kBlack)
+        g.add_pass(name)
+            .writes(colour, ResourceUse::colour, kClearToBlack)
             .writes(depth, ResourceUse::depth, clear)
-            .layers(2)
-            .record(nothing);
+            .set_layer_count(2)
+            .record(record_nothing);
     };
     // The second pass loads the depth of the first pass.
-    draw("first", a, kBlack);
+    draw("first", a, kClearToBlack);
     draw("second", b, std::nullopt);
-    draw("third", a, kBlack);
+    draw("third", a, kClearToBlack);
     g.mark_output(a);
     g.mark_output(b);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     ASSERT_EQ(plan.passes.size(), 3u);
     // Bit 0: the colour of the first pass is written again before any read.
     EXPECT_EQ(plan.passes[0].unread, 1u);
@@ -402,15 +407,17 @@ TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
 TEST(Shape, GraphShapeIgnoresClearValuesAndContentHashes) {
     const auto graph = [](const std::string& name, float red, std::uint64_t stamp, bool there) {
         View v(there ? held(0, 12, stamp) : GraphHistory{});
-        v.g.pass(name).writes(v.out, ResourceUse::colour, ClearValue{red}).record(nothing);
+        v.g.add_pass(name)
+            .writes(v.out, ResourceUse::colour, ClearValue{red})
+            .record(record_nothing);
         if (!there) v.make(v.cubes, stamp);
         return std::move(v.g);
     };
     const Graph known = graph("p", 0, 1, false);
     const auto same = [&](const Graph& other) {
-        EXPECT_EQ(have_equal_shapes(other, known.without_bodies()),
+        EXPECT_EQ(have_equal_shapes(other, known.copy_without_recorders()),
                   hash_graph_shape(other) == hash_graph_shape(known));
-        return have_equal_shapes(other, known.without_bodies());
+        return have_equal_shapes(other, known.copy_without_recorders());
     };
     EXPECT_TRUE(same(graph("p", 0, 1, false)));
     EXPECT_TRUE(same(graph("p", 1, 1, false)));

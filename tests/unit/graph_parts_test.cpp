@@ -1,7 +1,7 @@
 // Tests of the graph planner's data structures against simple versions: one value per cell, and all
 // pairs of placements.
 #include "graph/memory_users.hpp"
-#include "graph/runs.hpp"
+#include "graph/run_length_array.hpp"
 #include "support/frames.hpp"
 
 #include <gtest/gtest.h>
@@ -22,9 +22,9 @@ private:
     std::mt19937 random_;
 };
 
-std::vector<int> graph_parts_cells_of(const ValueRuns<int>& runs) {
+std::vector<int> graph_parts_cells_of(const RunLengthArray<int>& runs) {
     std::vector<int> cells;
-    runs.each([&](std::uint32_t begin, std::uint32_t end, int value) {
+    runs.for_each_run([&](std::uint32_t begin, std::uint32_t end, int value) {
         cells.resize(cells.size() + (end - begin), value);
     });
     return cells;
@@ -34,7 +34,7 @@ TEST(Runs, RunsEqualOneValuePerCell) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         Draw draw(seed);
         const std::uint32_t size = draw.below(40) + 1;
-        ValueRuns<int> runs(size, 7);
+        RunLengthArray<int> runs(size, 7);
         std::vector<int> cells(size, 7);
         for (int step = 0; step < 60; ++step) {
             const std::uint32_t first = draw.below(size),
@@ -42,22 +42,23 @@ TEST(Runs, RunsEqualOneValuePerCell) {
             const int value = static_cast<int>(draw.below(3));
             const bool set = draw.below(2) == 0;
             const auto change = [&](int& cell) { cell = set ? value : (cell + value) % 5; };
-            runs.change(first, end, [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
+            runs.modify_runs(first, end,
+                             [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
             for (std::uint32_t i = first; i < end; ++i) change(cells[i]);
             ASSERT_EQ(graph_parts_cells_of(runs), cells) << "seed " << seed << ", step " << step;
             const auto begin = cells.begin();
-            EXPECT_EQ(runs.any(first, end, value),
+            EXPECT_EQ(runs.contains_value(first, end, value),
                       std::count(begin + first, begin + end, value) > 0);
         }
     }
 }
 
 TEST(Runs, NeighbouringRunsOfEqualValueAreJoined) {
-    ValueRuns<int> runs(100, 0);
-    for (std::uint32_t i = 0; i < 100; i += 2) runs.set(i, i + 1, 1);
-    for (std::uint32_t i = 1; i < 100; i += 2) runs.set(i, i + 1, 1);
+    RunLengthArray<int> runs(100, 0);
+    for (std::uint32_t i = 0; i < 100; i += 2) runs.fill_range(i, i + 1, 1);
+    for (std::uint32_t i = 1; i < 100; i += 2) runs.fill_range(i, i + 1, 1);
     int count = 0;
-    runs.each([&](std::uint32_t, std::uint32_t, int) { ++count; });
+    runs.for_each_run([&](std::uint32_t, std::uint32_t, int) { ++count; });
     EXPECT_EQ(count, 1);
 }
 
@@ -87,7 +88,7 @@ TEST(MemoryUsers, MemoryUsersAreThoseOfAllOverlappingPlacements) {
                     expected |= touches;
             ASSERT_EQ(users.touches_left_in(mine), expected)
                 << "seed " << seed << ", step " << step;
-            const TouchSet touches = TouchSet{1} << draw.below(kTouchCodes);
+            const TouchSet touches = TouchSet{1} << draw.below(kTouchCodeCount);
             users.record_last_touches(mine, touches);
             left.emplace_back(mine, touches);
         }
@@ -104,7 +105,7 @@ TEST(Touches, TouchCodesAreOneToOne) {
                                           .raster = raster};
                 EXPECT_EQ(make_touch(encode_touch(touch)), touch);
                 EXPECT_EQ(decode_touch_use(encode_touch(touch)), touch.use);
-                EXPECT_LT(encode_touch(touch), kTouchCodes);
+                EXPECT_LT(encode_touch(touch), kTouchCodeCount);
             }
     EXPECT_EQ(make_touch(encode_touch({})), ResourceTouch{});
 }
@@ -133,13 +134,13 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> lives;
         for (std::uint32_t i = 0; i < kImages; ++i) {
             images.push_back(
-                g.image({.name = "i" + std::to_string(i), .width = draw.below(9) + 1}));
+                g.add_image({.name = "i" + std::to_string(i), .width = draw.below(9) + 1}));
             const std::uint32_t first = draw.below(kPasses);
             lives.emplace_back(first, first + draw.below(kPasses - first));
         }
-        const BufferHandle out = g.buffer({.name = "out", .bytes = 4});
+        const BufferHandle out = g.add_buffer({.name = "out", .bytes = 4});
         for (std::uint32_t p = 0; p < kPasses; ++p) {
-            PassBuilder pass = g.pass("p" + std::to_string(p));
+            PassBuilder pass = g.add_pass("p" + std::to_string(p));
             pass.writes(out, p == 0 ? ResourceUse::storage_write : ResourceUse::storage);
             for (std::uint32_t i = 0; i < kImages; ++i) {
                 if (lives[i].first == p) pass.writes(images[i], ResourceUse::storage_write);
@@ -171,7 +172,7 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
 
 TEST(LargeFrames, CapturesShareTheMemoryOfOneDepthImage) {
     constexpr std::uint32_t kMirrors = 200;
-    const Graph g = test::reuse_frame(kMirrors);
+    const Graph g = test::make_reuse_graph(kMirrors);
     const GraphPlan found = plan_graph(g, {}, make_default_sizer());
     ASSERT_EQ(found.passes.size(), kMirrors + 3);
     for (std::uint32_t n = 0; n < kMirrors; ++n)

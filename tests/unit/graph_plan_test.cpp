@@ -12,7 +12,7 @@
 namespace catoptric::graph {
 namespace {
 
-using test::kBlack, test::nothing, test::planned;
+using test::kClearToBlack, test::record_nothing, test::plan_test_graph;
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -67,11 +67,13 @@ std::vector<std::string> last_barriers(const GraphPlan& plan) {
 /// view pass after the captures.
 struct Frame {
     explicit Frame(int mirror_count) : mirrors(static_cast<std::uint32_t>(mirror_count)) {
-        g.pass("shadow", PassTag::scene).writes(shadow, ResourceUse::depth, kBlack).record(nothing);
+        g.add_pass("shadow", PassTag::scene)
+            .writes(shadow, ResourceUse::depth, kClearToBlack)
+            .record(record_nothing);
     }
 
     ImageHandle cubes(const std::string& name) {
-        return g.image(
+        return g.add_image(
             {.name = name, .width = kFace, .height = kFace, .layers = 6 * mirrors, .cube = true});
     }
 
@@ -79,37 +81,37 @@ struct Frame {
     /// read `source`.
     void capture(const std::string& name, ImageHandle target, std::optional<ImageHandle> source) {
         for (std::uint32_t n = 0; n < mirrors; ++n) {
-            PassBuilder pass = g.pass(name + "/" + std::to_string(n), PassTag::scene);
+            PassBuilder pass = g.add_pass(name + "/" + std::to_string(n), PassTag::scene);
             pass.reads(shadow, ResourceUse::sampled);
             if (source) pass.reads(*source, ResourceUse::sampled);
-            pass.writes(target.layers(6 * n, 6), ResourceUse::colour, kBlack)
-                .writes(depth, ResourceUse::depth, kBlack)
-                .layers(6)
-                .record(nothing);
+            pass.writes(target.layers(6 * n, 6), ResourceUse::colour, kClearToBlack)
+                .writes(depth, ResourceUse::depth, kClearToBlack)
+                .set_layer_count(6)
+                .record(record_nothing);
         }
     }
 
     void view(ImageHandle source) {
-        g.pass("view", PassTag::scene)
+        g.add_pass("view", PassTag::scene)
             .reads(shadow, ResourceUse::sampled)
             .reads(source, ResourceUse::sampled)
-            .writes(hdr, ResourceUse::colour, kBlack)
-            .record(nothing);
-        g.pass("compose")
+            .writes(hdr, ResourceUse::colour, kClearToBlack)
+            .record(record_nothing);
+        g.add_pass("compose")
             .reads(hdr, ResourceUse::sampled)
-            .writes(ldr, ResourceUse::colour, kBlack)
-            .record(nothing);
+            .writes(ldr, ResourceUse::colour, kClearToBlack)
+            .record(record_nothing);
         g.mark_output(ldr);
     }
 
     std::uint32_t mirrors;
     Graph g;
-    ImageHandle shadow = g.image(
+    ImageHandle shadow = g.add_image(
         {.name = "shadow", .format = Format::d32f, .width = 32, .height = 32});
-    ImageHandle depth = g.image(
+    ImageHandle depth = g.add_image(
         {.name = "depth", .format = Format::d32f, .width = kFace, .height = kFace, .layers = 6});
-    ImageHandle hdr = g.image({.name = "hdr", .width = 32, .height = 32});
-    ImageHandle ldr = g.image(
+    ImageHandle hdr = g.add_image({.name = "hdr", .width = 32, .height = 32});
+    ImageHandle ldr = g.add_image(
         {.name = "ldr", .format = Format::rgba8_unorm, .width = 32, .height = 32});
 };
 
@@ -132,7 +134,7 @@ struct NaiveFrame : Frame {
 /// from the captures of the previous frame.
 struct ReuseFrame : Frame {
     explicit ReuseFrame(int mirror_count) : Frame(mirror_count) {
-        capture("capture", captured, g.previous(captured));
+        capture("capture", captured, g.previous_contents(captured));
         view(captured);
     }
     ImageHandle captured = cubes("cubes");
@@ -142,7 +144,7 @@ TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
     for (const int mirrors : {1, 2, 4})
         for (const int bounces : {1, 2, 3, 7}) {
             const NaiveFrame frame(mirrors, bounces);
-            const GraphPlan plan = planned(frame.g);
+            const GraphPlan plan = plan_test_graph(frame.g);
             EXPECT_EQ(plan.scene_passes, mirrors * bounces + 2);
             EXPECT_THAT(plan.culled, IsEmpty());
             EXPECT_THAT(replay(frame.g, plan, make_default_sizer()), IsEmpty());
@@ -152,7 +154,7 @@ TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
 TEST(GraphPlan, NaiveFrameUsesTheMemoryOfTwoCubeImages) {
     for (const int bounces : {2, 3, 4, 8}) {
         const NaiveFrame frame(4, bounces);
-        const GraphPlan plan = planned(frame.g);
+        const GraphPlan plan = plan_test_graph(frame.g);
         std::set<std::uint64_t> offsets;
         for (std::size_t k = 0; k < frame.images.size(); ++k) {
             offsets.insert(plan.images[frame.images[k].id].offset);
@@ -161,13 +163,13 @@ TEST(GraphPlan, NaiveFrameUsesTheMemoryOfTwoCubeImages) {
                       plan.images[frame.images[k - 2].id].offset);
         }
         EXPECT_EQ(offsets.size(), 2u) << bounces << " bounces";
-        EXPECT_EQ(plan.bytes, planned(NaiveFrame(4, 2).g).bytes) << bounces << " bounces";
+        EXPECT_EQ(plan.bytes, plan_test_graph(NaiveFrame(4, 2).g).bytes) << bounces << " bounces";
     }
 }
 
 TEST(GraphPlan, ReusedMemoryWaitsForItsLastReader) {
     const NaiveFrame frame(1, 3);
-    const GraphPlan plan = planned(
+    const GraphPlan plan = plan_test_graph(
         frame.g); // passes: shadow, capture0, capture1, capture2, view, compose
     EXPECT_THAT(barriers_of(plan, 3), ::testing::Contains("image 6 [0,6] nothing > colour!/raster "
                                                           "+sampled/raster"));
@@ -175,14 +177,14 @@ TEST(GraphPlan, ReusedMemoryWaitsForItsLastReader) {
 
 TEST(GraphPlan, ReuseFrameRendersTheSceneOncePerMirror) {
     const ReuseFrame frame(4);
-    const GraphPlan plan = planned(frame.g);
+    const GraphPlan plan = plan_test_graph(frame.g);
     EXPECT_EQ(plan.scene_passes, 6);
     EXPECT_THAT(replay(frame.g, plan, make_default_sizer()), IsEmpty());
 }
 
 TEST(GraphPlan, HistoryImageHasTwoCopiesAndSharesNoMemory) {
     const ReuseFrame frame(4);
-    const GraphPlan plan = planned(frame.g);
+    const GraphPlan plan = plan_test_graph(frame.g);
     const MemoryPlacement& cubes = plan.images[frame.captured.id];
     EXPECT_TRUE(cubes.alone);
     EXPECT_EQ(cubes.bytes, 2u * 24 * kFace * kFace * 8);
@@ -193,7 +195,7 @@ TEST(GraphPlan, HistoryImageHasTwoCopiesAndSharesNoMemory) {
 
 TEST(GraphPlan, HistoryImageIsReadWithoutABarrierAndLeftReadable) {
     const ReuseFrame frame(2);
-    const GraphPlan plan = planned(frame.g);
+    const GraphPlan plan = plan_test_graph(frame.g);
     for (const PlannedPass& pass : plan.passes)
         for (const PlannedBarrier& b : pass.barriers)
             EXPECT_FALSE(b.previous) << graph_plan_text(b);
@@ -203,8 +205,8 @@ TEST(GraphPlan, HistoryImageIsReadWithoutABarrierAndLeftReadable) {
 
 TEST(GraphPlan, HistoryContainsOnlyImagesOfThePreviousFrame) {
     Graph g(GraphHistory{.previous = {"cubes"}, .persistent = {}});
-    const ImageHandle cubes = g.image({.name = "cubes"});
-    const ImageHandle other = g.image({.name = "other"});
+    const ImageHandle cubes = g.add_image({.name = "cubes"});
+    const ImageHandle other = g.add_image({.name = "other"});
     EXPECT_TRUE(g.has_history(cubes));
     EXPECT_FALSE(g.has_history(other));
 }
@@ -213,33 +215,35 @@ TEST(GraphPlan, HistoryContainsOnlyImagesOfThePreviousFrame) {
 struct SmallGraph : ::testing::Test {
     Graph g;
     ImageHandle a = add("a"), b = add("b"), c = add("c"), d = add("d");
-    BufferHandle args = g.buffer({.name = "args", .bytes = 64});
+    BufferHandle args = g.add_buffer({.name = "args", .bytes = 64});
 
     ImageHandle add(const std::string& name) {
-        return g.image({.name = name, .width = 8, .height = 8, .layers = 4});
+        return g.add_image({.name = name, .width = 8, .height = 8, .layers = 4});
     }
     PassBuilder fill(const std::string& name, ImageHandle image) {
-        return g.pass(name).writes(image, ResourceUse::colour, kBlack).layers(image.layer_count);
+        return g.add_pass(name)
+            .writes(image, ResourceUse::colour, kClearToBlack)
+            .set_layer_count(image.layer_count);
     }
 };
 
 TEST_F(SmallGraph, GraphWithoutOutputsHasNoPasses) {
-    fill("a", a).record(nothing);
-    const GraphPlan plan = planned(g);
+    fill("a", a).record(record_nothing);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(plan.passes, IsEmpty());
     EXPECT_EQ(plan.bytes, 0u);
     EXPECT_FALSE(plan.images[a.id].used);
 }
 
 TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
-    fill("a", a).record(nothing);
+    fill("a", a).record(record_nothing);
     fill("b", b)
         .reads(a, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
-        .record(nothing);
-    fill("c", c).reads(a, ResourceUse::sampled).record(nothing);
+        .record(record_nothing);
+    fill("c", c).reads(a, ResourceUse::sampled).record(record_nothing);
     g.mark_output(c);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(names_of(g, plan), ElementsAre("a", "c"));
     ASSERT_EQ(plan.culled.size(), 1u);
     EXPECT_EQ(plan.culled[0].pass, 1u);
@@ -249,67 +253,67 @@ TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
 }
 
 TEST_F(SmallGraph, PassWhoseImageIsOverwrittenUnreadIsCulled) {
-    fill("lost", a).record(nothing);
-    fill("seen", a).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
-    fill("wanted", a).record(nothing);
+    fill("lost", a).record(record_nothing);
+    fill("seen", a).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
+    fill("wanted", a).record(record_nothing);
     g.mark_output(a);
     g.mark_output(b);
-    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("seen", "b", "wanted"));
+    EXPECT_THAT(names_of(g, plan_test_graph(g)), ElementsAre("seen", "b", "wanted"));
 }
 
 TEST_F(SmallGraph, PassWhoseImageIsLoadedOrPartlyOverwrittenIsKept) {
-    fill("base", a).record(nothing);
-    fill("part", a.layers(1, 2)).record(nothing);
-    g.pass("load").writes(a.layers(0, 1), ResourceUse::colour).record(nothing);
+    fill("base", a).record(record_nothing);
+    fill("part", a.layers(1, 2)).record(record_nothing);
+    g.add_pass("load").writes(a.layers(0, 1), ResourceUse::colour).record(record_nothing);
     g.mark_output(a);
-    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "part", "load"));
+    EXPECT_THAT(names_of(g, plan_test_graph(g)), ElementsAre("base", "part", "load"));
 }
 
 TEST_F(SmallGraph, PassWhoseLayersAreNotReadIsCulled) {
-    fill("low", a.layers(0, 2)).record(nothing);
-    fill("high", a.layers(2, 2)).record(nothing);
-    fill("b", b).reads(a.layers(0, 2), ResourceUse::sampled).record(nothing);
+    fill("low", a.layers(0, 2)).record(record_nothing);
+    fill("high", a.layers(2, 2)).record(record_nothing);
+    fill("b", b).reads(a.layers(0, 2), ResourceUse::sampled).record(record_nothing);
     g.mark_output(b);
-    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("low", "b"));
+    EXPECT_THAT(names_of(g, plan_test_graph(g)), ElementsAre("low", "b"));
 }
 
 TEST_F(SmallGraph, PassWhoseImageTheNextFrameReadsIsKept) {
-    fill("base", b).record(nothing);
+    fill("base", b).record(record_nothing);
     // The next frame reads image `a`, so passes `history` and `base` are kept.
-    fill("history", a).reads(b, ResourceUse::sampled).record(nothing);
-    fill("view", c).reads(g.previous(a), ResourceUse::sampled).record(nothing);
+    fill("history", a).reads(b, ResourceUse::sampled).record(record_nothing);
+    fill("view", c).reads(g.previous_contents(a), ResourceUse::sampled).record(record_nothing);
     g.mark_output(c);
-    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "history", "view"));
+    EXPECT_THAT(names_of(g, plan_test_graph(g)), ElementsAre("base", "history", "view"));
 }
 
 TEST_F(SmallGraph, OnlyTheLastWriterIsKeptForTheNextFrame) {
-    fill("view", c).reads(g.previous(a), ResourceUse::sampled).record(nothing);
-    fill("lost", a).record(nothing);
-    fill("history", a).reads(g.previous(b), ResourceUse::sampled).record(nothing);
+    fill("view", c).reads(g.previous_contents(a), ResourceUse::sampled).record(record_nothing);
+    fill("lost", a).record(record_nothing);
+    fill("history", a).reads(g.previous_contents(b), ResourceUse::sampled).record(record_nothing);
     // Only pass `history`, which the next frame needs, reads image `b`.
-    fill("deeper", b).record(nothing);
+    fill("deeper", b).record(record_nothing);
     g.mark_output(c);
-    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("view", "history", "deeper"));
+    EXPECT_THAT(names_of(g, plan_test_graph(g)), ElementsAre("view", "history", "deeper"));
 }
 
 TEST_F(SmallGraph, HistoryThatFeedsOnlyItselfIsCulled) {
-    fill("loop", a).reads(g.previous(a), ResourceUse::sampled).record(nothing);
-    fill("view", c).record(nothing);
+    fill("loop", a).reads(g.previous_contents(a), ResourceUse::sampled).record(record_nothing);
+    fill("view", c).record(record_nothing);
     g.mark_output(c);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(names_of(g, plan), ElementsAre("view"));
     EXPECT_FALSE(plan.images[a.id].used);
     EXPECT_EQ(plan.bytes, 4u * 64 * 8);
 }
 
 TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
-    fill("a", a).record(nothing);
-    fill("culled", d).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
-    fill("c", c).reads(b, ResourceUse::sampled).record(nothing);
+    fill("a", a).record(record_nothing);
+    fill("culled", d).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
+    fill("c", c).reads(b, ResourceUse::sampled).record(record_nothing);
     g.mark_output(c);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_EQ(plan.images[a.id].first, 0u);
     EXPECT_EQ(plan.images[a.id].last, 1u);
     EXPECT_EQ(plan.images[b.id].first, 1u);
@@ -319,10 +323,10 @@ TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
 }
 
 TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
-    fill("a", a).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
-    fill("c", c).reads(b, ResourceUse::sampled).record(nothing);
-    fill("d", d).reads(c, ResourceUse::sampled).record(nothing);
+    fill("a", a).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
+    fill("c", c).reads(b, ResourceUse::sampled).record(record_nothing);
+    fill("d", d).reads(c, ResourceUse::sampled).record(record_nothing);
     g.mark_output(d);
     MemorySizer sizer = make_default_sizer();
     sizer.image = [](const ImageDesc& desc) {
@@ -339,10 +343,10 @@ TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
 }
 
 TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
-    fill("a", a).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
+    fill("a", a).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
     g.mark_output(b);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(barriers_of(plan, 0), ElementsAre("image 0 [0,4] nothing > colour!/raster"));
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 1 [0,4] nothing > colour!/raster",
                                                   "image 0 [0,4] colour!/raster > sampled/raster"));
@@ -350,40 +354,44 @@ TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
 }
 
 TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNoBarrier) {
-    fill("a", a).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
-    fill("c", c).reads(a, ResourceUse::sampled).record(nothing);
+    fill("a", a).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
+    fill("c", c).reads(a, ResourceUse::sampled).record(record_nothing);
     g.mark_output(b);
     g.mark_output(c);
-    EXPECT_THAT(barriers_of(planned(g), 2), ElementsAre("image 2 [0,4] nothing > colour!/raster"));
+    EXPECT_THAT(barriers_of(plan_test_graph(g), 2),
+                ElementsAre("image 2 [0,4] nothing > colour!/raster"));
 }
 
 TEST_F(SmallGraph, ReadInAnotherStageWaitsForTheFirstReader) {
-    fill("a", a).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
-    g.pass("sum")
+    fill("a", a).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
+    g.add_pass("sum")
         .reads(a, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
-        .record(nothing);
-    fill("rewrite", a).record(nothing);
+        .record(record_nothing);
+    fill("rewrite", a).record(record_nothing);
     g.mark_output(a);
     g.mark_output(b);
     g.mark_output(args);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > sampled"));
     EXPECT_THAT(barriers_of(plan, 3),
                 ElementsAre("image 0 [0,4] sampled/raster > colour!/raster +sampled"));
 }
 
 TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
-    fill("a", a).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
-    g.pass("copy").reads(a, ResourceUse::copy_from).writes(c, ResourceUse::copy_to).record(nothing);
-    fill("d", d).reads(a, ResourceUse::sampled).record(nothing);
+    fill("a", a).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
+    g.add_pass("copy")
+        .reads(a, ResourceUse::copy_from)
+        .writes(c, ResourceUse::copy_to)
+        .record(record_nothing);
+    fill("d", d).reads(a, ResourceUse::sampled).record(record_nothing);
     g.mark_output(b);
     g.mark_output(c);
     g.mark_output(d);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > copy_from",
                                                   "image 2 [0,4] nothing > copy_to!"));
     EXPECT_THAT(barriers_of(plan, 3), ElementsAre("image 3 [0,4] nothing > colour!/raster",
@@ -391,71 +399,71 @@ TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
 }
 
 TEST_F(SmallGraph, WriteAfterWriteNeedsABarrier) {
-    fill("a", a).record(nothing);
-    g.pass("blur").writes(a, ResourceUse::storage).record(nothing);
-    g.pass("again").writes(a, ResourceUse::storage).record(nothing);
+    fill("a", a).record(record_nothing);
+    g.add_pass("blur").writes(a, ResourceUse::storage).record(record_nothing);
+    g.add_pass("again").writes(a, ResourceUse::storage).record(record_nothing);
     g.mark_output(a);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] colour!/raster > storage!"));
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] storage! > storage!"));
 }
 
 TEST_F(SmallGraph, BarriersMergeLayersOfEqualUse) {
-    fill("low", a.layers(0, 2)).record(nothing);
-    g.pass("high").writes(a.layers(2, 2), ResourceUse::storage_write).record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
+    fill("low", a.layers(0, 2)).record(record_nothing);
+    g.add_pass("high").writes(a.layers(2, 2), ResourceUse::storage_write).record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
     g.mark_output(b);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 1 [0,4] nothing > colour!/raster",
                                                   "image 0 [0,2] colour!/raster > sampled/raster",
                                                   "image 0 [2,2] storage_write! > sampled/raster"));
 }
 
 TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentUses) {
-    fill("a", a).record(nothing);
-    g.pass("blur")
+    fill("a", a).record(record_nothing);
+    g.add_pass("blur")
         .reads(a.layers(0, 2), ResourceUse::sampled)
         .writes(a.layers(2, 2), ResourceUse::storage_write)
-        .record(nothing);
+        .record(record_nothing);
     g.mark_output(a);
-    EXPECT_THAT(barriers_of(planned(g), 1),
+    EXPECT_THAT(barriers_of(plan_test_graph(g), 1),
                 ElementsAre("image 0 [0,2] colour!/raster > sampled",
                             "image 0 [2,2] colour!/raster > storage_write!"));
 }
 
 TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentFrames) {
-    fill("a", a).record(nothing);
-    g.pass("sum")
+    fill("a", a).record(record_nothing);
+    g.add_pass("sum")
         .reads(a, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
-        .record(nothing);
-    fill("b", b).reads(a, ResourceUse::sampled).record(nothing);
-    g.pass("copy")
-        .reads(g.previous(a.layers(0, 2)), ResourceUse::copy_from)
+        .record(record_nothing);
+    fill("b", b).reads(a, ResourceUse::sampled).record(record_nothing);
+    g.add_pass("copy")
+        .reads(g.previous_contents(a.layers(0, 2)), ResourceUse::copy_from)
         .reads(a.layers(2, 2), ResourceUse::copy_from)
         .writes(c, ResourceUse::copy_to)
-        .record(nothing);
+        .record(record_nothing);
     g.mark_output(args);
     g.mark_output(b);
     g.mark_output(c);
-    EXPECT_THAT(barriers_of(planned(g), 3),
+    EXPECT_THAT(barriers_of(plan_test_graph(g), 3),
                 ElementsAre("previous 0 [0,2] sampled > copy_from +sampled/raster",
                             "image 0 [2,2] sampled > copy_from +sampled/raster",
                             "image 2 [0,4] nothing > copy_to!"));
 }
 
 TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
-    g.pass("fill").writes(args, ResourceUse::storage_write).record(nothing);
-    fill("a", a).reads(args, ResourceUse::indirect).record(nothing);
-    g.pass("b")
+    g.add_pass("fill").writes(args, ResourceUse::storage_write).record(record_nothing);
+    fill("a", a).reads(args, ResourceUse::indirect).record(record_nothing);
+    g.add_pass("b")
         .reads(args, ResourceUse::storage_read)
         .writes(b, ResourceUse::storage_write)
-        .record(nothing);
-    g.pass("refill").writes(args, ResourceUse::copy_to).record(nothing);
+        .record(record_nothing);
+    g.add_pass("refill").writes(args, ResourceUse::copy_to).record(record_nothing);
     g.mark_output(a);
     g.mark_output(b);
     g.mark_output(args);
-    const GraphPlan plan = planned(g);
+    const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(barriers_of(plan, 0), IsEmpty());
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] nothing > colour!/raster",
                                                   "buffer 0 [0,1] storage_write! > "
@@ -469,28 +477,30 @@ TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
 
 TEST_F(SmallGraph, HistoryImageAsOutputIsLeftSampledInAllLayers) {
     fill("a", a.layers(0, 2))
-        .reads(g.previous(a.layers(0, 2)), ResourceUse::sampled)
-        .record(nothing);
+        .reads(g.previous_contents(a.layers(0, 2)), ResourceUse::sampled)
+        .record(record_nothing);
     g.mark_output(a.layers(0, 1));
-    EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,2] colour!/raster > sampled",
-                                                       "image 0 [2,2] nothing > sampled"));
+    EXPECT_THAT(
+        last_barriers(plan_test_graph(g)),
+        ElementsAre("image 0 [0,2] colour!/raster > sampled", "image 0 [2,2] nothing > sampled"));
 }
 
 TEST_F(SmallGraph, OverlappingOutputsGetOneFinalBarrier) {
-    fill("a", a).record(nothing);
+    fill("a", a).record(record_nothing);
     g.mark_output(a.layers(0, 3));
     g.mark_output(a.layers(1, 2));
-    EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,3] colour!/raster > copy_from"));
+    EXPECT_THAT(last_barriers(plan_test_graph(g)),
+                ElementsAre("image 0 [0,3] colour!/raster > copy_from"));
 }
 
 TEST_F(SmallGraph, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
-    g.pass("copy")
-        .reads(g.previous(a), ResourceUse::copy_from)
+    g.add_pass("copy")
+        .reads(g.previous_contents(a), ResourceUse::copy_from)
         .writes(b, ResourceUse::copy_to)
-        .record(nothing);
-    fill("a", a).record(nothing);
+        .record(record_nothing);
+    fill("a", a).record(record_nothing);
     g.mark_output(b);
-    EXPECT_THAT(barriers_of(planned(g), 0),
+    EXPECT_THAT(barriers_of(plan_test_graph(g), 0),
                 ElementsAre("previous 0 [0,4] sampled > copy_from +sampled/raster",
                             "image 1 [0,4] nothing > copy_to!"));
 }

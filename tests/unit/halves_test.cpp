@@ -34,10 +34,10 @@ Picture make_true_picture() {
 
 /// Returns the picture plus noise of this standard deviation: the mean of four uniform draws, whose
 /// distribution is nearly normal.
-Picture add_noise(Picture picture, double deviation, test::Numbers& numbers) {
+Picture add_noise(Picture picture, double deviation, test::RandomNumbers& numbers) {
     const auto range = static_cast<float>(deviation * std::sqrt(3.));
     for (vec3& pixel : picture.pixels)
-        for (int k = 0; k < 4; ++k) pixel += range / 2 * numbers.in_cube();
+        for (int k = 0; k < 4; ++k) pixel += range / 2 * numbers.point_in_cube();
     return picture;
 }
 
@@ -94,7 +94,7 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     int held = 0, biased_held = 0, held_by_deviation = 0;
     double mean = 0, width = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        test::Numbers numbers(seed);
+        test::RandomNumbers numbers(seed);
         const Picture a = add_noise(truth, kNoiseDeviation, numbers),
                       b = add_noise(truth, kNoiseDeviation, numbers);
         const measure::HalvesEstimate found = estimate(wrong, a, b);

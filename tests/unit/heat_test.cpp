@@ -52,8 +52,8 @@ TEST(Heat, HeatPictureKeepsPixelOrderAndScalesValues) {
 }
 
 std::string heat_refusal(std::size_t size, float high) {
-    return test::refusal(catoptric::Failure::internal,
-                         [&] { make_heat_map(std::vector<float>(size), 2, 2, high); });
+    return test::error_text_of(catoptric::Failure::internal,
+                               [&] { make_heat_map(std::vector<float>(size), 2, 2, high); });
 }
 
 TEST(Heat, WrongMapSizeOrScaleIsRefused) {

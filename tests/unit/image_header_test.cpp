@@ -54,8 +54,8 @@ TEST(TiffHeader, HeaderGivesSizeAndChannelsInEitherByteOrder) {
 TEST(TiffHeader, MorePixelsThanTheFileCanHoldAreRefused) {
     constexpr std::uint32_t kNone = 1, kLzw = 5, kPackBits = 32773, kFax = 4;
     const auto refusal = [](std::uint32_t compression, std::size_t bytes) {
-        return test::refusal(Failure::bad_data,
-                             [&] { shape_of(tiff(8192, 8192, compression, bytes)); });
+        return test::error_text_of(Failure::bad_data,
+                                   [&] { shape_of(tiff(8192, 8192, compression, bytes)); });
     };
     EXPECT_THAT(refusal(kNone, 1000),
                 testing::HasSubstr("a.tif: wanted at least 201326592 bytes for 8192x8192 pixels"));

@@ -36,7 +36,8 @@ TEST(MedianInterval, IntervalEndsAtTheRanksOfTheSignTest) {
 }
 
 TEST(MedianInterval, IntervalOfFewerThanSixValuesOrNanIsUnknown) {
-    for (std::size_t n = 0; n < kFewest; ++n) EXPECT_FALSE(median_interval(one_to(n)).is_known());
+    for (std::size_t n = 0; n < kMinIntervalSamples; ++n)
+        EXPECT_FALSE(median_interval(one_to(n)).is_known());
     std::vector<double> values = one_to(6);
     values[3] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(median_interval(values).is_known());

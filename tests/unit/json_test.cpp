@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string said_of(const std::string& text) {
-    return test::refusal(Failure::bad_data, [&] { check_json("x.json", text); });
+    return test::error_text_of(Failure::bad_data, [&] { check_json("x.json", text); });
 }
 
 TEST(Json, JsonErrorNamesPlaceExpectedAndFound) {
@@ -92,7 +92,7 @@ TEST_F(JsonFiles, AllReadersGiveTheSameJsonError) {
              {"plan", [&] { app::read_plan("plan:" + put("plan.json", broken)); }},
              {"benchmarks", [&] { report::read_benchmarks(broken, "b.json"); }},
              {"profile", [&] { app::read_profile(broken, "p.json", {}); }}})
-        EXPECT_THAT(test::refusal(Failure::bad_data, read), HasSubstr(place)) << reader;
+        EXPECT_THAT(test::error_text_of(Failure::bad_data, read), HasSubstr(place)) << reader;
 }
 
 } // namespace

@@ -8,32 +8,32 @@ namespace {
 
 using namespace catoptric;
 
-constexpr Knob kKnobKnobs[] = {
+constexpr Knob kExampleKnobs[] = {
     {.name = "steps", .help = "", .low = 0, .high = 8, .value = 2},
     {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
 
 std::string knob_refusal(std::string_view knob, std::string_view text) {
-    KnobSettings settings(kKnobKnobs);
-    return test::refusal(Failure::usage, [&] { settings.set("row", knob, text); });
+    KnobSettings settings(kExampleKnobs);
+    return test::error_text_of(Failure::usage, [&] { settings.set_knob("row", knob, text); });
 }
 
 TEST(Knob, SpecialWordReplacesANumber) {
-    KnobSettings settings(kKnobKnobs);
-    EXPECT_FALSE(settings.is_special(kKnobKnobs[1]));
-    settings.set("row", "face", "auto");
-    EXPECT_TRUE(settings.is_special(kKnobKnobs[1]));
-    EXPECT_EQ(settings.text(kKnobKnobs[1]), "auto");
-    EXPECT_FALSE(settings == KnobSettings(kKnobKnobs));
-    settings.set("row", "face", "16");
-    EXPECT_EQ(settings.number(kKnobKnobs[1]), 16);
-    EXPECT_TRUE(settings == KnobSettings(kKnobKnobs));
+    KnobSettings settings(kExampleKnobs);
+    EXPECT_FALSE(settings.is_special(kExampleKnobs[1]));
+    settings.set_knob("row", "face", "auto");
+    EXPECT_TRUE(settings.is_special(kExampleKnobs[1]));
+    EXPECT_EQ(settings.format_value(kExampleKnobs[1]), "auto");
+    EXPECT_FALSE(settings == KnobSettings(kExampleKnobs));
+    settings.set_knob("row", "face", "16");
+    EXPECT_EQ(settings.number_value(kExampleKnobs[1]), 16);
+    EXPECT_TRUE(settings == KnobSettings(kExampleKnobs));
 }
 
 TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
-    KnobSettings settings(kKnobKnobs);
-    settings.set("row", "face", "auto");
+    KnobSettings settings(kExampleKnobs);
+    settings.set_knob("row", "face", "auto");
     try {
-        settings.number(kKnobKnobs[1]);
+        settings.number_value(kExampleKnobs[1]);
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::internal);
@@ -45,10 +45,10 @@ TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
 TEST(Knob, LargeNumbersAreWrittenWithoutAnExponent) {
     const Knob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
     KnobSettings settings(std::span(&range, 1));
-    settings.set("row", "range", "100000");
-    EXPECT_EQ(settings.text(range), "100000");
+    settings.set_knob("row", "range", "100000");
+    EXPECT_EQ(settings.format_value(range), "100000");
     try {
-        settings.set("row", "range", "0");
+        settings.set_knob("row", "range", "0");
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1000000,"));

@@ -16,12 +16,12 @@ constexpr render::GeometryLimits kRoomy{1u << 27, 1u << 27, 1u << 30, 1ull << 31
 
 std::string limits_refusal(const render::SceneAmounts& amounts,
                            const render::GeometryLimits& limits) {
-    return test::refusal(Failure::exhausted,
-                         [&] { render::check_geometry_limits("s", amounts, limits); });
+    return test::error_text_of(Failure::exhausted,
+                               [&] { render::check_geometry_limits("s", amounts, limits); });
 }
 
 TEST(Limits, AmountsCountTrianglesObjectsAndMirrors) {
-    const scene::Scene room = test::room(2, 1);
+    const scene::Scene room = test::make_lit_room(2, 1);
     const render::SceneAmounts amounts = render::count_scene_amounts(room);
     EXPECT_EQ(amounts.triangles, scene::triangle_count(room));
     EXPECT_EQ(amounts.objects, 9u);
@@ -30,7 +30,7 @@ TEST(Limits, AmountsCountTrianglesObjectsAndMirrors) {
 }
 
 TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
-    scene::Scene room = test::room(0, 1);
+    scene::Scene room = test::make_lit_room(0, 1);
     scene::Environment map;
     map.size = {8, 4};
     map.texels.resize(32);
@@ -48,27 +48,27 @@ TEST(Limits, AmountsCountTheTexelsOfTheEnvironment) {
 }
 
 TEST(Limits, MoreImageTexelsThanTheLimitAreRefused) {
-    scene::Scene room = test::room(0, 1);
+    scene::Scene room = test::make_lit_room(0, 1);
     const auto image = std::make_shared<const scene::Image>(
         scene::Image{"wood.png", {8, 4}, std::vector<std::uint32_t>(32)});
     room.materials[room.objects.front().material].albedo_texture = scene::Texture{.image = image};
     const render::Geometry geometry = render::make_geometry(room, render::make_scene_units(room),
-                                                            render::ObjectSpaceChoice::own);
+                                                            render::VertexSpace::object_space);
     render::DeviceVertices vertices(std::vector<bool>(room.objects.size()), 1);
-    vertices.lay_out(geometry);
+    vertices.set_geometry(geometry);
     const auto fill = [&](std::uint64_t most) {
         render::MaterialParameterLists(1).fill(room, geometry, vertices, most);
     };
     constexpr std::uint64_t kTables = 256 + 32 * 32; // sRGB in linear light, albedo of lobes
     EXPECT_NO_THROW(fill(kTables + 32));
-    EXPECT_EQ(test::refusal(Failure::exhausted, [&] { fill(kTables + 31); }),
+    EXPECT_EQ(test::error_text_of(Failure::exhausted, [&] { fill(kTables + 31); }),
               "scene '" + room.name +
                   "': its images up to 'wood.png' take 1312 texels, the device allows 1311");
 }
 
 /// Builds a room with `count` balls that share one mesh of 4096 triangles.
 scene::Scene copies(int count) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     scene.meshes.push_back(scene::ball("ball", 5));
     for (int i = 0; i < count; ++i)
         scene.objects.push_back({.name = "ball", .mesh = scene.meshes.size() - 1, .material = 0});
@@ -99,7 +99,7 @@ TEST(Limits, AmountsEqualTheStoredGeometry) {
     for (const int count : {0, 3, 65, 66, 80}) {
         const scene::Scene scene = copies(count);
         const render::Geometry geometry = render::make_geometry(
-            scene, render::make_scene_units(scene), render::ObjectSpaceChoice::own);
+            scene, render::make_scene_units(scene), render::VertexSpace::object_space);
         const render::SceneAmounts amounts = render::count_scene_amounts(scene);
         EXPECT_EQ(geometry.vertices.size(), amounts.vertices) << count;
         EXPECT_EQ(geometry.indices.size(), 3 * amounts.triangles) << count;

@@ -81,7 +81,7 @@ void expect_same_cameras(const Scene& found, const Scene& wanted) {
 // ---- built-in scenes and missing files
 
 TEST_F(Load, BuiltInScenesLoadAndUnknownNamesAreRefused) {
-    for (const BuiltInScene& scene : built_in_scenes())
+    for (const BuiltInScene& scene : list_built_in_scenes())
         EXPECT_EQ(load(scene.name).name, scene.name);
     try {
         load("cornel-mirors");

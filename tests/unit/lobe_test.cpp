@@ -34,7 +34,7 @@ TEST(Lobe, EqualsTheTextbookFormulas) {
         const double roughness = .05 + .95 * draw();
         const dvec3 o = direction_at(89 * draw()), i = direction_at(89 * draw(), 6.28 * draw());
         const double wanted = test::textbook_lobe(roughness, o, i);
-        const double alpha = f64::alpha_of_roughness(roughness);
+        const double alpha = f64::roughness_to_alpha(roughness);
         EXPECT_NEAR(f64::evaluate_lobe(alpha, dvec3(1), dvec3(1), o, i).x, wanted, 1e-9 * wanted);
         const float in_float = f32::evaluate_lobe(float(alpha), f32::vec3(1), f32::vec3(1),
                                                   f32::vec3(o), f32::vec3(i))
@@ -45,13 +45,13 @@ TEST(Lobe, EqualsTheTextbookFormulas) {
 
 TEST(Lobe, DensityAtTheNormalIsKnown) {
     EXPECT_DOUBLE_EQ(f64::ggx_density(.25, dvec3(0, 0, 1)), 16 / std::numbers::pi);
-    EXPECT_DOUBLE_EQ(f64::alpha_of_roughness(.5), .25);
+    EXPECT_DOUBLE_EQ(f64::roughness_to_alpha(.5), .25);
 }
 
 TEST(Lobe, IsReciprocal) {
     const dvec3 a = direction_at(70), b = direction_at(20, 2);
     for (const double roughness : kRoughnesses) {
-        const double alpha = f64::alpha_of_roughness(roughness);
+        const double alpha = f64::roughness_to_alpha(roughness);
         const double there = f64::evaluate_lobe(alpha, dvec3(.9), dvec3(1), a, b).x / b.z;
         const double back = f64::evaluate_lobe(alpha, dvec3(.9), dvec3(1), b, a).x / a.z;
         EXPECT_NEAR(there, back, 1e-12 * there) << roughness;
@@ -71,7 +71,7 @@ TEST(Lobe, LightBelowTheSurfaceGivesNothing) {
     const dvec3 below = direction_at(100);
     EXPECT_EQ(f64::evaluate_lobe(.2, dvec3(1), dvec3(1), direction_at(30), below).x, 0);
     EXPECT_EQ(f64::evaluate_lobe(.2, dvec3(1), dvec3(1), below, direction_at(30)).x, 0);
-    EXPECT_EQ(f64::sampled_lobe_weight(.2, dvec3(1), dvec3(1), direction_at(30), below).x, 0);
+    EXPECT_EQ(f64::lobe_sample_weight(.2, dvec3(1), dvec3(1), direction_at(30), below).x, 0);
 }
 
 /// Sums over stratified samples of the lobe.
@@ -90,10 +90,10 @@ TEST(Lobe, MeanWeightOfSamplesIsTheAlbedoByQuadrature) {
     for (const double roughness : kRoughnesses)
         for (const double degrees : {0., 30., 60., 80., 88.}) {
             const dvec3 o = direction_at(degrees);
-            const double alpha = f64::alpha_of_roughness(roughness);
+            const double alpha = f64::roughness_to_alpha(roughness);
             double sum = 0;
             for_each_sample(alpha, o, kAcross, [&](const dvec3& i) {
-                sum += f64::sampled_lobe_weight(alpha, dvec3(1), dvec3(1), o, i).x;
+                sum += f64::lobe_sample_weight(alpha, dvec3(1), dvec3(1), o, i).x;
             });
             EXPECT_NEAR(sum / (kAcross * kAcross), albedo_by_quadrature(roughness, o), .002)
                 << roughness << " at " << degrees;
@@ -103,10 +103,10 @@ TEST(Lobe, MeanWeightOfSamplesIsTheAlbedoByQuadrature) {
 TEST(Lobe, WeightIsTheLobeDividedByTheDensity) {
     for (const double roughness : kRoughnesses) {
         const dvec3 o = direction_at(65);
-        const double alpha = f64::alpha_of_roughness(roughness);
+        const double alpha = f64::roughness_to_alpha(roughness);
         for_each_sample(alpha, o, 32, [&](const dvec3& i) {
             if (i.z <= 0) return;
-            const double weight = f64::sampled_lobe_weight(alpha, dvec3(.5), dvec3(1), o, i).x;
+            const double weight = f64::lobe_sample_weight(alpha, dvec3(.5), dvec3(1), o, i).x;
             EXPECT_NEAR(weight * f64::lobe_pdf(alpha, o, i),
                         f64::evaluate_lobe(alpha, dvec3(.5), dvec3(1), o, i).x,
                         1e-8 * weight * f64::lobe_pdf(alpha, o, i));
@@ -122,7 +122,7 @@ TEST(Lobe, SamplesFallWhereTheDensitySaysSo) {
         for (const double degrees : {10., 60., 85.}) {
             const dvec3 o = direction_at(degrees);
             const dvec3 mirror(-o.x, -o.y, o.z);
-            const double alpha = f64::alpha_of_roughness(roughness);
+            const double alpha = f64::roughness_to_alpha(roughness);
             for (const double cosine : {.999, .95, .7}) {
                 const auto is_inside = [&](const dvec3& i) {
                     return i.z > 0 && glm::dot(i, mirror) > cosine;
@@ -149,13 +149,13 @@ TEST(Lobe, RoughnessZeroIsAPerfectMirror) {
     for (const double degrees : {0., 45., 89.9})
         for (const float roughness : {0.f, 1e-8f, 1e-4f}) {
             const f32::vec3 o(direction_at(degrees));
-            const float alpha = f32::alpha_of_roughness(roughness);
+            const float alpha = f32::roughness_to_alpha(roughness);
             for (const float u : {0.f, .3f, .999f})
                 for (const float v : {0.f, .5f, .99f}) {
                     const f32::vec3 i = f32::sample_lobe(alpha, o, u, v);
                     EXPECT_LT(glm::length(i - f32::vec3(-o.x, -o.y, o.z)), 1e-3f);
                     const float weight =
-                        f32::sampled_lobe_weight(alpha, f32::vec3(1), f32::vec3(1), o, i).x;
+                        f32::lobe_sample_weight(alpha, f32::vec3(1), f32::vec3(1), o, i).x;
                     EXPECT_NEAR(weight, 1, 1e-3) << degrees << " " << roughness;
                 }
         }
@@ -167,11 +167,11 @@ TEST(Lobe, ExtremesGiveFiniteNumbers) {
             for (const float u : {0.f, .25f, .9999999f})
                 for (const float v : {0.f, .5f, .9999999f}) {
                     const f32::vec3 o(direction_at(degrees));
-                    const float alpha = f32::alpha_of_roughness(roughness);
+                    const float alpha = f32::roughness_to_alpha(roughness);
                     const f32::vec3 i = f32::sample_lobe(alpha, o, u, v);
                     EXPECT_TRUE(f32::is_finite(i));
                     EXPECT_TRUE(f32::is_finite(
-                        f32::sampled_lobe_weight(alpha, f32::vec3(.9f), f32::vec3(1), o, i)));
+                        f32::lobe_sample_weight(alpha, f32::vec3(.9f), f32::vec3(1), o, i)));
                     EXPECT_FALSE(std::isnan(f32::lobe_pdf(alpha, o, i)));
                 }
 }

@@ -27,13 +27,13 @@ struct Node {
 /// Returns random mirrors. Two of three are exact spheres, the others are boxes. The `lowest` and
 /// `highest` of a sphere lie elsewhere, because the tree must not use them for spheres.
 std::vector<shared::Probe> probes(std::size_t count) {
-    test::Numbers numbers(3);
+    test::RandomNumbers numbers(3);
     std::vector<shared::Probe> probes(count);
     for (std::size_t i = 0; i < count; ++i) {
-        probes[i].sphere = numbers.in_cube();
-        probes[i].radius = i % 3 == 0 ? 0 : numbers.between(.01f, .3f);
-        probes[i].lowest = numbers.in_cube() + 4.0f;
-        probes[i].highest = probes[i].lowest + numbers.unit();
+        probes[i].sphere = numbers.point_in_cube();
+        probes[i].radius = i % 3 == 0 ? 0 : numbers.number_between(.01f, .3f);
+        probes[i].lowest = numbers.point_in_cube() + 4.0f;
+        probes[i].highest = probes[i].lowest + numbers.unit_fraction();
     }
     return probes;
 }

@@ -21,11 +21,11 @@ const shared::View& view_of(const std::vector<shared::View>& views, const vec3& 
 }
 
 TEST(NearPlane, NearPlaneOfCubeFacesClipsNothingInTheCorners) {
-    test::Numbers numbers(1);
+    test::RandomNumbers numbers(1);
     for (const float gap : {.001f, .1f, 3.f})
         for (int k = 0; k < 20; ++k) {
             // The axes of the first cube are the world axes. The other cubes are turned at random.
-            const vec3 forward = k == 0 ? vec3(0) : numbers.direction();
+            const vec3 forward = k == 0 ? vec3(0) : numbers.unit_direction();
             const auto views = render::make_turned_cube_views(kEye, forward, gap);
             ASSERT_EQ(views.size(), 6u);
             const vec3 x = views[0].forward, y = views[2].forward, z = views[4].forward;
@@ -33,7 +33,7 @@ TEST(NearPlane, NearPlaneOfCubeFacesClipsNothingInTheCorners) {
             for (int corner = 0; corner < 8; ++corner)
                 directions.push_back(normalize((corner & 1 ? x : -x) + (corner & 2 ? y : -y) +
                                                (corner & 4 ? z : -z)));
-            for (int i = 0; i < 100; ++i) directions.push_back(numbers.direction());
+            for (int i = 0; i < 100; ++i) directions.push_back(numbers.unit_direction());
             for (const vec3& direction : directions) {
                 const shared::View& view = view_of(views, direction);
                 EXPECT_LT(view.near, dot(view.forward, gap * direction));

@@ -32,36 +32,36 @@ float by_looking_at_all(const render::Geometry& geometry, const vec3& point, con
 /// Expects the same distance from `nearest` and from a search of all triangles. Asks for random
 /// points, and for the centre of each object without the triangles of that object.
 void nearest_expect_same(render::NearestTriangleQuery& nearest, const render::Geometry& geometry,
-                         test::Numbers& numbers) {
+                         test::RandomNumbers& numbers) {
     for (int k = 0; k < 100; ++k) {
-        const vec3 point = numbers.in_cube();
+        const vec3 point = numbers.point_in_cube();
         const Skip none = [](std::size_t, const render::DrawRange&) { return false; };
-        ASSERT_EQ(nearest.distance(geometry, dvec3(point), none),
+        ASSERT_EQ(nearest.distance_to_nearest(geometry, dvec3(point), none),
                   by_looking_at_all(geometry, point, none));
     }
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
         const vec3 point = geometry.ranges[object].bounds.centre();
         const Skip own = [&](std::size_t i, const render::DrawRange&) { return i == object; };
-        ASSERT_EQ(nearest.distance(geometry, dvec3(point), own),
+        ASSERT_EQ(nearest.distance_to_nearest(geometry, dvec3(point), own),
                   by_looking_at_all(geometry, point, own));
     }
 }
 
 TEST(Nearest, NearestDistanceEqualsThatOfAFullSearchAlsoAfterMoves) {
-    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::room(3, 2)}) {
+    for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(3, 2)}) {
         const render::SceneUnits space = render::make_scene_units(scene);
         scene::Scene now = scene::scene_at_time(scene, 0);
         render::Geometry geometry = render::make_geometry(now, space);
         render::NearestTriangleQuery nearest;
-        nearest.lay_out(geometry);
-        test::Numbers numbers(1);
+        nearest.set_geometry(geometry);
+        test::RandomNumbers numbers(1);
         nearest_expect_same(nearest, geometry, numbers);
         for (int k = 0; k < 4; ++k) {
-            const std::size_t object = numbers.below(now.objects.size());
+            const std::size_t object = numbers.integer_below(now.objects.size());
             now.objects[object].world_from_object[3] += dvec4(
-                dvec3(numbers.in_cube()) * (.1 / space.scale), 0);
+                dvec3(numbers.point_in_cube()) * (.1 / space.scale), 0);
             render::move_object(geometry, now, space, object);
-            nearest.move(object);
+            nearest.record_moved_object(object);
             nearest_expect_same(nearest, geometry, numbers);
         }
     }
@@ -71,29 +71,30 @@ TEST(Nearest, NearestDistanceEqualsThatOfAFullSearchAlsoAfterMoves) {
 /// any single ball. A bound that was found for one ball must not end the search in the next ball
 /// too early.
 TEST(Nearest, DistanceInObjectSpacesIsThatOfTheNearestObject) {
-    test::Numbers numbers(7);
-    scene::Scene scene = test::room(0, 1);
+    test::RandomNumbers numbers(7);
+    scene::Scene scene = test::make_lit_room(0, 1);
     for (int i = 0; i < 40; ++i)
-        test::add_ball(scene, "ball", 0, 2.0 * dvec3(numbers.in_cube()), 1e-4, 2);
+        test::add_ball(scene, "ball", 0, 2.0 * dvec3(numbers.point_in_cube()), 1e-4, 2);
     const render::Geometry geometry = render::make_geometry(scene, render::make_scene_units(scene),
-                                                            render::ObjectSpaceChoice::own);
+                                                            render::VertexSpace::object_space);
     render::NearestTriangleQuery nearest;
-    nearest.lay_out(geometry);
+    nearest.set_geometry(geometry);
     std::size_t in_object_spaces = 0;
     for (int k = 0; k < 200; ++k) {
-        const render::DrawRange& near = geometry.ranges[numbers.below(geometry.ranges.size())];
-        const dvec3 point = dvec3(near.bounds.centre()) + .02 * dvec3(numbers.in_cube());
+        const render::DrawRange& near =
+            geometry.ranges[numbers.integer_below(geometry.ranges.size())];
+        const dvec3 point = dvec3(near.bounds.centre()) + .02 * dvec3(numbers.point_in_cube());
         float wanted = std::numeric_limits<float>::infinity();
         std::size_t which = 0;
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-            const float alone = nearest.distance(
+            const float alone = nearest.distance_to_nearest(
                 geometry, point,
                 [&](std::size_t other, const render::DrawRange&) { return other != i; });
             if (alone < wanted) wanted = alone, which = i;
         }
         in_object_spaces += geometry.ranges[which].own.has_value();
-        ASSERT_EQ(nearest.distance(geometry, point,
-                                   [](std::size_t, const render::DrawRange&) { return false; }),
+        ASSERT_EQ(nearest.distance_to_nearest(
+                      geometry, point, [](std::size_t, const render::DrawRange&) { return false; }),
                   wanted);
     }
     EXPECT_GT(in_object_spaces, 100u);
@@ -102,9 +103,9 @@ TEST(Nearest, DistanceInObjectSpacesIsThatOfTheNearestObject) {
 TEST(Nearest, DistanceToAnEmptyGeometryIsInfinity) {
     const render::Geometry geometry;
     render::NearestTriangleQuery nearest;
-    nearest.lay_out(geometry);
-    EXPECT_EQ(nearest.distance(geometry, dvec3(0),
-                               [](std::size_t, const render::DrawRange&) { return false; }),
+    nearest.set_geometry(geometry);
+    EXPECT_EQ(nearest.distance_to_nearest(
+                  geometry, dvec3(0), [](std::size_t, const render::DrawRange&) { return false; }),
               std::numeric_limits<float>::infinity());
 }
 

@@ -171,26 +171,29 @@ TEST_F(PictureFile, FileFormatIsFoundByContentNotByName) {
 TEST_F(PictureFile, MaskSelectsPixelsThatAreNotZero) {
     EXPECT_EQ(read_mask(file("a.png", kRgb8), 2, 2), (Mask{255, 255, 0, 255}));
     EXPECT_EQ(read_mask(file("b.png", kRgba8), 3, 1), (Mask{255, 0, 255}));
-    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
+    EXPECT_THAT(test::error_text_of(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
                 HasSubstr("a.png: wanted a mask of 4x2 as the pictures, found 2x2"));
     EXPECT_THAT(
-        test::refusal(Failure::bad_data, [&] { read_mask(file("c.exr", half_exr()), 2, 1); }),
+        test::error_text_of(Failure::bad_data, [&] { read_mask(file("c.exr", half_exr()), 2, 1); }),
         HasSubstr("c.exr: wanted a PNG as mask, found OpenEXR"));
 }
 
 TEST_F(PictureFile, MissingAndUndecodableFilesAreRefused) {
-    EXPECT_THAT(test::refusal(Failure::missing_input, [&] { read_picture(folder / "no.png"); }),
-                HasSubstr("no.png"));
-    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_picture(file("t.png", "Hello")); }),
-                HasSubstr("t.png: wanted an OpenEXR, Radiance or PNG picture, found 5 bytes"));
-    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_picture(file("e.png", "")); }),
+    EXPECT_THAT(
+        test::error_text_of(Failure::missing_input, [&] { read_picture(folder / "no.png"); }),
+        HasSubstr("no.png"));
+    EXPECT_THAT(
+        test::error_text_of(Failure::bad_data, [&] { read_picture(file("t.png", "Hello")); }),
+        HasSubstr("t.png: wanted an OpenEXR, Radiance or PNG picture, found 5 bytes"));
+    EXPECT_THAT(test::error_text_of(Failure::bad_data, [&] { read_picture(file("e.png", "")); }),
                 HasSubstr("found 0 bytes"));
 }
 
 TEST_F(PictureFile, TruncatedFilesAreRefusedAtEveryLength) {
     const auto refuses = [&](const std::string& name, const std::string& whole, std::size_t size) {
         const fs::path path = file(name, whole.substr(0, size));
-        const std::string text = test::refusal(Failure::bad_data, [&] { read_picture(path); });
+        const std::string text = test::error_text_of(Failure::bad_data,
+                                                     [&] { read_picture(path); });
         EXPECT_THAT(text, HasSubstr(name)) << size << " of " << whole.size();
         EXPECT_THAT(text, Not(HasSubstr("\n")));
     };
@@ -202,19 +205,19 @@ TEST_F(PictureFile, TruncatedFilesAreRefusedAtEveryLength) {
 
 TEST_F(PictureFile, FailedWriteKeepsTheOldFile) {
     const fs::path old = file("old.png", "old");
-    EXPECT_THAT(test::refusal(Failure::internal, [&] { write_png(Picture(), old); }),
+    EXPECT_THAT(test::error_text_of(Failure::internal, [&] { write_png(Picture(), old); }),
                 HasSubstr("a picture of 0x0 cannot be written"));
     EXPECT_EQ(read_file(old), "old");
 }
 
 TEST_F(PictureFile, PathsThatCannotBeWrittenAreRefused) {
     const Picture picture(2, 2);
-    EXPECT_THAT(test::refusal(Failure::cannot_create, [&] { write_png(picture, folder); }),
+    EXPECT_THAT(test::error_text_of(Failure::cannot_create, [&] { write_png(picture, folder); }),
                 HasSubstr(folder.string()));
-    EXPECT_THAT(test::refusal(Failure::cannot_create,
-                              [&] { write_exr(picture, folder / "none" / "a.exr"); }),
+    EXPECT_THAT(test::error_text_of(Failure::cannot_create,
+                                    [&] { write_exr(picture, folder / "none" / "a.exr"); }),
                 HasSubstr("none/a.exr"));
-    EXPECT_THAT(test::refusal(Failure::io, [&] { write_png(picture, "/dev/full"); }),
+    EXPECT_THAT(test::error_text_of(Failure::io, [&] { write_png(picture, "/dev/full"); }),
                 HasSubstr("/dev/full")); // writing to /dev/full fails as on a full disk
 }
 

@@ -51,9 +51,10 @@ TEST(Pieces, FacePartIsEmptyForABoxElsewhereAndWholeForABoxAround) {
 }
 
 TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
-    test::Numbers numbers(7);
+    test::RandomNumbers numbers(7);
     const auto place = [&](double size) {
-        return size * dvec3(numbers.between(-1, 1), numbers.between(-1, 1), numbers.between(-1, 1));
+        return size * dvec3(numbers.number_between(-1, 1), numbers.number_between(-1, 1),
+                            numbers.number_between(-1, 1));
     };
     int inside = 0, partly = 0;
     for (int k = 0; k < 400; ++k) {
@@ -70,7 +71,7 @@ TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
                 std::array<dvec3, 2> at;
                 for (std::size_t box = 0; box < 2; ++box)
                     at[box] = mix(boxes[box].lo, boxes[box].hi, place(.5) + .5);
-                const dvec3 between = mix(at[0], at[1], numbers.between(0, 1));
+                const dvec3 between = mix(at[0], at[1], numbers.number_between(0, 1));
                 for (const auto& [where, part] : {std::pair(at[0], one), {between, both}}) {
                     if (f64::cube_face(where) != face) continue;
                     ++inside;
@@ -89,7 +90,7 @@ TEST(Pieces, DifferingPartHoldsPiecesOfOnlyOneState) {
     const auto states = [](std::vector<FacePiece> before, std::vector<FacePiece> after) {
         FacePieces old, now;
         old.faces[2] = std::move(before), now.faces[2] = std::move(after);
-        old.sort(), now.sort();
+        old.sort_pieces(), now.sort_pieces();
         return find_differing_part(old.faces[2], now.faces[2]);
     };
     EXPECT_TRUE(states({}, {}).empty());

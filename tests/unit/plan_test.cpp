@@ -74,8 +74,8 @@ TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
 
 void expect_refused(const std::string& text, const std::vector<std::string>& words,
                     Failure failure = Failure::usage) {
-    test::expect_refused([&] { reflect::assign_mirrors(app::read_plan(text), kMirrors); }, failure,
-                         words);
+    test::expect_error([&] { reflect::assign_mirrors(app::read_plan(text), kMirrors); }, failure,
+                       words);
 }
 
 TEST(PlanText, InvalidPlansAreRefusedWithTheReason) {

@@ -36,23 +36,23 @@ TEST(Png, PngBytesEqualThoseOfOpenImageIO) {
 
 TEST(Png, UnwritablePicturesAreRefusedWithTheReason) {
     const std::vector<std::uint8_t> values(10);
-    EXPECT_THAT(test::refusal(Failure::internal,
-                              [&] {
-                                  encode_png({{2, 1}, 5, {}}, values);
-                              }),
+    EXPECT_THAT(test::error_text_of(Failure::internal,
+                                    [&] {
+                                        encode_png({{2, 1}, 5, {}}, values);
+                                    }),
                 testing::HasSubstr("a picture of 2x1 cannot be written as PNG: wanted 1 to 4 "
                                    "channels, found 5 and 10 values"));
     EXPECT_THAT(
-        test::refusal(Failure::internal,
-                      [&] {
-                          encode_png({{2, 2}, 3, {}}, values);
-                      }),
+        test::error_text_of(Failure::internal,
+                            [&] {
+                                encode_png({{2, 2}, 3, {}}, values);
+                            }),
         testing::HasSubstr("2x2 cannot be written as PNG: wanted 1 to 4 channels, found 3 and 10"));
     const std::vector<std::uint8_t> row(2'000'000);
-    EXPECT_THAT(test::refusal(Failure::internal,
-                              [&] {
-                                  encode_png({{2'000'000, 1}, 1, {}}, row);
-                              }),
+    EXPECT_THAT(test::error_text_of(Failure::internal,
+                                    [&] {
+                                        encode_png({{2'000'000, 1}, 1, {}}, row);
+                                    }),
                 testing::HasSubstr("libpng cannot encode a picture of 2000000x1: "));
 }
 

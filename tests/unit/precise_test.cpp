@@ -34,7 +34,7 @@ constexpr std::array kFusible{kFNegate, kFAdd, kFSub, kFMul, kVectorTimesScalar,
 
 /// Functions whose results are compared bit for bit between devices.
 constexpr std::array<std::string_view, 6> kExact{"make_ray_shear(", "product_error(",
-                                                 "edge_function(",  "short_edges(",
+                                                 "edge_function(",  "choose_shorter_edges(",
                                                  "triangle_test(",  "barycentric("};
 
 struct Count {

@@ -59,9 +59,9 @@ TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
     const std::string text = app::make_profile_text(device_of(), {tried(0, kFaster)});
     const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
-        test::expect_refused([&] { app::read_profile(text, "p.json", device); }, Failure::bad_data,
-                             {"p.json: is another device's or driver's profile: device." + member +
-                              ": wanted '" + wanted + "', found '" + found + "'"});
+        test::expect_error([&] { app::read_profile(text, "p.json", device); }, Failure::bad_data,
+                           {"p.json: is another device's or driver's profile: device." + member +
+                            ": wanted '" + wanted + "', found '" + found + "'"});
     };
     refuses(device_of("driver 1.3"), "driver", "driver 1.3", "driver 1.2 (build 3)");
     app::DeviceInfo other = device_of();
@@ -74,8 +74,8 @@ TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
 TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     json good = json::parse(app::make_profile_text(device_of(), {tried(0, kFaster)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
-        test::expect_refused([&] { app::read_profile(text, "p.json", device_of()); },
-                             Failure::bad_data, {"p.json: ", part});
+        test::expect_error([&] { app::read_profile(text, "p.json", device_of()); },
+                           Failure::bad_data, {"p.json: ", part});
     };
     refuses("{", "JSON: line 1, column 2: wanted a key in quotation marks, found the end");
     refuses("[]", "wanted a device profile, schema 'catoptric/device-profile/1', found nothing");
@@ -140,12 +140,11 @@ TEST_F(ProfilePlace, ProfileNamedByAnOptionMustBeUsable) {
     put("other.json", app::make_profile_text(device_of("another"), {tried(0, kFaster)}));
     EXPECT_EQ(choose("good.json"), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
-    test::expect_refused([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
-    test::expect_refused([&] { choose("other.json"); }, Failure::bad_data, {"device.driver: "});
-    test::expect_refused([&] { choose("none.json"); }, Failure::missing_input, {"none.json: "});
-    test::expect_refused([&] { choose("."); }, Failure::bad_data,
-                         {": wanted a file with a device"});
-    test::expect_refused(
+    test::expect_error([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
+    test::expect_error([&] { choose("other.json"); }, Failure::bad_data, {"device.driver: "});
+    test::expect_error([&] { choose("none.json"); }, Failure::missing_input, {"none.json: "});
+    test::expect_error([&] { choose("."); }, Failure::bad_data, {": wanted a file with a device"});
+    test::expect_error(
         [&] {
             app::choose_shader_variants({.variants = {{"pixels", "round"}}}, device);
         },

@@ -36,17 +36,17 @@ private:
                                   Format::r32f};
         const std::uint32_t images = below(6) + 3;
         for (std::uint32_t i = 0; i < images; ++i) {
-            images_.push_back(graph_.image({.name = "i" + std::to_string(i),
-                                            .format = formats[i == 0 ? 0 : below(5)],
-                                            .width = 8,
-                                            .height = 8,
-                                            .layers = below(4) + 1}));
+            images_.push_back(graph_.add_image({.name = "i" + std::to_string(i),
+                                                .format = formats[i == 0 ? 0 : below(5)],
+                                                .width = 8,
+                                                .height = 8,
+                                                .layers = below(4) + 1}));
             written_.emplace_back(images_.back().layer_count, false);
         }
         const std::uint32_t buffers = below(3);
         for (std::uint32_t b = 0; b < buffers; ++b) {
             buffers_.push_back(
-                graph_.buffer({.name = "b" + std::to_string(b), .bytes = 100 + below(2000)}));
+                graph_.add_buffer({.name = "b" + std::to_string(b), .bytes = 100 + below(2000)}));
             buffer_written_.push_back(false);
         }
     }
@@ -62,8 +62,8 @@ private:
     }
 
     void add_pass(std::uint32_t number) {
-        PassBuilder pass = graph_.pass("p" + std::to_string(number),
-                                       chance(40) ? PassTag::scene : PassTag::none);
+        PassBuilder pass = graph_.add_pass("p" + std::to_string(number),
+                                           chance(40) ? PassTag::scene : PassTag::none);
         touched_.assign(images_.size(), false);
         const ImageHandle target = part_of(
             images_[below(static_cast<std::uint32_t>(images_.size()))]);
@@ -89,7 +89,7 @@ private:
         const ResourceUse use = is_depth(target) ? ResourceUse::depth : ResourceUse::colour;
         std::optional<ClearValue> clear;
         if (!is_written(target) || chance(60)) clear = ClearValue{};
-        pass.writes(target, use, clear).layers(target.layer_count);
+        pass.writes(target, use, clear).set_layer_count(target.layer_count);
         if (use == ResourceUse::depth || chance(50)) return;
         for (const ImageHandle& image : images_) { // attaches a depth image for the depth test
             if (!is_depth(image) || image.layer_count < target.layer_count) continue;
@@ -116,7 +116,7 @@ private:
                 pass.reads(image, read_use(image, copy));
             } else if (chance(6)) {
                 touched_[image.id] = true;
-                pass.reads(graph_.previous(image), read_use(image, copy));
+                pass.reads(graph_.previous_contents(image), read_use(image, copy));
             }
         }
     }
@@ -129,7 +129,7 @@ private:
         if (is_written(rest) && chance(50))
             pass.reads(rest, read_use(rest, copy));
         else if (chance(10))
-            pass.reads(graph_.previous(target), ResourceUse::sampled);
+            pass.reads(graph_.previous_contents(target), ResourceUse::sampled);
     }
 
     void add_buffers(PassBuilder& pass, bool copy) {
@@ -152,10 +152,10 @@ private:
     /// the next frame would read contents that were never written.
     void write_all(std::uint32_t id) {
         if (is_written(images_[id])) return;
-        graph_.pass("all" + std::to_string(id))
+        graph_.add_pass("all" + std::to_string(id))
             .writes(images_[id], is_depth(images_[id]) ? ResourceUse::depth : ResourceUse::colour,
                     ClearValue{})
-            .layers(images_[id].layer_count)
+            .set_layer_count(images_[id].layer_count)
             .record([](PassCommands&) {});
         written_[id].assign(images_[id].layer_count, true);
     }

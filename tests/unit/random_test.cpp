@@ -25,16 +25,17 @@ UnitPoint point_of(std::uint32_t pixel, std::uint32_t index, std::uint32_t pair,
 }
 
 TEST(Random, ReversesBits) {
-    EXPECT_EQ(f32::reversed_bits(1), 0x80000000u);
-    EXPECT_EQ(f32::reversed_bits(0x12345678u), 0x1e6a2c48u);
-    EXPECT_EQ(f32::reversed_bits(f32::reversed_bits(0xdeadbeefu)), 0xdeadbeefu);
+    EXPECT_EQ(f32::reverse_bits(1), 0x80000000u);
+    EXPECT_EQ(f32::reverse_bits(0x12345678u), 0x1e6a2c48u);
+    EXPECT_EQ(f32::reverse_bits(f32::reverse_bits(0xdeadbeefu)), 0xdeadbeefu);
 }
 
 TEST(Random, SecondCoordinateIsThatOfSobolsSequence) {
     // The first points of the second dimension: 0, 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8 in Gray-code
     // free order.
     const double wanted[] = {0, .5, .75, .25, .625, .125, .375, .875};
-    for (std::uint32_t i = 0; i < 8; ++i) EXPECT_EQ(f32::sobol_second(i) * 0x1p-32, wanted[i]) << i;
+    for (std::uint32_t i = 0; i < 8; ++i)
+        EXPECT_EQ(f32::sobol_second_dimension(i) * 0x1p-32, wanted[i]) << i;
 }
 
 /// Each elementary interval of area 2^-k has one of the first 2^k points, whatever its shape.

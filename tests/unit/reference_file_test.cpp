@@ -15,9 +15,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 measure::Picture draw_picture(std::uint64_t seed) {
-    test::Numbers numbers(seed);
+    test::RandomNumbers numbers(seed);
     measure::Picture picture(5, 3);
-    for (vec3& pixel : picture.pixels) pixel = numbers.in_cube() * 3.f;
+    for (vec3& pixel : picture.pixels) pixel = numbers.point_in_cube() * 3.f;
     return picture;
 }
 
@@ -63,14 +63,15 @@ TEST_F(ReferenceFile, NamesThePartOfTheKeyThatDiffers) {
         app::ReferenceKey other = kKey;
         for (auto& part : other)
             if (part.first == name) part.second = "another";
-        EXPECT_THAT(test::refusal(Failure::bad_data, [&] { app::read_reference(other, file); }),
-                    AllOf(HasSubstr("the " + name + " another"), HasSubstr(value)));
+        EXPECT_THAT(
+            test::error_text_of(Failure::bad_data, [&] { app::read_reference(other, file); }),
+            AllOf(HasSubstr("the " + name + " another"), HasSubstr(value)));
     }
     measure::write_exr(draw_picture(1), file);
-    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { app::read_reference(kKey, file); }),
+    EXPECT_THAT(test::error_text_of(Failure::bad_data, [&] { app::read_reference(kKey, file); }),
                 HasSubstr("wanted the channel A.R"));
-    EXPECT_THAT(test::refusal(Failure::missing_input,
-                              [&] { app::read_reference(kKey, folder / "none.exr"); }),
+    EXPECT_THAT(test::error_text_of(Failure::missing_input,
+                                    [&] { app::read_reference(kKey, folder / "none.exr"); }),
                 HasSubstr("none.exr"));
 }
 

@@ -59,7 +59,7 @@ TEST(RequireFaces, CurvedMirrorsAndOrthographicCamerasNeedAllFaces) {
 }
 
 TEST(RequireLights, LightThatReachesNothingVisibleNeedsNoShadowMap) {
-    scene::Scene scene = test::room(1, 1);
+    scene::Scene scene = test::make_lit_room(1, 1);
     const auto bare = [&](const char* name, dvec3 at, double range) {
         scene.punctual.push_back({.name = name, .intensity = vec3(4), .range = range});
         scene.punctual.back().world_from_light[3] = dvec4(at, 1);
@@ -77,7 +77,7 @@ TEST(RequireLights, LightThatReachesNothingVisibleNeedsNoShadowMap) {
 }
 
 TEST(RequireLights, LightShiningAwayFromVisibleSurfacesNeedsNoShadowMap) {
-    scene::Scene scene = test::room(0, 0);
+    scene::Scene scene = test::make_lit_room(0, 0);
     const std::size_t lamp = add_material(scene, {.emission = vec3(9)});
     // Both lamps are above the ceiling. The first shines upwards, the second down at the ceiling's
     // back.
@@ -94,7 +94,7 @@ TEST(RequireLeftOut, CulledWorkOfManyMirrorsIsListedOnce) {
     EXPECT_EQ(format_number_ranges({1}), "1");
     EXPECT_EQ(format_number_ranges({1, 2, 3, 7, 9, 10}), "1-3, 7, 9-10");
     EXPECT_EQ(list_face_names(1 | 8 | 32), "+X -Y -Z");
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = add_material(scene, {.mirror = true});
     for (int i = 0; i < 50; ++i)
         test::add_ball(scene, "ball" + std::to_string(i), mirror, {.03 * i, 0, -5}, .2, 1);
@@ -129,7 +129,7 @@ TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
 
 /// One mirror is behind a screen. Its bounds are in the camera's picture, but no pixel shows it.
 TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
-    scene::Scene scene = test::hall();
+    scene::Scene scene = test::make_mirror_hall();
     const std::size_t mirror = scene.objects.back().material;
     const std::size_t grey = test::add_material(scene, {.name = "screen", .albedo = vec3(.5f)});
     test::add_quad(scene, "screen", grey, {-1.9, -1.9, -.9}, {-1.1, -1.9, -.9}, {-1.1, 1.9, -.9},
@@ -146,7 +146,8 @@ TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
     for (const auto& [path, count] : paths.through)
         if (path.size() == 1) on_mirrors += count;
     EXPECT_EQ(on_mirrors, paths.count_paths_on_mirrors());
-    const MirrorPathCounts open = trace_mirror_paths({scene, test::hall().cameras[0], {64, 64}});
+    const MirrorPathCounts open = trace_mirror_paths(
+        {scene, test::make_mirror_hall().cameras[0], {64, 64}});
     EXPECT_GT(open.reached[0], open.first[0]) << "the ball is also seen in the others";
     EXPECT_GT(open.hidden[0], 0u) << "of what it shows its centre does not see all";
     EXPECT_LT(open.hidden[0], open.first[0] / 4);
@@ -177,7 +178,7 @@ TEST(RequireSuggest, PlanarIsNotSuggestedIfMirroredViewsShowWrongCaptures) {
 }
 
 TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
-    scene::Scene scene = test::hall();
+    scene::Scene scene = test::make_mirror_hall();
     const std::size_t mirror = scene.objects.back().material;
     scene::Mesh bent = scene::quad("bent", {-1, -1, -1}, {-.4, -1, -1}, {-.4, -.4, -.999},
                                    {-1, -.4, -1});
@@ -193,7 +194,7 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     ASSERT_EQ(suggestion.candidates.size(), 2u);
     EXPECT_THAT(suggestion.candidates[0].name, HasSubstr("planar, "));
     EXPECT_LT(suggestion.candidates[0].error, suggestion.candidates[1].error);
-    EXPECT_EQ(suggest_plan({test::room(0, 1), scene.cameras[0]}).plan, "hybrid");
+    EXPECT_EQ(suggest_plan({test::make_lit_room(0, 1), scene.cameras[0]}).plan, "hybrid");
 }
 
 /// Tests drawn views of the four balls of the built-in scene. In some views, the capture of a ball
@@ -224,7 +225,7 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
 
 /// If all visible mirrors are flat, `planar` draws them, and small captures suffice.
 TEST(RequireSuggest, PlanarPlansUseSmallCaptures) {
-    scene::Scene scene = test::hall();
+    scene::Scene scene = test::make_mirror_hall();
     EXPECT_EQ(suggest_plan({scene, scene.cameras[0], {96, 96}}).plan, "1=march 2,3=planar");
     scene.objects.erase(scene.objects.begin() +
                         static_cast<std::ptrdiff_t>(scene::mirrors(scene).front()));

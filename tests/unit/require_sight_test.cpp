@@ -101,17 +101,17 @@ TEST(RequireFrustum, CaptureFacesThatMayShowABoxAreFound) {
 TEST(RequireFrustum, FrustumHoldsBoxesInThePicture) {
     scene::Camera camera{.eye = {0, 0, 0}, .target = {0, 0, 1}, .vertical_fov_degrees = 90};
     const PictureFrustum wide(camera, {200, 100});
-    EXPECT_TRUE(wide.may_hold(around({0, 9, 10}, .1)));
-    EXPECT_FALSE(wide.may_hold(around({0, 11, 10}, .1)));
-    EXPECT_TRUE(wide.may_hold(around({19, 0, 10}, .1)));
-    EXPECT_FALSE(wide.may_hold(around({21, 0, 10}, .1)));
-    EXPECT_FALSE(wide.may_hold(around({0, 0, -1}, .5)));
+    EXPECT_TRUE(wide.may_contain_box(around({0, 9, 10}, .1)));
+    EXPECT_FALSE(wide.may_contain_box(around({0, 11, 10}, .1)));
+    EXPECT_TRUE(wide.may_contain_box(around({19, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_contain_box(around({21, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_contain_box(around({0, 0, -1}, .5)));
     camera.orthographic_height = 4;
     const PictureFrustum parallel(camera, {200, 100});
-    EXPECT_TRUE(parallel.may_hold(around({0, 1.8, 100}, .1)));
-    EXPECT_FALSE(parallel.may_hold(around({0, 2.2, 100}, .1)));
-    EXPECT_TRUE(parallel.may_hold(around({3.8, 0, 100}, .1)));
-    EXPECT_FALSE(parallel.may_hold(around({4.2, 0, 100}, .1)));
+    EXPECT_TRUE(parallel.may_contain_box(around({0, 1.8, 100}, .1)));
+    EXPECT_FALSE(parallel.may_contain_box(around({0, 2.2, 100}, .1)));
+    EXPECT_TRUE(parallel.may_contain_box(around({3.8, 0, 100}, .1)));
+    EXPECT_FALSE(parallel.may_contain_box(around({4.2, 0, 100}, .1)));
 }
 
 /// Returns a hall with three mirrors in front of a partition and one mirror behind the partition.
@@ -192,14 +192,14 @@ TEST(RequireFrustum, FrustumTestsATriangleAndNotItsBounds) {
     const std::array<dvec3, 3> aslant{{{-14, 9, 10}, {-9, 15, 10}, {-14, 16, 10}}};
     Bounds<double> box;
     for (const dvec3& corner : aslant) box.add(corner);
-    EXPECT_TRUE(square.may_hold(box));
-    EXPECT_FALSE(square.may_hold_triangle(aslant, 0));
-    EXPECT_TRUE(square.may_hold_triangle(aslant, 2));
+    EXPECT_TRUE(square.may_contain_box(box));
+    EXPECT_FALSE(square.may_contain_triangle(aslant, 0));
+    EXPECT_TRUE(square.may_contain_triangle(aslant, 2));
     // A triangle around the whole picture, so that none of its corners is inside.
-    EXPECT_TRUE(square.may_hold_triangle({{{-99, -50, 10}, {99, -50, 10}, {0, 99, 10}}}, 0));
-    EXPECT_FALSE(square.may_hold_triangle({{{-99, -50, -10}, {99, -50, -10}, {0, 99, -10}}}, 0));
-    EXPECT_TRUE(square.may_hold_ball({0, 11, 10}, .8)); // the centre is .707 outside the plane
-    EXPECT_FALSE(square.may_hold_ball({0, 11, 10}, .7));
+    EXPECT_TRUE(square.may_contain_triangle({{{-99, -50, 10}, {99, -50, 10}, {0, 99, 10}}}, 0));
+    EXPECT_FALSE(square.may_contain_triangle({{{-99, -50, -10}, {99, -50, -10}, {0, 99, -10}}}, 0));
+    EXPECT_TRUE(square.may_contain_ball({0, 11, 10}, .8)); // the centre is .707 outside the plane
+    EXPECT_FALSE(square.may_contain_ball({0, 11, 10}, .7));
 }
 
 /// The bounds of mirror 1 of the gallery reach into the first camera's picture, but the mirror's
@@ -212,7 +212,7 @@ TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
     EXPECT_THAT(text, testing::Not(HasSubstr("mirror 1 'large ball': in the camera's view")));
     const PictureFrustum picture(gallery.cameras[0], {512, 512});
     const scene::Object& ball = now.objects[scene::mirrors(now)[0]];
-    EXPECT_TRUE(picture.may_hold(scene::bounds(now, ball)));
+    EXPECT_TRUE(picture.may_contain_box(scene::bounds(now, ball)));
 }
 
 /// Number of mirrors called unseen, of mirrors that a capture was said not to show, and of traced
@@ -223,20 +223,20 @@ struct Found {
 
 /// Traces rays from the camera to random points of all mirrors. The model must call every mirror
 /// that such a ray meets seen, captured and directly seen.
-void look_from_camera(const test::Tree& tree, const scene::Scene& scene, const Model& model,
-                      test::Numbers& numbers, Found& found) {
+void look_from_camera(const test::ObjectRayCaster& tree, const scene::Scene& scene,
+                      const Model& model, test::RandomNumbers& numbers, Found& found) {
     const PictureFrustum picture(scene.cameras[0], {64, 64});
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         for (int k = 0; k < 60; ++k) {
-            const dvec3 to = tree.place_on(mirrors[i], numbers);
-            if (!picture.may_hold({to, to})) continue;
+            const dvec3 to = tree.random_point_on_object(mirrors[i], numbers);
+            if (!picture.may_contain_box({to, to})) continue;
             const dvec3 from = picture.is_parallel()
                                    ? to - dot(to - picture.eye(), picture.forward()) *
                                               picture.forward()
                                    : picture.eye();
-            const auto met = tree.meets(from, to - from, scene.objects.size(),
-                                        bvh::kHidden | bvh::kOneSided);
+            const auto met = tree.find_first_object(from, to - from, scene.objects.size(),
+                                                    bvh::kHiddenFromCamera | bvh::kOneSided);
             const auto mirror = met ? std::ranges::find(mirrors, met->object) : mirrors.end();
             ++found.rays;
             if (mirror == mirrors.end()) continue;
@@ -249,16 +249,19 @@ void look_from_camera(const test::Tree& tree, const scene::Scene& scene, const M
 /// Traces rays from the centre and the surface of mirror `viewer` to all other mirrors. The model
 /// must capture every mirror that such a ray meets. If the ray starts at the centre, the model must
 /// also say that the capture of `viewer` shows the mirror.
-void look_from_mirror(const test::Tree& tree, const scene::Scene& scene, const Model& model,
-                      std::size_t viewer, test::Numbers& numbers, Found& found) {
+void look_from_mirror(const test::ObjectRayCaster& tree, const scene::Scene& scene,
+                      const Model& model, std::size_t viewer, test::RandomNumbers& numbers,
+                      Found& found) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[viewer]]).centre();
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         for (int k = 0; k < 60 && i != viewer; ++k) {
             const bool is_captured = k % 2 == 0;
-            const dvec3 from = is_captured ? centre : tree.place_on(mirrors[viewer], numbers);
-            const dvec3 to = tree.place_on(mirrors[i], numbers);
-            const auto met = tree.meets(from, to - from, mirrors[viewer], bvh::kOneSided);
+            const dvec3 from = is_captured ? centre
+                                           : tree.random_point_on_object(mirrors[viewer], numbers);
+            const dvec3 to = tree.random_point_on_object(mirrors[i], numbers);
+            const auto met = tree.find_first_object(from, to - from, mirrors[viewer],
+                                                    bvh::kOneSided);
             const auto mirror = met ? std::ranges::find(mirrors, met->object) : mirrors.end();
             ++found.rays;
             if (mirror == mirrors.end()) continue;
@@ -273,10 +276,10 @@ void look_from_mirror(const test::Tree& tree, const scene::Scene& scene, const M
 TEST(RequireSight, RandomRaysMeetNoMirrorThatIsCalledUnseen) {
     Found found;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
-        const scene::Scene scene = test::drawn_hall(seed, 6);
+        const scene::Scene scene = test::make_random_hall(seed, 6);
         const Model model = make_required_model({scene, scene.cameras[0], {64, 64}});
-        const test::Tree tree(scene);
-        test::Numbers numbers(seed);
+        const test::ObjectRayCaster tree(scene);
+        test::RandomNumbers numbers(seed);
         SCOPED_TRACE(seed);
         look_from_camera(tree, scene, model, numbers, found);
         for (std::size_t i = 0; i < model.mirrors.size(); ++i) {

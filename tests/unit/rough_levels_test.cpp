@@ -172,7 +172,7 @@ TEST(RoughLevels, LobeAlbedoEqualsTheQuadrature) {
                            test::textbook_lobe(roughness, o, i);
                 });
             double head_on, grazing;
-            f64::lobe_albedo_terms(f64::alpha_of_roughness(roughness), cosine, 32, head_on,
+            f64::lobe_albedo_terms(f64::roughness_to_alpha(roughness), cosine, 32, head_on,
                                    grazing);
             EXPECT_NEAR(f0 * head_on + grazing, wanted, .002) << roughness << ", " << cosine;
         }

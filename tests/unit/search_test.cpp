@@ -8,7 +8,7 @@
 #include "scene/load.hpp"
 #include "session/engine.hpp"
 #include "session/technique_choice.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "technique.hpp"
 
 #include <gmock/gmock.h>

@@ -26,13 +26,13 @@ double mirror_share(const scene::Scene& scene, const scene::Camera& camera) {
     std::size_t black = 0;
     for (std::uint32_t y = 0; y < kSize.y; ++y)
         for (std::uint32_t x = 0; x < kSize.x; ++x)
-            black += tracer.pixel(camera, kSize, x, y, 0) == dvec3(0);
+            black += tracer.trace_pixel(camera, kSize, x, y, 0) == dvec3(0);
     return static_cast<double>(black) / (kSize.x * kSize.y);
 }
 
-/// Returns test::room, scaled by `scale` and moved by `by`.
+/// Returns test::make_lit_room, scaled by `scale` and moved by `by`.
 scene::Scene moved_room(int mirrors, double scale, dvec3 by) {
-    scene::Scene scene = test::room(mirrors, 1);
+    scene::Scene scene = test::make_lit_room(mirrors, 1);
     dmat4 moved(scale);
     moved[3] = dvec4(by, 1);
     for (scene::Object& object : scene.objects) {
@@ -80,7 +80,7 @@ TEST(SeededCamera, EqualSeedsAndInstantsGiveEqualCameras) {
 }
 
 TEST(SeededCamera, SeededCameraIsInFrontOfAFlatMirror) {
-    scene::Scene scene = test::room(0, 1);
+    scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     test::add_quad(scene, "pane", mirror, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0},
                    {-.5, .5, 0}); // the mirror faces +z
@@ -89,8 +89,8 @@ TEST(SeededCamera, SeededCameraIsInFrontOfAFlatMirror) {
 }
 
 TEST(SeededCamera, SceneWithoutMirrorsGetsSeededCameras) {
-    EXPECT_NE(app::make_seeded_camera(test::room(0, 1), 0, 1).name,
-              app::make_seeded_camera(test::room(0, 1), 0, 2).name);
+    EXPECT_NE(app::make_seeded_camera(test::make_lit_room(0, 1), 0, 1).name,
+              app::make_seeded_camera(test::make_lit_room(0, 1), 0, 2).name);
 }
 
 TEST(SeededCamera, SeedingFailsIfNoMirrorCanBeSeen) {

@@ -36,8 +36,8 @@ TEST(Light, LightTermMatchesAHandComputedPoint) {
     // squared distance is 8 and both cosines are sqrt(1/2).
     vec3 direction;
     float distance, factor;
-    ASSERT_TRUE(f32::light_term(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0), vec3(0, -1, 0), direction,
-                                distance, factor));
+    ASSERT_TRUE(f32::compute_point_light_factor(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0),
+                                                vec3(0, -1, 0), direction, distance, factor));
     EXPECT_FLOAT_EQ(distance, std::sqrt(8.0f));
     EXPECT_FLOAT_EQ(factor, 1.0f / 16);
     EXPECT_TRUE(near(direction, vec3(std::sqrt(0.5f), std::sqrt(0.5f), 0), 1e-7f));
@@ -52,8 +52,8 @@ TEST(Light, LightTermMatchesAHandComputedPoint) {
 TEST(Light, LightWithoutNormalHasNoCosineAtTheLight) {
     vec3 direction;
     float distance, factor;
-    ASSERT_TRUE(f32::light_term(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0), vec3(0), direction, distance,
-                                factor));
+    ASSERT_TRUE(f32::compute_point_light_factor(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0), vec3(0),
+                                                direction, distance, factor));
     EXPECT_FLOAT_EQ(factor, std::sqrt(0.5f) / 8);
 }
 
@@ -61,8 +61,8 @@ TEST(Light, LightNeedsNoShadowRayIfACosineIsNotPositive) {
     vec3 direction;
     float distance, factor;
     const auto lit = [&](vec3 normal, vec3 light, vec3 light_normal) {
-        const bool result = f32::light_term(vec3(0), normal, light, light_normal, direction,
-                                            distance, factor);
+        const bool result = f32::compute_point_light_factor(vec3(0), normal, light, light_normal,
+                                                            direction, distance, factor);
         EXPECT_EQ(result, factor > 0);
         return result;
     };
@@ -88,8 +88,8 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
     for (const float size : {1.0f, -1.0f, 1e-6f, 1e6f}) {
         const auto share = [&](double degrees) {
             const double angle = glm::radians(degrees);
-            return f32::facet_share(vec3(std::cos(angle), std::sin(angle), 0), normal,
-                                    vec3(0, size, 0));
+            return f32::facet_light_share(vec3(std::cos(angle), std::sin(angle), 0), normal,
+                                          vec3(0, size, 0));
         };
         EXPECT_EQ(share(-40), 0);
         EXPECT_EQ(share(-.001), 0);
@@ -98,7 +98,7 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
         EXPECT_EQ(share(90), 1);
         // If the shading normal equals the facet's normal, the share is 1 even at grazing angles.
         const vec3 up(0, 1, 0), grazing = glm::normalize(vec3(1, .01f, 0));
-        EXPECT_NEAR(f32::facet_share(grazing, up, size * up), 1, 1e-5);
+        EXPECT_NEAR(f32::facet_light_share(grazing, up, size * up), 1, 1e-5);
     }
 }
 
@@ -110,10 +110,10 @@ TEST(Mirror, MirrorDirectionIgnoresTheSignOfTheNormal) {
 }
 
 TEST(Mirror, MirrorDirectionNeverPointsBelowTheFacet) {
-    test::Numbers random(1);
+    test::RandomNumbers random(1);
     for (int i = 0; i < 10000; ++i) {
-        const vec3 d = random.direction(), n_geometric = random.direction();
-        const vec3 n_shading = glm::normalize(n_geometric + 0.9f * random.direction());
+        const vec3 d = random.unit_direction(), n_geometric = random.unit_direction();
+        const vec3 n_shading = glm::normalize(n_geometric + 0.9f * random.unit_direction());
         const vec3 r = f32::mirror_direction(d, n_shading, n_geometric);
         ASSERT_GE(glm::dot(r, n_geometric) * -glm::dot(d, n_geometric), -1e-6f);
         ASSERT_NEAR(glm::length(r), 1, 1e-6f);
@@ -154,12 +154,13 @@ TEST(TriangleTest, TriangleTestMissesIfACoordinateIsNan) {
 }
 
 TEST(TriangleTest, FloatTriangleTestAgreesWithDouble) {
-    test::Numbers random(2);
+    test::RandomNumbers random(2);
     int hits = 0, disagreements = 0;
     for (int i = 0; i < 100000; ++i) {
-        const vec3 a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
-        const vec3 origin = 3.0f * random.direction();
-        const vec3 direction = glm::normalize(0.5f * random.in_cube() - origin);
+        const vec3 a = random.point_in_cube(), b = random.point_in_cube(),
+                   c = random.point_in_cube();
+        const vec3 origin = 3.0f * random.unit_direction();
+        const vec3 direction = glm::normalize(0.5f * random.point_in_cube() - origin);
         const TriangleHit single = hit_triangle(a, b, c, origin, direction);
         double t;
         dvec3 weights;
@@ -186,11 +187,11 @@ TEST(TriangleTest, FloatTriangleTestAgreesWithDouble) {
 
 TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
     // A long double has 64 mantissa bits, so the product of two 24-bit floats is exact.
-    test::Numbers random(3);
+    test::RandomNumbers random(3);
     int fallbacks = 0;
     for (int i = 0; i < 200000; ++i) {
-        const float a = random.between(0.5f, 1), b = random.between(0.5f, 1);
-        const float c = std::nextafter(a, random.between(0, 2));
+        const float a = random.number_between(0.5f, 1), b = random.number_between(0.5f, 1);
+        const float c = std::nextafter(a, random.number_between(0, 2));
         const float d = static_cast<float>(static_cast<long double>(a) * b / c);
         const long double exact = static_cast<long double>(a) * b - static_cast<long double>(c) * d;
         const float found = f32::edge_function(a, b, c, d);
@@ -204,10 +205,12 @@ TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
 }
 
 TEST(TriangleTest, TriangleTestIsUnchangedByScalingWithPowersOfTwo) {
-    test::Numbers random(4);
+    test::RandomNumbers random(4);
     for (int i = 0; i < 2000; ++i) {
-        const vec3 a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
-        const vec3 origin = 3.0f * random.direction(), direction = 0.5f * random.in_cube() - origin;
+        const vec3 a = random.point_in_cube(), b = random.point_in_cube(),
+                   c = random.point_in_cube();
+        const vec3 origin = 3.0f * random.unit_direction(),
+                   direction = 0.5f * random.point_in_cube() - origin;
         const TriangleHit one = hit_triangle(a, b, c, origin, direction);
         for (int k = -20; k <= 20; k += 5) {
             const float s = std::ldexp(1.0f, k);
@@ -263,10 +266,10 @@ TEST(SphereTest, SphereTestWorksFromOutsideInsideAndBehind) {
 }
 
 TEST(SphereTest, SphereTestStaysPreciseFarAway) {
-    test::Numbers random(5);
+    test::RandomNumbers random(5);
     for (int i = 0; i < 10000; ++i) {
-        const vec3 origin = 1e4f * random.direction();
-        const vec3 direction = glm::normalize(0.5f * random.direction() - origin);
+        const vec3 origin = 1e4f * random.unit_direction();
+        const vec3 direction = glm::normalize(0.5f * random.unit_direction() - origin);
         float t;
         double exact;
         ASSERT_TRUE(f32::sphere_test(vec3(0), 1, {origin, direction}, test::kInfinity, t));
@@ -282,17 +285,18 @@ TEST(SphereTest, SphereTestStaysPreciseFarAway) {
 // Tests triangles of any shape whose coordinates have sizes of .1 to 10. Rays from thinner
 // triangles rely on Ray::leaves, the number of the triangle that a ray must not hit.
 TEST(Spawn, SpawnedRayNeverMeetsItsOwnTriangle) {
-    test::Numbers random(6);
+    test::RandomNumbers random(6);
     for (int i = 0; i < 1000; ++i) {
         const auto corner = [&] {
-            return vec3(random.wide(-1, 1), random.wide(-1, 1), random.wide(-1, 1));
+            return vec3(random.log_uniform_number(-1, 1), random.log_uniform_number(-1, 1),
+                        random.log_uniform_number(-1, 1));
         };
         const vec3 a = corner(), b = corner(), c = corner();
         for (int k = 0; k < 100; ++k) {
-            const float s = std::sqrt(random.between(0, 1)), r = random.between(0, 1);
+            const float s = std::sqrt(random.number_between(0, 1)), r = random.number_between(0, 1);
             vec3 error;
             const vec3 p = f32::triangle_point(a, b, c, {1 - s, s * (1 - r), s * r}, error);
-            const vec3 direction = random.direction();
+            const vec3 direction = random.unit_direction();
             const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
             ASSERT_FALSE(hit_triangle(a, b, c, origin, direction).hit) << i << ' ' << k;
         }
@@ -309,13 +313,13 @@ TEST(Spawn, SpawnOffsetStaysWithinRoundingErrors) {
 }
 
 TEST(Spawn, SpawnedRayNeverMeetsItsOwnSphereFromOutside) {
-    test::Numbers random(7);
+    test::RandomNumbers random(7);
     for (int i = 0; i < 50000; ++i) {
-        const vec3 centre = 10.0f * random.in_cube();
-        const float radius = std::abs(random.wide(-2, 1));
-        const f32::Ray ray{centre + 3 * radius * random.direction(), random.direction()};
+        const vec3 centre = 10.0f * random.point_in_cube();
+        const float radius = std::abs(random.log_uniform_number(-2, 1));
+        const f32::Ray ray{centre + 3 * radius * random.unit_direction(), random.unit_direction()};
         const f32::Ray aimed{ray.origin,
-                             centre + 0.99f * radius * random.in_cube() * 0.57f - ray.origin};
+                             centre + 0.99f * radius * random.point_in_cube() * 0.57f - ray.origin};
         float t;
         ASSERT_TRUE(f32::sphere_test(centre, radius, aimed, test::kInfinity, t));
         vec3 error;
@@ -333,12 +337,12 @@ TEST(Spawn, ShadowRaysEndShortOfTheLight) { EXPECT_EQ(f32::kShadowRayEnd, 1 - 0x
 // ---- Captures and picture
 
 TEST(Parallax, ParallaxFindsThePointAtTheCapturedDistance) {
-    test::Numbers random(8);
+    test::RandomNumbers random(8);
     for (int i = 0; i < 10000; ++i) {
         // Parallax correction is exact if the captured distance is `way + dot(offset, dir)`, where
         // `way` is the distance along the ray. This holds for a plane perpendicular to the ray.
-        const vec3 offset = 0.3f * random.in_cube(), dir = random.direction();
-        const float way = random.between(0.5f, 5);
+        const vec3 offset = 0.3f * random.point_in_cube(), dir = random.unit_direction();
+        const float way = random.number_between(0.5f, 5);
         const vec3 expected = glm::normalize(offset + way * dir);
         const vec3 found = f32::parallax_direction(offset, dir, way + glm::dot(offset, dir));
         ASSERT_TRUE(near(found, expected, 1e-6f));
@@ -370,9 +374,9 @@ TEST(CubeFace, CubeFaceCentresAreInVulkansOrder) {
 }
 
 TEST(CubeFace, CubeCoordinatesConvertBackToTheSameDirection) {
-    test::Numbers random(9);
+    test::RandomNumbers random(9);
     for (int i = 0; i < 10000; ++i) {
-        const vec3 dir = random.direction();
+        const vec3 dir = random.unit_direction();
         const int face = f32::cube_face(dir);
         const vec3 coordinates = f32::cube_coordinates(face, dir);
         ASSERT_GT(coordinates.z, 0);
@@ -383,13 +387,13 @@ TEST(CubeFace, CubeCoordinatesConvertBackToTheSameDirection) {
 }
 
 TEST(Srgb, SrgbEncodingMatchesKnownValues) {
-    EXPECT_EQ(f32::srgb_encoded(0), 0);
-    EXPECT_EQ(f32::srgb_encoded(1), 1);
-    EXPECT_EQ(f32::srgb_encoded(7), 1);
-    EXPECT_EQ(f32::srgb_encoded(-1), 0);
-    EXPECT_EQ(f32::srgb_encoded(test::kNan), 0);
-    EXPECT_NEAR(f32::srgb_encoded(0.214041f), 0.5f, 1e-5f);
-    EXPECT_FLOAT_EQ(f32::srgb_encoded(0.002f), 0.02584f);
+    EXPECT_EQ(f32::srgb_from_linear_channel(0), 0);
+    EXPECT_EQ(f32::srgb_from_linear_channel(1), 1);
+    EXPECT_EQ(f32::srgb_from_linear_channel(7), 1);
+    EXPECT_EQ(f32::srgb_from_linear_channel(-1), 0);
+    EXPECT_EQ(f32::srgb_from_linear_channel(test::kNan), 0);
+    EXPECT_NEAR(f32::srgb_from_linear_channel(0.214041f), 0.5f, 1e-5f);
+    EXPECT_FLOAT_EQ(f32::srgb_from_linear_channel(0.002f), 0.02584f);
 }
 
 TEST(NextFloat, NextFloatStepsOverZero) {

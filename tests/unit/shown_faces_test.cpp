@@ -39,16 +39,16 @@ struct CapturedScene {
     void finish() {
         geometry = render::make_geometry(scene, render::make_scene_units(scene));
         render::NearestTriangleQuery nearest;
-        nearest.lay_out(geometry);
+        nearest.set_geometry(geometry);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
             ASSERT_TRUE(render::is_closed_shell(scene.meshes[scene.objects[i].mesh]));
             const vec3 centre = geometry.ranges[i].bounds.centre();
-            balls.push_back({centre,
-                             nearest.distance(geometry, dvec3(centre),
-                                              [&](std::size_t object, const render::DrawRange&) {
-                                                  return object != i;
-                                              }),
-                             i});
+            balls.push_back(
+                {centre,
+                 nearest.distance_to_nearest(
+                     geometry, dvec3(centre),
+                     [&](std::size_t object, const render::DrawRange&) { return object != i; }),
+                 i});
         }
     }
     std::vector<shared::View> views(std::size_t object) const {
@@ -104,12 +104,13 @@ double mean_shown_objects(const CapturedScene& scene, std::uint32_t edge) {
 }
 
 TEST(ShownFaces, EveryObjectThatATexelShowsIsDrawn) {
-    test::Numbers numbers(5);
+    test::RandomNumbers numbers(5);
     std::size_t left_out = 0;
     for (int round = 0; round < 8; ++round) {
         CapturedScene scene;
         for (int i = 0; i < 40; ++i)
-            scene.add(numbers.between(.02f, .3f), dvec3(2.f * numbers.in_cube()), round % 3);
+            scene.add(numbers.number_between(.02f, .3f), dvec3(2.f * numbers.point_in_cube()),
+                      round % 3);
         scene.finish();
         // With 72 texels an edge, a cell holds several texels.
         const std::uint32_t edge = round % 2 == 0 ? 9 : 72;

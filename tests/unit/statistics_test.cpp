@@ -57,7 +57,7 @@ TEST(Summary, SummaryIgnoresOrderAndScalesWithTheSamples) {
 }
 
 std::string statistics_refusal(const std::vector<double>& samples) {
-    return test::refusal(catoptric::Failure::internal, [&] { summarise_samples(samples); });
+    return test::error_text_of(catoptric::Failure::internal, [&] { summarise_samples(samples); });
 }
 
 TEST(Summary, SummaryRefusesEmptyAndNonfiniteSamples) {

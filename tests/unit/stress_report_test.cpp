@@ -16,32 +16,34 @@ StressRow row(std::vector<StressCase> cases) {
 }
 
 TEST(StressRow, WorstCaseIsTheOneFurthestBeyondItsLimit) {
-    EXPECT_EQ(row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}}).worst()->what, "all");
-    EXPECT_EQ(row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}}).worst()->what, "over nothing");
-    EXPECT_EQ(row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst()->what, "no number");
-    EXPECT_EQ(row({{"ugly", 100, 1, true}, {"wrong", 1.1, 1}, {"fine", 1, 1}}).worst()->what,
+    EXPECT_EQ(row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}}).worst_case()->what, "all");
+    EXPECT_EQ(row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}}).worst_case()->what,
+              "over nothing");
+    EXPECT_EQ(row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst_case()->what,
+              "no number");
+    EXPECT_EQ(row({{"ugly", 100, 1, true}, {"wrong", 1.1, 1}, {"fine", 1, 1}}).worst_case()->what,
               "wrong");
-    EXPECT_EQ(row({{"ugly", 2, 1, true}, {"fine", 1, 1}}).worst()->what, "ugly");
-    EXPECT_EQ(row({}).worst(), nullptr);
+    EXPECT_EQ(row({{"ugly", 2, 1, true}, {"fine", 1, 1}}).worst_case()->what, "ugly");
+    EXPECT_EQ(row({}).worst_case(), nullptr);
 }
 
 TEST(StressCase, StressCaseThatMeasuresNanFails) {
-    EXPECT_FALSE((StressCase{"", std::nan(""), 1}).holds());
-    EXPECT_TRUE((StressCase{"", 0, 0}).holds());
-    EXPECT_FALSE((StressCase{"", 1e-300, 0}).holds());
+    EXPECT_FALSE((StressCase{"", std::nan(""), 1}).is_within_limit());
+    EXPECT_TRUE((StressCase{"", 0, 0}).is_within_limit());
+    EXPECT_FALSE((StressCase{"", 1e-300, 0}).is_within_limit());
 }
 
 TEST(Stress, StressFailsIfOneOfItsRowsFails) {
     StressResults stress;
     stress.rows = {row({}), row({})};
-    EXPECT_FALSE(stress.failed());
+    EXPECT_FALSE(stress.has_failed_row());
     for (const StressVerdict verdict :
          {StressVerdict::quality_warning, StressVerdict::unsupported, StressVerdict::waived}) {
         stress.rows[1].verdict = verdict;
-        EXPECT_FALSE(stress.failed()) << name_of(verdict);
+        EXPECT_FALSE(stress.has_failed_row()) << name_of(verdict);
     }
     stress.rows[1].verdict = StressVerdict::fail;
-    EXPECT_TRUE(stress.failed());
+    EXPECT_TRUE(stress.has_failed_row());
 }
 
 /// A case that the device's limits do not allow has no figure and does not count as passed.
@@ -51,8 +53,9 @@ TEST(Stress, CaseThatCouldNotRunHasAReasonAndNoFigure) {
     stress.rows[0].verdict = StressVerdict::unsupported;
     stress.rows[0].remark = "the device allows max_memory = 5";
     stress.rows[1].not_run = {{"edge 16384", "allows max_size = 8192"}};
-    EXPECT_THAT(stress.not_run(), testing::ElementsAre("N1: the device allows max_memory = 5",
-                                                       "N1, edge 16384: allows max_size = 8192"));
+    EXPECT_THAT(stress.list_parts_not_run(),
+                testing::ElementsAre("N1: the device allows max_memory = 5",
+                                     "N1, edge 16384: allows max_size = 8192"));
     const nlohmann::json rows = nlohmann::json::parse(to_json(stress))["rows"];
     EXPECT_EQ(rows[0]["verdict"], "unsupported");
     EXPECT_TRUE(rows[0]["measured"].is_null() && rows[0]["threshold"].is_null());

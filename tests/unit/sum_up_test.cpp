@@ -84,9 +84,8 @@ TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
          {std::pair(std::vector<PixelCause>{{"one", {1, 2}, {}}},
                     "one: wanted values of 4 mirror pixels, found 2"),
           {{{"one", {1, 2, 3, 4}, {1}}}, "one alone: wanted values of 4 mirror pixels, found 1"}})
-        test::expect_refused(
-            [&] { measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, causes); },
-            Failure::internal, {words});
+        test::expect_error([&] { measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, causes); },
+                           Failure::internal, {words});
 }
 
 /// Returns one cause for each of list_cause_colours(). The first cause has the whole error.
@@ -135,8 +134,8 @@ TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     EXPECT_EQ(picture.pixels[2], vec3(190) / 255.0F);
     EXPECT_EQ(picture.pixels[3], vec3(0, 114, 178) / 255.0F);
     row.causes->largest.pop_back();
-    test::expect_refused([&] { report::make_cause_picture(row); }, Failure::internal,
-                         {"row 'parallax': wanted a cause for each of 12 pixels, found 11"});
+    test::expect_error([&] { report::make_cause_picture(row); }, Failure::internal,
+                       {"row 'parallax': wanted a cause for each of 12 pixels, found 11"});
     for (const report::CauseColour& a : report::list_cause_colours())
         for (const report::CauseColour& b : report::list_cause_colours())
             if (&a != &b) {

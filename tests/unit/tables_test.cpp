@@ -15,7 +15,7 @@
 #include "scene/load.hpp"
 #include "session/scene_facts.hpp"
 #include "session/technique_choice.hpp"
-#include "study/asked.hpp"
+#include "study/compare_checks.hpp"
 #include "study/study.hpp"
 #include "support/folder.hpp"
 
@@ -154,7 +154,7 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
 
 TEST(Tables, RegisteredStudyIsFoundAndAskedForItsReference) {
     std::vector<std::string_view> names;
-    for (const app::Study& study : app::studies()) names.push_back(study.name);
+    for (const app::Study& study : app::list_studies()) names.push_back(study.name);
     EXPECT_THAT(names,
                 testing::ElementsAre("views", "causes", "lag", "work", "costs", "test-only"));
     EXPECT_NO_THROW(app::check_study({"test-only", 2}, app::kReference));
@@ -208,7 +208,8 @@ TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
 TEST(Tables, RegisteredSceneIsFoundByName) {
     EXPECT_EQ(scene::load("test-only").name, "test-only");
     std::vector<std::string> names;
-    for (const scene::BuiltInScene& scene : scene::built_in_scenes()) names.push_back(scene.name);
+    for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
+        names.push_back(scene.name);
     EXPECT_EQ(names.front(), "cornell-mirrors");
     EXPECT_EQ(names.back(), "test-only");
     EXPECT_THAT(names, testing::IsSupersetOf(
@@ -236,7 +237,7 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
 
     scene::Scene spot = scene;
     spot.punctual[0].kind = scene::PunctualLight::Kind::spot;
-    EXPECT_FALSE(scene::shine_alike(scene.punctual[0], spot.punctual[0]));
+    EXPECT_FALSE(scene::emit_alike(scene.punctual[0], spot.punctual[0]));
     EXPECT_NE(scene::hash_scene(scene), scene::hash_scene(spot));
     EXPECT_NE(require::hash_mesh(scene::list_lights(scene).back()),
               require::hash_mesh(scene::list_lights(spot).back()));
@@ -244,9 +245,9 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
 
 TEST_F(TableOfLightKinds, KindsHaveTheirOwnNumbers) {
     std::vector<std::string_view> names;
-    for (const scene::LightKind& kind : scene::light_kinds()) names.push_back(kind.name);
+    for (const scene::LightKind& kind : scene::list_light_kinds()) names.push_back(kind.name);
     EXPECT_THAT(names, testing::ElementsAre("point", "spot", "directional", "test-only"));
-    EXPECT_THROW(scene::kind_of(scene::PunctualLight::Kind{199}), Error);
+    EXPECT_THROW(scene::light_kind_of(scene::PunctualLight::Kind{199}), Error);
 }
 
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {

@@ -1,5 +1,5 @@
 // Tests of GPU timestamps, 64-bit words of which a device may fill only the low bits.
-#include "graph/stamps.hpp"
+#include "graph/timestamps.hpp"
 
 #include <gtest/gtest.h>
 

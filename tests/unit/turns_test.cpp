@@ -1,6 +1,6 @@
 // Tests of the capture budget: which captures a frame draws if it may not draw all, and how long
 // the others wait.
-#include "render/turns.hpp"
+#include "render/postponed_redraws.hpp"
 #include "scene/motion.hpp"
 #include "session/capture_budget.hpp"
 #include "session/capture_cost.hpp"
@@ -29,7 +29,7 @@ TEST(Turns, CapturesThatWaitedLongestAreDrawnFirst) {
 TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
     for (const std::uint32_t most : {1u, 2u, 3u, 5u}) {
         constexpr std::uint32_t kMirrors = 13;
-        test::Numbers numbers(most);
+        test::RandomNumbers numbers(most);
         std::vector<std::uint32_t> waited(kMirrors, 0);
         std::uint32_t longest = 0;
         for (int frame = 0; frame < 2000; ++frame) {
@@ -37,7 +37,8 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
             for (std::uint32_t i = 0; i < kMirrors; ++i) {
                 // The share of requesting mirrors changes from none to all, so that each of them is
                 // tested.
-                const bool asks = waited[i] > 0 || numbers.between(0, 1) < (frame % 200) / 150.;
+                const bool asks = waited[i] > 0 ||
+                                  numbers.number_between(0, 1) < (frame % 200) / 150.;
                 if (asks) asking.push_back({i, waited[i]});
             }
             const Mirrors later = render::choose_postponed_mirrors(asking, most);

@@ -14,23 +14,24 @@ namespace catoptric::bvh {
 namespace {
 
 std::vector<Triangle> two_level_ball(int levels) {
-    return *test::placed(scene::ball("ball", levels), .5, dvec3(0));
+    return *test::place_triangles(scene::ball("ball", levels), .5, dvec3(0));
 }
 
 /// A tree with one instance at a random place. The instance has a size of 1e-8 to 1 and is rotated,
 /// squeezed and mirrored.
 struct TwoLevelAlone {
-    explicit TwoLevelAlone(const Bvh& tree, test::Numbers& numbers)
+    explicit TwoLevelAlone(const Bvh& tree, test::RandomNumbers& numbers)
         : instance{.tree = &tree,
-                   .scene_from_own = test::turned_to(numbers, std::pow(10., numbers.between(-8, 0)),
-                                                     numbers.between(.1f, 1)),
-                   .centre = dvec3(numbers.in_cube()) + 1e-9 * dvec3(numbers.in_cube()),
+                   .scene_from_own = test::random_scaled_rotation(
+                       numbers, std::pow(10., numbers.number_between(-8, 0)),
+                       numbers.number_between(.1f, 1)),
+                   .centre = dvec3(numbers.point_in_cube()) + 1e-9 * dvec3(numbers.point_in_cube()),
                    .shift = 100},
           whole(
               assemble_two_level_bvh(build_bvh({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
           place(detail::read_instance_placement<float>(whole, record())) {}
     std::uint32_t record() const {
-        return static_cast<std::uint32_t>(count_nodes(whole)) - 1 - f32::kBvhRecordNodes;
+        return static_cast<std::uint32_t>(count_nodes(whole)) - 1 - f32::kBvhNodesPerInstance;
     }
     BvhInstance instance;
     Bvh whole;
@@ -42,13 +43,13 @@ struct TwoLevelAlone {
 TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
     const std::vector<Triangle> triangles = two_level_ball(3);
     const Bvh tree = build_bvh(triangles);
-    test::Numbers numbers(31);
+    test::RandomNumbers numbers(31);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelAlone alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
-            const Triangle& aim = triangles[numbers.below(triangles.size())];
-            const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.unit() : aim.a;
-            const vec3 from = .3f * numbers.in_cube();
+            const Triangle& aim = triangles[numbers.integer_below(triangles.size())];
+            const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.unit_fraction() : aim.a;
+            const vec3 from = .3f * numbers.point_in_cube();
             vec3 low;
             const vec3 origin = f32::scene_point(alone.place,
                                                  f32::offset_from_centre(alone.place, from), low);
@@ -65,20 +66,21 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
     std::size_t met = 0;
     const std::vector<Triangle> triangles = two_level_ball(3);
     const Bvh tree = build_bvh(triangles);
-    test::Numbers numbers(32);
+    test::RandomNumbers numbers(32);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelAlone alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
-            const auto number = static_cast<std::uint32_t>(numbers.below(triangles.size()));
+            const auto number = static_cast<std::uint32_t>(numbers.integer_below(triangles.size()));
             const Triangle& t = triangles[number];
             vec3 error;
-            const vec3 own = f32::triangle_point(t.a, t.b, t.c, numbers.weights(), error);
+            const vec3 own = f32::triangle_point(t.a, t.b, t.c, numbers.barycentric_weights(),
+                                                 error);
             const vec3 arm = f32::offset_from_centre(alone.place, own);
             vec3 facet = f32::facet_normal(f32::offset_from_centre(alone.place, t.a),
                                            f32::offset_from_centre(alone.place, t.b),
                                            f32::offset_from_centre(alone.place, t.c));
             if (dot(facet, arm) < 0) facet = -facet;
-            vec3 direction = numbers.direction();
+            vec3 direction = numbers.unit_direction();
             if (dot(direction, facet) < 0) direction = -direction;
             vec3 low;
             const vec3 origin = f32::scene_point(
@@ -106,21 +108,21 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
 /// The instances are so large that floats in scene units are precise enough. Rays must meet the
 /// same triangles in a two-level tree and in one flat tree.
 TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
-    test::Numbers numbers(33);
+    test::RandomNumbers numbers(33);
     const std::vector<Triangle> shape = two_level_ball(2);
     const Bvh tree = build_bvh(shape);
     std::vector<Triangle> room, all;
     for (int i = 0; i < 40; ++i) {
-        const vec3 a = 2.0f * numbers.in_cube();
-        room.push_back({a, a + numbers.in_cube(), a + numbers.in_cube(), 0, 0});
+        const vec3 a = 2.0f * numbers.point_in_cube();
+        room.push_back({a, a + numbers.point_in_cube(), a + numbers.point_in_cube(), 0, 0});
     }
     all = room;
     std::vector<BvhInstance> instances;
     for (std::uint32_t k = 0; k < 30; ++k) {
         const auto first = static_cast<std::uint32_t>(all.size());
-        instances.push_back({&tree, test::turned_to(numbers, .5, .6),
-                             2.0 * dvec3(numbers.in_cube()), k + 1, k % 5 == 0 ? kHidden : 0,
-                             first});
+        instances.push_back({&tree, test::random_scaled_rotation(numbers, .5, .6),
+                             2.0 * dvec3(numbers.point_in_cube()), k + 1,
+                             k % 5 == 0 ? kHiddenFromCamera : 0, first});
         for (const Triangle& t : shape) {
             const auto put = [&](const vec3& p) {
                 return vec3(instances[k].centre + instances[k].scene_from_own * dvec3(p));
@@ -134,8 +136,8 @@ TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
     const Bvh other = assemble_two_level_bvh(flat, backwards);
     std::size_t found = 0, apart = 0;
     for (int i = 0; i < 20000; ++i) {
-        const f32::Ray ray{3.0f * numbers.in_cube(), numbers.direction(), 0};
-        const std::uint32_t skipped = i % 2 ? kHidden : 0;
+        const f32::Ray ray{3.0f * numbers.point_in_cube(), numbers.unit_direction(), 0};
+        const std::uint32_t skipped = i % 2 ? kHiddenFromCamera : 0;
         const auto wanted = find_closest_hit<float>(one, ray, test::kInfinity, skipped),
                    hit = find_closest_hit<float>(two, ray, test::kInfinity, skipped),
                    again = find_closest_hit<float>(other, ray, test::kInfinity, skipped);
@@ -160,23 +162,23 @@ TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
 /// Row N2b of the stress test: scaling the scene or the object spaces by a power of two changes no
 /// bit of a hit except in t.
 TEST(TwoLevel, ScalingByPowersOfTwoChangesNoHit) {
-    test::Crowd crowd(35);
-    const std::vector<test::CrowdRay> rays = crowd.rays(1000);
-    const Bvh whole = crowd.hierarchy();
+    test::RandomInstanceScene crowd(35);
+    const std::vector<test::InstanceSceneRay> rays = crowd.make_random_rays(1000);
+    const Bvh whole = crowd.build_scene_bvh();
     std::size_t found = 0;
-    const auto walk = [](const Bvh& bvh, const test::CrowdRay& r) {
+    const auto walk = [](const Bvh& bvh, const test::InstanceSceneRay& r) {
         return find_closest_hit<float>(bvh, r.ray, r.t_max, 0, nullptr, r.low);
     };
     for (int k = -20; k <= 20; ++k)
         for (const bool scene : {true, false}) {
             const float s = std::ldexp(1.0f, k), in_scene = scene ? s : 1, in_own = scene ? 1 : s;
-            const Bvh scaled = crowd.hierarchy(in_scene, in_own);
+            const Bvh scaled = crowd.build_scene_bvh(in_scene, in_own);
             ASSERT_EQ(count_nodes(scaled), count_nodes(whole));
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const bool direction = i % 8 < 4;
                 auto wanted = walk(whole, rays[i]);
                 if (wanted && !direction) wanted->t *= in_scene;
-                ASSERT_EQ(walk(scaled, test::scaled(rays[i], in_scene, direction)), wanted)
+                ASSERT_EQ(walk(scaled, test::scale_ray(rays[i], in_scene, direction)), wanted)
                     << (scene ? "scene" : "own spaces") << " x 2^" << k << ", ray " << i;
                 found += wanted.has_value();
             }
@@ -191,9 +193,9 @@ TEST(TwoLevel, TreeWithoutInstancesStaysFlat) {
 }
 
 TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
-    test::Numbers numbers(34);
+    test::RandomNumbers numbers(34);
     for (int i = 0; i < 1000; ++i) {
-        const dvec3 v = dvec3(numbers.in_cube()) + 1e-8 * dvec3(numbers.in_cube());
+        const dvec3 v = dvec3(numbers.point_in_cube()) + 1e-8 * dvec3(numbers.point_in_cube());
         const vec3 low = float_rounding_error(v);
         for (int k = 0; k < 3; ++k) {
             const volatile float high = static_cast<float>(v[k]);

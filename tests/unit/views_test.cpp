@@ -121,10 +121,10 @@ TEST(Views, WithoutDrawnViewsAnyDifferenceCounts) {
 TEST(Views, MetricsThatAreNoNumberOfADifferenceAreRefused) {
     const Row row = over("a", kFlips);
     for (const char* name : {"max_at", "gpu_ms", "flop"})
-        EXPECT_THAT(
-            test::refusal(Failure::internal, [&] { measure::differ_over_views(row, row, name); }),
-            HasSubstr("'" + std::string(name) +
-                      "': wanted a figure of a difference that is a number"));
+        EXPECT_THAT(test::error_text_of(Failure::internal,
+                                        [&] { measure::differ_over_views(row, row, name); }),
+                    HasSubstr("'" + std::string(name) +
+                              "': wanted a figure of a difference that is a number"));
 }
 
 TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
@@ -265,7 +265,7 @@ std::vector<std::string> cameras(const std::vector<measure::View>& views) {
 }
 
 TEST(DrawnViews, DrawnViewsAreDeterminedByTheirSeed) {
-    const scene::Scene scene = test::room(2, 1);
+    const scene::Scene scene = test::make_lit_room(2, 1);
     const std::vector<measure::View> views = app::draw_random_views(request_of(scene, 1), 12);
     ASSERT_EQ(views.size(), 12u);
     std::set<std::string> all;
@@ -284,7 +284,7 @@ TEST(DrawnViews, DrawnViewsAreDeterminedByTheirSeed) {
 }
 
 TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
-    scene::Scene scene = test::room(2, 1);
+    scene::Scene scene = test::make_lit_room(2, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}, .period = 1.6};
     std::set<double> times;
     for (const measure::View& view : app::draw_random_views(request_of(scene, 1), 12)) {
@@ -299,13 +299,14 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
 }
 
 TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
-    const app::Request request = request_of(test::room(1, 1), 1);
+    const app::Request request = request_of(test::make_lit_room(1, 1), 1);
     EXPECT_TRUE(app::draw_random_views(request, 1).empty());
     for (const int count : {-1, 0, 2, 5})
-        EXPECT_THAT(test::refusal(Failure::usage, [&] { app::draw_random_views(request, count); }),
-                    HasSubstr("views: wanted 1 or at least 6, since fewer bound no median with 95 "
-                              "% confidence, found " +
-                              std::to_string(count)));
+        EXPECT_THAT(
+            test::error_text_of(Failure::usage, [&] { app::draw_random_views(request, count); }),
+            HasSubstr("views: wanted 1 or at least 6, since fewer bound no median with 95 "
+                      "% confidence, found " +
+                      std::to_string(count)));
 }
 
 } // namespace

@@ -50,7 +50,7 @@ TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
     EXPECT_EQ(read("x=wood"), (MirrorOverride{"x=wood", vec3(1)}));
     EXPECT_EQ(read("x=3=1"), (MirrorOverride{"x=3", vec3(1)}));
     for (const char* text : {"a=2", "a=-1", "a=.5,.5", "a=1,1,1,1"})
-        EXPECT_THAT(test::refusal(Failure::usage, [&] { read(text); }),
+        EXPECT_THAT(test::error_text_of(Failure::usage, [&] { read(text); }),
                     HasSubstr("--mirror: wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], "
                               "REFLECTANCE a number or r,g,b, all from 0 to 1, found '" +
                               std::string(text) + "'"));
@@ -58,16 +58,17 @@ TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
     EXPECT_EQ(read("a,roughness=.25"), (MirrorOverride{"a", vec3(1), .25f}));
     EXPECT_EQ(read("a=1,.5,0,roughness=1"), (MirrorOverride{"a", {1, .5f, 0}, 1}));
     for (const char* text : {"a,roughness=2", "a,roughness=", "a=1,roughness=-.1"})
-        EXPECT_THAT(test::refusal(Failure::usage, [&] { read(text); }),
+        EXPECT_THAT(test::error_text_of(Failure::usage, [&] { read(text); }),
                     HasSubstr("--mirror: wanted a number from 0 to 1 after ',roughness=', found '" +
                               std::string(text) + "'"));
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { read("=1"); }), HasSubstr("wanted a name"));
+    EXPECT_THAT(test::error_text_of(Failure::usage, [&] { read("=1"); }),
+                HasSubstr("wanted a name"));
 }
 
 TEST(MirrorOverride, RoughMirrorIsAMetal) {
     Scene scene = wishes_room();
-    apply_edit(scene, {.mirrors = {{"table top", vec3(.9f, .8f, .7f), .3f}},
-                       .mirror_max_roughness = .6});
+    apply_edit(scene,
+               {.mirrors = {{"table top", vec3(.9f, .8f, .7f), .3f}}, .mirror_max_roughness = .6});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
     const Material& material = scene.materials[scene.objects[0].material];
     EXPECT_FALSE(material.mirror);
@@ -75,11 +76,11 @@ TEST(MirrorOverride, RoughMirrorIsAMetal) {
     EXPECT_EQ(material.roughness, .3f);
     EXPECT_EQ(material.albedo, vec3(.9f, .8f, .7f));
     Scene other = wishes_room();
-    EXPECT_THAT(test::refusal(Failure::usage,
-                              [&] {
-                                  apply_edit(other, {.mirrors = {{"table top", vec3(1), .7f}},
-                                                     .mirror_max_roughness = .6});
-                              }),
+    EXPECT_THAT(test::error_text_of(Failure::usage,
+                                    [&] {
+                                        apply_edit(other, {.mirrors = {{"table top", vec3(1), .7f}},
+                                                           .mirror_max_roughness = .6});
+                                    }),
                 HasSubstr("--mirror 'table top': wanted a roughness of at most 0.6, above which no "
                           "surface is a mirror, found 0.7; raise --mirror-max-roughness"));
 }
@@ -106,12 +107,12 @@ TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
     EXPECT_THAT(made("[tf]*"), ElementsAre(0u, 1u, 2u));
     EXPECT_THAT(made("table ???"), ElementsAre(0u, 1u));
     for (const char* pattern : {"Table top", "table", "woo", "top"})
-        EXPECT_THAT(test::refusal(Failure::usage, [&] { made(pattern); }),
+        EXPECT_THAT(test::error_text_of(Failure::usage, [&] { made(pattern); }),
                     HasSubstr("--mirror '" + std::string(pattern) +
                               "': matches no object or material of scene 'room'; it has: "
                               "'frame', 'frame/glass', 'glass', 'lamp', 'table leg', 'table top', "
                               "'wood'"));
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { made("tabel top"); }),
+    EXPECT_THAT(test::error_text_of(Failure::usage, [&] { made("tabel top"); }),
                 HasSubstr("(did you mean 'table top'?)"));
 }
 
@@ -163,10 +164,12 @@ TEST(LightWish, LightOverrideEmitsFactorTimesMeanTexel) {
     EXPECT_EQ(of(scene, 0).light, vec3(.125f, 0, 0));
     EXPECT_EQ(of(scene, 1).light, std::nullopt);
     EXPECT_EQ(list_lights(scene).size(), 2u);
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply_edit(scene, {.lights = {"frame"}}); }),
-                HasSubstr("--light 'frame': wanted something that emits light"));
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply_edit(scene, {.lights = {"lmap"}}); }),
-                HasSubstr("did you mean 'lamp'"));
+    EXPECT_THAT(
+        test::error_text_of(Failure::usage, [&] { apply_edit(scene, {.lights = {"frame"}}); }),
+        HasSubstr("--light 'frame': wanted something that emits light"));
+    EXPECT_THAT(
+        test::error_text_of(Failure::usage, [&] { apply_edit(scene, {.lights = {"lmap"}}); }),
+        HasSubstr("did you mean 'lamp'"));
 }
 
 TEST(TurnZUp, TurnZUpMapsZToYExactly) {
@@ -284,9 +287,9 @@ TEST(CameraNamed, OrthographicCameraIsReadFromNumbers) {
     EXPECT_EQ(camera.orthographic_height, 2.5);
     EXPECT_EQ(format_camera(camera), "1,2,3:4,5,6:h=2.5");
     EXPECT_EQ(format_camera(find_camera_by_name("0.5,0,0:0,0,1:40", Scene())), "0.5,0,0:0,0,1:40");
-    EXPECT_THAT(
-        test::refusal(Failure::usage, [] { find_camera_by_name("0,0,0:0,0,1:h=0", Scene()); }),
-        HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
+    EXPECT_THAT(test::error_text_of(Failure::usage,
+                                    [] { find_camera_by_name("0,0,0:0,0,1:h=0", Scene()); }),
+                HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
 }
 
 TEST(ExposureFor, ExposureBringsThe95thPercentileTo80Percent) {

@@ -8,7 +8,7 @@
 namespace catoptric::graph {
 namespace {
 
-using test::kBlack, test::nothing;
+using test::kClearToBlack, test::record_nothing;
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -17,41 +17,42 @@ using ::testing::HasSubstr;
 /// fails in another way.
 std::string wrong_graph_refusal(const Graph& graph, Failure failure = Failure::internal,
                                 GraphLimits limits = {}) {
-    return test::refusal(failure, [&] { plan_graph(graph, limits, make_default_sizer()); });
+    return test::error_text_of(failure, [&] { plan_graph(graph, limits, make_default_sizer()); });
 }
 
 /// Holds a graph with images and a buffer. Each test adds passes with one mistake.
 struct WrongGraph : ::testing::Test {
     Graph g;
-    ImageHandle cubes = g.image(
+    ImageHandle cubes = g.add_image(
         {.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
-    ImageHandle out = g.image({.name = "out", .width = 8, .height = 8});
-    ImageHandle depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 8});
-    BufferHandle args = g.buffer({.name = "args", .bytes = 64});
+    ImageHandle out = g.add_image({.name = "out", .width = 8, .height = 8});
+    ImageHandle depth = g.add_image(
+        {.name = "depth", .format = Format::d32f, .width = 8, .height = 8});
+    BufferHandle args = g.add_buffer({.name = "args", .bytes = 64});
 
     void make(ImageHandle image) {
-        g.pass("make")
-            .writes(image, ResourceUse::colour, kBlack)
-            .layers(image.layer_count)
-            .record(nothing);
+        g.add_pass("make")
+            .writes(image, ResourceUse::colour, kClearToBlack)
+            .set_layer_count(image.layer_count)
+            .record(record_nothing);
     }
 };
 
 TEST_F(WrongGraph, GraphWithoutAMistakeIsAccepted) {
     make(cubes);
-    g.pass("view")
+    g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     g.mark_output(out);
     EXPECT_EQ(plan_graph(g, {}, make_default_sizer()).passes.size(), 2u);
 }
 
 TEST_F(WrongGraph, ReadBeforeWriteIsRefused) {
-    g.pass("view")
+    g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     make(cubes);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
@@ -59,7 +60,10 @@ TEST_F(WrongGraph, ReadBeforeWriteIsRefused) {
 }
 
 TEST_F(WrongGraph, UpdateOfUnwrittenLayersIsRefused) {
-    g.pass("mend").updates(out, ResourceUse::colour, kBlack).area({1, 1, 2, 2}).record(nothing);
+    g.add_pass("mend")
+        .updates(out, ResourceUse::colour, kClearToBlack)
+        .set_area({1, 1, 2, 2})
+        .record(record_nothing);
     g.mark_output(out);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
@@ -68,35 +72,38 @@ TEST_F(WrongGraph, UpdateOfUnwrittenLayersIsRefused) {
 
 TEST_F(WrongGraph, UpdateWithoutAnAreaIsRefused) {
     make(out);
-    g.pass("mend").updates(out, ResourceUse::colour, kBlack).record(nothing);
+    g.add_pass("mend").updates(out, ResourceUse::colour, kClearToBlack).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
 }
 
 TEST_F(WrongGraph, ReadOfPartlyWrittenLayersIsRefused) {
-    g.pass("a").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).layers(6).record(nothing);
-    g.pass("b")
-        .writes(cubes.layers(12, 12), ResourceUse::colour, kBlack)
-        .layers(12)
-        .record(nothing);
-    g.pass("view")
+    g.add_pass("a")
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(6)
+        .record(record_nothing);
+    g.add_pass("b")
+        .writes(cubes.layers(12, 12), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(12)
+        .record(record_nothing);
+    g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
               "layers [6,12)");
 }
 
 TEST_F(WrongGraph, ReadOfTheLastFrameDoesNotCountAsAWrite) {
-    g.pass("old")
-        .reads(g.previous(cubes), ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
-    g.pass("new")
+    g.add_pass("old")
+        .reads(g.previous_contents(cubes), ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
+    g.add_pass("new")
         .reads(cubes, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
-        .record(nothing);
+        .record(record_nothing);
     make(cubes);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'new' reads 'cubes' [0,24) as sampled before any pass writes "
@@ -104,35 +111,35 @@ TEST_F(WrongGraph, ReadOfTheLastFrameDoesNotCountAsAWrite) {
 }
 
 TEST_F(WrongGraph, LoadOfUnwrittenLayersIsRefused) {
-    g.pass("glow").writes(out, ResourceUse::colour).record(nothing);
+    g.add_pass("glow").writes(out, ResourceUse::colour).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'glow' loads (has no clear for) 'out' [0,1) as colour before any "
               "pass writes layers [0,1)");
 }
 
 TEST_F(WrongGraph, StorageUseOfUnwrittenLayersIsRefused) {
-    g.pass("blur").writes(out, ResourceUse::storage).record(nothing);
+    g.add_pass("blur").writes(out, ResourceUse::storage).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'blur' reads and writes 'out' [0,1) as storage before any pass "
               "writes layers [0,1)");
 }
 
 TEST_F(WrongGraph, BufferReadBeforeWriteIsRefused) {
-    g.pass("draw")
+    g.add_pass("draw")
         .reads(args, ResourceUse::indirect)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'draw' reads buffer 'args' as indirect before any pass writes it");
 }
 
 TEST_F(WrongGraph, SamplingAnAttachedLayerIsRefused) {
     make(cubes);
-    g.pass("capture")
+    g.add_pass("capture")
         .reads(cubes, ResourceUse::sampled)
-        .writes(cubes.layers(6, 6), ResourceUse::colour, kBlack)
-        .layers(6)
-        .record(nothing);
+        .writes(cubes.layers(6, 6), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(6)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'capture' reads 'cubes' [0,24) as sampled while it writes 'cubes' "
               "[6,12) as colour, in layers [6,12)");
@@ -140,10 +147,10 @@ TEST_F(WrongGraph, SamplingAnAttachedLayerIsRefused) {
 
 TEST_F(WrongGraph, SamplingAStorageTargetIsRefused) {
     make(out);
-    g.pass("blur")
+    g.add_pass("blur")
         .writes(out, ResourceUse::storage_write)
         .reads(out, ResourceUse::sampled)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'blur' reads 'out' [0,1) as sampled while it writes 'out' [0,1) as "
               "storage_write, in layers [0,1)");
@@ -151,32 +158,32 @@ TEST_F(WrongGraph, SamplingAStorageTargetIsRefused) {
 
 TEST_F(WrongGraph, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
     make(cubes);
-    g.pass("capture")
+    g.add_pass("capture")
         .reads(cubes.layers(0, 6), ResourceUse::sampled)
-        .reads(g.previous(cubes), ResourceUse::sampled)
-        .writes(cubes.layers(6, 6), ResourceUse::colour, kBlack)
-        .layers(6)
-        .record(nothing);
+        .reads(g.previous_contents(cubes), ResourceUse::sampled)
+        .writes(cubes.layers(6, 6), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(6)
+        .record(record_nothing);
     g.mark_output(cubes);
     EXPECT_EQ(plan_graph(g, {}, make_default_sizer()).passes.size(), 2u);
 }
 
 TEST_F(WrongGraph, BufferReadWhileWrittenIsRefused) {
-    g.pass("fill").writes(args, ResourceUse::copy_to).record(nothing);
-    g.pass("sort")
+    g.add_pass("fill").writes(args, ResourceUse::copy_to).record(record_nothing);
+    g.add_pass("sort")
         .reads(args, ResourceUse::storage_read)
         .writes(args, ResourceUse::storage_write)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'sort' reads buffer 'args' as storage_read while it writes buffer "
               "'args' as storage_write");
 }
 
 TEST_F(WrongGraph, TwoWritesOfTheSameLayersAreRefused) {
-    g.pass("twice")
+    g.add_pass("twice")
         .writes(cubes.layers(0, 6), ResourceUse::storage_write)
         .writes(cubes.layers(4, 6), ResourceUse::copy_to)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'twice' writes 'cubes' [0,6) as storage_write and 'cubes' [4,10) "
               "as copy_to: written twice, in layers [4,6)");
@@ -184,11 +191,11 @@ TEST_F(WrongGraph, TwoWritesOfTheSameLayersAreRefused) {
 
 TEST_F(WrongGraph, TwoLayoutsAtOnceAreRefused) {
     make(out);
-    g.pass("look")
+    g.add_pass("look")
         .reads(out, ResourceUse::sampled)
         .reads(out, ResourceUse::storage_read)
         .writes(args, ResourceUse::storage_write)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'look' reads 'out' [0,1) as sampled and 'out' [0,1) as "
               "storage_read: one image cannot be in two layouts at once, in layers "
@@ -202,7 +209,10 @@ TEST_F(WrongGraph, OutputThatIsNeverWrittenIsRefused) {
 }
 
 TEST_F(WrongGraph, OutputLayersThatAreNeverWrittenAreRefused) {
-    g.pass("a").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).layers(6).record(nothing);
+    g.add_pass("a")
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(6)
+        .record(record_nothing);
     g.mark_output(cubes.layers(3, 6));
     EXPECT_EQ(wrong_graph_refusal(g), "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
 }
@@ -221,7 +231,7 @@ TEST_F(WrongGraph, OutputLayersOutOfRangeAreRefused) {
 
 TEST_F(WrongGraph, OutputOfThePreviousFrameIsRefused) {
     make(out);
-    g.mark_output(g.previous(out));
+    g.mark_output(g.previous_contents(out));
     EXPECT_EQ(wrong_graph_refusal(g),
               "previous('out') [0,1) is wanted: only this frame's contents can be");
 }
@@ -233,27 +243,32 @@ TEST_F(WrongGraph, OutputOfAnotherGraphIsRefused) {
 }
 
 TEST_F(WrongGraph, PreviousOfAnUnwrittenImageIsRefused) {
-    g.pass("view")
-        .reads(g.previous(cubes), ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+    g.add_pass("view")
+        .reads(g.previous_contents(cubes), ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads previous('cubes') as sampled but no pass writes 'cubes'");
 }
 
 TEST_F(WrongGraph, PreviousOfUnwrittenLayersIsRefused) {
-    g.pass("a").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).layers(6).record(nothing);
-    g.pass("view")
-        .reads(g.previous(cubes.layers(0, 12)), ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kBlack)
-        .record(nothing);
+    g.add_pass("a")
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(6)
+        .record(record_nothing);
+    g.add_pass("view")
+        .reads(g.previous_contents(cubes.layers(0, 12)), ResourceUse::sampled)
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' reads previous('cubes') [0,12) as sampled but no pass "
               "writes layers [6,12) of 'cubes'");
 }
 
 TEST_F(WrongGraph, WriteToThePreviousFrameIsRefused) {
-    g.pass("rewrite").writes(g.previous(out), ResourceUse::colour, kBlack).record(nothing);
+    g.add_pass("rewrite")
+        .writes(g.previous_contents(out), ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'rewrite' writes previous('out') [0,1) as colour: last frame's "
               "contents are only read");
@@ -261,83 +276,90 @@ TEST_F(WrongGraph, WriteToThePreviousFrameIsRefused) {
 
 TEST_F(WrongGraph, PreviousOfAnotherGraphIsRefused) {
     try {
-        g.previous(ImageHandle{.id = 9});
+        g.previous_contents(ImageHandle{.id = 9});
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "previous() of image number 9, but the graph has 3 images");
+        EXPECT_STREQ(error.what(),
+                     "previous_contents() of image number 9, but the graph has 3 images");
     }
 }
 
 TEST_F(WrongGraph, LayersOutOfRangeAreRefused) {
-    g.pass("capture")
-        .writes(cubes.layers(20, 6), ResourceUse::colour, kBlack)
-        .layers(6)
-        .record(nothing);
+    g.add_pass("capture")
+        .writes(cubes.layers(20, 6), ResourceUse::colour, kClearToBlack)
+        .set_layer_count(6)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'capture' uses 'cubes' [20,26) as colour, but the image has layers "
               "[0,24)");
 }
 
 TEST_F(WrongGraph, LayerRangeThatOverflowsIsRefused) {
-    g.pass("capture").writes(cubes.layers(1, ~0u), ResourceUse::storage_write).record(nothing);
+    g.add_pass("capture")
+        .writes(cubes.layers(1, ~0u), ResourceUse::storage_write)
+        .record(record_nothing);
     EXPECT_THAT(wrong_graph_refusal(g), HasSubstr("but the image has layers [0,24)"));
 }
 
 TEST_F(WrongGraph, EmptyLayerRangeIsRefused) {
-    g.pass("capture").writes(cubes.layers(3, 0), ResourceUse::storage_write).record(nothing);
+    g.add_pass("capture")
+        .writes(cubes.layers(3, 0), ResourceUse::storage_write)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'capture' names no layer of 'cubes' as storage_write");
 }
 
 TEST_F(WrongGraph, ImageOfAnotherGraphIsRefused) {
-    g.pass("a")
+    g.add_pass("a")
         .writes(ImageHandle{.id = 3, .layer_count = 1}, ResourceUse::storage_write)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names image number 3, but the graph has 3");
 }
 
 TEST_F(WrongGraph, BufferOfAnotherGraphIsRefused) {
-    g.pass("a").writes(BufferHandle{1}, ResourceUse::storage_write).record(nothing);
+    g.add_pass("a").writes(BufferHandle{1}, ResourceUse::storage_write).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'a' names buffer number 1, but the graph has 1");
 }
 
 TEST_F(WrongGraph, AttachmentWithAnotherLayerCountIsRefused) {
-    g.pass("capture").writes(cubes.layers(0, 6), ResourceUse::colour, kBlack).record(nothing);
+    g.add_pass("capture")
+        .writes(cubes.layers(0, 6), ResourceUse::colour, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'capture' renders 1 layer(s), but attaches 'cubes' [0,6) as "
               "colour, which are 6");
 }
 
 TEST_F(WrongGraph, AttachmentsOfDifferentSizesAreRefused) {
-    const ImageHandle small = g.image({.name = "small", .width = 8, .height = 4});
-    g.pass("view")
-        .writes(small, ResourceUse::colour, kBlack)
-        .writes(depth, ResourceUse::depth, kBlack)
-        .record(nothing);
+    const ImageHandle small = g.add_image({.name = "small", .width = 8, .height = 4});
+    g.add_pass("view")
+        .writes(small, ResourceUse::colour, kClearToBlack)
+        .writes(depth, ResourceUse::depth, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' attaches 'small' [0,1) as colour (8x4) and 'depth' [0,1) as "
               "depth (8x8): attachments have one size");
 }
 
 TEST_F(WrongGraph, TwoDepthAttachmentsAreRefused) {
-    const ImageHandle other = g.image(
+    const ImageHandle other = g.add_image(
         {.name = "other", .format = Format::d32f, .width = 8, .height = 8});
-    g.pass("view")
-        .writes(other, ResourceUse::depth, kBlack)
-        .writes(depth, ResourceUse::depth, kBlack)
-        .record(nothing);
+    g.add_pass("view")
+        .writes(other, ResourceUse::depth, kClearToBlack)
+        .writes(depth, ResourceUse::depth, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
 }
 
 TEST_F(WrongGraph, DepthUseOfAColourFormatIsRefused) {
-    g.pass("shadow").writes(out, ResourceUse::depth, kBlack).record(nothing);
+    g.add_pass("shadow").writes(out, ResourceUse::depth, kClearToBlack).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'shadow' uses 'out' [0,1) as depth, but its format rgba16f is a "
               "colour format");
 }
 
 TEST_F(WrongGraph, ColourUseOfADepthFormatIsRefused) {
-    g.pass("shadow").writes(depth, ResourceUse::colour, kBlack).record(nothing);
+    g.add_pass("shadow").writes(depth, ResourceUse::colour, kClearToBlack).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'shadow' uses 'depth' [0,1) as colour, but its format d32f is a "
               "depth format");
@@ -350,80 +372,85 @@ TEST_F(WrongGraph, TwoPassesOfOneNameAreRefused) {
 }
 
 TEST_F(WrongGraph, TwoImagesOfOneNameAreRefused) {
-    g.image({.name = "out"});
+    g.add_image({.name = "out"});
     EXPECT_EQ(wrong_graph_refusal(g), "image 'out': another image or buffer has the same name");
 }
 
 TEST_F(WrongGraph, BufferNamedLikeAnImageIsRefused) {
-    g.buffer({.name = "out", .bytes = 4});
+    g.add_buffer({.name = "out", .bytes = 4});
     EXPECT_EQ(wrong_graph_refusal(g), "buffer 'out': another image or buffer has the same name");
 }
 
 TEST_F(WrongGraph, ImageWithoutANameIsRefused) {
-    g.image({.name = ""});
+    g.add_image({.name = ""});
     EXPECT_EQ(wrong_graph_refusal(g), "image number 3 has no name");
 }
 
 TEST_F(WrongGraph, PassWithoutANameIsRefused) {
     make(out);
-    g.pass("").writes(out, ResourceUse::colour, kBlack).record(nothing);
+    g.add_pass("").writes(out, ResourceUse::colour, kClearToBlack).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass number 1 has no name");
 }
 
 TEST_F(WrongGraph, PassWithoutABodyIsRefused) {
-    g.pass("forgotten").writes(out, ResourceUse::colour, kBlack);
+    g.add_pass("forgotten").writes(out, ResourceUse::colour, kClearToBlack);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'forgotten' has no body");
 }
 
 TEST_F(WrongGraph, PassThatWritesNothingIsRefused) {
     make(out);
-    g.pass("look").reads(out, ResourceUse::sampled).record(nothing);
+    g.add_pass("look").reads(out, ResourceUse::sampled).record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'look' writes nothing");
 }
 
 TEST_F(WrongGraph, PassWithoutLayersIsRefused) {
-    g.pass("view").writes(out, ResourceUse::colour, kBlack).layers(0).record(nothing);
+    g.add_pass("view")
+        .writes(out, ResourceUse::colour, kClearToBlack)
+        .set_layer_count(0)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g), "pass 'view' renders 0 layers");
 }
 
 TEST_F(WrongGraph, CubeWithSevenFacesIsRefused) {
-    g.image({.name = "odd", .width = 4, .height = 4, .layers = 7, .cube = true});
+    g.add_image({.name = "odd", .width = 4, .height = 4, .layers = 7, .cube = true});
     EXPECT_EQ(wrong_graph_refusal(g),
               "image 'odd' is a cube, but its 7 layers are not a multiple of 6");
 }
 
 TEST_F(WrongGraph, CubeThatIsNotSquareIsRefused) {
-    g.image({.name = "flat", .width = 4, .height = 2, .layers = 6, .cube = true});
+    g.add_image({.name = "flat", .width = 4, .height = 2, .layers = 6, .cube = true});
     EXPECT_EQ(wrong_graph_refusal(g), "image 'flat' is a cube, but not square: 4x2");
 }
 
 TEST_F(WrongGraph, ImageWithoutSizeIsRefused) {
-    g.image({.name = "void", .width = 4, .height = 0, .layers = 2});
+    g.add_image({.name = "void", .width = 4, .height = 0, .layers = 2});
     EXPECT_EQ(wrong_graph_refusal(g), "image 'void' is empty: 4x0, 2 layers");
 }
 
 TEST_F(WrongGraph, ImageWithoutLayersIsRefused) {
-    g.image({.name = "void", .layers = 0});
+    g.add_image({.name = "void", .layers = 0});
     EXPECT_EQ(wrong_graph_refusal(g), "image 'void' is empty: 1x1, 0 layers");
 }
 
 TEST_F(WrongGraph, BufferWithoutSizeIsRefused) {
-    g.buffer({.name = "void"});
+    g.add_buffer({.name = "void"});
     EXPECT_EQ(wrong_graph_refusal(g), "buffer 'void' is empty: 0 bytes");
 }
 
 TEST_F(WrongGraph, ClearOfAnImageThatIsNotAttachedIsRefused) {
-    g.pass("blur").writes(out, ResourceUse::storage_write, kBlack).record(nothing);
+    g.add_pass("blur")
+        .writes(out, ResourceUse::storage_write, kClearToBlack)
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'blur' clears 'out' [0,1) as storage_write, but only attachments "
               "are cleared");
 }
 
 TEST_F(WrongGraph, CopyInARasterPassIsRefused) {
-    g.pass("view")
-        .writes(out, ResourceUse::colour, kBlack)
+    g.add_pass("view")
+        .writes(out, ResourceUse::colour, kClearToBlack)
         .writes(args, ResourceUse::copy_to)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_EQ(wrong_graph_refusal(g),
               "pass 'view' has attachments and uses buffer 'args' as copy_to: copies "
               "need a pass of their own");
@@ -442,25 +469,25 @@ TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
         const std::string name(name_of(use));
         if (reads) {
             Graph wrong = g;
-            wrong.pass("p").writes(out, use).record(nothing);
+            wrong.add_pass("p").writes(out, use).record(record_nothing);
             EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' writes 'out' [0,1) as " + name +
                                                       ", which is not a way to write an image");
         }
         if ((!reads && use != ResourceUse::depth) || use == ResourceUse::indirect) {
             Graph wrong = g;
-            wrong.pass("p").reads(out, use).record(nothing);
+            wrong.add_pass("p").reads(out, use).record(record_nothing);
             EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' reads 'out' [0,1) as " + name +
                                                       ", which is not a way to read an image");
         }
         if (reads || image_only) {
             Graph wrong = g;
-            wrong.pass("p").writes(args, use).record(nothing);
+            wrong.add_pass("p").writes(args, use).record(record_nothing);
             EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' writes buffer 'args' as " + name +
                                                       ", which is not a way to write a buffer");
         }
         if (!reads) {
             Graph wrong = g;
-            wrong.pass("p").reads(args, use).record(nothing);
+            wrong.add_pass("p").reads(args, use).record(record_nothing);
             EXPECT_EQ(wrong_graph_refusal(wrong), "pass 'p' reads buffer 'args' as " + name +
                                                       ", which is not a way to read a buffer");
         }
@@ -471,10 +498,10 @@ TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
 TEST_F(WrongGraph, CulledPassesAreValidated) {
     make(out);
     g.mark_output(out);
-    g.pass("debug")
+    g.add_pass("debug")
         .reads(cubes, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
-        .record(nothing);
+        .record(record_nothing);
     EXPECT_THAT(wrong_graph_refusal(g), AllOf(HasSubstr("'debug'"), HasSubstr("'cubes'")));
 }
 

@@ -39,7 +39,8 @@ TEST_F(ViewLife, MemoryStaysConstantOverFrames) {
         if (report.frame < 200 || report.frame % kFrames != 0) return;
         resident.push_back(resident_bytes());
         on_device.push_back(
-            app::Access::counts(const_cast<Viewer&>(report.viewer).session()).memory_bytes);
+            app::Access::session_counters(const_cast<Viewer&>(report.viewer).session())
+                .memory_bytes);
     };
     EXPECT_EQ(view({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32", "--frames",
                     "800", "--animate"},
@@ -81,11 +82,12 @@ TEST_F(ViewLife, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     constexpr std::array kSignals{SIGHUP, SIGINT, SIGTERM};
     int answered = 0;
     for (int i = 0; i < 12; ++i) {
-        test::Start process{.command = {CATOPTRIC_VIEW}, .environment = {{"LD_DEBUG", "files"}}};
+        test::ProcessStart process{.command = {CATOPTRIC_VIEW},
+                                   .environment = {{"LD_DEBUG", "files"}}};
         process.signal = kSignals[static_cast<std::size_t>(i) % kSignals.size()];
         process.signal_at = "transferring control";
         process.signal_after = std::chrono::milliseconds(4 * i);
-        const test::Ended ended = test::run_process(process);
+        const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 128 + process.signal);
         answered += ended.err.find("catoptric-view: stopped by signal " +
                                    std::to_string(process.signal)) != std::string::npos;
@@ -108,7 +110,7 @@ TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
         if (frame == 62) inputs.closes = true;
     };
     driver.after = [&](const ViewReport& report) {
-        const uvec2 size = report.viewer.spec().size;
+        const uvec2 size = report.viewer.frame_spec().size;
         sizes.insert({size.x, size.y});
         EXPECT_LT(report.frame, 62u);
     };
@@ -177,13 +179,14 @@ TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
 /// Fixture for a window of 60 frames whose device or surface fails during or before these frames.
 class ViewFaults : public ViewLife {
 protected:
-    test::Ended with_fault(const std::string& fault) const {
-        test::Start start{.command = {CATOPTRIC_VIEW},
-                          .environment = {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
-                                          {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
-                                          {"CATOPTRIC_FAULT_REPORT", path("calls")},
-                                          {"CATOPTRIC_FAULT", fault}},
-                          .folder = folder};
+    test::ProcessResult with_fault(const std::string& fault) const {
+        test::ProcessStart start{
+            .command = {CATOPTRIC_VIEW},
+            .environment = {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
+                            {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
+                            {"CATOPTRIC_FAULT_REPORT", path("calls")},
+                            {"CATOPTRIC_FAULT", fault}},
+            .folder = folder};
         start.command.insert(start.command.end(), words.begin(), words.end());
         start.command.insert(start.command.end(), {"--frames", "60", "--screenshot", "lost.png"});
         return test::run_process(start);
@@ -194,21 +197,21 @@ protected:
 /// The device is lost in the middle of a frame. A new session keeps the user's state, and the
 /// picture equals the picture of `render`.
 TEST_F(ViewFaults, WindowGoesOnAfterALostDevice) {
-    const test::Ended ended = with_fault("vkQueueSubmit2:30:-4");
+    const test::ProcessResult ended = with_fault("vkQueueSubmit2:30:-4");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); a new session is made"));
     expect_rendered("lost.png", words);
 }
 
 TEST_F(ViewFaults, WindowGoesOnAfterALostSurface) {
-    const test::Ended ended = with_fault("vkQueuePresentKHR:40:-1000000000");
+    const test::ProcessResult ended = with_fault("vkQueuePresentKHR:40:-1000000000");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("the window's surface was lost; a new session is made"));
     expect_rendered("lost.png", words);
 }
 
 TEST_F(ViewFaults, DeviceThatCannotPresentIsRefused) {
-    const test::Ended ended = with_fault("vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
+    const test::ProcessResult ended = with_fault("vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
     EXPECT_EQ(ended.exit_code, 69) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("lacks a way to show pictures in this window"));
 }

@@ -68,7 +68,7 @@ protected:
                                   const std::function<PlanState(const ViewState&)>& plan) {
         std::set<std::string> texts;
         for (const float x : {30.f, 220.f, 250.f, 284.f})
-            for (float y = 6; y < 400; y += 8) {
+            for (float y = 6; y < 500; y += 8) {
                 ViewState state = from;
                 Panel panel(scene, fonts);
                 panel.click(state, x, y);

@@ -33,7 +33,7 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
     std::vector<std::string> seen;
     std::vector<measure::Picture> first; // of the modes plan, split and difference
     const auto expect_shown = [&](const Viewer& viewer, const std::string& name) {
-        viewer.write(path(name));
+        viewer.write_picture(path(name));
         const measure::Picture written = measure::to_display(measure::read_picture(path(name)));
         double apart = 1;
         for (int tries = 0; tries < 100 && apart > 0; ++tries) { // the X server draws with a delay
@@ -56,7 +56,7 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
         state.other = parse_plan_text("parallax:face=16,shadow_map=64");
         state.divider = 40.0 / 64, state.gain = 2;
         state.cause = 8;
-        state.mode = static_cast<ViewMode>(std::min<std::size_t>(frame / 10, kModes - 1));
+        state.mode = static_cast<ViewMode>(std::min<std::size_t>(frame / 10, kViewModeCount - 1));
         if (frame >= 60) state.mode = ViewMode::split, state.against = ComparisonPicture::reference;
     };
     driver.after = [&](const ViewReport& report) {
@@ -106,7 +106,7 @@ TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
         seen.push_back(passes(report));
         const auto made = report.viewer.reference().display();
         if (!made) return;
-        EXPECT_EQ(uvec2(made->width, made->height), report.viewer.spec().size);
+        EXPECT_EQ(uvec2(made->width, made->height), report.viewer.frame_spec().size);
     };
     EXPECT_EQ(
         view({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32", "--frames", "30"},
@@ -214,7 +214,7 @@ TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
               0);
     ASSERT_TRUE(command.starts_with("catoptric render cornell-mirrors --mirror 'back*=.5' "))
         << command;
-    const test::Ended ended = test::run_process(
+    const test::ProcessResult ended = test::run_process(
         {.command = {"/bin/sh", "-c", CATOPTRIC_CLI + command.substr(9)}, .folder = folder});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_TRUE(read("shown.png") == read("view.png")) << command;

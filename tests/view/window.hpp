@@ -35,7 +35,7 @@ protected:
     void expect_rendered(const std::string& picture, Words words) const {
         words.insert(words.begin(), "render");
         words.insert(words.end(), {"-o", "rendered" + picture.substr(picture.rfind('.'))});
-        const test::Ended ended = cli(words);
+        const test::ProcessResult ended = cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_TRUE(read(picture) == read("rendered" + picture.substr(picture.rfind('.'))));
     }

@@ -15,6 +15,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     Ray ray = Ray(texelFetch(rays, int(2u * i)).xyz, texelFetch(rays, int(2u * i + 1u)).xyz, 0u);
     TraceHit hit;
-    bool found = find_closest_hit(ray, kLargest, 0u, hit);
+    bool found = find_closest_hit(ray, kLargestFloat, 0u, hit);
     if (!trace_exhausted) met[i] = uvec2(floatBitsToUint(hit.t), found ? hit.triangle : kNothing);
 }

@@ -2,7 +2,7 @@
 // Mathematics of captures, cube maps around a centre.
 
 // Returns whether a captured distance means that no surface was captured, which is stored as +infinity.
-INLINE bool is_miss(real distance) { return isnan(distance) || distance > kLargest; }
+INLINE bool is_miss(real distance) { return isnan(distance) || distance > kLargestFloat; }
 
 // Parallax correction, one step of the secant iteration. Returns the direction from the capture's centre to the point
 // that a ray meets, if the point is `distance` away from the centre. The ray starts at `offset` from the

@@ -4,7 +4,7 @@
 // Returns the unit normal of a triangle on its counter-clockwise side, or zero if the triangle is degenerate.
 INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
     vec3 e, f;
-    short_edges(a, b, c, e, f);
+    choose_shorter_edges(a, b, c, e, f);
     real e_size = largest(abs(e));
     real f_size = largest(abs(f));
     if (!(e_size > real(0) && f_size > real(0))) return vec3(real(0));
@@ -29,7 +29,7 @@ INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
 // corners. The height is the weighted mean height of the corners' tangent planes (Hanika, "Hacking the shadow
 // terminator", Ray Tracing Gems II, 2021). A convex surface lies between half this height and this height. A hollow
 // surface lies below the triangle and gets height 0.
-INLINE real smooth_lift(vec3 a, vec3 b, vec3 c, vec3 n_a, vec3 n_b, vec3 n_c, vec3 w) {
+INLINE real smooth_surface_offset(vec3 a, vec3 b, vec3 c, vec3 n_a, vec3 n_b, vec3 n_c, vec3 w) {
     vec3 point = w.x * a + w.y * b + w.z * c;
     vec3 heights = vec3(dot(a - point, n_a), dot(b - point, n_b), dot(c - point, n_c));
     return dot(w, max(heights, vec3(real(0))));

@@ -4,13 +4,13 @@
 // Computes the geometric factor of a light's contribution: max(0, -w.n_l) / t^2 * max(0, n.w), where w is the direction
 // and t the distance to the light. A zero light_normal means that the light has no cosine factor. Returns false, with
 // factor 0, if a cosine is not positive or the light is at the point. The caller then needs no shadow ray.
-INLINE bool light_term(vec3 position, vec3 normal, vec3 light_position, vec3 light_normal,
+INLINE bool compute_point_light_factor(vec3 position, vec3 normal, vec3 light_position, vec3 light_normal,
                        OUT(vec3) direction, OUT(real) distance, OUT(real) factor) {
     vec3 to_light = light_position - position;
     distance = length(to_light);
     direction = vec3(real(0));
     factor = real(0);
-    if (!(distance > real(0) && distance <= kLargest)) return false;
+    if (!(distance > real(0) && distance <= kLargestFloat)) return false;
     direction = to_light / distance;
     real at_light = dot(light_normal, light_normal) > real(0) ? -dot(direction, light_normal)
                                                               : real(1);
@@ -22,7 +22,7 @@ INLINE bool light_term(vec3 position, vec3 normal, vec3 light_position, vec3 lig
 
 // The sine of 6 degrees, the angle above a facet's plane within which the light of a facet fades. Meshes whose vertex
 // normals differ from their facets' normals by at most this angle are lit by their vertex normals alone.
-const real kFacetFade = real(0.10452846326765347);
+const real kFacetFadeSine = real(0.10452846326765347);
 
 // Returns the facet's normal, turned to the side on which the shading normal lies.
 INLINE vec3 facet_side(vec3 normal, vec3 facet) { return dot(normal, facet) < real(0) ? -facet : facet; }
@@ -31,9 +31,9 @@ INLINE vec3 facet_side(vec3 normal, vec3 facet) { return dot(normal, facet) < re
 // front of the unit shading normal. The share is 0 below the facet's plane. It is 1 from 6 degrees above the facet's
 // plane, or from the light's angle above the shading normal's plane if that is smaller. `facet` points along the
 // facet's normal and has any length.
-INLINE real facet_share(vec3 direction, vec3 normal, vec3 facet) {
+INLINE real facet_light_share(vec3 direction, vec3 normal, vec3 facet) {
     real sine = dot(direction, facet_side(normal, facet)) / length(facet);
-    real t = clamp(sine / min(kFacetFade, dot(direction, normal)), real(0), real(1));
+    real t = clamp(sine / min(kFacetFadeSine, dot(direction, normal)), real(0), real(1));
     return t * t * (real(3) - real(2) * t);
 }
 
@@ -45,7 +45,7 @@ INLINE real mean_cosine(vec3 direction, vec3 right, vec3 down, vec3 forward, vec
 
 // Returns the attenuation at a distance of a light without a surface, as in KHR_lights_punctual: 1 close to the light,
 // 0 from its range on. `reach` is 1 / range, or 0 for an infinite range.
-INLINE real range_share(real distance, real reach) {
+INLINE real range_attenuation(real distance, real reach) {
     real part = distance * reach;
     real square = part * part;
     return clamp(real(1) - square * square, real(0), real(1));
@@ -53,16 +53,17 @@ INLINE real range_share(real distance, real reach) {
 
 // Returns the share of its intensity that a spot light emits at an angle with this cosine to its axis. `sharpness` is
 // 1 / max(.001, cos inner - cos outer).
-INLINE real cone_share(real cosine, real cos_outer, real sharpness) {
+INLINE real spot_attenuation(real cosine, real cos_outer, real sharpness) {
     real t = clamp((cosine - cos_outer) * sharpness, real(0), real(1));
     return t * t;
 }
 
 // Computes the factor of a directional light that shines along the unit `axis`: the cosine at the surface. Returns
 // whether the factor is positive.
-INLINE bool parallel_term(vec3 normal, vec3 axis, OUT(vec3) direction, OUT(real) distance, OUT(real) factor) {
+INLINE bool compute_directional_light_factor(vec3 normal, vec3 axis, OUT(vec3) direction, OUT(real) distance,
+    OUT(real) factor) {
     direction = -axis;
-    distance = kLargest;
+    distance = kLargestFloat;
     factor = max(real(0), dot(normal, direction));
     return factor > real(0);
 }
@@ -82,7 +83,7 @@ INLINE vec3 mirror_direction(vec3 d, vec3 n_shading, vec3 n_geometric) {
 }
 
 // Encodes linear light, 0 to 1, by the sRGB curve (IEC 61966-2-1), 0 to 1. NaN becomes 0.
-INLINE real srgb_encoded(real linear) {
+INLINE real srgb_from_linear_channel(real linear) {
     if (!(linear > real(0))) return real(0);
     if (linear >= real(1)) return real(1);
     if (linear <= real(0.0031308)) return real(12.92) * linear;

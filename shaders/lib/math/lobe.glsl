@@ -5,10 +5,10 @@
 
 // The density of normals is at most 1 / (pi alpha^2). A float holds numbers up to 3.4e38, so an alpha under 3.1e-20
 // overflows it. 1e-7 also keeps the product of two such densities finite.
-const real kLeastAlpha = real(1e-7);
+const real kMinAlpha = real(1e-7);
 
 // Returns the lobe's width `alpha` for a roughness from 0 to 1, as glTF defines it.
-INLINE real alpha_of_roughness(real roughness) { return max(roughness * roughness, kLeastAlpha); }
+INLINE real roughness_to_alpha(real roughness) { return max(roughness * roughness, kMinAlpha); }
 
 // Returns the density of microfacet normals around `half_way`, per steradian: D of Walter et al., "Microfacet Models for
 // Refraction through Rough Surfaces", 2007. Written with x and y, because 1 - z^2 loses digits near the normal.
@@ -40,7 +40,7 @@ INLINE real smith_visibility(real alpha, vec3 to_eye, vec3 to_light) {
 }
 
 // Returns the unit vector half-way between two directions, or the normal if they are opposite.
-INLINE vec3 half_way_between(vec3 a, vec3 b) {
+INLINE vec3 half_vector_between(vec3 a, vec3 b) {
     vec3 sum = a + b;
     real size = length(sum);
     return size > real(0) ? sum / size : vec3(real(0), real(0), real(1));
@@ -50,14 +50,14 @@ INLINE vec3 half_way_between(vec3 a, vec3 b) {
 // at normal and at grazing incidence. Returns 0 for a light below the surface.
 INLINE vec3 evaluate_lobe(real alpha, vec3 f0, vec3 f90, vec3 to_eye, vec3 to_light) {
     if (!(to_eye.z > real(0)) || !(to_light.z > real(0))) return vec3(real(0));
-    vec3 half_way = half_way_between(to_eye, to_light);
+    vec3 half_way = half_vector_between(to_eye, to_light);
     real density = ggx_density(alpha, half_way) * smith_visibility(alpha, to_eye, to_light) * to_light.z;
     return schlick(f0, f90, dot(to_eye, half_way)) * density;
 }
 
 // Returns the factor k by which bounded sampling limits the visible normals (Eto and Tokuyoshi, "Bounded VNDF Sampling
 // for Smith-GGX Reflections", 2023).
-INLINE real bound_of_visible_normals(real alpha, vec3 to_eye) {
+INLINE real visible_normal_bound(real alpha, vec3 to_eye) {
     real a = min(alpha, real(1));
     real s = real(1) + sqrt(to_eye.x * to_eye.x + to_eye.y * to_eye.y);
     real s2 = s * s, a2 = a * a;
@@ -67,8 +67,8 @@ INLINE real bound_of_visible_normals(real alpha, vec3 to_eye) {
 // Returns the probability density, per steradian, with which sample_lobe draws `to_light`.
 INLINE real lobe_pdf(real alpha, vec3 to_eye, vec3 to_light) {
     if (!(to_eye.z > real(0))) return real(0);
-    real k = bound_of_visible_normals(alpha, to_eye);
-    return ggx_density(alpha, half_way_between(to_eye, to_light)) /
+    real k = visible_normal_bound(alpha, to_eye);
+    return ggx_density(alpha, half_vector_between(to_eye, to_light)) /
            (real(2) * (k * to_eye.z + stretched_length(alpha, to_eye)));
 }
 
@@ -77,7 +77,7 @@ INLINE real lobe_pdf(real alpha, vec3 to_eye, vec3 to_light) {
 // direction may lie below the surface, where the lobe is 0.
 INLINE vec3 sample_lobe(real alpha, vec3 to_eye, real u, real v) {
     vec3 stretched = vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z) / stretched_length(alpha, to_eye);
-    real lowest = bound_of_visible_normals(alpha, to_eye) * stretched.z;
+    real lowest = visible_normal_bound(alpha, to_eye) * stretched.z;
     real angle = real(2) * kPi * u;
     real z = (real(1) - v) * (real(1) + lowest) - lowest;
     real size = sqrt(max(real(0), real(1) - z * z));
@@ -88,12 +88,12 @@ INLINE vec3 sample_lobe(real alpha, vec3 to_eye, real u, real v) {
 
 // Returns the lobe divided by the density with which sample_lobe draws `to_light`: the weight of the radiance that
 // arrives from there. Returns 0 below the surface. The distribution cancels, so the weight is finite for each alpha.
-INLINE vec3 sampled_lobe_weight(real alpha, vec3 f0, vec3 f90, vec3 to_eye, vec3 to_light) {
+INLINE vec3 lobe_sample_weight(real alpha, vec3 f0, vec3 f90, vec3 to_eye, vec3 to_light) {
     if (!(to_eye.z > real(0)) || !(to_light.z > real(0))) return vec3(real(0));
-    real k = bound_of_visible_normals(alpha, to_eye);
+    real k = visible_normal_bound(alpha, to_eye);
     real weight = real(2) * (k * to_eye.z + stretched_length(alpha, to_eye)) *
                   smith_visibility(alpha, to_eye, to_light) * to_light.z;
-    return schlick(f0, f90, dot(to_eye, half_way_between(to_eye, to_light))) * weight;
+    return schlick(f0, f90, dot(to_eye, half_vector_between(to_eye, to_light))) * weight;
 }
 
 // Computes the albedo of the lobe as f0 * `head_on` + f90 * `grazing`, for a viewer at the angle `cosine` to the normal,
@@ -104,8 +104,8 @@ INLINE void lobe_albedo_terms(real alpha, real cosine, int edge, OUT(real) head_
     for (int i = 0; i < edge * edge; ++i) {
         vec3 to_light = sample_lobe(alpha, to_eye, (real(i % edge) + real(0.5)) / real(edge),
                                     (real(i / edge) + real(0.5)) / real(edge));
-        head_on += sampled_lobe_weight(alpha, vec3(real(1)), vec3(real(0)), to_eye, to_light).x;
-        grazing += sampled_lobe_weight(alpha, vec3(real(0)), vec3(real(1)), to_eye, to_light).x;
+        head_on += lobe_sample_weight(alpha, vec3(real(1)), vec3(real(0)), to_eye, to_light).x;
+        grazing += lobe_sample_weight(alpha, vec3(real(0)), vec3(real(1)), to_eye, to_light).x;
     }
     head_on /= real(edge * edge);
     grazing /= real(edge * edge);

@@ -25,7 +25,7 @@ INLINE vec3 scene_normal(ObjectPlacement place, vec3 own) {
 }
 
 // Returns (a + a_low) - (b + b_low) with about one rounding. Knuth's two-sum splits a - b into a float and its error.
-INLINE vec3 difference_of_sums(vec3 a, vec3 a_low, vec3 b, vec3 b_low) {
+INLINE vec3 subtract_split_vectors(vec3 a, vec3 a_low, vec3 b, vec3 b_low) {
     precise vec3 high = a - b;
     precise vec3 taken = a - high;
     precise vec3 lost = (a - (high + taken)) + (taken - b);

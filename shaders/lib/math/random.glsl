@@ -3,7 +3,7 @@
 
 // Mixes four words so that each bit of the results depends on all words (PCG4D: Jarzynski and Olano, "Hash Functions for
 // GPU Rendering", 2020).
-INLINE void mix_words(INOUT(uint) a, INOUT(uint) b, INOUT(uint) c, INOUT(uint) d) {
+INLINE void hash_words(INOUT(uint) a, INOUT(uint) b, INOUT(uint) c, INOUT(uint) d) {
     a = a * 1664525u + 1013904223u;
     b = b * 1664525u + 1013904223u;
     c = c * 1664525u + 1013904223u;
@@ -23,7 +23,7 @@ INLINE void mix_words(INOUT(uint) a, INOUT(uint) b, INOUT(uint) c, INOUT(uint) d
 }
 
 // Returns a word whose bits are in reverse order.
-INLINE uint reversed_bits(uint x) {
+INLINE uint reverse_bits(uint x) {
     x = (x >> 1u & 0x55555555u) | (x & 0x55555555u) << 1u;
     x = (x >> 2u & 0x33333333u) | (x & 0x33333333u) << 2u;
     x = (x >> 4u & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4u;
@@ -33,19 +33,19 @@ INLINE uint reversed_bits(uint x) {
 
 // Scrambles the bits of a point's coordinate so that each bit depends on all higher bits, which keeps the point set's
 // stratification (Owen's nested uniform scrambling by a hash: Burley, "Practical Hash-based Owen Scrambling", 2020).
-INLINE uint scrambled(uint x, uint seed) {
-    x = reversed_bits(x);
+INLINE uint owen_scramble(uint x, uint seed) {
+    x = reverse_bits(x);
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= seed >> 16u | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
-    return reversed_bits(x);
+    return reverse_bits(x);
 }
 
 // Returns the second coordinate of point `index` of Sobol's sequence, as a fraction of 2^32. The first coordinate is
-// reversed_bits(index).
-INLINE uint sobol_second(uint index) {
+// reverse_bits(index).
+INLINE uint sobol_second_dimension(uint index) {
     uint result = 0u, direction = 0x80000000u;
     while (index != 0u) {
         if ((index & 1u) != 0u) result ^= direction;
@@ -63,8 +63,8 @@ INLINE real unit_fraction(uint word) { return real(word >> 8u) * (real(1) / real
 // one point in each elementary interval of area 2^-k. `pixel` is any number that differs from pixel to pixel.
 INLINE void sample_point(uint pixel, uint sample_index, uint dimension_pair, uint seed, OUT(real) u, OUT(real) v) {
     uint a = pixel, b = dimension_pair, c = seed, d = 0x9e3779b9u;
-    mix_words(a, b, c, d);
-    uint index = scrambled(sample_index, a);
-    u = unit_fraction(scrambled(reversed_bits(index), b));
-    v = unit_fraction(scrambled(sobol_second(index), c));
+    hash_words(a, b, c, d);
+    uint index = owen_scramble(sample_index, a);
+    u = unit_fraction(owen_scramble(reverse_bits(index), b));
+    v = unit_fraction(owen_scramble(sobol_second_dimension(index), c));
 }

@@ -63,12 +63,12 @@ INLINE real edge_function(real a, real b, real c, real d) {
 
 // Returns the smaller (or larger) of two values, or `kept` if the candidate is NaN. A ray in the plane of a box's face
 // gives the candidate 0 * infinity, which is NaN.
-INLINE real least(real kept, real candidate) { return candidate < kept ? candidate : kept; }
-INLINE real greatest(real kept, real candidate) { return candidate > kept ? candidate : kept; }
+INLINE real nan_safe_min(real kept, real candidate) { return candidate < kept ? candidate : kept; }
+INLINE real nan_safe_max(real kept, real candidate) { return candidate > kept ? candidate : kept; }
 
 // Computes the two shorter edges `e` and `f` of a triangle, because their rounding errors tilt its plane least. Returns
 // the corner between the two edges: 0, 1 or 2. cross(e, f) points to the counter-clockwise side.
-INLINE int short_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f) {
+INLINE int choose_shorter_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f) {
     precise vec3 ab = b - a;
     precise vec3 bc = c - b;
     precise vec3 ca = a - c;
@@ -107,7 +107,7 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
     // Computes t from the triangle's plane. In a triangle that is a thousand times longer than high, t from the
     // barycentric weights would have a thousand times the error.
     vec3 e, f;
-    int between = short_edges(a, b, c, e, f);
+    int between = choose_shorter_edges(a, b, c, e, f);
     vec3 corner = between == 0 ? ta : (between == 1 ? tb : tc);
     precise vec3 normal = permute_to_axis(vec3(e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z,
                                       e.x * f.y - e.y * f.x), ray.axis);
@@ -121,12 +121,12 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
     // Clamps t to the range between the nearest and the farthest corner. For a triangle without a normal, t from the
     // plane is NaN or infinite.
     real first = min(at.x, min(at.y, at.z));
-    t = least(largest(at), greatest(first, at_plane));
-    return t > real(0) && t <= kLargest;
+    t = nan_safe_min(largest(at), nan_safe_max(first, at_plane));
+    return t > real(0) && t <= kLargestFloat;
 }
 
 // Returns whether a ray comes from behind a triangle, so that the corners run clockwise as seen along the ray.
-INLINE bool is_from_behind(vec3 a, vec3 b, vec3 c, vec3 direction) {
+INLINE bool hits_back_face(vec3 a, vec3 b, vec3 c, vec3 direction) {
     return dot(cross(b - a, c - a), direction) > real(0);
 }
 
@@ -169,8 +169,8 @@ INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near
     vec3 leave = vec3(back_x ? lo.x : hi.x, back_y ? lo.y : hi.y, back_z ? lo.z : hi.z);
     vec3 t_enter = (enter - ray.near_origin) * ray.inverse;
     vec3 t_leave = (leave - ray.far_origin) * ray.inverse;
-    t_near = greatest(greatest(greatest(real(0), t_enter.x), t_enter.y), t_enter.z);
-    real t_far = least(least(least(t_max, t_leave.x), t_leave.y), t_leave.z);
+    t_near = nan_safe_max(nan_safe_max(nan_safe_max(real(0), t_enter.x), t_enter.y), t_enter.z);
+    real t_far = nan_safe_min(nan_safe_min(nan_safe_min(t_max, t_leave.x), t_leave.y), t_leave.z);
     return t_near <= t_far * (real(1) + real(2) * gamma_bound(3));
 }
 

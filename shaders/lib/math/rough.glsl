@@ -56,7 +56,7 @@ INLINE real alpha_by_distance_law(uint law, real roughness, real ratio, real for
 // Returns point `index` of Hammersley's set of `count` points, in [0, 1)^2.
 INLINE void hammersley_point(uint index, uint count, OUT(real) u, OUT(real) v) {
     u = (real(index) + real(0.5)) / real(count);
-    v = unit_fraction(reversed_bits(index));
+    v = unit_fraction(reverse_bits(index));
 }
 
 // Returns a direction of light around the normal, drawn from the lobe of a surface that is seen along its normal: the

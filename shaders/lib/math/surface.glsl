@@ -14,18 +14,18 @@ INLINE int wrapped_texel(int i, int size, uint wrap) {
 
 // Converts a texture coordinate to texels from the outer edge of the first texel. The result is wrapped or clamped, so
 // that it is small enough to convert to an integer.
-INLINE real texel_place(real u, int size, uint wrap) {
+INLINE real texel_position(real u, int size, uint wrap) {
     if (wrap == kWrapClamp) return min(max(u, real(-1)), real(2)) * real(size);
     return (u - real(2) * floor(u / real(2))) * real(size);
 }
 
 INLINE int nearest_texel(real u, int size, uint wrap) {
-    return wrapped_texel(int(floor(texel_place(u, size, wrap))), size, wrap);
+    return wrapped_texel(int(floor(texel_position(u, size, wrap))), size, wrap);
 }
 
 // Computes the two texels whose centres (i + .5) / size lie on both sides of `u`, and the weight of the second texel.
-INLINE void texels_around(real u, int size, uint wrap, OUT(int) first, OUT(int) second, OUT(real) share) {
-    real place = texel_place(u, size, wrap) - real(0.5);
+INLINE void bilinear_texels(real u, int size, uint wrap, OUT(int) first, OUT(int) second, OUT(real) share) {
+    real place = texel_position(u, size, wrap) - real(0.5);
     real below = floor(place);
     share = place - below;
     first = wrapped_texel(int(below), size, wrap);

@@ -32,7 +32,7 @@ const std::vector<Shot> kShots{
     {"numbers", 6, [](ViewState& state) { state.mode = ViewMode::numbers; }},
     {"causes", 16,
      [](ViewState& state) {
-         state.mode = ViewMode::causes, state.cause = shared::kAblateTexels, state.gain = 16;
+         state.mode = ViewMode::causes, state.cause = shared::kAblateTexelColour, state.gain = 16;
      }},
     {"reference", 24,
      [](ViewState& state) {

@@ -1,4 +1,4 @@
-#include "render/decider.hpp"
+#include "render/capture_decider.hpp"
 
 #include "core/content_hash.hpp"
 #include "render/face_area.hpp"
@@ -11,7 +11,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint64_t kCleared = 1; // `drawing` of a face that holds nothing
+constexpr std::uint64_t kClearedFaceHash = 1; // `drawing` of a face that holds nothing
 
 } // namespace
 
@@ -26,7 +26,7 @@ CaptureDecider::CaptureDecider(const GpuScene& scene, const require::Model& mode
         for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
             lit.add(scene.views()[scene.shadow_view(light) + face]);
     }
-    shadow_views_ = lit.value();
+    shadow_views_ = lit.hash_value();
 }
 
 bool CaptureDecider::had_same_capture(std::uint32_t mirror) const {
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> CaptureDecider::mirrors_seen_by_face(std::uint32_t mi
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t other : model_.mirrors[mirror].sees)
         if (layout_[other].face > 0 &&
-            may_view_show_box(view, scene_.ranges()[scene_.mirror_object(other)]))
+            may_view_show_box(view, scene_.draw_ranges()[scene_.mirror_object(other)]))
             seen.push_back(other);
     return seen;
 }
@@ -96,7 +96,8 @@ FaceWork CaptureDecider::decide_faces(std::uint32_t mirror, std::uint32_t face,
     ContentHash shown =
         ContentHash(shadow_views_).add(scene_.views()[scene_.capture_view(mirror) + face]);
     for (const std::uint32_t other : seen) shown.add(other);
-    const std::uint64_t content_hash = ContentHash(shown).add(needs.content_hashes[face]).value();
+    const std::uint64_t content_hash =
+        ContentHash(shown).add(needs.content_hashes[face]).hash_value();
     now = had_same_capture(mirror) ? before_->faces[mirror][face] : CachedFace();
     const bool shows_same = now.drawing > 0 && now.content_hash == content_hash;
     const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
@@ -106,11 +107,11 @@ FaceWork CaptureDecider::decide_faces(std::uint32_t mirror, std::uint32_t face,
         // So that the face is drawn if a ray asks for it again.
         now.content_hash = 0, now.is_behind = false;
         if (now.drawing > 0) return FaceWork::keep;
-        now.drawing = kCleared;
+        now.drawing = kClearedFaceHash;
         return FaceWork::clear;
     }
     now = {content_hash, face_picture_hash(content_hash, seen), false,
-           ContentHash(shown).add(needs.settings[face]).value(), needs.pieces};
+           ContentHash(shown).add(needs.settings[face]).hash_value(), needs.pieces};
     return shows_same && compares_ ? FaceWork::compare : FaceWork::draw;
 }
 
@@ -130,7 +131,7 @@ require::FacePart CaptureDecider::changing_face_part(std::uint32_t mirror, std::
     for (const std::uint32_t other : seen)
         part = unite_face_parts(
             part, face_part_showing_box(view, static_cast<int>(face),
-                                        scene_.ranges()[scene_.mirror_object(other)].bounds));
+                                        scene_.draw_ranges()[scene_.mirror_object(other)].bounds));
     return part.empty() ? require::FacePart() : part;
 }
 
@@ -141,7 +142,7 @@ std::uint64_t CaptureDecider::face_picture_hash(std::uint64_t content_hash,
     for (const std::uint32_t other : seen)
         for (std::uint32_t face = 0; face < 6; ++face)
             number.add(had_same_capture(other) ? before_->faces[other][face].drawing : 0);
-    return std::max<std::uint64_t>(number.value(), kCleared + 1);
+    return std::max<std::uint64_t>(number.hash_value(), kClearedFaceHash + 1);
 }
 
 } // namespace catoptric::render

@@ -1,4 +1,4 @@
-#include "places.hpp"
+#include "output_checks.hpp"
 
 #include "core/error.hpp"
 #include "core/file.hpp"

@@ -1,4 +1,4 @@
-#include "drawn.hpp"
+#include "technique_option.hpp"
 
 #include "core/error.hpp"
 #include "options.hpp"

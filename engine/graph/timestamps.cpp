@@ -1,4 +1,4 @@
-#include "graph/stamps.hpp"
+#include "graph/timestamps.hpp"
 
 namespace catoptric::graph {
 

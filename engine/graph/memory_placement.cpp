@@ -1,4 +1,4 @@
-#include "graph/place.hpp"
+#include "graph/memory_placement.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -100,7 +100,7 @@ void find_lifetimes(const Graph& graph, const GraphAccesses& all, GraphPlan& pla
     plan.images.assign(graph.images().size(), {});
     plan.buffers.assign(graph.buffers().size(), {});
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position)
-        for (const ResourceAccess& a : all.of(plan.passes[position].pass))
+        for (const ResourceAccess& a : all.accesses_of_pass(plan.passes[position].pass))
             extend_lifetime(a.is_buffer ? plan.buffers[a.id] : plan.images[a.id], position);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != ImageLifetime::frame;

@@ -10,16 +10,16 @@ namespace catoptric::graph {
 
 /// A touch as a number from 1; 0 stands for `nothing`.
 using TouchCode = std::uint8_t;
-constexpr TouchCode kNothing = 0;
-constexpr int kTouchCodes = 64; ///< every code is smaller
+constexpr TouchCode kNoTouch = 0;
+constexpr int kTouchCodeCount = 64; ///< every code is smaller
 
 constexpr TouchCode encode_touch(const ResourceTouch& touch) {
-    if (touch.nothing) return kNothing;
+    if (touch.nothing) return kNoTouch;
     return static_cast<TouchCode>(4 * static_cast<int>(touch.use) + 2 * touch.write + touch.raster +
                                   1);
 }
 constexpr ResourceTouch make_touch(TouchCode code) {
-    if (code == kNothing) return {};
+    if (code == kNoTouch) return {};
     const int bits = code - 1;
     return {.nothing = false,
             .use = static_cast<ResourceUse>(bits / 4),

@@ -3,8 +3,8 @@
 #include "gpu/buffer.hpp"
 #include "gpu/pipeline.hpp"
 #include "graph/frame_memory.hpp"
+#include "graph/frame_recorder.hpp"
 #include "graph/persistent_images.hpp"
-#include "graph/record.hpp"
 
 namespace catoptric::graph {
 
@@ -13,8 +13,8 @@ struct FrameTicket {
     std::uint64_t frame = 0;
 };
 
-/// Semaphores of the caller. The frame begins after `wait` and signals `signal` at its end; null:
-/// none.
+/// Semaphores of the caller. The frame begins after `wait` and signals `signal` at its
+/// end; null: none.
 struct ExternalSemaphores {
     VkSemaphore wait = VK_NULL_HANDLE;
     VkSemaphore signal = VK_NULL_HANDLE;
@@ -27,7 +27,7 @@ struct ExternalSemaphores {
 class GraphRunner {
 public:
     /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to
-    /// kMostInFlight. Each has its own command buffer and its own copy of the outputs.
+    /// kMaxFramesInFlight. Each has its own command buffer and its own copy of the outputs.
     GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight = 1);
     GraphRunner(const GraphRunner&) = delete;
     GraphRunner& operator=(const GraphRunner&) = delete;
@@ -38,7 +38,7 @@ public:
     GraphHistory history() const { return kept_.history(); }
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
-    void forget();
+    void discard_contents();
     /// Takes out and returns all contents of earlier frames, so that the next frame is like the
     /// first. Waits for the frames in flight.
     RetainedImages suspend();
@@ -48,51 +48,56 @@ public:
     GraphLimits limits() const;
     /// Returns the plan of the graph's shape. The plans of the last 8 shapes are cached; others are
     /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan_graph.
-    const GraphPlan& compiled(const Graph& graph) { return compile(graph).plan; }
-    std::uint64_t plans_made() const { return plans_made_; }
+    const GraphPlan& compiled(const Graph& graph) { return compile_graph(graph).plan; }
+    std::uint64_t planned_shape_count() const { return plans_made_; }
     /// Returns the bytes of device memory for images and buffers of its graphs: as much as the
     /// largest of the last 8 shapes that ran, plus all images that outlive frames.
-    std::uint64_t memory_bytes() const { return memory_.bytes() + kept_.bytes(); }
+    std::uint64_t memory_bytes() const { return memory_.memory_bytes() + kept_.memory_bytes(); }
 
     /// Records and submits a frame. If `in_flight` frames are on the device, waits for the oldest.
     /// `stays`: the frame does not advance the history, so that the next frame sees the same last
     /// frame. `counts_work`: the frame counts its work, which makes it slower. Throws `exhausted`.
     /// Throws `device_lost` if a wait fails or the device refuses the frame.
-    FrameTicket submit(const Graph& graph, PassTiming timing, bool stays = false,
-                       const ExternalSemaphores& outside = {}, bool counts_work = false);
+    FrameTicket submit_frame(const Graph& graph, PassTiming timing, bool stays = false,
+                             const ExternalSemaphores& outside = {}, bool counts_work = false);
     /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
     /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
     /// has taken its slot.
-    const GraphFrameTimes& wait(FrameTicket ticket);
+    const GraphFrameTimes& wait_for_frame(FrameTicket ticket);
     /// Returns whether the frame has ended, without waiting. Throws `device_lost`.
     bool has_ended(FrameTicket ticket);
-    GraphFrameTimes run(const Graph& graph, PassTiming timing, bool stays = false) {
-        return wait(submit(graph, timing, stays));
+    GraphFrameTimes run_and_wait(const Graph& graph, PassTiming timing, bool stays = false) {
+        return wait_for_frame(submit_frame(graph, timing, stays));
     }
 
     /// Waits for the frame and returns the work of its passes, in order of execution. Empty if the
     /// frame did not count its work.
-    std::vector<PassWork> work(FrameTicket ticket);
+    std::vector<PassWork> counted_work(FrameTicket ticket);
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.
     /// An image that outlives frames can be read until the next frame is submitted.
-    std::vector<std::byte> read(FrameTicket ticket, ImageHandle image);
-    std::vector<std::byte> read(FrameTicket ticket, BufferHandle buffer);
+    std::vector<std::byte> read_resource(FrameTicket ticket, ImageHandle image);
+    std::vector<std::byte> read_resource(FrameTicket ticket, BufferHandle buffer);
     /// Reads from the frame that was submitted last.
-    std::vector<std::byte> read(ImageHandle image) { return read(FrameTicket{frame_}, image); }
-    std::vector<std::byte> read(BufferHandle buffer) { return read(FrameTicket{frame_}, buffer); }
+    std::vector<std::byte> read_resource(ImageHandle image) {
+        return read_resource(FrameTicket{frame_}, image);
+    }
+    std::vector<std::byte> read_resource(BufferHandle buffer) {
+        return read_resource(FrameTicket{frame_}, buffer);
+    }
     /// Returns the texels of all images with a `previous`, one after another: all that the next
     /// frame can see of the last one. Empty if no such image exists.
     std::vector<std::byte> read_history();
 
 private:
-    CompiledGraph& compile(const Graph& graph);
-    FrameSlot& slot_of(FrameTicket ticket);
+    CompiledGraph& compile_graph(const Graph& graph);
+    FrameSlot& slot_of_frame(FrameTicket ticket);
     std::size_t index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
-    void submit(FrameSlot& slot, const CompiledGraph& shape, const ExternalSemaphores& outside);
-    void finish(FrameSlot& slot);
-    void finish_all();
+    void submit_frame(FrameSlot& slot, const CompiledGraph& shape,
+                      const ExternalSemaphores& outside);
+    void finish_slot(FrameSlot& slot);
+    void finish_all_slots();
     void release_persistent();
 
     gpu::Device& device_;

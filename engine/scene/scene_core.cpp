@@ -1,4 +1,4 @@
-#include "scene/core.hpp"
+#include "scene/scene_core.hpp"
 
 #include "scene/transform.hpp"
 
@@ -9,8 +9,9 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kGap = 8; // factor between the core's reach and the nearest object outside
-constexpr std::size_t kMostTriangles = 20'000, kMostOfAnObject = 64;
+constexpr double kCoreGapFactor =
+    8; // factor between the core's reach and the nearest object outside
+constexpr std::size_t kMaxSampledTriangles = 20'000, kMaxSamplesPerObject = 64;
 
 struct SampledCorner {
     dvec3 place{0};
@@ -22,9 +23,9 @@ struct SampledCorner {
 /// object's corners add up to 1.
 std::vector<SampledCorner> sample_corners(const Scene& scene) {
     std::vector<SampledCorner> corners;
-    const std::size_t share = std::clamp(kMostTriangles /
+    const std::size_t share = std::clamp(kMaxSampledTriangles /
                                              std::max<std::size_t>(scene.objects.size(), 1),
-                                         std::size_t{1}, kMostOfAnObject);
+                                         std::size_t{1}, kMaxSamplesPerObject);
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         const Mesh& mesh = scene.meshes[object.mesh];
@@ -86,8 +87,10 @@ Bounds<double> compute_core_bounds(const Scene& scene) {
         return distance_to_farthest_point(middle, corner.place);
     };
     std::size_t last = partition_at_half(corners, far);
-    while (last + 1 < corners.size() && far(corners[last + 1]) <= kGap * far(corners[last])) ++last;
-    const double limit = kGap * far(corners[last]);
+    while (last + 1 < corners.size() &&
+           far(corners[last + 1]) <= kCoreGapFactor * far(corners[last]))
+        ++last;
+    const double limit = kCoreGapFactor * far(corners[last]);
     if (!(limit > 0) || distance_to_farthest_point(middle, everything) <= limit) return everything;
 
     Bounds<double> core;
@@ -105,7 +108,7 @@ Bounds<double> compute_core_bounds(const Scene& scene) {
 std::vector<std::string> drop_distant_objects(Scene& scene) {
     const Bounds<double> core = compute_core_bounds(scene);
     const dvec3 extent = core.empty() ? dvec3(0) : core.extent();
-    const double most = kFarthestReach * std::max({extent.x, extent.y, extent.z});
+    const double most = kMaxSceneRadius * std::max({extent.x, extent.y, extent.z});
     std::vector<std::string> names;
     if (!(most > 0)) return names;
     std::erase_if(scene.objects, [&](const Object& object) {

@@ -16,9 +16,9 @@ Bounds<double> compute_core_bounds(const Scene& scene);
 
 /// Largest distance from the core at which objects can be rendered, in sizes of the core. The
 /// square of a distance must stay a finite float.
-inline constexpr double kFarthestReach = 1e18;
+inline constexpr double kMaxSceneRadius = 1e18;
 
-/// Removes the objects that reach farther from the core than kFarthestReach. Returns their names.
+/// Removes the objects that reach farther from the core than kMaxSceneRadius. Returns their names.
 std::vector<std::string> drop_distant_objects(Scene& scene);
 
 } // namespace catoptric::scene

@@ -1,22 +1,22 @@
-#include "graph/slot.hpp"
+#include "graph/frame_slot.hpp"
 
 namespace catoptric::graph {
 
 namespace {
 
-constexpr std::uint32_t kSetsPerPool = 256;
+constexpr std::uint32_t kDescriptorSetsPerPool = 256;
 
 gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::Device& device) {
     const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kSetsPerPool},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsPerPool},
-        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kSetsPerPool},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * kSetsPerPool},
-        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 32 * kSetsPerPool},
-        {VK_DESCRIPTOR_TYPE_SAMPLER, 2 * kSetsPerPool},
-        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * kSetsPerPool}};
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kDescriptorSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kDescriptorSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kDescriptorSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * kDescriptorSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 32 * kDescriptorSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_SAMPLER, 2 * kDescriptorSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * kDescriptorSetsPerPool}};
     VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    create.maxSets = kSetsPerPool;
+    create.maxSets = kDescriptorSetsPerPool;
     create.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     create.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;

@@ -8,7 +8,7 @@
 namespace catoptric::cli {
 
 /// Stdout as an output. If stdout leads to a file, no other output may be the same file.
-inline const std::filesystem::path kStdout = "/dev/stdout";
+inline const std::filesystem::path kStdoutPath = "/dev/stdout";
 
 /// Throws `usage` with both names if an output is the same file as an input or another output.
 /// Files are compared through links of either kind. Devices and pipes may be named twice. `read`

@@ -1,9 +1,9 @@
-#include "graph/run.hpp"
+#include "graph/graph_runner.hpp"
 
 #include "core/stopwatch.hpp"
 #include "graph/device_memory.hpp"
-#include "graph/shape.hpp"
-#include "graph/stamps.hpp"
+#include "graph/graph_shape.hpp"
+#include "graph/timestamps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace catoptric::graph {
 
 namespace {
 
-constexpr std::size_t kShapes = 8;
+constexpr std::size_t kMaxCachedGraphs = 8;
 
 double elapsed_milliseconds(SteadyClock::time_point begin) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
@@ -53,7 +53,8 @@ void read_timestamps(gpu::Device& device, const FrameSlot& slot, GraphFrameTimes
         device.handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(), 8,
         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     if (result != VK_SUCCESS)
-        device.check_alive(result, "read the time stamps of " + describe_frame(slot.frame, shape));
+        device.check_not_lost(result,
+                              "read the time stamps of " + describe_frame(slot.frame, shape));
     const std::vector<double> at = timestamps_to_milliseconds(
         stamps, device.timestamp_bits(), static_cast<double>(device.limits().timestampPeriod));
     for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
@@ -70,8 +71,8 @@ void read_timestamps(gpu::Device& device, const FrameSlot& slot, GraphFrameTimes
 GraphRunner::GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight)
     : device_(device), recorder_(device, pipelines), timeline_(make_timeline_semaphore(device)),
       memory_(device), kept_(device) {
-    check(in_flight >= 1 && in_flight <= kMostInFlight, Failure::usage,
-          "frames in flight must be 1 to ", kMostInFlight, ", not ", in_flight);
+    check(in_flight >= 1 && in_flight <= kMaxFramesInFlight, Failure::usage,
+          "frames in flight must be 1 to ", kMaxFramesInFlight, ", not ", in_flight);
     slots_.reserve(in_flight);
     for (std::uint32_t i = 0; i < in_flight; ++i) slots_.emplace_back(device);
 }
@@ -79,7 +80,7 @@ GraphRunner::GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::ui
 GraphRunner::~GraphRunner() {
     if (device_.abandoned()) return;
     try {
-        finish_all();
+        finish_all_slots();
     } catch (const std::exception&) {
         // The device is abandoned now, so none of its objects is destroyed.
     }
@@ -87,24 +88,24 @@ GraphRunner::~GraphRunner() {
 
 /// Waits for all frames, and removes the references of ended frames to images that outlive frames.
 void GraphRunner::release_persistent() {
-    finish_all();
+    finish_all_slots();
     for (FrameSlot& slot : slots_)
         if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
 }
 
-void GraphRunner::forget() {
+void GraphRunner::discard_contents() {
     release_persistent();
-    kept_.forget();
+    kept_.release_all_images();
 }
 
 RetainedImages GraphRunner::suspend() {
     release_persistent();
-    return kept_.take();
+    return kept_.take_retained_images();
 }
 
 void GraphRunner::resume(RetainedImages leavings) {
     release_persistent();
-    kept_.put(std::move(leavings));
+    kept_.restore_retained_images(std::move(leavings));
 }
 
 GraphLimits GraphRunner::limits() const {
@@ -113,7 +114,7 @@ GraphLimits GraphRunner::limits() const {
             limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
 }
 
-CompiledGraph& GraphRunner::compile(const Graph& graph) {
+CompiledGraph& GraphRunner::compile_graph(const Graph& graph) {
     const SteadyClock::time_point begin = SteadyClock::now();
     const std::uint64_t hash = hash_graph_shape(graph);
     auto found = std::ranges::find_if(shapes_, [&](const std::shared_ptr<CompiledGraph>& shape) {
@@ -122,11 +123,11 @@ CompiledGraph& GraphRunner::compile(const Graph& graph) {
     if (found == shapes_.end()) {
         auto made = std::make_shared<CompiledGraph>();
         made->plan = plan_graph(graph, limits(), make_device_sizer(device_));
-        made->outline = graph.without_bodies();
+        made->outline = graph.copy_without_recorders();
         made->hash = hash;
         ++plans_made_;
         // Frames in flight share ownership of their shape, so removing it here is safe.
-        if (shapes_.size() == kShapes) shapes_.pop_back();
+        if (shapes_.size() == kMaxCachedGraphs) shapes_.pop_back();
         found = shapes_.insert(shapes_.end(), std::move(made));
     }
     std::rotate(shapes_.begin(), found, found + 1);
@@ -134,19 +135,19 @@ CompiledGraph& GraphRunner::compile(const Graph& graph) {
     return *shapes_.front();
 }
 
-FrameTicket GraphRunner::submit(const Graph& graph, PassTiming timing, bool stays,
-                                const ExternalSemaphores& outside, bool counts_work) {
+FrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, bool stays,
+                                      const ExternalSemaphores& outside, bool counts_work) {
     device_.check_usable();
     const double waited_before = wait_ms_;
-    CompiledGraph& shape = compile(graph);
+    CompiledGraph& shape = compile_graph(graph);
     const std::size_t index = index_of(frame_ + 1);
     FrameSlot& slot = slots_[index];
-    finish(slot);
+    finish_slot(slot);
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
-    const auto wait = [this] { finish_all(); };
-    memory_.provide(shape, index, shapes_, wait);
-    kept_.provide(shape, wait);
+    const auto wait = [this] { finish_all_slots(); };
+    memory_.find_or_allocate(shape, index, shapes_, wait);
+    kept_.find_or_create_images(shape, wait);
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     GraphFrameTimes times;
     times.compile_ms = compile_ms_ + elapsed_milliseconds(begin) - (wait_ms_ - waited_for_place);
@@ -156,19 +157,19 @@ FrameTicket GraphRunner::submit(const Graph& graph, PassTiming timing, bool stay
     const SteadyClock::time_point record_begin = SteadyClock::now();
     slot.work = counts_work ? std::make_unique<WorkCounter>(device_, list_pass_names(shape))
                             : nullptr;
-    recorder_.record(graph, shape, slot, index, timing, slot.work.get());
+    recorder_.record_frame(graph, shape, slot, index, timing, slot.work.get());
     times.record_ms = elapsed_milliseconds(record_begin);
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
-    submit(slot, shape, outside);
+    submit_frame(slot, shape, outside);
     slot.shape = shapes_.front();
     kept_.write(graph, shape);
-    if (!stays) kept_.advance(shape);
+    if (!stays) kept_.swap_previous_copies(shape);
     return {frame_};
 }
 
-void GraphRunner::submit(FrameSlot& slot, const CompiledGraph& shape,
-                         const ExternalSemaphores& outside) {
+void GraphRunner::submit_frame(FrameSlot& slot, const CompiledGraph& shape,
+                               const ExternalSemaphores& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
     const auto at = [](VkSemaphore semaphore, std::uint64_t value) {
@@ -191,13 +192,13 @@ void GraphRunner::submit(FrameSlot& slot, const CompiledGraph& shape,
     slot.submitted = SteadyClock::now();
     const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
-        device_.check_alive(result, "run " + describe_frame(frame_ + 1, shape));
+        device_.check_not_lost(result, "run " + describe_frame(frame_ + 1, shape));
     slot.frame = ++frame_;
     slot.ended = false;
 }
 
 /// Waits for the frame of the slot, unless it was waited for before.
-void GraphRunner::finish(FrameSlot& slot) {
+void GraphRunner::finish_slot(FrameSlot& slot) {
     if (slot.ended) return;
     const SteadyClock::time_point begin = SteadyClock::now();
     const VkSemaphore semaphore = timeline_;
@@ -207,7 +208,7 @@ void GraphRunner::finish(FrameSlot& slot) {
     wait.pValues = &slot.frame;
     const VkResult result = vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0});
     if (result != VK_SUCCESS)
-        device_.check_waited(result, "run " + describe_frame(slot.frame, *slot.shape));
+        device_.check_wait_result(result, "run " + describe_frame(slot.frame, *slot.shape));
     const double waited = elapsed_milliseconds(begin);
     slot.times.wall_ms = elapsed_milliseconds(slot.submitted);
     slot.times.wait_ms += waited;
@@ -216,11 +217,11 @@ void GraphRunner::finish(FrameSlot& slot) {
     read_timestamps(device_, slot, slot.times);
 }
 
-void GraphRunner::finish_all() {
-    for (FrameSlot& slot : slots_) finish(slot);
+void GraphRunner::finish_all_slots() {
+    for (FrameSlot& slot : slots_) finish_slot(slot);
 }
 
-FrameSlot& GraphRunner::slot_of(FrameTicket ticket) {
+FrameSlot& GraphRunner::slot_of_frame(FrameTicket ticket) {
     check(ticket.frame >= 1 && ticket.frame <= frame_, Failure::internal, "frame ", ticket.frame,
           " is asked for, but ", frame_, " were submitted");
     FrameSlot& slot = slots_[index_of(ticket.frame)];
@@ -241,19 +242,19 @@ bool GraphRunner::has_ended(FrameTicket ticket) {
     wait.pValues = &ticket.frame;
     const VkResult result = vkWaitSemaphores(device_.handle(), &wait, 0);
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
-        device_.check_waited(result, "run " + describe_frame(slot.frame, *slot.shape));
+        device_.check_wait_result(result, "run " + describe_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
 }
 
-std::vector<PassWork> GraphRunner::work(FrameTicket ticket) {
-    FrameSlot& slot = slot_of(ticket);
-    finish(slot);
+std::vector<PassWork> GraphRunner::counted_work(FrameTicket ticket) {
+    FrameSlot& slot = slot_of_frame(ticket);
+    finish_slot(slot);
     return slot.work ? slot.work->read() : std::vector<PassWork>();
 }
 
-const GraphFrameTimes& GraphRunner::wait(FrameTicket ticket) {
-    FrameSlot& slot = slot_of(ticket);
-    finish(slot);
+const GraphFrameTimes& GraphRunner::wait_for_frame(FrameTicket ticket) {
+    FrameSlot& slot = slot_of_frame(ticket);
+    finish_slot(slot);
     return slot.times;
 }
 

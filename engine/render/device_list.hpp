@@ -18,23 +18,25 @@ public:
     DeviceList(std::string name, gpu::BufferUsage use, std::size_t slots)
         : name_(std::move(name)), use_(use), bound_(slots) {}
 
-    /// Sets the contents for the next `write`. Returns whether they differ from the last contents;
-    /// equal contents change nothing. Costs a comparison.
+    /// Sets the contents for the next `write_changed_pages`. Returns whether they differ from the
+    /// last contents; equal contents change nothing. Costs a comparison.
     template <typename T>
-    bool set(const std::vector<T>& data) {
-        return set(data, 0, data.size());
+    bool set_contents(const std::vector<T>& data) {
+        return set_contents(data, 0, data.size());
     }
     /// Sets the contents, of which only entries from `first` up to, not including, `end` may differ
     /// from the last ones. Compares only these entries.
     template <typename T>
-    bool set(const std::vector<T>& data, std::size_t first, std::size_t end) {
-        return set(std::as_bytes(std::span(data)), first * sizeof(T), end * sizeof(T));
+    bool set_contents(const std::vector<T>& data, std::size_t first, std::size_t end) {
+        return set_contents(std::as_bytes(std::span(data)), first * sizeof(T), end * sizeof(T));
     }
     /// Makes slot `slot` bind the contents. No frame may be in flight in the slot. Returns the
     /// number of writes to device memory. Throws as gpu::Buffer does.
-    std::size_t write(gpu::Device& device, std::size_t slot);
-    /// Returns the buffer that `write` chose for the slot.
-    const gpu::Buffer& at(std::size_t slot) const { return copies_[*bound_[slot]].buffer; }
+    std::size_t write_changed_pages(gpu::Device& device, std::size_t slot);
+    /// Returns the buffer that `write_changed_pages` chose for the slot.
+    const gpu::Buffer& buffer_of_copy(std::size_t slot) const {
+        return copies_[*bound_[slot]].buffer;
+    }
     std::size_t copy_count() const { return copies_.size(); }
 
 private:
@@ -43,8 +45,8 @@ private:
         std::uint64_t version = 0;
     };
 
-    bool set(std::span<const std::byte> data, std::size_t first, std::size_t end);
-    std::size_t free_copy(std::size_t slot);
+    bool set_contents(std::span<const std::byte> data, std::size_t first, std::size_t end);
+    std::size_t find_free_copy(std::size_t slot);
 
     std::string name_;
     gpu::BufferUsage use_;

@@ -11,42 +11,44 @@ namespace catoptric::graph {
 /// entry. Queries and changes cost as many steps as they meet runs, however long the runs are. No
 /// memory is allocated until the first change.
 template <typename T>
-class ValueRuns {
+class RunLengthArray {
 public:
-    explicit ValueRuns(std::uint32_t size = 0, const T& value = {})
+    explicit RunLengthArray(std::uint32_t size = 0, const T& value = {})
         : size_(size), initial_(value) {}
 
     /// Calls visit(begin, end, value) for each run in cells [first, end), from the lowest.
     template <typename Visit>
-    void each(std::uint32_t first, std::uint32_t end, const Visit& visit) const {
+    void for_each_run(std::uint32_t first, std::uint32_t end, const Visit& visit) const {
         if (first >= end) return;
         if (runs_.empty()) return visit(first, end, initial_);
-        for (std::size_t i = find(first); i < runs_.size() && runs_[i].begin < end; ++i)
-            visit(std::max(first, runs_[i].begin), std::min(end, end_of(i)), runs_[i].value);
+        for (std::size_t i = find_run(first); i < runs_.size() && runs_[i].begin < end; ++i)
+            visit(std::max(first, runs_[i].begin), std::min(end, end_of_run(i)), runs_[i].value);
     }
     template <typename Visit>
-    void each(const Visit& visit) const {
-        each(0, size_, visit);
+    void for_each_run(const Visit& visit) const {
+        for_each_run(0, size_, visit);
     }
 
     /// Calls visit(begin, end, value) for each run in cells [first, end), with values that it may
     /// change.
     template <typename Visit>
-    void change(std::uint32_t first, std::uint32_t end, const Visit& visit) {
+    void modify_runs(std::uint32_t first, std::uint32_t end, const Visit& visit) {
         if (first >= end) return;
         if (runs_.empty()) runs_.push_back({0, initial_});
-        const std::size_t from = split(first), to = split(end);
-        for (std::size_t i = from; i < to; ++i) visit(runs_[i].begin, end_of(i), runs_[i].value);
-        join(from == 0 ? 0 : from - 1, std::min(to + 1, runs_.size()));
+        const std::size_t from = split_run_at(first), to = split_run_at(end);
+        for (std::size_t i = from; i < to; ++i)
+            visit(runs_[i].begin, end_of_run(i), runs_[i].value);
+        merge_equal_runs(from == 0 ? 0 : from - 1, std::min(to + 1, runs_.size()));
     }
-    void set(std::uint32_t first, std::uint32_t end, const T& value) {
-        change(first, end, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    void fill_range(std::uint32_t first, std::uint32_t end, const T& value) {
+        modify_runs(first, end, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
 
     /// Returns whether some cell of [first, end) has the value.
-    bool any(std::uint32_t first, std::uint32_t end, const T& value) const {
+    bool contains_value(std::uint32_t first, std::uint32_t end, const T& value) const {
         bool found = false;
-        each(first, end, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
+        for_each_run(first, end,
+                     [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
         return found;
     }
 
@@ -58,24 +60,24 @@ private:
         T value;
     };
 
-    std::uint32_t end_of(std::size_t run) const {
+    std::uint32_t end_of_run(std::size_t run) const {
         return run + 1 < runs_.size() ? runs_[run + 1].begin : size_;
     }
     /// Returns the index of the run that holds the cell.
-    std::size_t find(std::uint32_t cell) const {
+    std::size_t find_run(std::uint32_t cell) const {
         const auto after = std::ranges::upper_bound(runs_, cell, {}, &ValueRun::begin);
         return static_cast<std::size_t>(after - runs_.begin()) - 1;
     }
     /// Splits a run so that one begins at the cell, and returns its index.
-    std::size_t split(std::uint32_t cell) {
+    std::size_t split_run_at(std::uint32_t cell) {
         if (cell >= size_) return runs_.size();
-        const std::size_t run = find(cell);
+        const std::size_t run = find_run(cell);
         if (runs_[run].begin == cell) return run;
         const ValueRun second{cell, runs_[run].value};
         runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(run) + 1, second);
         return run + 1;
     }
-    void join(std::size_t from, std::size_t to) {
+    void merge_equal_runs(std::size_t from, std::size_t to) {
         const auto first = runs_.begin() + static_cast<std::ptrdiff_t>(from);
         const auto last = runs_.begin() + static_cast<std::ptrdiff_t>(to);
         runs_.erase(

@@ -1,4 +1,4 @@
-#include "render/turns.hpp"
+#include "render/postponed_redraws.hpp"
 
 #include <algorithm>
 

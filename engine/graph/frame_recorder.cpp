@@ -1,4 +1,4 @@
-#include "graph/record.hpp"
+#include "graph/frame_recorder.hpp"
 
 #include "graph/sync.hpp"
 
@@ -93,37 +93,37 @@ FrameRecorder::FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines)
         vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
-void FrameRecorder::record(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
-                           std::size_t slot_index, PassTiming timing, WorkCounter* work) {
+void FrameRecorder::record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
+                                 std::size_t slot_index, PassTiming timing, WorkCounter* work) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index, work_ = work;
     commands_ = slot.commands;
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
-    full_barrier();
-    if (timing == PassTiming::isolated) stamp(timing);
+    record_full_barrier();
+    if (timing == PassTiming::isolated) write_timestamp(timing);
     for (const PlannedPass& planned : shape.plan.passes) {
-        if (timing == PassTiming::pipelined) stamp(timing);
-        barriers(planned.barriers, false);
+        if (timing == PassTiming::pipelined) write_timestamp(timing);
+        record_barriers(planned.barriers, false);
         record_pass(planned);
-        stamp(timing);
+        write_timestamp(timing);
     }
-    barriers(shape.plan.last, true);
+    record_barriers(shape.plan.last, true);
     gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
 }
 
 /// Records a barrier that completes all earlier work and makes it visible to all later work. It
 /// separates frames and read-backs.
-void FrameRecorder::full_barrier() {
-    gpu::record_memory_barrier(
-        commands_, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
-        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
+void FrameRecorder::record_full_barrier() {
+    gpu::record_memory_barrier(commands_,
+                               {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+                               {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
 }
 
 /// Writes a timestamp. It is exact only if an execution barrier follows: without one, a software
 /// driver takes it after the next pass's work.
-void FrameRecorder::stamp(PassTiming timing) {
+void FrameRecorder::write_timestamp(PassTiming timing) {
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries,
                          slot_->next_query++);
     if (timing == PassTiming::isolated)
@@ -132,7 +132,7 @@ void FrameRecorder::stamp(PassTiming timing) {
                              nullptr);
 }
 
-void FrameRecorder::add(const PlannedBarrier& barrier, bool last) {
+void FrameRecorder::add_image_barrier(const PlannedBarrier& barrier, bool last) {
     const BarrierScopes sides = make_barrier_scopes(barrier, last);
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
@@ -147,16 +147,16 @@ void FrameRecorder::add(const PlannedBarrier& barrier, bool last) {
     b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
                                          : image_layout_of_use(barrier.before.use);
     b.newLayout = image_layout_of_use(barrier.after.use);
-    b.image = physical({.id = barrier.id, .previous = barrier.previous}).image;
+    b.image = physical_image({.id = barrier.id, .previous = barrier.previous}).image;
     b.subresourceRange = {image_aspect(graph_->images()[barrier.id].format), barrier.first_mip,
                           barrier.mip_count, barrier.first_layer, barrier.layer_count};
     image_barriers_.push_back(b);
 }
 
-void FrameRecorder::barriers(const std::vector<PlannedBarrier>& list, bool last) {
+void FrameRecorder::record_barriers(const std::vector<PlannedBarrier>& list, bool last) {
     if (list.empty()) return;
     image_barriers_.clear(), buffer_barriers_.clear();
-    for (const PlannedBarrier& barrier : list) add(barrier, last);
+    for (const PlannedBarrier& barrier : list) add_image_barrier(barrier, last);
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers_.size());
     dependency.pImageMemoryBarriers = image_barriers_.data();
@@ -177,15 +177,16 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
         PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
     } else if (pass.layer_count == 1 || device_.supports_layered_rendering()) {
-        render(planned, 0, pass.layer_count);
+        record_raster_pass(planned, 0, pass.layer_count);
     } else {
-        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer) render(planned, layer, 1);
+        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer)
+            record_raster_pass(planned, layer, 1);
     }
     if (work_) work_->end_pass(commands_);
     if (end_label_) end_label_(commands_);
 }
 
-PhysicalImage& FrameRecorder::physical(ImageHandle image) {
+PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
     if (graph_->lifetime(image.id) != ImageLifetime::imported)
         return shape_->physical(image, slot_index_);
     PhysicalImage* const outside = graph_->imported_image(image.id);
@@ -207,8 +208,8 @@ void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32
     const gpu::ImageViewType shape = layer_count > 1 ? gpu::ImageViewType::flat_array
                                                      : gpu::ImageViewType::flat;
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = physical(use.image).view(device_, shape,
-                                              use.image.layers(first_layer, layer_count));
+    info.imageView = physical_image(use.image).find_or_create_view(
+        device_, shape, use.image.layers(first_layer, layer_count));
     info.imageLayout = image_layout_of_use(use.use);
     info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = !use.write ? VK_ATTACHMENT_STORE_OP_NONE
@@ -238,8 +239,8 @@ void FrameRecorder::count_bytes(const Pass& pass, const VkRenderingInfo& renderi
 }
 
 /// Records one rendering scope over some layers of the pass's attachments.
-void FrameRecorder::render(const PlannedPass& planned, std::uint32_t first_layer,
-                           std::uint32_t layer_count) {
+void FrameRecorder::record_raster_pass(const PlannedPass& planned, std::uint32_t first_layer,
+                                       std::uint32_t layer_count) {
     const Pass& pass = graph_->passes()[planned.pass];
     colours_.clear();
     depth_ = {};

@@ -12,7 +12,7 @@
 /// registers it, so that no other file lists it.
 namespace catoptric::report {
 
-struct Part {
+struct ReportPart {
     std::string_view name;
     int order = 1000; ///< place in the report; equal orders are sorted by name
     /// Returns the part's tables. Reports leave out tables without rows, and leave out the
@@ -31,11 +31,11 @@ struct Part {
 
 /// Registers a part. Define it at namespace scope: the part enters the table while the program
 /// starts.
-struct RegisteredPart {
-    explicit RegisteredPart(const Part& part);
+struct RegisteredReportPart {
+    explicit RegisteredReportPart(const ReportPart& part);
 };
 
 /// Returns all parts by `order`, then name.
-std::vector<Part> parts();
+std::vector<ReportPart> list_report_parts();
 
 } // namespace catoptric::report

@@ -1,4 +1,5 @@
 // Checks the request of a comparison.
+#include "study/compare_checks.hpp"
 #include "compare.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -7,7 +8,6 @@
 #include "scene/pose.hpp"
 #include "session/candidates.hpp"
 #include "session/plan_file.hpp"
-#include "study/asked.hpp"
 #include "study/study.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::string> list_default_techniques(const Request& base) {
                 return technique->unfit(flat, tolerance).empty();
             }))
             rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
-    rows.emplace_back(reflect::kAuto);
+    rows.emplace_back(reflect::kAutoPlanName);
     return rows;
 }
 
@@ -43,8 +43,9 @@ void check_has_mirror(const scene::Scene& scene) {
 }
 
 void check_rounds(int rounds) {
-    check(rounds >= static_cast<int>(measure::kFewest), Failure::usage, "rounds: wanted at least ",
-          measure::kFewest, ", fewer bound no median, found ", rounds);
+    check(rounds >= static_cast<int>(measure::kMinIntervalSamples), Failure::usage,
+          "rounds: wanted at least ", measure::kMinIntervalSamples,
+          ", fewer bound no median, found ", rounds);
 }
 
 void check_rows(const std::vector<std::string>& techniques) {

@@ -59,7 +59,7 @@ void ViewLoop::show_message(const std::string& text) {
 std::string ViewLoop::command() const {
     return make_render_command(options_.words, state_,
                                camera_option_text(request_.scene, state_.camera),
-                               viewer_->spec().size);
+                               viewer_->frame_spec().size);
 }
 
 void ViewLoop::next_camera(std::size_t index) {
@@ -74,8 +74,8 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
     case KeyAction::keys: state_.shows_keys ^= true; break;
     case KeyAction::panels: state_.shows_panels ^= true; break;
     case KeyAction::pause: motion.plays ^= true; break;
-    case KeyAction::step: motion.plays = false, motion.time += kStep; break;
-    case KeyAction::back: motion.plays = false, motion.time -= kStep; break;
+    case KeyAction::step: motion.plays = false, motion.time += kFrameStepSeconds; break;
+    case KeyAction::back: motion.plays = false, motion.time -= kFrameStepSeconds; break;
     case KeyAction::fly: state_.flies ^= true; break;
     case KeyAction::gain: state_.gain = state_.gain >= 64 ? 1 : 2 * state_.gain; break;
     case KeyAction::mode: state_.mode = static_cast<ViewMode>(key.mode); break;
@@ -101,16 +101,16 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
 }
 
 void ViewLoop::perform_panel_requests(const PanelRequests& wants) try {
-    if (wants.cuts) viewer_->cut();
+    if (wants.cuts) viewer_->cut_history();
     if (wants.camera) next_camera(*wants.camera);
     if (wants.copies) {
-        window_.copy(command());
+        window_.copy_to_clipboard(command());
         show_message("copied: " + command());
     }
     if (wants.writes) {
         const std::string name = find_free_file_name("view", {".png", ".exr"});
-        viewer_->write(name + ".png");
-        viewer_->write(name + ".exr");
+        viewer_->write_picture(name + ".png");
+        viewer_->write_picture(name + ".exr");
         show_message("written: " + name + ".png, " + name + ".exr");
     }
     if (wants.saves_plan) {

@@ -1,4 +1,4 @@
-#include "graph/shape.hpp"
+#include "graph/graph_shape.hpp"
 
 #include <algorithm>
 
@@ -10,8 +10,8 @@ namespace {
 class OrderedHash {
 public:
     void add(std::uint64_t value) {
-        constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;
-        value_ = (value_ ^ value) * kOdd;
+        constexpr std::uint64_t kHashMultiplier = 0x9e3779b97f4a7c15u;
+        value_ = (value_ ^ value) * kHashMultiplier;
         value_ ^= value_ >> 29;
     }
     void add(std::uint32_t high, std::uint32_t low) { add(std::uint64_t{high} << 32 | low); }
@@ -58,7 +58,7 @@ void add_to_hash(OrderedHash& hash, const Pass& pass) {
 /// Returns the ranges of a persistent image that have contents.
 std::vector<std::uint32_t> ranges_with_contents(const Graph& graph, std::uint32_t image) {
     std::vector<std::uint32_t> ranges;
-    graph.content_hashes_at_start(image).each(
+    graph.content_hashes_at_start(image).for_each_run(
         [&](std::uint32_t first, std::uint32_t end, const auto& content_hash) {
             if (!content_hash) return;
             const bool continues = !ranges.empty() && ranges.back() == first;
@@ -72,8 +72,9 @@ std::vector<std::uint32_t> ranges_with_contents(const Graph& graph, std::uint32_
 void add_lifetime_to_hash(OrderedHash& hash, const Graph& graph, std::uint32_t image) {
     hash.add(to_hash_number(graph.lifetime(image)));
     if (graph.lifetime(image) == ImageLifetime::imported) {
-        const std::optional<ResourceUse> arrives = graph.arrives(image);
-        hash.add(arrives ? 1 + to_hash_number(*arrives) : 0, to_hash_number(graph.leaves(image)));
+        const std::optional<ResourceUse> arrives = graph.state_on_import(image);
+        hash.add(arrives ? 1 + to_hash_number(*arrives) : 0,
+                 to_hash_number(graph.state_on_release(image)));
     }
     if (graph.lifetime(image) == ImageLifetime::persistent)
         for (const std::uint32_t end : ranges_with_contents(graph, image)) hash.add(end);
@@ -83,7 +84,8 @@ bool have_equal_lifetimes(const Graph& a, const Graph& b, std::uint32_t image) {
     const ImageLifetime lifetime = a.lifetime(image);
     if (lifetime != b.lifetime(image)) return false;
     if (lifetime == ImageLifetime::imported)
-        return a.arrives(image) == b.arrives(image) && a.leaves(image) == b.leaves(image);
+        return a.state_on_import(image) == b.state_on_import(image) &&
+               a.state_on_release(image) == b.state_on_release(image);
     return lifetime != ImageLifetime::persistent ||
            ranges_with_contents(a, image) == ranges_with_contents(b, image);
 }
@@ -114,7 +116,7 @@ std::uint64_t hash_graph_shape(const Graph& graph) {
         hash.add(graph.buffers()[b].name);
         hash.add(graph.buffers()[b].bytes << 1 | graph.is_imported({b}));
     }
-    for (const ContentRecord& stamped : graph.stamps()) add_to_hash(hash, stamped.part);
+    for (const ContentRecord& stamped : graph.content_records()) add_to_hash(hash, stamped.part);
     for (const Pass& pass : graph.passes()) add_to_hash(hash, pass);
     for (const ImageHandle& image : graph.output_images()) add_to_hash(hash, image);
     for (const BufferHandle& buffer : graph.output_buffers()) hash.add(buffer.id);
@@ -130,8 +132,8 @@ bool have_equal_shapes(const Graph& graph, const Graph& known) {
         if (!have_equal_lifetimes(graph, known, i)) return false;
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
         if (graph.is_imported({b}) != known.is_imported({b})) return false;
-    if (!std::ranges::equal(graph.stamps(), known.stamps(), {}, &ContentRecord::part,
-                            &ContentRecord::part))
+    if (!std::ranges::equal(graph.content_records(), known.content_records(), {},
+                            &ContentRecord::part, &ContentRecord::part))
         return false;
     return std::ranges::equal(graph.passes(), known.passes(), [](const Pass& a, const Pass& b) {
         return are_equal_declarations(a, b);

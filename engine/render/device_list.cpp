@@ -1,4 +1,4 @@
-#include "render/resident.hpp"
+#include "render/device_list.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -7,21 +7,24 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::size_t kPage = 16384; // bytes that are compared and written together
+constexpr std::size_t kComparedPageBytes = 16384; // bytes that are compared and written together
 
-std::size_t count_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage; }
+std::size_t count_pages(std::size_t bytes) {
+    return (bytes + kComparedPageBytes - 1) / kComparedPageBytes;
+}
 
 } // namespace
 
-bool DeviceList::set(std::span<const std::byte> data, std::size_t from, std::size_t to) {
+bool DeviceList::set_contents(std::span<const std::byte> data, std::size_t from, std::size_t to) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
     data_.resize(data.size());
     pages_.resize(count_pages(data.size()), next);
     if (changed) from = 0, to = data.size();
-    for (std::size_t page = from / kPage; page < count_pages(to); ++page) {
-        const std::size_t first = page * kPage, end = std::min(first + kPage, data.size());
+    for (std::size_t page = from / kComparedPageBytes; page < count_pages(to); ++page) {
+        const std::size_t first = page * kComparedPageBytes,
+                          end = std::min(first + kComparedPageBytes, data.size());
         if (end <= kept && std::memcmp(&data_[first], &data[first], end - first) == 0) continue;
         std::memcpy(&data_[first], &data[first], end - first);
         pages_[page] = next;
@@ -32,7 +35,7 @@ bool DeviceList::set(std::span<const std::byte> data, std::size_t from, std::siz
 }
 
 /// Returns a copy that no other slot binds.
-std::size_t DeviceList::free_copy(std::size_t slot) {
+std::size_t DeviceList::find_free_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)
             if (other != slot && bound_[other] == copy) return false;
@@ -45,13 +48,13 @@ std::size_t DeviceList::free_copy(std::size_t slot) {
     return copies_.size() - 1;
 }
 
-std::size_t DeviceList::write(gpu::Device& device, std::size_t slot) {
+std::size_t DeviceList::write_changed_pages(gpu::Device& device, std::size_t slot) {
     const auto current = std::ranges::find(copies_, version_, &DeviceCopy::version);
     if (current != copies_.end()) {
         bound_[slot] = static_cast<std::size_t>(current - copies_.begin());
         return 0;
     }
-    const std::size_t place = free_copy(slot);
+    const std::size_t place = find_free_copy(slot);
     DeviceCopy& copy = copies_[place];
     if (!copy.buffer.handle() || copy.buffer.bytes() < data_.size()) {
         copy = {};
@@ -65,9 +68,10 @@ std::size_t DeviceList::write(gpu::Device& device, std::size_t slot) {
             ++page;
             continue;
         }
-        const std::size_t end = std::min(page * kPage, data_.size());
-        copy.buffer.write(first * kPage,
-                          std::span(data_).subspan(first * kPage, end - first * kPage));
+        const std::size_t end = std::min(page * kComparedPageBytes, data_.size());
+        copy.buffer.write(
+            first * kComparedPageBytes,
+            std::span(data_).subspan(first * kComparedPageBytes, end - first * kComparedPageBytes));
         ++writes;
     }
     copy.version = version_;

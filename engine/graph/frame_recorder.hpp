@@ -2,7 +2,7 @@
 
 #include "gpu/pipeline.hpp"
 #include "graph/commands.hpp"
-#include "graph/slot.hpp"
+#include "graph/frame_slot.hpp"
 #include "graph/work_counter.hpp"
 
 namespace catoptric::graph {
@@ -14,15 +14,15 @@ public:
 
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
     /// `work` counts the frame's work; null: nothing is counted.
-    void record(const Graph& graph, CompiledGraph& shape, FrameSlot& slot, std::size_t slot_index,
-                PassTiming timing, WorkCounter* work);
+    void record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
+                      std::size_t slot_index, PassTiming timing, WorkCounter* work);
 
     // Returns the device. Only Commands may call this function, while a pass records its commands.
     gpu::Device& device() { return device_; }
     gpu::Pipelines& pipelines() { return pipelines_; }
     /// Returns the counter of the frame's work; null: nothing is counted.
-    WorkCounter* work() { return work_; }
-    PhysicalImage& physical(ImageHandle image);
+    WorkCounter* work_counter() { return work_; }
+    PhysicalImage& physical_image(ImageHandle image);
     VkBuffer buffer(BufferHandle buffer) const;
     VkSampler sampler(TextureFilter filter) const {
         return samplers_[static_cast<std::size_t>(filter)];
@@ -33,14 +33,15 @@ public:
 
 private:
     void record_pass(const PlannedPass& planned);
-    void render(const PlannedPass& planned, std::uint32_t first_layer, std::uint32_t layer_count);
+    void record_raster_pass(const PlannedPass& planned, std::uint32_t first_layer,
+                            std::uint32_t layer_count);
     void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                         std::uint32_t layer_count);
     void count_bytes(const Pass& pass, const VkRenderingInfo& rendering);
-    void barriers(const std::vector<PlannedBarrier>& list, bool last);
-    void add(const PlannedBarrier& barrier, bool last);
-    void full_barrier();
-    void stamp(PassTiming timing);
+    void record_barriers(const std::vector<PlannedBarrier>& list, bool last);
+    void add_image_barrier(const PlannedBarrier& barrier, bool last);
+    void record_full_barrier();
+    void write_timestamp(PassTiming timing);
 
     gpu::Device& device_;
     gpu::Pipelines& pipelines_;

@@ -1,4 +1,4 @@
-#include "session/why.hpp"
+#include "session/culling_report.hpp"
 
 #include "core/text.hpp"
 #include "report/text.hpp"
@@ -28,8 +28,8 @@ struct RequiredWork {
 
 /// Returns the feature of reflectors in the picture whose reflections only ray tracing draws.
 std::optional<measure::UnsupportedFeatureFacts> find_undrawn_reflections(const Request& request) {
-    constexpr std::string_view kId = "smooth-dielectric";
-    const auto gap = std::ranges::find(request.scene.unsupported, kId,
+    constexpr std::string_view kSmoothDielectricGapId = "smooth-dielectric";
+    const auto gap = std::ranges::find(request.scene.unsupported, kSmoothDielectricGapId,
                                        &scene::UnsupportedFeature::id);
     if (gap == request.scene.unsupported.end()) return std::nullopt;
     const std::vector<int> seen = find_visible_objects(request,
@@ -63,8 +63,8 @@ OrderedJson describe_mirror(const RequiredWork& required, const std::string& nam
             {"suggested", required.suggestion.reasons[i]}};
 }
 
-constexpr const char* kNotDrawn = "what smooth surfaces that are no mirrors reflect";
-constexpr const char* kRemedy =
+constexpr const char* kUndrawnReflectionsText = "what smooth surfaces that are no mirrors reflect";
+constexpr const char* kUndrawnReflectionsRemedy =
     "no technique but raytrace draws it; --dielectric-mirrors makes mirrors of them";
 
 } // namespace
@@ -75,10 +75,10 @@ std::string explain_culling_as_text(const Request& request,
     const std::vector<std::string> names = list_mirror_names(now);
     std::string text = require::to_text(model, now);
     if (const auto gap = find_undrawn_reflections(request))
-        text += std::string("not drawn\n  ") + kNotDrawn + ": " +
+        text += std::string("not drawn\n  ") + kUndrawnReflectionsText + ": " +
                 report::format_fixed(100 * *gap->pixel_share, 1) +
                 " % of the picture (first: " + escape_control_characters(gap->first) +
-                ")\n    why: " + kRemedy + "\n";
+                ")\n    why: " + kUndrawnReflectionsRemedy + "\n";
     if (slices) text += to_text(*slices) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
@@ -110,8 +110,8 @@ std::string explain_culling_as_json(const Request& request,
                                         {"saves", thing.saves},
                                         {"error", thing.error}});
     if (const auto gap = find_undrawn_reflections(request))
-        document["not_drawn"].push_back({{"what", kNotDrawn},
-                                         {"why", kRemedy},
+        document["not_drawn"].push_back({{"what", kUndrawnReflectionsText},
+                                         {"why", kUndrawnReflectionsRemedy},
                                          {"first", gap->first},
                                          {"pixel_share", *gap->pixel_share}});
     document["captures"] = slices ? OrderedJson{{"mirrors", slices->mirrors},
@@ -124,11 +124,11 @@ std::string explain_culling_as_json(const Request& request,
 }
 
 std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request) {
-    constexpr int kCuts = 5; // cuts: the first frames compile what they use
+    constexpr int kMeasuredCuts = 5; // cuts: the first frames compile what they use
     Session session(engine, request.scene);
     FrameSpec spec = request;
     spec.time = request.instant(1);
-    for (int k = 0; k < kCuts; ++k) {
+    for (int k = 0; k < kMeasuredCuts; ++k) {
         session.forget();
         session.frame(spec);
     }
