@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <string>
@@ -21,28 +22,32 @@ namespace {
 constexpr std::size_t kTableTexels = shared::kSrgbTableWords +
                                      shared::kLobeTableEdge * shared::kLobeTableEdge;
 
-/// Returns the albedo of rough lobes by roughness (rows) and cosine (columns), each entry two
-/// 16-bit fractions of 1: f64::lobe_albedo_terms. The first call takes about 0.1 s.
+std::uint32_t to_unorm16(float value) {
+    return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.f, 1.f) * 65535));
+}
+
+/// Computes the albedo of rough lobes by roughness (rows) and cosine (columns), each entry two
+/// 16-bit fractions of 1: f32::lobe_albedo_terms. Takes about 0.1 s.
+std::vector<std::uint32_t> compute_lobe_albedos() {
+    constexpr std::uint32_t kEdge = shared::kLobeTableEdge;
+    constexpr int kSampleEdge = 32;
+    constexpr float kMinCosine = 1e-3f; // at a cosine of 0 no direction is sampled
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t y = 0; y < kEdge; ++y)
+        for (std::uint32_t x = 0; x < kEdge; ++x) {
+            float head_on, grazing;
+            f32::lobe_albedo_terms(f32::roughness_to_alpha(static_cast<float>(y) / (kEdge - 1)),
+                                   std::max(static_cast<float>(x) / (kEdge - 1), kMinCosine),
+                                   kSampleEdge, head_on, grazing);
+            words.push_back(to_unorm16(head_on) | to_unorm16(grazing) << 16);
+        }
+    return words;
+}
+
+/// Returns compute_lobe_albedos, which the first call computes.
 const std::vector<std::uint32_t>& lobe_albedo_table() {
-    static const std::vector<std::uint32_t> table = [] {
-        constexpr std::uint32_t kEdge = shared::kLobeTableEdge;
-        constexpr int kSampleEdge = 32;
-        constexpr float kMinCosine = 1e-3f; // at a cosine of 0 no direction is sampled
-        std::vector<std::uint32_t> words;
-        for (std::uint32_t y = 0; y < kEdge; ++y)
-            for (std::uint32_t x = 0; x < kEdge; ++x) {
-                float head_on, grazing;
-                f32::lobe_albedo_terms(f32::roughness_to_alpha(static_cast<float>(y) / (kEdge - 1)),
-                                       std::max(static_cast<float>(x) / (kEdge - 1), kMinCosine),
-                                       kSampleEdge, head_on, grazing);
-                const auto fraction = [](float value) {
-                    return static_cast<std::uint32_t>(std::clamp(value, 0.f, 1.f) * 65535 + .5f);
-                };
-                words.push_back(fraction(head_on) | fraction(grazing) << 16);
-            }
-        return words;
-    }();
-    return table;
+    static const std::vector<std::uint32_t> kTable = compute_lobe_albedos();
+    return kTable;
 }
 
 std::uint32_t flag_if(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }

@@ -198,11 +198,11 @@ bool may_view_show_box(const shared::View& view, const Bounds<float>& box) {
 
 bool may_view_show_box(const shared::View& view, const DrawRange& range) {
     // Fraction of the distance, for the roundings of positions and planes.
-    constexpr float kDepthRangeMargin = 0x1p-20f;
+    constexpr float kRoundingShare = 0x1p-20f;
     if (!may_view_show_box(view, range.bounds)) return false;
     if (view.parallel != 0) return true;
     const vec3 towards = range.bounds.centre() - view.eye;
-    const float radius = range.radius + kDepthRangeMargin * (range.radius + length(towards));
+    const float radius = range.radius + kRoundingShare * (range.radius + length(towards));
     return std::ranges::all_of(inward_view_planes(view), [&](const vec3& plane) {
         return dot(plane, towards) >= -radius * length(plane);
     });
