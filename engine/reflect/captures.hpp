@@ -118,7 +118,7 @@ inline constexpr Knob kRoughRaysKnob{
         "directions of each rough pixel: searches for rough=rays, rays where a tracer completes "
         "the search",
     .low = 1,
-    .high = 4096,
+    .high = 1024,
     .value = 16};
 inline constexpr Knob kBlurLawKnob{
     .name = "law",

@@ -175,8 +175,10 @@ float rough_alpha(MirrorPath path, Lookup lookup) {
         vec3 end = path.centre + lookup.direction * from_centre;
         ratio = distance(end, path.at) / from_centre;
         if (distance_law == kLawExact && has_surfaces != 0u) {
-            vec3 n = normalize(read_captured_surface(path.mirror, lookup.direction).yzw);
-            float to_centre = abs(dot(n, lookup.direction)), to_surface = abs(dot(n, path.direction));
+            // Zero beside a silhouette, where the nearest texel shows no surface. Both cosines are then at their least.
+            vec3 n = read_captured_surface(path.mirror, lookup.direction).yzw;
+            float size = max(length(n), 1e-3);
+            float to_centre = abs(dot(n, lookup.direction)) / size, to_surface = abs(dot(n, path.direction)) / size;
             // At grazing angles the surface ends before the lobe's cross section does.
             foreshortening = max(to_centre, 0.1) / max(to_surface, 0.1);
         }
@@ -199,20 +201,21 @@ void main() {
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
     Surface surface = surface_at_fragment(n, facet);
-    MirrorPath path = MirrorPath(drawn_mirror() - 1u, surface_position(),
-        mirror_direction(normalize(direction_from_viewer()), n, facet),
-                     probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
+    vec3 seen = normalize(direction_from_viewer());
+    MirrorPath path = MirrorPath(drawn_mirror() - 1u, surface_position(), mirror_direction(seen, n, facet),
+                                 probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
 #ifdef ABLATE
     Lookup lookup = follow_path(path, hops);
     vec3 colour = ablated_radiance(path, lookup);
 #else
-    bool is_rough = rough != kRoughNone && has_rough_lobe();
-    if (is_rough && rough != kRoughRays)
-        path.weight = specular_lobe_albedo(-dot(n, normalize(direction_from_viewer())));
+    bool is_rough = rough != kRoughNone && has_rough_lobe(), is_stopped = false;
+    bool looks_up_level = is_rough && rough != kRoughRays;
+    if (rough != kRoughNone && looks_up_level) path.weight = specular_lobe_albedo(-dot(n, seen));
     MirrorPath first = path;
     // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
-    Lookup lookup = follow_path(path, is_rough && rough != kRoughRays ? 0u : hops);
+    Lookup lookup = follow_path(path, looks_up_level ? 0u : hops);
     vec3 colour;
+    // The conditions repeat the constant, because only branches on a constant are removed with the bindings they use.
     if (rough == kRoughNone || !is_rough)
         colour = path.weight * lookup_colour(path.mirror, lookup);
     else if (rough != kRoughRays)
@@ -226,18 +229,23 @@ void main() {
             sample_point(pixel, i, 0u, kSearchSeed, u, v);
             MirrorPath drawn = first;
             drawn.weight = vec3(1);
-            if (sample_specular_lobe(normalize(direction_from_viewer()), facet, u, v, drawn.weight, drawn.direction) &&
+            if (sample_specular_lobe(seen, facet, u, v, drawn.weight, drawn.direction) &&
                 drawn.weight != vec3(0)) {
                 Lookup found = follow_path(drawn, hops);
                 colour += drawn.weight * lookup_colour(drawn.mirror, found);
             }
             ++i;
         } while (i < lobe_rays);
+        // The software driver silently stops an invocation's loops after 65,535 iterations.
+        is_stopped = i < lobe_rays;
         colour /= float(lobe_rays);
     }
     if (lights_mirrors != 0u) colour += shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
 #endif
     write_surface(apply_show_mode(colour, lookup));
+#ifndef ABLATE
+    if (rough == kRoughRays && is_stopped) out_colour.rgb = vec3(uintBitsToFloat(0x7fc00000u)); // the pixel is NaN
+#endif
     if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) {
         out_distance = float(tracer);
 #ifdef FIRST_HIT

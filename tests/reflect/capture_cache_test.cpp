@@ -151,14 +151,7 @@ TEST_F(KeptFrames, PyramidIsMadeAgainWhenAFaceIsDrawn) {
 // Tests the filtered levels of captures: a frame filters the levels of redrawn captures alone, and
 // nothing is filtered at rest.
 TEST_F(KeptFrames, LevelsAreFilteredAgainWhenAFaceIsDrawn) {
-    for (scene::Material& material : room_.materials)
-        if (material.mirror) {
-            material.mirror = false;
-            material.albedo = vec3(.9f), material.metallic = 1, material.roughness = .3f;
-        }
-    room_.mirror_max_roughness = .5f;
-    for (scene::Object& object : room_.objects)
-        object.mirror = room_.materials[object.material].metallic == 1;
+    test::make_mirrors_rough(room_, .3f);
     render::GpuScene rough(bench_.device, room_);
     rough.update(room_, room_.cameras.front(), kSize, .05);
     shown_ = &rough;

@@ -194,18 +194,27 @@ TEST(RoughLookups, PerfectMirrorsAreTheSameInEveryMode) {
     }
 }
 
+/// The software driver silently stops an invocation's loops after 65,535 iterations.
+TEST(RoughLookups, SearchesThatTheDriverStopsAreMarked) {
+    const scene::Scene scene = scene::load("cornell-rough");
+    const auto count_marked = [&](const std::string& rays) {
+        const measure::Picture picture = test::render_technique(
+                                             scene,
+                                             "march:face=16,steps=256,rough=rays,rays=" + rays,
+                                             {8, 8}, 2)
+                                             .hdr;
+        return std::ranges::count_if(picture.pixels,
+                                     [](const auto& pixel) { return std::isnan(pixel.x); });
+    };
+    EXPECT_EQ(count_marked("16"), 0);
+    EXPECT_GT(count_marked("1024"), 0);
+}
+
 /// A mirrored view is sharp, so flat rough mirrors are drawn by another technique, and `auto` does
 /// not choose `planar` for them.
 TEST(RoughLookups, FlatRoughMirrorsAreNotDrawnByMirroredViews) {
     scene::Scene scene = scene::load("flat");
-    for (scene::Material& material : scene.materials)
-        if (material.mirror) {
-            material.mirror = false;
-            material.albedo = vec3(.9f), material.metallic = 1, material.roughness = .3f;
-        }
-    scene.mirror_max_roughness = .6f;
-    for (scene::Object& object : scene.objects)
-        object.mirror = scene.materials[object.material].metallic == 1;
+    test::make_mirrors_rough(scene, .3f);
     const app::TechniqueResult planar = test::render_technique(scene, "planar:rest=secant",
                                                                {32, 32}, 2);
     ASSERT_EQ(planar.plan.size(), 1u);

@@ -18,6 +18,17 @@ using scene::add_ball, scene::add_material, scene::add_mesh, scene::add_quad, sc
 /// Radiance of every wall of a furnace; exact in 16-bit floats.
 constexpr vec3 kFurnaceRadiance{0.5f, 0.25f, 0.75f};
 
+/// Turns all perfect mirrors of a scene into metals of this roughness, which stay mirrors.
+inline void make_mirrors_rough(scene::Scene& scene, float roughness) {
+    scene.mirror_max_roughness = roughness;
+    for (scene::Object& object : scene.objects) object.mirror = scene::is_mirror(scene, object);
+    for (scene::Material& material : scene.materials) {
+        if (!material.mirror) continue;
+        material.mirror = false;
+        material.albedo = vec3(.9f), material.metallic = 1, material.roughness = roughness;
+    }
+}
+
 /// Returns a furnace: a closed box with one or two mirror balls. Every point of the box emits
 /// kFurnaceRadiance and reflects nothing, so every pixel must show kFurnaceRadiance.
 inline scene::Scene make_furnace_scene(int mirrors) {
