@@ -24,9 +24,9 @@ bool may_look_small(const VisibilityWorld& world, const WorldObject& thing) {
 } // namespace
 
 void ContentHashes::move_to_instant(const VisibilityWorld& world, std::uint32_t shadow_edge) {
-    const bool is_anew = layout_ != world.layout_count();
-    if (!world.has_changed() && !is_anew && shadow_edge_ == shadow_edge) return;
-    if (is_anew) mirrors_.assign(world.mirrors().size(), {});
+    const bool is_new_layout = layout_ != world.layout_count();
+    if (!world.has_changed() && !is_new_layout && shadow_edge_ == shadow_edge) return;
+    if (is_new_layout) mirrors_.assign(world.mirrors().size(), {});
     ++changes_;
     layout_ = world.layout_count(), epoch_ = world.epoch(), shadow_edge_ = shadow_edge;
     ContentHash all(epoch_);

@@ -191,7 +191,7 @@ FlatFaces find_flat_faces(const Scene& scene, const Object& object) {
 FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
     FlatFaces found;
-    if (std::optional<FlatFace> whole = make_flat_mirror_room(mesh, world_from_object)) {
+    if (std::optional<FlatFace> whole = find_mesh_plane(mesh, world_from_object)) {
         whole->triangles = {{0, count}};
         found.faces.push_back(std::move(*whole));
         return found;
@@ -232,7 +232,7 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     return found;
 }
 
-std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& world_from_object) {
+std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_from_object) {
     // Most curved meshes are rejected by their first normals, before the whole mesh is tested.
     const dmat3 turns = normal_matrix(world_from_object);
     const auto normal_of = [&](std::size_t vertex) {

@@ -55,10 +55,10 @@ inline constexpr double kMaxPlaneDeviation = .01;
 /// Returns the plane of a mesh. Returns nothing if a vertex is off by more than kMaxPlaneDeviation,
 /// or if no triangle has an area. O(vertices). O(1) for most curved meshes, because the test ends
 /// at the first vertex that is off.
-std::optional<FlatFace> make_flat_mirror_room(const Mesh& mesh, const dmat4& world_from_object);
+std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_from_object);
 
 /// Returns the flat faces of a mirror, each of which a plane can replace. If the mesh is
-/// `make_flat_mirror_room`, the whole mesh is one face. Otherwise a face is a set of triangles that
+/// `find_mesh_plane`, the whole mesh is one face. Otherwise a face is a set of triangles that
 /// lie in one plane within 1e-4 of the extent. The normals at their corners differ from the plane's
 /// by at most kMaxPlaneDeviation. A board modelled as a thin closed box has six faces. Returns no
 /// faces for more than 64 such planes or 65,536 triangles, because so many planes are never drawn

@@ -41,7 +41,7 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
 }
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
-    const auto flat = scene::make_flat_mirror_room(board(), kTurned);
+    const auto flat = scene::find_mesh_plane(board(), kTurned);
     ASSERT_TRUE(flat);
     EXPECT_LE(flat->off, 1e-12);
     const dvec3 normal = glm::normalize(glm::dmat3(kTurned)[2]);
@@ -55,32 +55,32 @@ TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
                   1e-12);
         EXPECT_NEAR(dot(at - flat->point, flat->normal), 0, 1e-12);
     }
-    EXPECT_FALSE(scene::make_flat_mirror_room(scene::ball("ball", 2), dmat4(1)));
-    EXPECT_FALSE(scene::make_flat_mirror_room({}, dmat4(1)));
-    EXPECT_FALSE(scene::make_flat_mirror_room(board(), dmat4(0))) << "without an area";
+    EXPECT_FALSE(scene::find_mesh_plane(scene::ball("ball", 2), dmat4(1)));
+    EXPECT_FALSE(scene::find_mesh_plane({}, dmat4(1)));
+    EXPECT_FALSE(scene::find_mesh_plane(board(), dmat4(0))) << "without an area";
 }
 
 TEST(FlatMirror, DeviationFromFlatCoversNormalsAndVertices) {
     scene::Mesh turned = board();
     turned.normals[2] = glm::normalize(vec3(.003f, 0, 1));
-    EXPECT_NEAR(scene::make_flat_mirror_room(turned, dmat4(1))->off, .003, 1e-6);
+    EXPECT_NEAR(scene::find_mesh_plane(turned, dmat4(1))->off, .003, 1e-6);
     turned.normals[2] = glm::normalize(vec3(.03f, 0, 1));
-    EXPECT_FALSE(scene::make_flat_mirror_room(turned, dmat4(1)));
+    EXPECT_FALSE(scene::find_mesh_plane(turned, dmat4(1)));
     scene::Mesh bent = board();
     // The vertex is sqrt(2) from the diagonal, so its triangle tilts by .004 / sqrt(2) against the
     // other triangle.
     bent.positions[3].z = .004;
-    EXPECT_NEAR(scene::make_flat_mirror_room(bent, dmat4(1))->off, .004 / std::sqrt(2.0), 1e-7);
+    EXPECT_NEAR(scene::find_mesh_plane(bent, dmat4(1))->off, .004 / std::sqrt(2.0), 1e-7);
     scene::Mesh back = board();
     for (vec3& normal : back.normals) normal = -normal;
-    EXPECT_EQ(scene::make_flat_mirror_room(back, dmat4(1))->off, 0) << "a mirror has two sides";
+    EXPECT_EQ(scene::find_mesh_plane(back, dmat4(1))->off, 0) << "a mirror has two sides";
 }
 
 /// A rotated board, modelled as a thin closed box, has two large faces and four narrow faces at the
 /// rim.
 TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     const scene::Mesh box = scene::box("board", {-1, -1, -.02}, {1, 1, .02});
-    ASSERT_FALSE(scene::make_flat_mirror_room(box, kTurned));
+    ASSERT_FALSE(scene::find_mesh_plane(box, kTurned));
     const scene::FlatFaces flats = scene::find_flat_faces(box, kTurned);
     ASSERT_EQ(flats.faces.size(), 6u);
     EXPECT_TRUE(flats.bent.empty());
@@ -141,7 +141,7 @@ render::MirroredEye eye_at(const dvec3& place, const dvec3& target) {
 }
 
 std::optional<render::MirrorPlane> plane(const scene::Mesh& mesh, int bounces = 2) {
-    return render::MirrorPlane{*scene::make_flat_mirror_room(mesh, dmat4(1)), bounces};
+    return render::MirrorPlane{*scene::find_mesh_plane(mesh, dmat4(1)), bounces};
 }
 
 TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
