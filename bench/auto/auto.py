@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares `auto` with rows of one technique each, in drawn views of six built-in and six drawn scenes.
 
-auto.py [--views N] [--size WxH] [--rounds N] [--frames N] [--rows T ...] [--again] CATOPTRIC OUT [SCENE...]
+auto.py [--first N] [--views N] [--size WxH] [--rounds N] [--frames N] [--rows T ...] [--again] CATOPTRIC OUT [SCENE...]
 Writes OUT/auto.json (every figure) and OUT/auto.md (a line for each scene). Prints the views in which a row beats
 `auto`, in one of three ways:
   faster: the row's processor time is less than that of `auto` / 1.15, and its FLIP is no larger.
@@ -101,7 +101,8 @@ def line_of(name, views):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--views", type=int, default=30)
+    parser.add_argument("--first", type=int, default=1, help="number of the first view")
+    parser.add_argument("--views", type=int, default=30, help="number of the last view")
     parser.add_argument("--size", default="96x96")
     parser.add_argument("--rounds", type=int, default=6)
     parser.add_argument("--frames", type=int, help="measured, of each row; two a round if not given")
@@ -118,7 +119,8 @@ def main():
     lines, count = [], 0
     for name in chosen:
         views = known.setdefault(name, {})
-        for view in range(1, arguments.views + 1):
+        numbers = range(arguments.first, arguments.views + 1)
+        for view in numbers:
             found = views.setdefault(str(view), {})
             if measure(arguments, name, files[name], view, arguments.rows, found):
                 with open(store, "w") as file:
@@ -128,7 +130,7 @@ def main():
                 print(f"{name} view {view}: {row} is {how}, {much:.2f}x: {row} {found[row]['ms']:.1f} ms "
                       f"{found[row]['flip']:.4f}, auto {found['auto']['ms']:.1f} ms {found['auto']['flip']:.4f}; "
                       f"{'; '.join(found['auto']['plan'])}", flush=True)
-        lines.append(line_of(name, {view: views[view] for view in map(str, range(1, arguments.views + 1))}))
+        lines.append(line_of(name, {view: views[view] for view in map(str, numbers)}))
         print(lines[-1], flush=True)
     with open(os.path.join(arguments.out, "auto.md"), "w") as file:
         file.write("| scene | `auto`, FLIP | `planar` | `secant` | `pyramid` | `march` | `hybrid` | views timed | beaten in |\n"
