@@ -46,14 +46,26 @@ private:
 } // namespace
 
 struct ImageCodecs::Picture {
-    explicit Picture(const ByteSource& bytes) : proxy(bytes) {}
-
-    ByteSourceProxy proxy;
+    std::string copied_bytes; // read by a proxy of OpenImageIO's own
+    std::unique_ptr<OIIO::Filesystem::IOProxy> proxy;
     std::unique_ptr<OIIO::ImageInput> input; // destroyed before the proxy that it reads from
     int channel_count = 0;
 };
 
 namespace {
+
+/// Sets the proxy from which the picture is read. The JPEG reader of OpenImageIO 2.4 accepts only
+/// OpenImageIO's own proxies, so it gets a copy of all bytes.
+void set_proxy(ImageCodecs::Picture& picture, const ByteSource& bytes, const std::string& format) {
+    if (format != "jpeg") {
+        picture.proxy = std::make_unique<ByteSourceProxy>(bytes);
+        return;
+    }
+    std::string& copy = picture.copied_bytes;
+    copy.resize(bytes.size());
+    copy.resize(bytes.read(0, {copy.data(), copy.size()}));
+    picture.proxy = std::make_unique<OIIO::Filesystem::IOMemReader>(copy.data(), copy.size());
+}
 
 OIIO::TypeDesc to_oiio_type(CodecValue type) {
     return type == CodecValue::float32 ? OIIO::TypeFloat : OIIO::TypeUInt8;
@@ -88,12 +100,13 @@ CodecResult open_picture(const ByteSource& bytes, const std::string& format,
                          ImageCodecs::PictureHeader& header) noexcept {
     picture = nullptr;
     return catch_codec_exceptions([&]() -> CodecResult {
-        auto opened = std::make_unique<ImageCodecs::Picture>(bytes);
+        auto opened = std::make_unique<ImageCodecs::Picture>();
+        set_proxy(*opened, bytes, format);
         opened->input = OIIO::ImageInput::create(format);
         if (!opened->input) return {CodecStatus::no_codec};
         OIIO::ImageSpec hints, spec;
         hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
-        opened->input->set_ioproxy(&opened->proxy);
+        opened->input->set_ioproxy(opened->proxy.get());
         if (!opened->input->open(name, spec, hints)) return last_oiio_error(*opened->input);
         header = {{spec.width, spec.height},
                   spec.nchannels,
