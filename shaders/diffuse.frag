@@ -8,6 +8,7 @@
 
 #ifdef FIRST_HIT
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
+layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u; // 1: the tracer traces lobes
 #endif
 
 void main() {
@@ -16,7 +17,7 @@ void main() {
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
     Surface surface = surface_at_fragment(n, facet);
-    vec3 shown = shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
+    vec3 shown = shade_fragment(surface, n, facet);
     // A smooth surface that is no mirror reflects the environment only, no objects of the scene.
     if (details != 0u && surface.reflectance != vec3(0))
         shown += surface.reflectance * environment_radiance(mirror_direction(normalize(direction_from_viewer()), n,
@@ -24,6 +25,7 @@ void main() {
     write_surface(shown);
 #ifdef FIRST_HIT
     bool reflects = details != 0u && surface.reflectance != vec3(0);
+    if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
     if (reflects || shadow_is_open) {
         out_colour = first_hit_words(uint(gl_PrimitiveID), drawn_object(), 0u, tracer);
         out_distance = float(tracer);

@@ -11,7 +11,7 @@ void main() {
     if (lights_mirrors != 0u) {
         vec3 n = normalize(normal);
         Surface surface = surface_at_fragment(n, facet);
-        shown = shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
+        shown = shade_fragment(surface, n, facet);
     }
     write_surface(shown);
 }

@@ -19,7 +19,9 @@ layout(set = 0, binding = LIST_BINDING, scalar) readonly buffer List { uint list
 bool find_pixel_to_trace(out uvec2 pixel) {
     uint place = assigned_work_group() * kPixelsPerListGroup + gl_LocalInvocationIndex;
     if (place >= counters.value.listed) return false;
-    pixel = uvec2(list[place] % trace.size.x, list[place] / trace.size.x);
+    uint entry = words_per_list_entry(first_raster) * place;
+    pixel = uvec2(list[entry] % trace.size.x, list[entry] / trace.size.x);
+    if (first_raster != 0u) first_words = vec4(uintBitsToFloat(list[entry + 1u]), uintBitsToFloat(list[entry + 2u]), 0, -1);
     return true;
 }
 
@@ -53,7 +55,6 @@ void main() {
             path_sample = asked.sample_index;
             path_seed = asked.seed;
         }
-        if (first_raster != 0u) first_words = imageLoad(picture, ivec2(pixel));
         vec3 sum = trace_radiance(make_camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
         // The picture's alpha holds the numbers of the mirrors that the ray of the first sample meets.
         vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhNormalFloatBit));

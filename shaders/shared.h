@@ -46,7 +46,7 @@ struct TextureUse {
     vec3 v_row; // row of the texture transform: texture v = dot(v_row, (u, v, 1)) of the mesh
 };
 // The list of texture words begins with two tables (lib/material.glsl): linear light of each sRGB byte, and the albedo of
-// rough lobes by cosine (columns, 0 to 1) and roughness (rows, 0 to 1).
+// rough lobes by the root of the cosine (columns, 0 to 1) and roughness (rows, 0 to 1).
 const uint kSrgbTableWords = 256u, kLobeTableEdge = 32u;
 const uint kTextureNearestFlag = 16u, kTextureSrgbFlag = 32u, kTextureSecondUvFlag = 64u;
 
@@ -60,7 +60,7 @@ const uint kTextureNearestFlag = 16u, kTextureSrgbFlag = 32u, kTextureSecondUvFl
 struct IN_QUADS MaterialParameters {
     uint flags;             // material flags, kMaterial...
     uint first_attribute;   // index of a vertex's VertexAttribute, minus the index of the vertex
-    float max_specular_roughness; // highest roughness at which the surface still reflects sharply
+    float max_specular_roughness; // highest roughness at which a mirror's reflections come from captures
     float alpha;
     float alpha_cutoff;     // alpha below which the surface is cut out; 0: no alpha test
     vec3 f0;                // reflectance of the dielectric part, seen head-on
@@ -68,12 +68,14 @@ struct IN_QUADS MaterialParameters {
     TextureUse albedo;      // texture of base colour and alpha
     TextureUse emission;
     TextureUse rough;       // texture with roughness in green and metallic in blue
+    TextureUse normal;      // texture of normals in tangent space
+    float normal_scale;     // factor of the texture's x and y
 #define DECLARE_FACTOR(name) float name;
     MATERIAL_FACTORS(DECLARE_FACTOR)
 #undef DECLARE_FACTOR
 };
 #define ADD_ONE_PER_FACTOR(name) +1u
-const uint kMaterialWordsBeforeFactors = 38u; // words of a MaterialParameters before its factors
+const uint kMaterialWordsBeforeFactors = 48u; // words of a MaterialParameters before its factors
 const uint kWordsPerMaterial = kMaterialWordsBeforeFactors MATERIAL_FACTORS(ADD_ONE_PER_FACTOR);
 #undef ADD_ONE_PER_FACTOR
 const uint kMaterialVariesFlag = 1u; // material flag: several colours, or sharp reflection without being a mirror
@@ -85,6 +87,8 @@ const uint kMaterialTwoSidedFlag = 16u; // material flag: two-sided, the normal 
 // Material flag: some vertex normals differ from their facets' normals, so shading also asks on which side of the facet
 // a light is.
 const uint kMaterialTestsFacetSideFlag = 32u;
+// material flag: the lobe gets back the light that single scattering loses
+const uint kMaterialMultipleScatteringFlag = 64u;
 
 // The data of a vertex other than position and normal.
 struct VertexAttribute {
@@ -110,8 +114,8 @@ struct Light {
     float sharpness;  // 1 / max(.001, cos inner - cos outer) of a spot's cone angles
     uint kind;        // kind of light, kLight...
 };
-// Kinds of light: a point or spot light or one-sided lamp; a directional light; an open lamp that emits on both sides.
-const uint kLightKindPoint = 0u, kLightKindDirectional = 1u, kLightKindTwoSidedLamp = 2u;
+// Kinds of light: a point or spot light; a directional light; an open lamp that emits on both sides; any other lamp.
+const uint kLightKindPoint = 0u, kLightKindDirectional = 1u, kLightKindTwoSidedLamp = 2u, kLightKindLamp = 3u;
 const uint kMaxLights = 128u; // most lights of a scene: 178 fit into 16 KiB, the uniform buffer that every device has
 
 // The data of a mirror's capture. Mirror n, counted from 0, has the layers [6 n, 6 n + 6) of the cube arrays.
@@ -157,12 +161,16 @@ struct View {
     vec4 clip;     // clip plane of a mirrored view, which shows points with dot(clip.xyz, v) + clip.w >= 0
 };
 
+// Level k of the environment, from 1, holds the environment as a surface of roughness k / SKY_LEVEL_COUNT reflects it.
+#define SKY_LEVEL_COUNT 8
 // The environment of the scene.
 struct Sky {
     uvec2 size;         // size of the environment map, texels
     float scale;        // factor of the environment's radiance
     vec2 turn;          // cosine and sine of the environment's rotation about the y axis
     vec3 irradiance[9]; // spherical harmonics coefficients of the irradiance, with scale and rotation applied
+    uint level_first[SKY_LEVEL_COUNT]; // index of the first texel of each level, from level 1 on (lib/environment.glsl)
+    uint level_width[SKY_LEVEL_COUNT]; // texels of each level along a row; a level has half as many rows
 };
 
 // Values that are the same for the whole frame.
@@ -212,8 +220,9 @@ struct TraceParameters {
 };
 
 // A traced picture's alpha is a word of engine/bvh/words.hpp: the number, from 1, of the mirror that the pixel's first
-// ray meets, and the number of the next mirror << kHitMirrorBits. 0 means no mirror.
-const uint kHitMirrorBits = 15u, kMaxMirrors = 32767u;
+// ray meets, and the number of the next mirror << kHitMirrorBits. 0 means no mirror. If the first surface reflects but
+// is no mirror, the first number is 0, and the second says whether the surface is smooth or rough.
+const uint kHitMirrorBits = 15u, kMaxMirrors = 32767u, kHitSmoothSurface = kMaxMirrors, kHitRoughSurface = kMaxMirrors - 1u;
 
 // Counters of ray tracing, summed over all dispatches of the frame.
 struct Counters {
@@ -268,7 +277,7 @@ static_assert(sizeof(VertexAttribute) == 32);
 static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows
 static_assert(sizeof(View) == 84);
-static_assert(sizeof(Sky) == 128);
+static_assert(sizeof(Sky) == 192);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(DrawParameters) == 8);
 static_assert(sizeof(Placement) == 60);

@@ -11,9 +11,8 @@
 #include "lib/trace_list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-#ifdef FIRST_HIT
 layout(set = 0, binding = PICTURE_BINDING, rgba32f) readonly uniform image2D picture;
-#else
+#ifndef FIRST_HIT
 layout(set = 0, binding = LOOKUP_BINDING, rgba32f) readonly uniform image2D lookup;
 layout(set = 0, binding = MARKS_BINDING, r32f) readonly uniform image2D marks;
 #endif
@@ -23,6 +22,7 @@ layout(set = 0, binding = ARGUMENTS_BINDING, scalar) buffer Arguments { uvec3 gr
 layout(push_constant, scalar) uniform Push { uvec2 size; };
 
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
+layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 
 uvec2 count_work_groups(uint pixels) {
     uint groups = (pixels + kPixelsPerListGroup - 1u) / kPixelsPerListGroup;
@@ -60,7 +60,15 @@ void list_pixels(uvec2 pixel) {
         if (more.x > 0u) atomicAdd(arguments.groups.x, more.x);
         if (more.y > 0u) atomicAdd(arguments.groups.y, more.y);
     }
-    if (is_listed != 0u) list[first + before] = pixel.y * size.x + pixel.x;
+    if (is_listed != 0u) {
+        uint entry = words_per_list_entry(first_raster) * (first + before);
+        list[entry] = pixel.y * size.x + pixel.x;
+        if (first_raster != 0u) {
+            vec4 met = imageLoad(picture, place);
+            list[entry + 1u] = floatBitsToUint(met.x);
+            list[entry + 2u] = floatBitsToUint(met.y);
+        }
+    }
     if (all(equal(pixel, uvec2(0)))) arguments.groups.z = 1u;
 }
 

@@ -155,6 +155,7 @@ struct Errors {
     Difference error_non_mirror; ///< over pixels whose first hit is no mirror
     Difference error_all;
     Difference error_dielectrics; ///< over pixels whose first hit is a smooth dielectric
+    Difference error_rough;       ///< over pixels that show a rough surface which is no mirror
     std::vector<Difference> error_per_mirror; ///< one entry a mirror, by MirrorId::index
 };
 

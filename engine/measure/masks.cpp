@@ -1,5 +1,6 @@
 #include "measure/masks.hpp"
 #include "core/mirror_id.hpp"
+#include "shared.h"
 
 #include <algorithm>
 
@@ -48,14 +49,21 @@ Mask mask_non_mirror_pixels(std::span<const std::uint32_t> hits) {
 
 Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits, [](std::uint32_t hit) {
-        return !first_mirror_of_hit(hit) && second_mirror_of_hit(hit);
+        return !first_mirror_of_hit(hit) && hit >> 16 == shared::kHitSmoothSurface;
+    });
+}
+
+Mask mask_rough_surfaces(std::span<const std::uint32_t> hits) {
+    return mask_pixels_where(hits, [](std::uint32_t hit) {
+        return !first_mirror_of_hit(hit) && hit >> 16 == shared::kHitRoughSurface;
     });
 }
 
 std::vector<Mask> list_masks_of_rows(std::span<const std::uint32_t> hits) {
     return {mask_mirror_pixels(hits),    mask_first_order_pixels(hits),
             mask_mirror_in_mirror(hits), mask_non_mirror_pixels(hits),
-            mask_all_pixels(hits),       mask_smooth_dielectrics(hits)};
+            mask_all_pixels(hits),       mask_smooth_dielectrics(hits),
+            mask_rough_surfaces(hits)};
 }
 
 std::size_t count_mask_pixels(const Mask& mask) {

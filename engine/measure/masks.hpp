@@ -10,8 +10,8 @@
 // Masks of pixels, made from the first hits of the reference's camera rays. A hit is one word a
 // pixel, row-major. The low 16 bits hold the number of the mirror that was hit first, from 1, or 0
 // for none. The high 16 bits hold the number of the mirror that the reflected ray meets next, or 0.
-// If the low bits are 0 and the high bits are not, the first surface is a smooth dielectric: it
-// reflects but is no numbered mirror.
+// If the low bits are 0 and the high bits are not, the first surface reflects but is no numbered
+// mirror. The high bits are then shared::kHitSmoothSurface or shared::kHitRoughSurface.
 namespace catoptric::measure {
 
 constexpr MirrorId first_mirror_of_hit(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
@@ -31,8 +31,11 @@ Mask mask_mirror_in_mirror(std::span<const std::uint32_t> hits);
 Mask mask_one_mirror(std::span<const std::uint32_t> hits, MirrorId mirror);
 /// Returns the pixels whose first hit is no mirror, or that hit nothing.
 Mask mask_non_mirror_pixels(std::span<const std::uint32_t> hits);
-/// Returns the pixels whose first hit is a smooth dielectric.
+/// Returns the pixels whose first hit reflects sharply but is no mirror: a smooth dielectric.
 Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits);
+/// Returns the pixels whose first hit reflects by a lobe but is no mirror: a rough dielectric, or a
+/// metal too rough for a mirror.
+Mask mask_rough_surfaces(std::span<const std::uint32_t> hits);
 
 /// Returns the masks of list_row_masks(), in the same order.
 std::vector<Mask> list_masks_of_rows(std::span<const std::uint32_t> hits);

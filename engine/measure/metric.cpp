@@ -1,6 +1,7 @@
 #include "measure/metric.hpp"
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,19 +11,13 @@ namespace catoptric::measure {
 
 namespace {
 
-std::vector<Metric>& metric_table() {
-    static std::vector<Metric> rows; // filled while the program starts
-    return rows;
-}
-
 bool is_row_metric(const Metric& quantity) {
     return std::holds_alternative<Metric::RowFunction>(quantity.get) ||
            std::holds_alternative<Metric::IsStudyMetric>(quantity.get);
 }
 
 std::vector<Metric> metrics_in_order() {
-    std::vector<Metric> rows = metric_table();
-    std::ranges::sort(rows, {}, [](const Metric& row) { return std::pair(row.order, row.name); });
+    std::vector<Metric> rows = sort_registered_rows<Metric>();
     for (const Metric& row : rows)
         check(std::ranges::count(rows, row.name, &Metric::name) == 1, Failure::internal,
               "the quantity '", row.name, "' is there twice");
@@ -47,13 +42,14 @@ constexpr RowMask kRowMasks[] = {
     {"error_non_mirror", "non_mirror", "not a mirror", &Errors::error_non_mirror},
     {"error_all", "all", "all", &Errors::error_all},
     {"error_dielectrics", "dielectrics", "smooth dielectrics", &Errors::error_dielectrics, true},
+    {"error_rough", "rough", "rough surfaces", &Errors::error_rough, true},
 };
 
 } // namespace
 
 RegisteredMetric::RegisteredMetric(Metric quantity) {
     if (!is_row_metric(quantity)) quantity.mask = "each";
-    metric_table().push_back(std::move(quantity));
+    registered_rows<Metric>().push_back(std::move(quantity));
 }
 
 const std::vector<Metric>& list_metrics() {

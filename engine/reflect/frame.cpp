@@ -250,7 +250,9 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
                                choose_shaders_in_mirrored_views(outputs, assignment, looks), looks),
             std::back_inserter(outputs.notes));
     const render::CameraOutputs view = render::add_camera_view(
-        graph, inputs, lighting, std::move(looks), !tracers.empty(), completes ? 1 : 0);
+        graph, inputs, lighting, std::move(looks), !tracers.empty(),
+        completes ? render::CompletingTracer{1, tracers.front().rays > 0}
+                  : render::CompletingTracer{});
     outputs.hdr = view.hdr;
     if (inputs.with_lookup) outputs.lookup = view.lookup;
     for (std::uint32_t i = 0; i < tracers.size(); ++i)

@@ -29,7 +29,7 @@ MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs
     const SharedKnobs knobs = shared_knobs(settings);
     if (is_rough && knobs.rough != SharedKnobs::Rough::none) look.tracer->rays = knobs.lobe_rays;
     // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
-    if (traces_all && look.tracer->rays <= 1 && inputs.scene.device().supports_primitive_ids()) {
+    if (traces_all && inputs.scene.device().supports_primitive_ids()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }

@@ -26,7 +26,7 @@ constexpr Knob kPlanarKnobs[] = {kBouncesKnob, kRestKnob, kShadowKnob, kShadowMa
                                  kCaptureKnob};
 
 std::string describe_planar_misfit(const scene::FlatFaces& flats, double tolerance) {
-    if (flats.is_rough) return "rough";
+    if (!flats.misfit.empty()) return std::string(flats.misfit);
     if (flats.flat_area_share(tolerance) >= scene::kMinFlatAreaShare) return {};
     char text[96] = "not flat";
     if (flats.flat_area_share(scene::kMaxPlaneDeviation) >= scene::kMinFlatAreaShare)

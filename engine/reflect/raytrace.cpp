@@ -96,10 +96,6 @@ std::string describe_knob_conflict(const KnobSettings& settings) {
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
                settings.format_value(kSamplesKnob);
-    if (settings.integer_value(kLobeRaysKnob) > 1)
-        return "first=raster keeps the surface of each pixel for one ray; wanted rays=0 or rays=1, "
-               "found rays=" +
-               settings.format_value(kLobeRaysKnob);
     if (settings.enum_value<SphereShape>(kSphereKnob) == SphereShape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
     return {};

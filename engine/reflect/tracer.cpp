@@ -107,12 +107,14 @@ struct PixelList {
 };
 
 PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
-                         const std::string& suffix, std::uint32_t number,
+                         const std::string& suffix, std::uint32_t number, bool first_raster,
                          const render::CameraOutputs& view) {
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
     PixelList list;
-    list.pixels = graph.add_buffer({name, sizeof(std::uint32_t) * size.x * size.y});
+    // Entries are those of shaders/lib/trace_list.glsl.
+    const std::uint32_t words = first_raster ? 3 : 1;
+    list.pixels = graph.add_buffer({name, words * sizeof(std::uint32_t) * size.x * size.y});
     list.arguments = graph.add_buffer({name + "/arguments", 3 * sizeof(std::uint32_t)});
     list.counters = graph.add_buffer(
         {inputs.prefix + "counters" + suffix, sizeof(shared::Counters)});
@@ -125,18 +127,16 @@ PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
         });
     const bool in_alpha = !view.tracers; // see render::add_camera_view
     graph::PassBuilder pass = graph.add_pass(name);
-    if (in_alpha)
-        pass.reads(view.hdr, ResourceUse::storage_read);
-    else
+    if (in_alpha || first_raster) pass.reads(view.hdr, ResourceUse::storage_read);
+    if (!in_alpha)
         pass.reads(*view.lookup, ResourceUse::storage_read)
             .reads(*view.tracers, ResourceUse::storage_read);
     pass.writes(list.counters, ResourceUse::storage)
         .writes(list.arguments, ResourceUse::storage)
         .writes(list.pixels, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            if (in_alpha) {
-                commands.bind("picture", view.hdr);
-            } else {
+            if (in_alpha || first_raster) commands.bind("picture", view.hdr);
+            if (!in_alpha) {
                 commands.bind("lookup", *view.lookup);
                 commands.bind("marks", *view.tracers);
             }
@@ -144,7 +144,8 @@ PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
             commands.bind("arguments", list.arguments);
             commands.bind("List", list.pixels);
             const char* const shader = in_alpha ? "trace_list.comp#first" : "trace_list.comp";
-            commands.bind_pipeline(gpu::ComputeState{shader, {{"tracer", number}}});
+            commands.bind_pipeline(gpu::ComputeState{
+                shader, {{"tracer", number}, {"first_raster", first_raster ? 1u : 0u}}});
             commands.push_constants(size);
             commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
         });
@@ -184,7 +185,7 @@ graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInp
                                      const TracerSettings& tracer, std::uint32_t number,
                                      const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
-    const PixelList list = add_pixel_list(graph, inputs, suffix, number, view);
+    const PixelList list = add_pixel_list(graph, inputs, suffix, number, tracer.first_raster, view);
     inputs.scene.request_ray_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
     if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);

@@ -173,9 +173,10 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
         commands.bind("shadow_map", *lighting.shadow_map, TextureFilter::compare);
     if (peeled) commands.bind("first_layer", *peeled);
     gpu::RasterState diffuse{"", "diffuse.frag", store, gpu::Winding::none, features};
-    if (completing_tracer > 0) {
+    if (completing_tracer.number > 0) {
         diffuse.fragment += "#first";
-        diffuse.constants.emplace_back("tracer", completing_tracer);
+        diffuse.constants.emplace_back("tracer", completing_tracer.number);
+        diffuse.constants.emplace_back("traces_lobes", completing_tracer.traces_lobes ? 1u : 0u);
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
         diffuse.hidden = hidden;

@@ -39,9 +39,7 @@ struct DrawSettings {
     Lighting lighting;
     std::shared_ptr<const MirrorShaders> looks; ///< shaders of the mirrors
     gpu::ShaderConstants store;                 ///< constants for storing distances and surfaces
-    /// Number, from 1, of the tracer that completes surfaces that are no mirrors, where the shadow
-    /// map leaves their light open or they reflect; 0: none.
-    std::uint32_t completing_tracer = 0;
+    CompletingTracer completing_tracer;
     /// Distances of a first layer; only surfaces behind them are drawn.
     std::optional<graph::ImageHandle> peeled;
 };

@@ -105,14 +105,14 @@ bool has_extra_factors(const scene::Material& material) {
 }
 
 /// Returns whether the visible surface has more than one constant colour and its emission.
-bool has_varying_colour(const scene::Mesh& mesh, const scene::Material& material,
-                        float max_specular_roughness) {
-    const bool is_sharp = material.roughness <= max_specular_roughness ||
-                          material.roughness_texture;
+bool has_varying_colour(const scene::Mesh& mesh, const scene::Material& material) {
+    const bool is_specular = material.metallic > 0 || material.dielectric_f0 != vec3(0) ||
+                             material.dielectric_f90 != vec3(0);
     const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
-           material.unlit || scene::has_alpha_mask(material) || has_extra_factors(material) ||
-           (material.mirror ? throws_back || scene::is_visibly_emissive(material) : is_sharp);
+           material.normal_texture || material.unlit || scene::has_alpha_mask(material) ||
+           has_extra_factors(material) ||
+           (material.mirror ? throws_back || scene::is_visibly_emissive(material) : is_specular);
 }
 
 /// Returns whether a mirror shows nothing except reflections.
@@ -135,13 +135,18 @@ DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) 
     range.seen_by_camera = object.seen_by_camera;
     range.exact_sphere = object.sphere.has_value();
     range.one_sided = !range.mirror && scene::is_one_sided(material);
-    range.varies = has_varying_colour(mesh, material, now.mirror_max_roughness);
+    range.varies = has_varying_colour(mesh, material);
     // A mirror reflects on both sides, even if its material is one-sided.
     range.turns = (material.two_sided || range.mirror) &&
                   (material.albedo != vec3(0) || range.varies);
     range.masked = scene::has_alpha_mask(material);
-    range.rough = range.mirror && scene::reflects_by_lobe(now, object);
-    range.lit = range.mirror && !shows_only_reflections(mesh, material);
+    range.has_normal_texture = material.normal_texture.has_value();
+    range.has_lobe = scene::reflects_by_lobe(now, object);
+    range.rough = range.mirror && range.has_lobe;
+    // Captures do not show lights without a surface, so a rough mirror's highlights are its own
+    // light.
+    range.lit = range.mirror && (!shows_only_reflections(mesh, material) ||
+                                 (range.has_lobe && !now.punctual.empty()));
     return range;
 }
 

@@ -32,9 +32,11 @@ struct DrawRange {
     bool one_sided = false;    ///< invisible from behind, where triangles run clockwise
     /// Whether the object has several colours, or reflects sharply without being a mirror.
     bool varies = false;
-    bool rough = false;  ///< a mirror that reflects by a lobe (scene::reflects_by_lobe)
-    bool turns = false;  ///< the normal turns to the viewer's side
-    bool masked = false; ///< whether an alpha mask may cut out parts of the object
+    bool has_normal_texture = false;
+    bool has_lobe = false; ///< some part reflects by a lobe (scene::reflects_by_lobe)
+    bool rough = false;    ///< a mirror that reflects by a lobe (scene::reflects_by_lobe)
+    bool turns = false;    ///< the normal turns to the viewer's side
+    bool masked = false;   ///< whether an alpha mask may cut out parts of the object
     /// A mirror with diffuse or emitted light beside its reflection.
     bool lit = false;
     bool shell = false;   ///< the mesh passes is_shell

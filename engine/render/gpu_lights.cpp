@@ -24,7 +24,7 @@ shared::Light make_light_entry(const scene::PointLight& light, const SceneUnits&
     entry.reach = 1 / space.to_scene_length(light.range);
     entry.kind = !light.is_lamp              ? kind.shader_kind
                  : light.cosines != dvec3(0) ? shared::kLightKindTwoSidedLamp
-                                             : shared::kLightKindPoint;
+                                             : shared::kLightKindLamp;
     const bool has_numbers = !light.is_lamp && kind.shader_numbers != nullptr;
     const auto [cos_outer, sharpness] = has_numbers ? kind.shader_numbers(light)
                                                     : scene::ShaderNumbers();

@@ -115,7 +115,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
         tracing_->set_backdrops(objects_in_all(backdrops_));
     }
-    sky_.set_environment(now.environment);
+    sky_.set_environment(now.environment, details_.any_lobes());
     if (changes.has_shape_changes() || changes.lights || changes.materials)
         fill_probes(now, changes);
     if (changes.has_shape_changes() || changes.lights || !is_same_camera(camera_, camera) ||
@@ -298,6 +298,8 @@ gpu::ShaderConstants GpuScene::shader_features(std::uint32_t view) const {
     return {{"object_spaces", has_object_spaces() ? 1u : 0u},
             {"details", details_.any() ? 1u : 0u},
             {"masks", details_.masks() ? 1u : 0u},
+            {"has_lobes", details_.any_lobes() ? 1u : 0u},
+            {"has_normal_textures", details_.any_normal_textures() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},
             {"environment_kind", sky_.environment_kind()},

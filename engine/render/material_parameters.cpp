@@ -26,19 +26,21 @@ std::uint32_t to_unorm16(float value) {
     return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.f, 1.f) * 65535));
 }
 
-/// Computes the albedo of rough lobes by roughness (rows) and cosine (columns), each entry two
-/// 16-bit fractions of 1: f32::lobe_albedo_terms. Takes about 0.1 s.
+/// Computes the albedo of rough lobes by roughness (rows) and by the root of the cosine (columns),
+/// because the albedo changes most at grazing angles. Each entry is two 16-bit fractions of 1:
+/// f32::lobe_albedo_terms. Takes about 0.1 s.
 std::vector<std::uint32_t> compute_lobe_albedos() {
     constexpr std::uint32_t kEdge = shared::kLobeTableEdge;
     constexpr int kSampleEdge = 32;
-    constexpr float kMinCosine = 1e-3f; // at a cosine of 0 no direction is sampled
+    constexpr float kMinCosine = 1e-4f; // at a cosine of 0 no direction is sampled
     std::vector<std::uint32_t> words;
     for (std::uint32_t y = 0; y < kEdge; ++y)
         for (std::uint32_t x = 0; x < kEdge; ++x) {
+            const float root = static_cast<float>(x) / (kEdge - 1);
             float head_on, grazing;
             f32::lobe_albedo_terms(f32::roughness_to_alpha(static_cast<float>(y) / (kEdge - 1)),
-                                   std::max(static_cast<float>(x) / (kEdge - 1), kMinCosine),
-                                   kSampleEdge, head_on, grazing);
+                                   std::max(root * root, kMinCosine), kSampleEdge, head_on,
+                                   grazing);
             words.push_back(to_unorm16(head_on) | to_unorm16(grazing) << 16);
         }
     return words;
@@ -91,14 +93,13 @@ MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) con
     return use;
 }
 
-void MaterialParameterLists::fill_texels(const scene::Scene& now, bool is_rough,
-                                         std::uint64_t most) {
+void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t most) {
     std::vector<std::shared_ptr<const scene::Image>> images;
     std::uint64_t count = kTableTexels;
     for (const scene::Object& object : now.objects) {
         const scene::Material& material = now.materials[object.material];
-        for (const auto* texture :
-             {&material.albedo_texture, &material.emission_texture, &material.roughness_texture}) {
+        for (const auto* texture : {&material.albedo_texture, &material.emission_texture,
+                                    &material.roughness_texture, &material.normal_texture}) {
             if (!*texture || std::ranges::find(images, (*texture)->image) != images.end()) continue;
             images.push_back((*texture)->image);
             count += images.back()->texels.size();
@@ -107,13 +108,13 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, bool is_rough,
                   " texels, the device allows ", most);
         }
     }
-    if (images == images_ && is_rough == is_rough_ && texels_filled_) return;
-    is_rough_ = is_rough, texels_filled_ = true;
+    if (images == images_ && any_lobes_ == has_lobe_table_ && texels_filled_) return;
+    has_lobe_table_ = any_lobes_, texels_filled_ = true;
     std::vector<std::uint32_t> texels;
     texels.reserve(count);
     for (std::uint32_t byte = 0; byte < shared::kSrgbTableWords; ++byte)
         texels.push_back(std::bit_cast<std::uint32_t>(scene::linear_from_srgb(byte)));
-    if (is_rough)
+    if (any_lobes_)
         texels.insert(texels.end(), lobe_albedo_table().begin(), lobe_albedo_table().end());
     else
         texels.resize(kTableTexels);
@@ -128,17 +129,20 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, bool is_rough,
 
 void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geometry,
                                   const DeviceVertices& vertices, std::uint64_t most) {
-    fill_texels(now, std::ranges::any_of(geometry.ranges, &DrawRange::rough), most);
+    any_lobes_ = std::ranges::any_of(geometry.ranges, &DrawRange::has_lobe);
+    fill_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.clear();
-    any_ = masks_ = false;
+    any_ = masks_ = any_normal_textures_ = false;
     std::map<std::size_t, bool> leaves; // by mesh
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
         shared::MaterialParameters detail = make_material_parameters(material, range);
         detail.max_specular_roughness = now.mirror_max_roughness;
+        detail.flags |= flag_if(now.has_multiple_scattering && range.has_lobe,
+                                shared::kMaterialMultipleScatteringFlag);
         // The difference may wrap around, because draws count vertices from the start of their own
         // buffer.
         if (range.first_attribute)
@@ -146,13 +150,17 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
         detail.albedo = use_of(material.albedo_texture);
         detail.emission = use_of(material.emission_texture);
         detail.rough = use_of(material.roughness_texture);
+        detail.normal = use_of(material.normal_texture);
+        detail.normal_scale = material.normal_scale;
+        any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;
         if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {
             const std::size_t mesh = now.objects[i].mesh;
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
             if (is_new) entry->second = normals_differ_from_facets(now.meshes[mesh]);
-            detail.flags |= flag_if(entry->second, shared::kMaterialTestsFacetSideFlag);
-            any_ = any_ || entry->second;
+            const bool differs = entry->second || range.has_normal_texture;
+            detail.flags |= flag_if(differs, shared::kMaterialTestsFacetSideFlag);
+            any_ = any_ || differs;
         }
         masks_ = masks_ || range.masked;
         std::array<char, 4 * shared::kWordsPerMaterial> bytes{}; // all but the padding

@@ -22,22 +22,25 @@ public:
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
-    bool any() const { return any_; }     ///< some surface has more than one colour
-    bool masks() const { return masks_; } ///< some surface is partly cut out
+    bool any() const { return any_; }             ///< some surface has more than one colour
+    bool masks() const { return masks_; }         ///< some surface is partly cut out
+    bool any_lobes() const { return any_lobes_; } ///< some surface reflects by a lobe
+    bool any_normal_textures() const { return any_normal_textures_; }
     /// Returns, by object, the index of its material parameters. Objects with equal parameters
     /// share an entry.
     const std::vector<std::uint32_t>& indices() const { return indices_; }
 
 private:
     shared::TextureUse use_of(const std::optional<scene::Texture>& texture) const;
-    void fill_texels(const scene::Scene& now, bool is_rough, std::uint64_t most);
+    void fill_texels(const scene::Scene& now, std::uint64_t most);
 
     std::vector<std::shared_ptr<const scene::Image>> images_; ///< in the order of the texel buffer
     std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
     std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
-    bool any_ = false, masks_ = false;
-    bool is_rough_ = false;      ///< the texels hold the albedo of rough lobes
-    bool texels_filled_ = false; ///< `fill_texels` was called
+    bool any_ = false, masks_ = false, any_normal_textures_ = false;
+    bool any_lobes_ = false;
+    bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
+    bool texels_filled_ = false;  ///< `fill_texels` was called
     DeviceList details_, attributes_, texels_;
 };
 

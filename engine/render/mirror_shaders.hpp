@@ -47,4 +47,11 @@ MirrorShaders use_one_shader(const GpuScene& scene, MirrorShader look);
 void declare_shader_reads(graph::PassBuilder& pass, const Lighting& lighting,
                           const MirrorShaders& looks);
 
+/// The tracer that completes surfaces that are no mirrors, where the shadow map leaves their light
+/// open or they reflect.
+struct CompletingTracer {
+    std::uint32_t number = 0;  ///< from 1; 0: none
+    bool traces_lobes = false; ///< rough surfaces reflect as well
+};
+
 } // namespace catoptric::render

@@ -36,7 +36,7 @@ MirrorShaders remove_error_causes(MirrorShaders looks, const FrameInputs& inputs
 
 CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
                               const Lighting& lighting, MirrorShaders looks, bool is_traced,
-                              std::uint32_t completing_tracer) {
+                              CompletingTracer completing_tracer) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.add_image(
         {inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
@@ -46,7 +46,7 @@ CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
     declare_shader_reads(pass, lighting, looks);
     CameraOutputs view{hdr, {}, {}};
     pass.writes(hdr, ResourceUse::colour, kClearToBlack);
-    if ((is_traced && completing_tracer == 0) || inputs.with_lookup) {
+    if ((is_traced && completing_tracer.number == 0) || inputs.with_lookup) {
         // The order of attachments is that of the shaders' outputs. `tracers` takes the location
         // that captures use for distance. The lookup follows.
         view.tracers = graph.add_image(

@@ -47,7 +47,7 @@ struct CameraOutputs {
 /// a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl).
 CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
                               const Lighting& lighting, MirrorShaders looks, bool is_traced = false,
-                              std::uint32_t completing_tracer = 0);
+                              CompletingTracer completing_tracer = {});
 
 /// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
 /// rgba32f. The image is defined only in that area. `number`: of the view in the scene's list of

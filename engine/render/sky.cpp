@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "render/gpu_scene.hpp"
+#include "render/sky_levels.hpp"
 #include "scene/surroundings.hpp"
 #include "shared.h"
 
@@ -24,6 +25,17 @@ shared::Sky make_sky_entry(const scene::Environment& environment) {
     return sky;
 }
 
+/// Appends what rough surfaces reflect.
+void add_levels(const std::shared_ptr<const scene::Environment>& environment, shared::Sky& sky,
+                std::vector<vec4>& texels) {
+    const std::shared_ptr<const SkyLevels> levels = find_sky_levels(environment);
+    for (std::size_t k = 0; k < SKY_LEVEL_COUNT; ++k) {
+        sky.level_first[k] = static_cast<std::uint32_t>(texels.size()) + levels->first[k];
+        sky.level_width[k] = levels->width[k];
+    }
+    for (const vec3& texel : levels->texels) texels.emplace_back(texel, 1.0f);
+}
+
 } // namespace
 
 EnvironmentOnDevice::EnvironmentOnDevice(std::size_t slots)
@@ -35,22 +47,24 @@ EnvironmentOnDevice::EnvironmentOnDevice(std::size_t slots)
 }
 
 void EnvironmentOnDevice::set_environment(
-    const std::shared_ptr<const scene::Environment>& environment) {
-    if (environment_ == environment) return;
+    const std::shared_ptr<const scene::Environment>& environment, bool has_lobes) {
+    if (environment_ == environment && has_levels_ == has_lobes) return;
     if (environment && !environment->studio) {
         const auto [width, height] = std::pair(environment->size.x, environment->size.y);
         check(width > 0 && height > 0 && environment->texels.size() == std::size_t{width} * height,
               Failure::bad_data, "environment '", environment->name, "': wanted ", width, "x",
               height, " texels, at least one, found ", environment->texels.size());
     }
-    environment_ = environment;
+    environment_ = environment, has_levels_ = has_lobes;
     kind_ = !environment          ? kNoEnvironment
             : environment->studio ? kStudioEnvironment
                                   : kMapEnvironment;
-    sky_.set_contents(std::vector(1, environment ? make_sky_entry(*environment) : shared::Sky{}));
+    shared::Sky sky = environment ? make_sky_entry(*environment) : shared::Sky{};
     std::vector<vec4> texels;
     if (kind_ == kMapEnvironment)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
+    if (environment && has_lobes) add_levels(environment, sky, texels);
+    sky_.set_contents(std::vector(1, sky));
     texels_.set_contents(texels);
     if (kind_ == kNoEnvironment) return;
     vertices_.set_contents(

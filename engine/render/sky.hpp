@@ -16,9 +16,11 @@ class EnvironmentOnDevice {
 public:
     explicit EnvironmentOnDevice(std::size_t slots);
 
-    /// Sets the environment; null: black. Costs O(texels) if the environment differs from the last
-    /// one.
-    void set_environment(const std::shared_ptr<const scene::Environment>& environment);
+    /// Sets the environment; null: black. `has_lobes`: some surface reflects it by a lobe. Costs
+    /// O(texels) if the environment differs from the last one, and about 0.2 s for lobes
+    /// (find_sky_levels).
+    void set_environment(const std::shared_ptr<const scene::Environment>& environment,
+                         bool has_lobes);
     /// Writes the changes, like DeviceList::write_changed_pages.
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
@@ -30,6 +32,7 @@ public:
 private:
     std::shared_ptr<const scene::Environment> environment_;
     std::uint32_t kind_ = 0;
+    bool has_levels_ = false;
     DeviceList sky_, texels_, vertices_, indices_;
 };
 

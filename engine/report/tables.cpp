@@ -183,18 +183,22 @@ struct CellTextWriter {
 };
 
 constexpr CellTextWriter kCellTextWriters[] = {
-    {"normal-texture", "surfaces are as smooth as their triangles"},
+    {"normal-texture", "height maps are left out; surfaces are as smooth as their triangles"},
     {"occlusion-texture", "left out"},
     {"clearcoat", "left out"},
     {"sheen", "left out"},
     {"anisotropy", "left out"},
     {"iridescence", "left out"},
     {"blend-as-mask", "there or not there, cut at half their alpha"},
-    {"specular-left-out", "drawn without a highlight: its diffuse part alone"},
     {"indirect-left-out", "light from one diffuse surface to another is not computed; --ambient "
                           "stands in for it"},
     {"environment-unshadowed", "lit by the whole environment, whatever stands in its way"},
-    {"rough-metal", "drawn as diffuse with the metal's colour"},
+    {"rough-metal", "too rough for a capture: where rays are not traced, it reflects the "
+                    "environment and lights without a surface, and lamps light it as if it were "
+                    "diffuse"},
+    {"rough-dielectric", "where rays are not traced, it reflects the environment and lights "
+                         "without a surface, but no lamps and objects; --dielectric-mirrors makes "
+                         "mirrors of those that are smooth enough"},
     {"rough-glass", "drawn as diffuse"},
     {"glass-as-diffuse", "its diffuse part is drawn"},
     {"glass-shadow", "glass casts the full shadow of an opaque surface"},

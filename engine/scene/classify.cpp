@@ -7,6 +7,7 @@
 #include "scene/texel.hpp"
 #include "scene/transform.hpp"
 #include "scene/unsupported_feature.hpp"
+#include "shared.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,6 @@ namespace catoptric::scene {
 namespace {
 
 constexpr std::size_t kMaterialSampleCount = 4096;
-constexpr const char* kSpecularGapId = "specular-left-out";
 constexpr const char* kIndirectGapId = "indirect-left-out";
 constexpr const char* kUnshadowedGapId = "environment-unshadowed";
 
@@ -32,43 +32,43 @@ struct MaterialSample {
 
 /// Sums over the spots of a surface, weighted by area.
 struct SurfaceAreaSums {
-    double all = 0, mirror = 0, smooth_dielectric = 0, rough_metal = 0, rough_dielectric = 0;
+    SurfaceShares sums; // shares are still sums
+    double all = 0;
     dvec3 mirror_f0{0};
-    float smoothest = 1;
 
     void add(const Scene& scene, const Material& material, const MaterialSample& spot) {
         if (material.unlit || spot.colour.w < material.alpha_cutoff) return;
         all += 1;
-        smoothest = std::min(smoothest, spot.roughness);
-        if (!(spot.roughness <= scene.mirror_max_roughness)) {
-            rough_metal += spot.metallic > 0;
-            rough_dielectric += spot.metallic < 1;
+        sums.smoothest = std::min(sums.smoothest, spot.roughness);
+        const bool may_be_mirror = spot.roughness <= scene.mirror_max_roughness;
+        const vec3 f0 = compute_f0(material, vec3(spot.colour), spot.metallic);
+        const bool reflects = f0 != vec3(0) || material.dielectric_f90 != vec3(0);
+        if (!may_be_mirror && spot.metallic > 0) sums.rough_metal += 1;
+        if (largest_channel(f0) >= kMinMirrorF0) {
+            if (may_be_mirror) sums.mirror += 1, mirror_f0 += dvec3(f0);
             return;
         }
-        const vec3 f0 = compute_f0(material, vec3(spot.colour), spot.metallic);
-        if (largest_channel(f0) >= kMinMirrorF0)
-            mirror += 1, mirror_f0 += dvec3(f0);
-        else
-            smooth_dielectric += f0 != vec3(0) || material.dielectric_f90 != vec3(0);
+        if (!reflects) return;
+        (spot.roughness <= shared::kMaxSharpRoughness ? sums.smooth_dielectric
+                                                      : sums.rough_dielectric) += 1;
+        sums.mirror_dielectric += may_be_mirror;
     }
     SurfaceShares surface() const {
         if (all == 0) return {};
-        return {.mirror = mirror / all,
-                .smooth_dielectric = smooth_dielectric / all,
-                .rough_metal = rough_metal / all,
-                .rough_dielectric = rough_dielectric / all,
-                .mirror_f0 = mirror > 0 ? vec3(mirror_f0 / mirror) : vec3(0),
-                .smoothest = smoothest};
+        SurfaceShares shares = sums;
+        for (double* share : {&shares.mirror, &shares.smooth_dielectric, &shares.rough_dielectric,
+                              &shares.mirror_dielectric, &shares.rough_metal})
+            *share /= all;
+        if (sums.mirror > 0) shares.mirror_f0 = vec3(mirror_f0 / sums.mirror);
+        return shares;
     }
 };
 
 /// Returns whether the values that decide the kind of surface may differ between places. The base
 /// colour matters only for metals, because F0 of a dielectric has no colour.
-bool has_varying_kind(const Scene& scene, const Material& material, const Mesh& mesh) {
+bool has_varying_kind(const Material& material, const Mesh& mesh) {
     if (material.roughness_texture) return true;
-    const bool has_colour = material.roughness <= scene.mirror_max_roughness &&
-                            material.metallic > 0;
-    return has_colour && (material.albedo_texture || !mesh.colours.empty());
+    return material.metallic > 0 && (material.albedo_texture || !mesh.colours.empty());
 }
 
 template <typename Value>
@@ -123,7 +123,7 @@ SurfaceAreaSums sample_texture(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
     SurfaceAreaSums sums;
-    if (!has_varying_kind(scene, material, mesh)) {
+    if (!has_varying_kind(material, mesh)) {
         sums.add(scene, material,
                  {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
         return sums;
@@ -166,12 +166,9 @@ void add_unsupported_materials(Scene& scene, const char* id,
 
 /// Returns whether part of the material reflects the light of surrounding surfaces in all
 /// directions.
-bool has_diffuse_part(const Scene& scene, const Material& material) {
+bool has_diffuse_part(const Material& material) {
     if (material.unlit || material.albedo == vec3(0)) return false;
-    const bool is_sharp_metal = !material.mirror && material.metallic == 1 &&
-                                material.roughness <= scene.mirror_max_roughness &&
-                                !material.roughness_texture;
-    return !is_sharp_metal;
+    return material.mirror || material.metallic < 1 || material.roughness_texture;
 }
 
 bool has_light(const Scene& scene) {
@@ -195,10 +192,11 @@ SurfaceShares measure_surface_kinds(const Scene& scene, const Object& object) {
 
 void find_mirrors(Scene& scene, bool dielectric_mirrors) {
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
-        return gap.id == "smooth-dielectric" || gap.id == "rough-metal";
+        return gap.id == "smooth-dielectric" || gap.id == "rough-dielectric" ||
+               gap.id == "rough-metal";
     });
     std::map<std::pair<std::size_t, std::size_t>, SurfaceShares> known; // by mesh and material
-    std::set<std::size_t> dielectrics, rough_metals;                    // materials
+    std::set<std::size_t> smooth_dielectrics, rough_dielectrics, rough_metals; // materials
     for (Object& object : scene.objects) {
         object.mirror = false;
         if (scene.materials[object.material].mirror) continue;
@@ -210,41 +208,31 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
         } else {
             surface = measure_surface_kinds(scene, object);
         }
-        object.mirror = surface.mirror >= kMinMirrorAreaShare;
-        if (!object.mirror && surface.smooth_dielectric >= kMinMirrorAreaShare) {
-            object.mirror = dielectric_mirrors;
-            if (!dielectric_mirrors) dielectrics.insert(object.material);
-        }
+        object.mirror = surface.mirror >= kMinMirrorAreaShare ||
+                        (dielectric_mirrors && surface.mirror_dielectric >= kMinMirrorAreaShare);
+        if (!object.mirror && surface.smooth_dielectric >= kMinMirrorAreaShare)
+            smooth_dielectrics.insert(object.material);
+        if (!object.mirror && surface.rough_dielectric >= kMinMirrorAreaShare)
+            rough_dielectrics.insert(object.material);
         if (surface.rough_metal > 0) rough_metals.insert(object.material);
     }
-    add_unsupported_materials(scene, "smooth-dielectric", dielectrics);
+    add_unsupported_materials(scene, "rough-dielectric", rough_dielectrics);
+    add_unsupported_materials(scene, "smooth-dielectric", smooth_dielectrics);
     add_unsupported_materials(scene, "rough-metal", rough_metals);
     find_exact_spheres(scene);
 }
 
 void sort_unsupported_features(Scene& scene) {
-    std::set<std::size_t> glossy, diffuse; // materials
-    for (const UnsupportedFeature& gap : scene.unsupported)
-        if (gap.id == kSpecularGapId) glossy.insert(gap.materials.begin(), gap.materials.end());
+    std::set<std::size_t> diffuse; // materials
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
-        return gap.id == kSpecularGapId || gap.id == kIndirectGapId || gap.id == kUnshadowedGapId;
+        return gap.id == kIndirectGapId || gap.id == kUnshadowedGapId;
     });
-    std::set<std::size_t> without_lobe;
-    std::set<std::pair<std::size_t, std::size_t>> known; // mesh and material
-    for (const Object& object : scene.objects) {
-        const Material& material = scene.materials[object.material];
-        if (has_diffuse_part(scene, material)) diffuse.insert(object.material);
-        const bool may_lack = glossy.contains(object.material) && !material.mirror &&
-                              !without_lobe.contains(object.material);
-        if (may_lack && known.insert({object.mesh, object.material}).second &&
-            measure_surface_kinds(scene, object).rough_dielectric > 0)
-            without_lobe.insert(object.material);
-    }
+    for (const Object& object : scene.objects)
+        if (has_diffuse_part(scene.materials[object.material])) diffuse.insert(object.material);
     // Features with equal shares of the picture keep this order. These come first because they cost
     // most.
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
     if (has_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
-    add_unsupported_materials(scene, kSpecularGapId, without_lobe);
     if (scene.environment) add_unsupported_materials(scene, kUnshadowedGapId, diffuse);
     scene.unsupported.insert(scene.unsupported.end(), others.begin(), others.end());
 }

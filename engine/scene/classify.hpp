@@ -5,10 +5,9 @@
 /// Classification of surfaces: mirrors, smooth dielectrics, rough metals.
 namespace catoptric::scene {
 
-/// Least F0 of a mirror, in its largest channel. A sharp surface with a lower F0 is a smooth
-/// dielectric.
+/// Least F0 of a mirror, in its largest channel. A surface that reflects less is a dielectric.
 inline constexpr float kMinMirrorF0 = .2f;
-/// Least share of an object's area that makes the object a mirror or a smooth dielectric.
+/// Least share of an object's area that makes the object a mirror or a dielectric.
 inline constexpr double kMinMirrorAreaShare = .05;
 
 /// Returns F0, the reflectance seen head-on, by channel, for this base colour and metallic value.
@@ -19,29 +18,29 @@ float largest_channel(const vec3& colour);
 /// Shares of an object's area by kind of surface, 0 to 1. Textures are sampled at about 4000
 /// places, the same ones each time. Area that an alpha mask cuts out does not count.
 struct SurfaceShares {
-    double mirror = 0;            ///< sharp, F0 at least kMinMirrorF0
-    double smooth_dielectric = 0; ///< sharp, F0 below that
-    double rough_metal = 0;       ///< not sharp, metallic above 0
-    double rough_dielectric = 0;  ///< not sharp, metallic below 1
-    vec3 mirror_f0{0};            ///< mean F0 of the `mirror` part
-    float smoothest = 1;          ///< lowest roughness found
+    double mirror = 0; ///< F0 at least kMinMirrorF0, roughness up to Scene::mirror_max_roughness
+    double smooth_dielectric = 0; ///< reflects less, sharply (shared::kMaxSharpRoughness)
+    double rough_dielectric = 0;  ///< reflects less, by a lobe
+    /// The part of both dielectrics whose roughness is up to Scene::mirror_max_roughness.
+    double mirror_dielectric = 0;
+    double rough_metal = 0; ///< too rough for a mirror, metallic above 0
+    vec3 mirror_f0{0};      ///< mean F0 of the `mirror` part
+    float smoothest = 1;    ///< lowest roughness found
 };
 SurfaceShares measure_surface_kinds(const Scene& scene, const Object& object);
 
 /// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror).
-/// Adds the unsupported features "smooth-dielectric" and "rough-metal", counted once per material.
-/// With `dielectric_mirrors`, smooth dielectrics become mirrors and are not listed. Then finds
-/// which mirrors are spheres (find_spheres). May be called again.
+/// Adds the unsupported features "smooth-dielectric", "rough-dielectric" and "rough-metal", counted
+/// once per material. With `dielectric_mirrors`, dielectrics that are no rougher than mirrors
+/// become mirrors and are not listed. Then finds which mirrors are spheres (find_spheres). May be
+/// called again.
 void find_mirrors(Scene& scene, bool dielectric_mirrors = false);
 
 /// Puts first the unsupported features of light that no technique computes, counted once per
 /// material:
 ///   - "indirect-left-out": light from one diffuse surface to another, if the scene has light.
 ///   - "environment-unshadowed": the environment's light on diffuse surfaces, which nothing blocks.
-///   - "specular-left-out": specular lobes of rough surfaces, which are not drawn.
-/// A loader lists a material under "specular-left-out" if its file gives it a specular lobe. This
-/// function keeps only the rough ones of these materials. Scenes built in code list none: their
-/// rough surfaces are Lambertian. Call it after sharpness, lights and environment are settled.
+/// Call it after mirrors, lights and environment are settled.
 void sort_unsupported_features(Scene& scene);
 
 } // namespace catoptric::scene

@@ -181,8 +181,10 @@ double FlatFaces::flat_area_share(double tolerance) const {
 
 FlatFaces find_flat_faces(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    if (!reflects_by_lobe(scene, object)) return find_flat_faces(mesh, object.world_from_object);
-    FlatFaces none{.is_rough = true};
+    FlatFaces none;
+    if (reflects_by_lobe(scene, object)) none.misfit = "rough";
+    if (scene.materials[object.material].normal_texture) none.misfit = "bumpy";
+    if (none.misfit.empty()) return find_flat_faces(mesh, object.world_from_object);
     if (!mesh.triangles.empty())
         none.bent = {{0, static_cast<std::uint32_t>(mesh.triangles.size())}};
     return none;

@@ -34,8 +34,9 @@ struct FlatFace {
 struct FlatFaces {
     std::vector<FlatFace> faces;   ///< largest first, at most kMaxFlatFaces
     std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
-    /// Whether the surface reflects by a lobe, which no mirrored view shows. It then has no faces.
-    bool is_rough = false;
+    /// Why no mirrored view shows what the surface reflects, although it may be flat: "rough" or
+    /// "bumpy". Such a surface has no faces. Empty for any other surface.
+    std::string_view misfit = {};
     /// Returns the share of the area in faces whose `off` is at most `tolerance`.
     double flat_area_share(double tolerance) const;
     /// Returns whether the whole surface lies in one plane.

@@ -212,13 +212,6 @@ void GltfBuilder::check_unshown() {
             build_part_mesh(mesh, parts[mesh][part], context.document.weights[mesh], context);
 }
 
-/// Returns whether glTF gives the material a specular lobe beside its diffuse part.
-bool has_specular_lobe(const Material& material) {
-    const bool is_metal = material.metallic == 1 && !material.roughness_texture;
-    return !material.mirror && !material.unlit && !is_metal &&
-           (material.dielectric_f0 != vec3(0) || material.dielectric_f90 != vec3(0));
-}
-
 } // namespace
 
 Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
@@ -238,11 +231,6 @@ Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
     builder.scene = {.name = path.stem().string(),
                      .materials = document.materials,
                      .exposure = document.exposure};
-    for (std::size_t i = 0; i < document.materials.size(); ++i)
-        if (has_specular_lobe(document.materials[i]))
-            add_unsupported_material(
-                unsupported, "specular-left-out",
-                gltf::label_list_item("materials", i, document.materials[i].name), i);
     builder.cameras = read_cameras(document);
     builder.parts = read_mesh_parts(builder.scene.materials, builder.context);
     builder.at_rest = compute_rest_transforms(document);

@@ -119,6 +119,7 @@ void MaterialReader::read_specular_glossiness(const JsonObject& glossiness) {
     material_.roughness = 1 - read_fraction_member(glossiness, "glossinessFactor", 1);
     material_.dielectric_f0 = vec3(
         glm::clamp(read_vector_member(glossiness, "specularFactor", 1), 0.0, 1.0));
+    material_.dielectric_f90 = vec3(1);
     if (glossiness.has("specularGlossinessTexture")) report_unsupported("material-extension");
 }
 
@@ -129,7 +130,8 @@ void MaterialReader::dielectric() {
     from_.require(n == 0 || n >= 1, "KHR_materials_ior: wanted an ior of 0 or from 1 on, found ",
                   n);
     const double f = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
-    if (ior) material_.dielectric_f0 = vec3(static_cast<float>(f));
+    material_.dielectric_f0 = vec3(ior ? static_cast<float>(f) : kUsualDielectricF0);
+    material_.dielectric_f90 = vec3(1);
     if (!specular) return;
     const float strength = read_fraction_member(*specular, "specularFactor", 1);
     const dvec3 colour = glm::max(read_vector_member(*specular, "specularColorFactor", 1),
@@ -181,13 +183,14 @@ void MaterialReader::transmission() {
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.
 void MaterialReader::other_properties() {
-    for (const auto& [key, note, id] :
-         {std::array<std::string_view, 3>{"normalTexture",
-                                          "materials with a normalTexture, drawn without it",
-                                          "normal-texture"},
-          {"occlusionTexture", "materials with an occlusionTexture, drawn without it",
-           "occlusion-texture"}})
-        if (from_.has(key)) source_.notes.add(note, from_.label()), report_unsupported(id);
+    if (const std::optional<JsonObject> use = from_.object("normalTexture")) {
+        material_.normal_texture = textures_.find_or_read_texture(*use, false);
+        material_.normal_scale = static_cast<float>(use->number("scale", 1));
+    }
+    if (from_.has("occlusionTexture")) {
+        source_.notes.add("materials with an occlusionTexture, drawn without it", from_.label());
+        report_unsupported("occlusion-texture");
+    }
     // `technique` comes from the draft KHR_technique_webgl, which kept shaders beside materials.
     if (from_.has("technique")) report_unsupported("material-extension");
     if (!extensions_) return;

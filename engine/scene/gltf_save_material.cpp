@@ -49,14 +49,12 @@ void write_emission(GltfWriter& writer, const Material& material, tinygltf::Mate
     writer.use(extension);
 }
 
-/// Writes F0 and F90 by KHR_materials_specular if they differ from the defaults. The index of
-/// refraction keeps its default, 1.5.
+/// Writes F0 and F90 by KHR_materials_specular if they differ from those of a glTF material without
+/// extensions. The index of refraction keeps its default, 1.5.
 void write_dielectric(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
-    const Material usual;
-    if (material.dielectric_f0 == usual.dielectric_f0 &&
-        material.dielectric_f90 == usual.dielectric_f90)
+    if (material.dielectric_f0 == vec3(kUsualDielectricF0) && material.dielectric_f90 == vec3(1))
         return;
-    constexpr double kDefaultDielectricF0 = .04; // F0 of the default index of refraction, 1.5
+    constexpr double kDefaultDielectricF0 = .04; // as in the reader, in double precision
     const double strength = material.dielectric_f90.x;
     const dvec3 colour = strength > 0
                              ? dvec3(material.dielectric_f0) / (kDefaultDielectricF0 * strength)
@@ -137,6 +135,12 @@ void GltfWriter::add_material(const Material& material) {
     if (material.albedo_texture) pbr.baseColorTexture = texture(*material.albedo_texture);
     if (material.roughness_texture)
         pbr.metallicRoughnessTexture = texture(*material.roughness_texture);
+    if (material.normal_texture) {
+        const tinygltf::TextureInfo info = texture(*material.normal_texture);
+        to.normalTexture.index = info.index, to.normalTexture.texCoord = info.texCoord;
+        to.normalTexture.extensions = info.extensions;
+        to.normalTexture.scale = float_to_typed_double(material.normal_scale);
+    }
     to.doubleSided = !is_one_sided(material);
     if (has_alpha_mask(material))
         to.alphaMode = "MASK", to.alphaCutoff = float_to_typed_double(material.alpha_cutoff);

@@ -36,10 +36,10 @@ struct Texture {
 /// Optical model of a surface, the same for raster and rays. It is evaluated at the visible point,
 /// with the textures' values there. Let c = albedo (times texture, times the vertices' colour), m =
 /// metallic and a = roughness. The diffuse colour is c (1 - m). F0 = mix(dielectric_f0, c, m), and
-/// F90 = mix(dielectric_f90, 1, m). The surface is sharp where a <= Scene::mirror_max_roughness. A
-/// sharp surface shows R times what the mirrored ray sees, plus (1 - R) times its diffuse light.
-/// Here R = F0 + (F90 - F0) (1 - cos)^5 (Schlick 1994). Elsewhere the surface is Lambertian,
-/// including its metal part. With `mirror`, R is `reflectance` at every angle.
+/// F90 = mix(dielectric_f90, 1, m). Up to a = .04, the surface shows R times what the mirrored ray
+/// sees, plus (1 - R) times its diffuse light, with R = F0 + (F90 - F0) (1 - cos)^5 (Schlick 1994).
+/// A rougher surface shows a GGX lobe (shaders/lib/math/lobe.glsl) with this Fresnel term, plus 1
+/// minus the lobe's albedo times its diffuse light. With `mirror`, R is `reflectance` everywhere.
 struct Material {
     std::string name;
     vec3 albedo{0};          ///< base colour, linear, in [0,1]
@@ -49,17 +49,16 @@ struct Material {
     bool two_sided = false;  ///< the normal turns to the viewer; an open lamp shines both ways
     bool front_only = false; ///< back invisible to camera and reflected rays; not for mirrors
     bool unlit = false;      ///< shows its albedo in any light (KHR_materials_unlit)
-
     float metallic = 0, roughness = 1;
-    vec3 dielectric_f0{.04f};
-    vec3 dielectric_f90{1};
+    vec3 dielectric_f0{0};  ///< reflectance of the part that is no metal, seen head-on; glass: .04
+    vec3 dielectric_f90{0}; ///< that at grazing angle; 0 for both: a Lambertian surface
     float alpha = 1;
     float alpha_cutoff = 0; ///< parts with less alpha are cut out; 0: none are
-
     /// `albedo_texture` holds base colour and alpha. It and `emission_texture` are sRGB.
     /// `roughness_texture` is linear: metallic in blue, roughness in green.
     std::optional<Texture> albedo_texture, emission_texture, roughness_texture;
-
+    std::optional<Texture> normal_texture; ///< normals in tangent space, linear, as in glTF
+    float normal_scale = 1;                ///< factor of the normals' x and y
     /// Radiance with which its meshes light the scene. None: `emission`, or no light if a texture
     /// varies the emission.
     std::optional<vec3> light;

@@ -23,17 +23,23 @@ inline constexpr MaterialFactor kMaterialFactors[] = {
     {"roughness", &Material::roughness, kCoreFactors, "roughnessFactor", 1},
 };
 
+/// Reflectance of glass and plastic seen head-on: that of the index of refraction 1.5, which glTF
+/// takes for dielectrics. At grazing angle the reflectance is 1.
+inline constexpr float kUsualDielectricF0 = .04f;
+
 /// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
 /// this list; a member that is missing here does not compile.
 template <typename Visit>
 inline void visit_members(const Material& material, Visit&& visit) {
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
                  metallic, roughness, dielectric_f0, dielectric_f90, alpha, alpha_cutoff,
-                 albedo_texture, emission_texture, roughness_texture, light] = material;
+                 albedo_texture, emission_texture, roughness_texture, normal_texture, normal_scale,
+                 light] = material;
     visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
     visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
     visit(dielectric_f0), visit(dielectric_f90), visit(alpha), visit(alpha_cutoff);
-    visit(albedo_texture), visit(emission_texture), visit(roughness_texture), visit(light);
+    visit(albedo_texture), visit(emission_texture), visit(roughness_texture);
+    visit(normal_texture), visit(normal_scale), visit(light);
 }
 
 /// Returns whether camera and reflected rays see the surface only from its front. This holds for

@@ -213,6 +213,7 @@ void find_exact_spheres(Scene& scene) {
     for (Object& object : scene.objects) {
         const RigAttachment* follows = find_followed_node(object.motion);
         if (object.sphere || !is_mirror(scene, object) ||
+            scene.materials[object.material].normal_texture ||
             (follows && !preserves_spheres(*follows)) || !may_be_sphere(scene, object))
             continue;
         const MirrorShape shape = classify_mirror_shape(scene, object);

@@ -1,6 +1,7 @@
 #include "core/text.hpp"
 #include "scene/classify.hpp"
 #include "scene/image_file.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/number.hpp"
 #include "scene/obj_text.hpp"
 #include "scene/repair.hpp"
@@ -24,7 +25,7 @@ bool is_map_statement(std::string_view keyword) {
 }
 
 bool is_bump_statement(std::string_view keyword) {
-    return keyword == "norm" || keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump";
+    return keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump";
 }
 
 /// Reads a colour from three numbers, or from one number for all channels. Returns none for the
@@ -95,6 +96,8 @@ void add_map_to_draft(const ObjLine& line, ObjContext& context, MaterialLibrary&
         draft.colour = std::move(map);
     else if (line.keyword == "map_d")
         draft.cut = std::move(map);
+    else if (line.keyword == "norm")
+        draft.normals = std::move(map);
     else if (line.keyword != "map_Ka") // ambient, which no light of the engine shows
         add_unsupported_material(context.unsupported,
                                  is_bump_statement(line.keyword) ? "normal-texture"
@@ -166,7 +169,7 @@ class MaterialMaps {
 public:
     explicit MaterialMaps(ObjContext& context) : context_(context) {}
 
-    std::optional<Texture> map_texture(const ObjMapUse& map) {
+    std::optional<Texture> map_texture(const ObjMapUse& map, bool srgb = true) {
         const std::shared_ptr<const Image> image = image_of(map);
         if (!image) {
             context_.notes.add("images that are not there or of a kind that is not read, drawn "
@@ -182,7 +185,7 @@ public:
         return Texture{.image = image,
                        .wrap_u = wrap,
                        .wrap_v = wrap,
-                       .srgb = true,
+                       .srgb = srgb,
                        .u_row = vec3(x, 0, map.offset[0]),
                        .v_row = vec3(0, y, 1 - y - map.offset[1])};
     }
@@ -220,9 +223,9 @@ public:
                                                                      : shines      ? dvec3(0)
                                                                                    : dvec3(0.8)));
         if (draft_.colour) material_.albedo_texture = maps_.map_texture(*draft_.colour);
+        if (draft_.normals) material_.normal_texture = maps_.map_texture(*draft_.normals, false);
         set_sidedness();
         transparency();
-        if (has_lobe()) report_unsupported("specular-left-out");
         if (draft_.roughness || draft_.metallic)
             set_physical_factors();
         else
@@ -233,13 +236,6 @@ public:
 private:
     void report_unsupported(const char* id) {
         add_unsupported_material(context_.unsupported, id, draft_.place, index_);
-    }
-
-    /// Returns whether the draft has a specular lobe. illum 0 and 1 have no highlight.
-    bool has_lobe() const {
-        const bool has_highlight = draft_.specular.value_or(dvec3(0)) != dvec3(0) &&
-                                   draft_.kind.value_or(2) >= 2;
-        return has_highlight || draft_.roughness || draft_.metallic;
     }
 
     void set_sidedness() {
@@ -270,24 +266,27 @@ private:
         material_.metallic = static_cast<float>(std::clamp(draft_.metallic.value_or(0), 0.0, 1.0));
         material_.roughness = static_cast<float>(
             std::clamp(draft_.roughness.value_or(1), 0.0, 1.0));
+        material_.dielectric_f0 = vec3(kUsualDielectricF0), material_.dielectric_f90 = vec3(1);
     }
 
-    /// Sets the reflection. illum 3 and 8 reflect Ks at any angle, illum 5 follows Schlick's
-    /// approximation. All others are diffuse.
+    /// Sets the reflection. illum 2, 3 and 8 reflect Ks at any angle, illum 5 follows Schlick's
+    /// approximation, and illum 0 and 1 have no highlight. Illum 2 is always rough. The others are
+    /// sharp from Ns 100 on and without an Ns. A rough surface has the lobe of width alpha whose
+    /// density of normals falls off near the normal as that of Blinn and Phong: alpha^2 = 2 / (Ns +
+    /// 2) (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007).
     void reflection() {
-        if (kind_ != 3 && kind_ != 5 && kind_ != 8) return;
+        const bool reflects_scene = kind_ == 3 || kind_ == 5 || kind_ == 8;
+        if (!reflects_scene && draft_.kind.value_or(2) != 2) return;
         const vec3 f0 = clamp_to_fraction(draft_.specular.value_or(dvec3(0)));
-        const double shininess = draft_.shininess.value_or(100);
-        const bool is_sharp = shininess >= 100;
+        const bool is_sharp = reflects_scene && draft_.shininess.value_or(100) >= 100;
         if (kind_ != 5 && is_sharp && largest_channel(f0) >= kMinMirrorF0) {
             material_.mirror = true, material_.reflectance = f0;
             return;
         }
-        material_.roughness = is_sharp ? 0
-                                       : static_cast<float>(
-                                             std::sqrt(2 / (std::max(shininess, 0.0) + 2)));
+        const double shininess = std::max(draft_.shininess.value_or(0), 0.0);
+        material_.roughness = is_sharp ? 0 : static_cast<float>(std::pow(2 / (shininess + 2), .25));
         material_.dielectric_f0 = f0;
-        if (kind_ != 5) material_.dielectric_f90 = f0;
+        material_.dielectric_f90 = kind_ == 5 ? vec3(1) : f0;
     }
 
     const MaterialDraft& draft_;

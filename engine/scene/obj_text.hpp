@@ -84,7 +84,7 @@ struct MaterialDraft {
     std::optional<dvec3> diffuse, specular;
     vec3 emission{0};
     std::optional<double> shininess, ior, roughness, metallic, kind, alpha;
-    std::optional<ObjMapUse> colour, cut;          ///< map_Kd and map_d
+    std::optional<ObjMapUse> colour, cut, normals; ///< map_Kd, map_d and norm
     bool two_sided = false, fixed_normals = false; ///< from `# catoptric` comments
 };
 

@@ -3,6 +3,7 @@
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
 #include "scene/load.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/pattern.hpp"
 #include "scene/shapes.hpp"
 
@@ -64,9 +65,12 @@ void add_furniture(Scene& scene) {
     const std::size_t linen = add_material(
         scene,
         {.name = "linen", .albedo = vec3(1), .albedo_texture = make_cloth_texture({206, 96, 70})});
-    const std::size_t glaze = add_material(
-        scene,
-        {.name = "glaze", .albedo = {.08f, .25f, .3f}, .two_sided = true, .roughness = .05f});
+    const std::size_t glaze = add_material(scene, {.name = "glaze",
+                                                   .albedo = {.08f, .25f, .3f},
+                                                   .two_sided = true,
+                                                   .roughness = .04f,
+                                                   .dielectric_f0 = vec3(kUsualDielectricF0),
+                                                   .dielectric_f90 = vec3(1)});
     const Mesh chair = make_boxes_mesh("chair", {{{-.22, .42, -.22}, {.22, .46, .22}},
                                                  {{-.22, .46, .18}, {.22, .95, .22}},
                                                  {{-.22, 0, -.22}, {-.18, .42, -.18}},
@@ -132,7 +136,9 @@ Scene furnished_room() {
     const std::size_t parquet = add_material(
         scene, {.name = "parquet",
                 .albedo = vec3(1),
-                .roughness = .05f,
+                .roughness = .04f,
+                .dielectric_f0 = vec3(kUsualDielectricF0),
+                .dielectric_f90 = vec3(1),
                 .albedo_texture = make_plank_texture({168, 120, 74})});
     const std::size_t paper = add_material(
         scene, {.name = "wallpaper",

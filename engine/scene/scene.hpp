@@ -151,11 +151,11 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<PunctualLight> punctual;
     std::shared_ptr<const Environment> environment; ///< none: black
-    float mirror_max_roughness = .1f;               ///< surfaces up to this roughness are sharp
+    float mirror_max_roughness = .6f;               ///< rougher surfaces are no mirrors
+    bool has_multiple_scattering = false;           ///< rough lobes lose no light (Turquin 2019)
     std::optional<double> exposure;                 ///< stops, if the file gives them
     std::vector<UnsupportedFeature> unsupported;
-    /// Messages to the user about features that the loader left out or repaired.
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings; ///< about features that the loader left out or repaired
     /// Real paths of the scene's files, its own first. They include files that the scene names but
     /// that were not read. No output may be written over them.
     std::vector<std::filesystem::path> files;

@@ -75,7 +75,7 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
-const std::array<SceneFileKey, 12> kSceneFileKeys{
+const std::array<SceneFileKey, 13> kSceneFileKeys{
     {{"mirrors",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : read_texts(file, value, "mirrors"))
@@ -109,6 +109,18 @@ const std::array<SceneFileKey, 12> kSceneFileKeys{
       },
       [](const SceneOverrides& overrides) {
           return overrides_to_json(overrides.dielectric_mirrors);
+      }},
+     {"multiple_scattering",
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          const std::string text = read_text(file, value, "multiple_scattering");
+          file.require(text == "none" || text == "turquin",
+                       "multiple_scattering: wanted \"none\" or \"turquin\", found ",
+                       quote_printable(text));
+          overrides.multiple_scattering = text == "turquin";
+      },
+      [](const SceneOverrides& overrides) {
+          if (!overrides.multiple_scattering) return Json();
+          return Json(*overrides.multiple_scattering ? "turquin" : "none");
       }},
      {"environment",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {

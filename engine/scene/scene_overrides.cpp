@@ -127,6 +127,7 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
     both.lights.insert(both.lights.end(), stronger.lights.begin(), stronger.lights.end());
     replace_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
     replace_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
+    replace_if_set(both.multiple_scattering, stronger.multiple_scattering);
     replace_if_set(both.environment, stronger.environment);
     replace_if_set(both.environment_scale, stronger.environment_scale);
     replace_if_set(both.environment_rotation, stronger.environment_rotation);
@@ -223,6 +224,8 @@ void apply_edit(Scene& scene, const SceneOverrides& overrides) {
     for (const std::string& pattern : overrides.lights) keep_matching_lights(scene, pattern);
     if (overrides.mirror_max_roughness)
         scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
+    scene.has_multiple_scattering = overrides.multiple_scattering.value_or(
+        scene.has_multiple_scattering);
     for (const MirrorOverride& wish : overrides.mirrors)
         check(wish.roughness <= scene.mirror_max_roughness, Failure::usage, "--mirror ",
               quote_printable(wish.pattern), ": wanted a roughness of at most ",

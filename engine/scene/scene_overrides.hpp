@@ -40,7 +40,8 @@ struct SceneOverrides {
     std::vector<std::string> lights;     ///< patterns of objects that become lights
     std::optional<double> mirror_max_roughness;
     std::optional<bool> dielectric_mirrors;
-    std::optional<std::string> environment; ///< "studio", "none", or a picture's file
+    std::optional<bool> multiple_scattering; ///< "turquin" in files and on the command line
+    std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;
     std::optional<std::string> camera; ///< as camera_named takes it

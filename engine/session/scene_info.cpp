@@ -29,7 +29,8 @@ std::string classify_material(const scene::Material& material,
     if (surface.mirror >= scene::kMinMirrorAreaShare)
         return surface.smoothest > shared::kMaxSharpRoughness ? "rough mirror" : "sharp";
     if (surface.smooth_dielectric >= scene::kMinMirrorAreaShare) return "smooth dielectric";
-    return surface.rough_metal > 0 ? "rough metal" : "diffuse";
+    if (surface.rough_metal > 0) return "rough metal";
+    return surface.rough_dielectric > 0 ? "rough dielectric" : "diffuse";
 }
 
 void add_texture_info(MaterialInfo& info, const char* what,
@@ -69,6 +70,7 @@ std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
         add_texture_info(info, "base colour", material.albedo_texture);
         add_texture_info(info, "emission", material.emission_texture);
         add_texture_info(info, "metallic and roughness", material.roughness_texture);
+        add_texture_info(info, "normal", material.normal_texture);
         infos.push_back(std::move(info));
     }
     return infos;
@@ -113,8 +115,8 @@ void fill_scene_sizes(SceneInfo& info, const scene::Scene& scene) {
     }
     std::set<const scene::Image*> images;
     for (const scene::Material& material : scene.materials)
-        for (const auto& texture :
-             {material.albedo_texture, material.emission_texture, material.roughness_texture})
+        for (const auto& texture : {material.albedo_texture, material.emission_texture,
+                                    material.roughness_texture, material.normal_texture})
             if (texture && images.insert(texture->image.get()).second)
                 info.image_bytes += count_list_bytes(texture->image->texels);
     for (const std::filesystem::path& file : scene.files) {

@@ -33,7 +33,7 @@ double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mas
 
 std::string choose_reference(const std::string& asked, const scene::Scene& scene) {
     if (!asked.empty()) return asked;
-    return scene::has_rough_mirror(scene) ? kRoughReference : kReference;
+    return scene::has_rough_reflector(scene) ? kRoughReference : kReference;
 }
 
 std::string find_sample_count(const TechniqueChoice& choice) {

@@ -1,5 +1,6 @@
 // The options for scene overrides.
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 
@@ -23,14 +24,21 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
         "make lamps of emitting objects or materials with this name, also if a texture varies the "
         "emission; may be repeated",
         [&](const std::string& text) { overrides.lights.push_back(text); });
-    verb.option("--mirror-max-roughness", "A", "largest roughness of a mirror, from 0 to 1 (0.1)",
+    verb.option("--mirror-max-roughness", "A", "largest roughness of a mirror, from 0 to 1 (0.6)",
                 [&](const std::string& text) {
                     overrides.mirror_max_roughness = parse_real("--mirror-max-roughness", text, 0,
                                                                 1);
                 });
-    verb.option_without_value("--dielectric-mirrors",
-                              "smooth surfaces that are no metal are mirrors, too",
+    verb.option_without_value("--dielectric-mirrors", "surfaces that are no metal are mirrors, too",
                               [&] { overrides.dielectric_mirrors = true; });
+    verb.option(
+        "--multiple-scattering", "NAME",
+        "light that rough surfaces scatter several times: none (it is lost) or turquin (none)",
+        [&](const std::string& text) {
+            check(text == "none" || text == "turquin", Failure::usage,
+                  "--multiple-scattering: wanted none or turquin, found ", quote_printable(text));
+            overrides.multiple_scattering = text == "turquin";
+        });
 }
 
 void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides) {

@@ -81,7 +81,8 @@ vec3 shade_point(SurfacePoint at, vec3 direction, uint by) {
     shadow_by = by;
     Surface surface = evaluate_surface(at, direction);
     point = at; // light_visible starts shadow rays at the global `point`
-    return shade_surface(surface, at.position, at.normal, facet_normal_for_shading(surface.detail, at.facet));
+    return shade_surface(surface, at.position, at.normal, facet_normal_for_shading(surface.detail, at.facet), -direction,
+                         surface.reflectance != vec3(0));
 }
 
 // Returns the colour that the search looked up. If the ablation asks for them, exact colour or traced shadows replace

@@ -23,6 +23,26 @@ vec3 environment_radiance(vec3 direction) {
                                  mix(sky_texel(at.left, at.below), sky_texel(at.right, at.below), at.across), at.down);
 }
 
+// Returns the radiance in a unit direction of level `level`, from 1, of the environment (Sky::level_first).
+vec3 environment_level_radiance(vec3 direction, uint level) {
+    uint width = sky.value.level_width[level - 1u], first = sky.value.level_first[level - 1u];
+    count_once(kWorkTextureLookups);
+    vec3 d = environment_direction(direction, sky.value.turn.x, sky.value.turn.y);
+    EnvironmentMapPosition at = environment_map_position(d, width, width / 2u);
+    uint above = first + at.above * width, below = first + at.below * width;
+    return sky.value.scale * mix(mix(sky_texels_at(above + at.left).rgb, sky_texels_at(above + at.right).rgb, at.across),
+                                 mix(sky_texels_at(below + at.left).rgb, sky_texels_at(below + at.right).rgb, at.across),
+                                 at.down);
+}
+
+// Returns the mean radiance that a lobe of this roughness around a unit direction reflects from the environment.
+vec3 environment_lobe_radiance(vec3 direction, float roughness) {
+    float level = clamp(roughness, 0.0, 1.0) * float(SKY_LEVEL_COUNT);
+    uint lower = min(uint(level), SKY_LEVEL_COUNT - 1u);
+    vec3 sharper = lower == 0u ? environment_radiance(direction) : environment_level_radiance(direction, lower);
+    return mix(sharper, environment_level_radiance(direction, lower + 1u), level - float(lower));
+}
+
 // Returns the environment's irradiance on a surface with the given unit normal. Objects do not occlude this light.
 vec3 environment_irradiance(vec3 normal) {
     return environment_kind == kNoEnvironment ? vec3(0) : irradiance(sky.value.irradiance, normal);

@@ -8,13 +8,42 @@
 #include "lib/bindings.glsl"
 #include "lib/environment.glsl"
 #include "lib/light_kinds.glsl"
+#include "lib/material.glsl"
 
-// Returns the diffuse and emitted radiance of a surface point. `facet` points along the triangle's normal and has any
-// length. A zero `facet` makes `normal` alone decide how much light counts (facet_normal_for_shading).
-vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet) {
-    vec3 direct = vec3(0);
+// Returns the direction from the surface to the viewer in the tangent space of `normal`. An interpolated normal that
+// points away from the viewer counts as if it pointed to the viewer.
+vec3 to_viewer_in_tangent_space(vec3 normal, vec3 tangent, vec3 bitangent, vec3 to_viewer) {
+    const float kMinViewCosine = 1e-3;
+    return normalize(vec3(dot(tangent, to_viewer), dot(bitangent, to_viewer), max(abs(dot(normal, to_viewer)), kMinViewCosine)));
+}
+
+// Returns the light that the rough lobe evaluated last reflects to the viewer from the environment and from ambient
+// light. Objects do not occlude this light (split sum: Karis, "Real Shading in Unreal Engine 4", 2013).
+vec3 lobe_environment_light(vec3 normal, vec3 to_viewer) {
+    vec3 light = vec3(ambient_light());
+    if (environment_kind != kNoEnvironment)
+        light += environment_lobe_radiance(reflect(-to_viewer, normal), specular_lobe.roughness);
+    return specular_lobe_albedo(dot(normal, to_viewer)) * light;
+}
+
+// Returns the radiance of a surface point that lights, ambient light and the environment cause, and its emission:
+// diffuse light, and highlights of lights without a surface. Rays and captures show all other reflections.
+// `facet` points along the triangle's normal and has any length. A zero `facet` makes `normal` alone decide how much
+// light counts (facet_normal_for_shading). `to_viewer` is a unit vector. `reflects` says whether rays or captures show
+// what the surface reflects. If they do not, a rough lobe also reflects the environment, and the metal part is lit by
+// lamps as if it were diffuse.
+vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3 to_viewer, bool reflects) {
+    vec3 direct = vec3(0), by_lamps = vec3(0), highlights = vec3(0);
     uint all = one_light != 0u ? 1u : frame.value.light_count;
-    uint count = surface.albedo == vec3(0) ? 0u : all;
+    bool is_rough = has_lobes != 0u && has_rough_lobe();
+    uint count = surface.albedo == vec3(0) && !is_rough ? 0u : all;
+    float alpha = 1.0;
+    vec3 tangent, bitangent, to_eye;
+    if (has_lobes != 0u) {
+        alpha = roughness_to_alpha(specular_lobe.roughness);
+        tangent_frame(normal, tangent, bitangent);
+        to_eye = to_viewer_in_tangent_space(normal, tangent, bitangent, to_viewer);
+    }
     uint light = 0u;
     if (count_work != 0u) add_work(kWorkLights, count);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
@@ -27,12 +56,23 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet) {
         }
         if (is_lit) {
             float visible = light_visible(light, position, normal, direction, distance);
-            direct += read_light(light).intensity * (factor * visible);
+            vec3 irradiance = read_light(light).intensity * (factor * visible);
+            direct += irradiance;
+            if (has_lobes != 0u && is_rough) {
+                vec3 to_light = vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
+                if (is_lamp(light)) by_lamps += irradiance;
+                else highlights += irradiance / to_light.z * evaluate_lobe(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, to_light);
+            }
         }
         ++light;
     } while (one_light == 0u && light < count);
     if (environment_kind != kNoEnvironment) direct += environment_irradiance(normal);
-    return lambert(surface.emission, surface.albedo, direct, ambient_light());
+    vec3 result = lambert(surface.emission, surface.albedo, direct, ambient_light());
+    if (has_lobes != 0u && is_rough) {
+        result += specular_lobe.gain * highlights;
+        if (!reflects) result += specular_lobe.stand_in / kPi * by_lamps + lobe_environment_light(normal, to_viewer);
+    }
+    return result;
 }
 
 #endif

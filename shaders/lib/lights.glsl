@@ -22,6 +22,8 @@ Light read_light(uint light) {
     if (one_light != 0u) return read_first_light();
     return lights[light];
 }
+// Returns whether the light has a surface, which rays and captures show.
+bool is_lamp(uint light) { return read_light(light).kind >= kLightKindTwoSidedLamp; }
 bool is_directional(uint light) { return light_kinds != 0u && read_light(light).kind == kLightKindDirectional; }
 
 #endif

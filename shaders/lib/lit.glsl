@@ -22,4 +22,11 @@ float light_visible(uint light, vec3 at, vec3 n, vec3 direction, float distance)
 }
 #include "lib/lighting.glsl"
 
+// Returns the radiance of the drawn surface without what captures show (shade_surface). `n` is the unit shading normal,
+// and `facet` points along the triangle's normal.
+vec3 shade_fragment(Surface surface, vec3 n, vec3 facet) {
+    return shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet),
+                         -normalize(direction_from_viewer()), surface.reflectance != vec3(0));
+}
+
 #endif

@@ -23,9 +23,9 @@ uint detail_word(uint detail, uint word) { return detail_quad(detail, word / 4u)
 MaterialParameters read_material_parameters(uint detail) {
     uvec4 q0 = detail_quad(detail, 0), q1 = detail_quad(detail, 1), q2 = detail_quad(detail, 2), q3 = detail_quad(detail, 3);
     uvec4 q4 = detail_quad(detail, 4), q5 = detail_quad(detail, 5), q6 = detail_quad(detail, 6), q7 = detail_quad(detail, 7);
-    uvec4 q8 = detail_quad(detail, 8), q9 = detail_quad(detail, 9);
+    uvec4 q8 = detail_quad(detail, 8), q9 = detail_quad(detail, 9), q10 = detail_quad(detail, 10), q11 = detail_quad(detail, 11);
     vec4 f0 = uintBitsToFloat(q0), f1 = uintBitsToFloat(q1), f2 = uintBitsToFloat(q2), f4 = uintBitsToFloat(q4);
-    vec4 f5 = uintBitsToFloat(q5), f7 = uintBitsToFloat(q7), f9 = uintBitsToFloat(q9);
+    vec4 f5 = uintBitsToFloat(q5), f7 = uintBitsToFloat(q7), f9 = uintBitsToFloat(q9), f11 = uintBitsToFloat(q11);
     MaterialParameters result;
     result.flags = q0.x, result.first_attribute = q0.y;
     result.max_specular_roughness = f0.z, result.alpha = f0.w, result.alpha_cutoff = f1.x;
@@ -33,6 +33,8 @@ MaterialParameters read_material_parameters(uint detail) {
     result.albedo = TextureUse(q2.w, q3.x, q3.y, vec3(uintBitsToFloat(q3.zw), f4.x), f4.yzw);
     result.emission = TextureUse(q5.x, q5.y, q5.z, vec3(f5.w, uintBitsToFloat(q6.xy)), vec3(uintBitsToFloat(q6.zw), f7.x));
     result.rough = TextureUse(q7.y, q7.z, q7.w, uintBitsToFloat(q8.xyz), vec3(uintBitsToFloat(q8.w), f9.xy));
+    result.normal = TextureUse(q9.z, q9.w, q10.x, uintBitsToFloat(q10.yzw), f11.xyz);
+    result.normal_scale = f11.w;
     uint word = kMaterialWordsBeforeFactors;
 #define READ_FACTOR(name) result.name = uintBitsToFloat(detail_word(detail, word++));
     MATERIAL_FACTORS(READ_FACTOR)
@@ -85,22 +87,63 @@ vec3 turn_normal_to_viewer(uint detail, vec3 normal, vec3 facet, vec3 direction)
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
 
+// 1: some material has a texture of normals.
+layout(constant_id = HAS_NORMAL_TEXTURES_CONSTANT) const uint has_normal_textures = 0u;
+
+// Two vectors in a triangle's plane, and the differences of both sets of texture coordinates along them.
+struct TriangleSides {
+    vec3 a, b;
+    vec4 uv_a, uv_b;
+};
+
+// Returns the unit normal that the material's texture of normals describes, around the unit shading normal. The tangent
+// is the direction in which the texture's u grows along the triangle, so the frame needs no data for each vertex (Mikkelsen,
+// "Surface Gradient-Based Bump Mapping Framework", 2020, derives frames in this way). As glTF defines it, green grows
+// against v. Texels of 128, 128, 255 leave the normal as it is.
+vec3 bend_normal_by_texture(uint detail, VertexAttribute at, vec3 normal, TriangleSides sides) {
+    TextureUse use = read_material_parameters(detail).normal;
+    if (use.size == 0u) return normal;
+    const float kFlat = 1e-4; // far less than the step of a texel, 1 / 127
+    vec3 bend = sample_texture(use, at.uv).xyz * 255.0;
+    bend = vec3((bend.xy - 128.0) / 127.0 * read_material_parameters(detail).normal_scale, bend.z / 127.5 - 1.0);
+    bool is_second = (use.how & kTextureSecondUvFlag) != 0u;
+    vec2 uv_a = is_second ? sides.uv_a.zw : sides.uv_a.xy, uv_b = is_second ? sides.uv_b.zw : sides.uv_b.xy;
+    vec2 a = vec2(dot(use.u_row.xy, uv_a), dot(use.v_row.xy, uv_a)), b = vec2(dot(use.u_row.xy, uv_b), dot(use.v_row.xy, uv_b));
+    float side = a.x * b.y - b.x * a.y < 0.0 ? -1.0 : 1.0;
+    vec3 tangent = side * (b.y * sides.a - a.y * sides.b), against_v = side * (b.x * sides.a - a.x * sides.b);
+    tangent -= dot(tangent, normal) * normal;
+    float size = length(tangent);
+    if (!(size > 0.0 && size <= kLargestFloat) || largest(abs(vec3(bend.xy, 0))) < kFlat) return normal;
+    tangent /= size;
+    vec3 bitangent = cross(normal, tangent);
+    if (dot(bitangent, against_v) < 0.0) bitangent = -bitangent;
+    vec3 bent = bend.x * tangent + bend.y * bitangent + bend.z * normal;
+    return dot(bent, bent) > 0.0 ? normalize(bent) : normal;
+}
+
 // Returns the facet normal for `shade`, or zero if the mesh's vertex normals agree with its facet normals everywhere.
 vec3 facet_normal_for_shading(uint detail, vec3 facet) {
     if (details == 0u || (read_material_parameters(detail).flags & kMaterialTestsFacetSideFlag) == 0u) return vec3(0);
     return facet;
 }
 
+// 1: some surface reflects in a lobe.
+layout(constant_id = HAS_LOBES_CONSTANT) const uint has_lobes = 0u;
+
 // The specular lobe of the surface that was evaluated last: its roughness, and the reflectance seen head-on and at
 // grazing angle. A roughness of 0 is a perfect mirror.
 struct SpecularLobe {
     float roughness;
     vec3 f0, f90;
+    // Albedo of a diffuse surface that stands in for the metal where nothing shows the lamps and surfaces that the lobe
+    // reflects.
+    vec3 stand_in;
+    vec3 gain; // factor of the whole lobe, for multiple scattering
 };
-SpecularLobe specular_lobe = SpecularLobe(0.0, vec3(0), vec3(1));
+SpecularLobe specular_lobe = SpecularLobe(0.0, vec3(0), vec3(1), vec3(0), vec3(1));
 
 // Returns whether the surface that was evaluated last reflects in a lobe instead of a single direction.
-bool has_rough_lobe() { return details != 0u && specular_lobe.roughness > kMaxSharpRoughness; }
+bool has_rough_lobe() { return details != 0u && has_lobes != 0u && specular_lobe.roughness > kMaxSharpRoughness; }
 
 // Draws the direction in which light leaves the rough surface that was evaluated last. `direction` is that of the
 // arriving ray, and `leaving` at first that of the perfect mirror. Multiplies the weight by the lobe's weight. Returns
@@ -115,7 +158,7 @@ bool sample_specular_lobe(vec3 direction, vec3 facet, float u, float v, inout ve
     if (!(to_eye.z > 0.0)) return false;
     float alpha = roughness_to_alpha(specular_lobe.roughness);
     vec3 drawn = sample_lobe(alpha, to_eye, u, v);
-    weight *= lobe_sample_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
+    weight *= specular_lobe.gain * lobe_sample_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
     leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
     // Light from below the facet's plane cannot reach the surface.
     if (!(dot(leaving, facet_side(normal, facet)) > 0.0)) weight = vec3(0);
@@ -127,22 +170,38 @@ vec2 read_lobe_albedo(int x, int y) {
     return unpackUnorm2x16(texture_words_at(kSrgbTableWords + uint(y) * kLobeTableEdge + uint(x)));
 }
 
-// Returns the share of light that the rough lobe evaluated last reflects to a viewer at the angle `cosine` to the
-// normal, if equal light arrives from everywhere: f0 times the first term of the table plus f90 times the second (Karis,
-// "Real Shading in Unreal Engine 4", 2013).
-vec3 specular_lobe_albedo(float cosine) {
-    float x = clamp(cosine, 0.0, 1.0) * float(kLobeTableEdge - 1u);
+// Returns the terms of the albedo of the rough lobe evaluated last, for a viewer at the angle `cosine` to the normal: the
+// albedo is f0 times the first plus f90 times the second (Karis, "Real Shading in Unreal Engine 4", 2013). An interpolated
+// normal that points away from the viewer counts as if it pointed to the viewer.
+vec2 specular_lobe_albedo_terms(float cosine) {
+    float x = sqrt(min(abs(cosine), 1.0)) * float(kLobeTableEdge - 1u);
     float y = clamp(specular_lobe.roughness, 0.0, 1.0) * float(kLobeTableEdge - 1u);
     int left = min(int(x), int(kLobeTableEdge) - 2), top = min(int(y), int(kLobeTableEdge) - 2);
-    vec2 terms = mix(mix(read_lobe_albedo(left, top), read_lobe_albedo(left + 1, top), x - float(left)),
-                     mix(read_lobe_albedo(left, top + 1), read_lobe_albedo(left + 1, top + 1), x - float(left)),
-                     y - float(top));
-    return specular_lobe.f0 * terms.x + specular_lobe.f90 * terms.y;
+    return mix(mix(read_lobe_albedo(left, top), read_lobe_albedo(left + 1, top), x - float(left)),
+               mix(read_lobe_albedo(left, top + 1), read_lobe_albedo(left + 1, top + 1), x - float(left)),
+               y - float(top));
+}
+
+// Returns the share of light that the rough lobe evaluated last reflects to that viewer, if equal light arrives from
+// everywhere.
+vec3 specular_lobe_albedo(float cosine) {
+    vec2 terms = specular_lobe_albedo_terms(cosine);
+    return specular_lobe.gain * (specular_lobe.f0 * terms.x + specular_lobe.f90 * terms.y);
+}
+
+// Returns the factor by which a lobe grows if light that hits several microfacets is not lost (Turquin, "Practical
+// Multiple Scattering Compensation for Microfacet Models", 2019). The lobe is then no longer reciprocal.
+vec3 multiple_scattering_gain(float cosine) {
+    vec2 terms = specular_lobe_albedo_terms(cosine);
+    float single = terms.x + terms.y; // albedo of a lobe whose microfacets reflect all light
+    return 1.0 + specular_lobe.f0 * (1.0 - single) / single;
 }
 
 // Evaluates the material at a point. Sets specular_lobe, and sets the surface's albedo to the diffuse part and its
-// reflectance to the weight of a mirrored ray. `cosine` is the cosine between the normal and the direction to the
-// viewer.
+// reflectance to the weight of a mirrored ray. The reflectance of a rough surface is 0 unless the surface is part of a
+// mirror, because only mirrors have captures. `cosine` is the cosine between the normal and the direction to the viewer.
+// The diffuse part is the light that the specular part does not reflect to the viewer: 1 minus the albedo of the lobe
+// (or the reflectance of a perfect mirror). So a white surface in a white furnace reflects all light.
 void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
     count_once(kWorkMaterials);
     MaterialParameters detail = read_material_parameters(surface.detail);
@@ -158,15 +217,19 @@ void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) 
     }
     surface.emission *= sample_texture(detail.emission, at.uv).rgb;
     vec4 rough = sample_texture(detail.rough, at.uv);
-    float metallic = detail.metallic * rough.b;
-    bool is_sharp = detail.roughness * rough.g <= detail.max_specular_roughness;
-    if (!is_constant && is_sharp) {
-        specular_lobe = SpecularLobe(detail.roughness * rough.g, mix(detail.f0, colour, metallic), mix(detail.f90, vec3(1), metallic));
-        surface.reflectance = schlick(specular_lobe.f0, specular_lobe.f90, cosine);
+    float metallic = detail.metallic * rough.b, roughness = detail.roughness * rough.g;
+    if (!is_constant) {
+        specular_lobe = SpecularLobe(roughness, mix(detail.f0, colour, metallic), mix(detail.f90, vec3(1), metallic),
+                                     metallic * colour, vec3(1));
+        if (has_lobes != 0u && (detail.flags & kMaterialMultipleScatteringFlag) != 0u && has_rough_lobe())
+            specular_lobe.gain = multiple_scattering_gain(cosine);
+        bool is_reflector = roughness <= kMaxSharpRoughness ||
+                            surface.mirror != 0u && roughness <= detail.max_specular_roughness;
+        if (is_reflector) surface.reflectance = schlick(specular_lobe.f0, specular_lobe.f90, cosine);
     }
-    // A rough metal is drawn as if it were diffuse.
-    if (is_constant || is_sharp) colour *= (1.0 - metallic) * (1.0 - surface.reflectance);
-    surface.albedo = colour;
+    vec3 specular_albedo = surface.reflectance;
+    if (has_lobes != 0u && has_rough_lobe()) specular_albedo = specular_lobe_albedo(cosine);
+    surface.albedo = colour * ((1.0 - metallic) * (1.0 - specular_albedo));
 }
 
 #endif

@@ -208,7 +208,7 @@ void main() {
     Lookup lookup = follow_path(path, hops);
     vec3 colour = ablated_radiance(path, lookup);
 #else
-    bool is_rough = rough != kRoughNone && has_rough_lobe(), is_stopped = false;
+    bool is_rough = rough != kRoughNone && has_rough_lobe() && surface.reflectance != vec3(0), is_stopped = false;
     bool looks_up_level = is_rough && rough != kRoughRays;
     if (rough != kRoughNone && looks_up_level) path.weight = specular_lobe_albedo(-dot(n, seen));
     MirrorPath first = path;
@@ -240,7 +240,7 @@ void main() {
         is_stopped = i < lobe_rays;
         colour /= float(lobe_rays);
     }
-    if (lights_mirrors != 0u) colour += shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
+    if (lights_mirrors != 0u) colour += shade_fragment(surface, n, facet);
 #endif
     write_surface(apply_show_mode(colour, lookup));
 #ifndef ABLATE

@@ -65,14 +65,25 @@ void discard_cut_out_fragments() {
     if (masks != 0u && fails_alpha_test(drawn_detail(), VertexAttribute(in_uv, in_colour))) discard;
 }
 
-// Returns the object's surface at the fragment, and turns the normal `n` of a two-sided material to the viewer's side.
-// `facet` points along the triangle's normal.
+// The triangle's sides between neighbouring fragments. Derivatives come before any discard.
+TriangleSides fragment_sides = has_normal_textures == 0u
+    ? TriangleSides(vec3(0), vec3(0), vec4(0), vec4(0))
+    : TriangleSides(dFdx(from_eye), dFdy(from_eye), dFdx(in_uv), dFdy(in_uv));
+
+// Returns the object's surface at the fragment. Bends the normal `n` by the material's texture of normals, and turns the
+// normal of a two-sided material to the viewer's side. `facet` points along the triangle's normal.
 Surface surface_at_fragment(inout vec3 n, vec3 facet) {
     Surface surface = read_drawn_surface();
     if (details != 0u) {
         vec3 direction = normalize(direction_from_viewer());
-        n = turn_normal_to_viewer(surface.detail, n, facet, direction);
-        evaluate_material(surface, VertexAttribute(in_uv, in_colour), -dot(n, direction));
+        VertexAttribute at = VertexAttribute(in_uv, in_colour);
+        vec3 turned = turn_normal_to_viewer(surface.detail, n, facet, direction);
+        if (has_normal_textures != 0u) {
+            vec3 bent = bend_normal_by_texture(surface.detail, at, n, fragment_sides);
+            turned = turned == n ? bent : -bent;
+        }
+        n = turned;
+        evaluate_material(surface, at, -dot(n, direction));
     }
     return surface;
 }

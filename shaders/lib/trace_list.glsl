@@ -1,4 +1,7 @@
-// Constants of the list of pixels to trace, shared by the shaders that write and read the list.
+// The list of pixels to trace, for the shaders that write and read the list. An entry is the pixel's number. If rays
+// start at triangles that the rasteriser drew, the two words of the triangle follow (lib/first_hit.glsl), because the
+// first ray of the pixel overwrites these words in the picture.
+uint words_per_list_entry(uint first_raster) { return first_raster != 0u ? 3u : 1u; }
 #define LOOKUP_BINDING 24
 #define LIST_BINDING 25
 #define ARGUMENTS_BINDING 26

@@ -22,6 +22,8 @@ TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, false)
 
 VertexAttribute attribute_of(uint corner) { return read_vertex_attribute(floatBitsToUint(normals_at(corner).w) & kBvhIdMask); }
 
+const TriangleSides kNoSides = TriangleSides(vec3(0), vec3(0), vec4(0), vec4(0));
+
 // Returns the attribute at a point of the triangle whose corners are stored from index `corner` on.
 VertexAttribute interpolate_attribute(uint corner, vec3 barycentric) {
     VertexAttribute a = attribute_of(corner), b = attribute_of(corner + 1u), c = attribute_of(corner + 2u);
@@ -73,6 +75,7 @@ struct SurfacePoint {
     uint leaves; // Ray::leaves of rays that start at this point
     uint inside; // record of the instance in whose object space the triangle lies; 0: the triangle is in scene units
     VertexAttribute at;
+    TriangleSides sides; // scene units; zero on a sphere, and if no material has a texture of normals
     vec3 arm;       // vector from the instance's centre to the point, scene units
     vec3 arm_error; // bound of the error of `arm`
 };
@@ -117,6 +120,11 @@ SurfacePoint point_on_triangle(TraceHit hit) {
         p.facet = facet_normal(lit_a, lit_b, lit_c);
         transform_point_to_scene(p, hit.inside);
     }
+    p.sides = kNoSides;
+    if (has_normal_textures != 0u && has_attributes(read_surface(hit.object).detail)) {
+        vec4 uv = attribute_of(corner).uv;
+        p.sides = TriangleSides(lit_b - lit_a, lit_c - lit_a, attribute_of(corner + 1u).uv - uv, attribute_of(corner + 2u).uv - uv);
+    }
     p.lift = smooth_surface_offset(lit_a, lit_b, lit_c, normal_a, normal_b, normal_c, w);
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
@@ -148,6 +156,7 @@ SurfacePoint point_on_sphere(Ray ray, float t, uint object) {
     p.normal = p.facet = (p.position - of.centre) / of.radius;
     p.lift = 0.0;
     p.at = kNoAttribute;
+    p.sides = kNoSides;
     p.object = object;
     p.leaves = 0u;
     p.inside = 0u;
@@ -164,6 +173,7 @@ SurfacePoint point_on_instance_sphere(Ray ray, vec3 low, TraceHit hit) {
     p.normal = p.position / radius;
     p.lift = 0.0;
     p.at = kNoAttribute;
+    p.sides = kNoSides;
     p.object = hit.object;
     p.leaves = 0u;
     transform_point_to_scene(p, hit.inside);
@@ -226,13 +236,22 @@ bool trace_ray(Ray ray, uint skipped, uint known, TraceHit hit, out SurfacePoint
     return found;
 }
 
-// Evaluates the material at a point. The normal of a two-sided material turns to the side from which `direction` comes.
+// Evaluates the material at a point. Bends the normal by the material's texture of normals. The normal of a two-sided
+// material turns to the side from which `direction` comes.
 Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
     Surface surface = read_surface(p.object);
     if (details != 0u) {
         vec3 turned = turn_normal_to_viewer(surface.detail, p.normal, p.facet, direction);
         // From the back the smooth surface is hollow, so it lies below the triangle.
-        if (turned != p.normal) p.lift = 0.0;
+        bool is_front = turned == p.normal;
+        if (!is_front) p.lift = 0.0;
+        if (has_normal_textures != 0u) {
+            vec3 bent = bend_normal_by_texture(surface.detail, p.at, p.normal, p.sides);
+#ifdef DOUBLES
+            if (bent != p.normal) exact_normal = dvec3(is_front ? bent : -bent);
+#endif
+            turned = is_front ? bent : -bent;
+        }
         p.normal = turned;
         evaluate_material(surface, p.at, -dot(p.normal, direction));
     }
@@ -305,8 +324,8 @@ Ray make_camera_ray(vec2 place, uvec2 size) {
 
 // Returns the radiance along a ray that has met `first` mirrors before. `met` is the number of the first mirror that
 // the ray meets, and the number of the second << kHitMirrorBits. If the first surface reflects but is no mirror, the
-// first number is 0 and the second kMaxMirrors. A ray with `first` 0 is a camera ray and passes through objects hidden
-// from the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
+// first number is 0 and the second kHitSmoothSurface or kHitRoughSurface. A ray with `first` 0 is a camera ray and
+// passes through objects hidden from the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
 vec3 trace_radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
@@ -333,10 +352,14 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         if (bounce < first + 2u) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
-        if (details != 0u && bounce == 0u && reflects && surface.mirror == 0u) met = kMaxMirrors << kHitMirrorBits;
+        if (details != 0u && bounce == 0u && surface.mirror == 0u) {
+            if (reflects) met = kHitSmoothSurface << kHitMirrorBits;
+            else if (has_rough_lobe()) met = kHitRoughSurface << kHitMirrorBits;
+        }
+        if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
         // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
         // the whole BVH walk of its shadow ray.
-        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet));
+        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects);
         if (!reflects) {
             done = true;
         } else if (bounce == max_depth) {

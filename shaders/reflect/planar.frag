@@ -13,6 +13,6 @@ void main() {
     Surface surface = surface_at_fragment(n, facet);
     count_once(kWorkColourLookups);
     vec3 shown = surface.reflectance * texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0).rgb;
-    if (lights_mirrors != 0u) shown += shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet));
+    if (lights_mirrors != 0u) shown += shade_fragment(surface, n, facet);
     write_surface(shown);
 }

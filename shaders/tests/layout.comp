@@ -45,6 +45,8 @@ void main() {
     Sky s = skies[1];
     append(s.size), append(s.scale), append(s.turn);
     for (int i = 0; i < 9; ++i) append(s.irradiance[i]);
+    for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append(s.level_first[i]);
+    for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append(s.level_width[i]);
     Frame f = frames[1];
     append(f.ambient), append(f.light_count), append(f.mirror_count), append(f.object_count), append(f.shadow_faces);
     append(draws[1].first_view), append(draws[1].ablated);

@@ -51,6 +51,7 @@ TEST_F(Cli, HelpNamesEveryCommonOption) {
                                "--light",
                                "--mirror-max-roughness",
                                "--dielectric-mirrors",
+                               "--multiple-scattering",
                                "--environment",
                                "--environment-scale",
                                "--environment-rotate",
@@ -190,6 +191,7 @@ TEST_F(Cli, InvalidNumberOfAnOptionIsRefused) {
         refused("--exposure", stops, "-64 to 64");
     for (const std::string share : {"-0.1", "1.1", "nan"})
         refused("--mirror-max-roughness", share, "from 0 to 1");
+    refused("--multiple-scattering", "yes", "none or turquin");
     for (const std::string scale : {"-1", "inf"}) refused("--environment-scale", scale, "from 0");
     refused("--environment-rotate", "north", "finite");
     refused("--mirror", "a=2", "from 0 to 1");

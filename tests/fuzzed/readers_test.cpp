@@ -274,6 +274,7 @@ TEST_F(Readers, ChangedSceneOverrideFilesAreReadOrRefused) {
                            {"lights", Json::array({"sheet"})},
                            {"mirror_max_roughness", 0.1},
                            {"dielectric_mirrors", false},
+                           {"multiple_scattering", "turquin"},
                            {"environment", "good.exr"},
                            {"environment_scale", 1},
                            {"environment_rotate", 90},

@@ -67,10 +67,13 @@ scene::Scene without_mirrors() {
                                   {-1.5, .6, .5});
     net.uv[0] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
     test::add_mesh(scene, net, test::add_material(scene, masked));
-    test::add_quad(
-        scene, "varnish",
-        test::add_material(scene, {.name = "varnish", .albedo = {.2f, .3f, .1f}, .roughness = 0}),
-        {-1.5, -1.9, -1.5}, {1.5, -1.9, -1.5}, {1.5, -1.9, 1}, {-1.5, -1.9, 1});
+    test::add_quad(scene, "varnish",
+                   test::add_material(scene, {.name = "varnish",
+                                              .albedo = {.2f, .3f, .1f},
+                                              .roughness = 0,
+                                              .dielectric_f0 = vec3(.04f),
+                                              .dielectric_f90 = vec3(1)}),
+                   {-1.5, -1.9, -1.5}, {1.5, -1.9, -1.5}, {1.5, -1.9, 1}, {-1.5, -1.9, 1});
     scene.meshes.push_back(scene::ball("copy", 3));
     for (int i = 0; i < 60; ++i) {
         scene::Object copy{.name = "copy", .mesh = scene.meshes.size() - 1, .material = 1};

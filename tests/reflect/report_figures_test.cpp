@@ -20,7 +20,7 @@ using nlohmann::json;
 
 constexpr uvec2 kReportFiguresSize{40, 30};
 constexpr int kReportFiguresFrames = 8, kWarmup = 3;
-const std::vector<std::size_t> kRounds{2, 2, 1, 1, 1, 1}; ///< measured frames in each round
+const std::vector<std::size_t> kFramesOfRounds{2, 2, 1, 1, 1, 1}; ///< measured frames in each round
 constexpr double kStops = -1;
 
 /// Returns the test scene `make_mirror_hall` with a camera that sees the lamp.
@@ -236,12 +236,12 @@ TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
         SCOPED_TRACE(row["label"]);
         for (const char* name :
              {"gpu_ms", "cpu_record_ms", "wall_ms", "closure", "host_ms", "frame_ms", "wait_ms"})
-            expect_summary(row[name], kRounds);
+            expect_summary(row[name], kFramesOfRounds);
         if (test::test_engine().device().type == "cpu") {
-            expect_summary(row["cpu_ms"], kRounds);
+            expect_summary(row["cpu_ms"], kFramesOfRounds);
             EXPECT_GE(row["cpu_ms"]["median"].get<double>(), row["host_parts"]["record"]);
         }
-        for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"], kRounds);
+        for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"], kFramesOfRounds);
         for (int k = 0; k < kReportFiguresFrames; ++k) {
             const double passes = of_passes(row, k);
             const double gpu = row["gpu_ms"]["samples"][k], wall = row["wall_ms"]["samples"][k];
@@ -363,7 +363,7 @@ TEST(Rounds, OrderOfRowsAlternates) {
             measured.push_back(label.substr(0, label.find(':')));
     };
     const report::Comparison found = app::compare(test::test_engine(), request);
-    ASSERT_EQ(measured.size(), 2 * kRounds.size());
+    ASSERT_EQ(measured.size(), 2 * kFramesOfRounds.size());
     for (std::size_t i = 0; i < measured.size(); ++i)
         EXPECT_EQ(measured[i], i % 4 == 0 || i % 4 == 3 ? "reuse" : "raytrace") << i;
     EXPECT_EQ(found.rows[0].technique, "reuse");

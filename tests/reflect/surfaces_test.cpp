@@ -2,6 +2,7 @@
 // against each other.
 #include "core/shader_math.hpp"
 #include "scene/light.hpp"
+#include "shared.h"
 #include "support/rendering.hpp"
 
 #include <cmath>
@@ -233,8 +234,9 @@ TEST(SharpSurfaces, ReflectanceFollowsSchlick) {
         const std::size_t floor = test::add_material(scene, {.name = "floor",
                                                              .albedo = each.colour,
                                                              .metallic = each.metallic,
-                                                             .roughness = .1f,
-                                                             .dielectric_f0 = each.f0});
+                                                             .roughness = .04f,
+                                                             .dielectric_f0 = each.f0,
+                                                             .dielectric_f90 = vec3(1)});
         const double left = each.away ? 4 : -4;
         test::add_quad(scene, "floor", floor, {left, -2, -5}, {left, -2, 5}, {-left, -2, 5},
                        {-left, -2, -5});
@@ -407,7 +409,9 @@ scene::Scene motley(std::uint32_t seed) {
         if (k % 2)
             material.albedo_texture = Texture{.image = image({4, 4}, seed + k), .srgb = true};
         if (k % 4 == 1) material.alpha_cutoff = .5f;
-        if (k % 4 == 2) material.roughness = .05f, material.metallic = float(k % 8 == 2);
+        if (k % 4 != 2) material.dielectric_f0 = vec3(.04f), material.dielectric_f90 = vec3(1);
+        if (k % 5 == 3) material.normal_texture = Texture{.image = image({2, 2}, seed + 9 * k)};
+        if (k % 4 == 2) material.roughness = .04f, material.metallic = float(k % 8 == 2);
         if (k % 4 == 3) material.roughness_texture = Texture{.image = image({2, 2}, seed + k)};
         test::add_mesh(scene, mesh, test::add_material(scene, material));
         scene::Object& object = scene.objects.back();
@@ -431,12 +435,10 @@ TEST(Worlds, RasterisationEqualsRayTracingOnAllMaterials) {
                                    rays = test::render_technique(
                                        scene, "raytrace:shadow=map,shadow_map=1024", size);
         int off = 0, judged = 0;
-        const auto hit = [&](int x, int y) {
-            return rays.hits[std::size_t(y) * size.x + x] & 0xffff;
-        };
+        const auto hit = [&](int x, int y) { return rays.hits[std::size_t(y) * size.x + x]; };
         for (int y = 1; y < 95; ++y)
             for (int x = 1; x < 95; ++x) {
-                if (hit(x, y) != 0) continue;
+                if (hit(x, y) != 0 && hit(x, y) != shared::kHitRoughSurface << 16) continue;
                 vec3 low(1e9f), high(0);
                 for (int k = 0; k < 9; ++k) {
                     const vec3 colour = rays.hdr.at(x + k % 3 - 1, y + k / 3 - 1);

@@ -5,6 +5,7 @@
 #include "gpu/specialise.hpp"
 #include "measure/work.hpp"
 #include "render/views.hpp"
+#include "scene/light.hpp"
 #include "session/access.hpp"
 #include "session/rays.hpp"
 #include "session/work.hpp"

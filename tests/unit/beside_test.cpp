@@ -44,7 +44,7 @@ protected:
 TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
     const app::ResolvedScene found = load(
-        R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true,
+        R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true, "multiple_scattering": "turquin",
             "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
             "ambient": 0.125, "exposure": -1.5, "camera": "1,2,3:0,0,0:30", "up": "y",
             "animation": "none"})");
@@ -52,6 +52,7 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     EXPECT_EQ(scene.materials.back().reflectance, vec3(.5f));
     EXPECT_EQ(scene.mirror_max_roughness, .25f);
     EXPECT_EQ(found.overrides.dielectric_mirrors, true);
+    EXPECT_TRUE(scene.has_multiple_scattering);
     ASSERT_NE(scene.environment, nullptr);
     EXPECT_EQ(scene.environment->name, "sky.exr");
     EXPECT_EQ(scene.environment->size, uvec2(4, 2));
@@ -123,6 +124,8 @@ TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
     EXPECT_THAT(refused(R"({"mirrors": "thing"})"), HasSubstr("mirrors: wanted a list of texts"));
     EXPECT_THAT(refused(R"({"mirrors": ["thing=7"]})"), HasSubstr("from 0 to 1, found 'thing=7'"));
     EXPECT_THAT(refused(R"({"dielectric_mirrors": 1})"), HasSubstr("wanted true or false"));
+    EXPECT_THAT(refused(R"({"multiple_scattering": "full"})"),
+                HasSubstr("wanted \"none\" or \"turquin\", found 'full'"));
     EXPECT_THAT(refused(R"({"up": "x"})"), HasSubstr("up: wanted \"y\" or \"z\", found \"x\""));
     EXPECT_THAT(refused(R"({"environment": "../sky.exr"})"), HasSubstr("--root"));
     EXPECT_THAT(test::error_text_of(Failure::missing_input,
@@ -175,6 +178,7 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.mirrors = {{"a=b", vec3(1)}, {"c", {.1f, .5f, 0}}};
     overrides.lights = {"l*"};
     overrides.mirror_max_roughness = .3, overrides.dielectric_mirrors = false;
+    overrides.multiple_scattering = true;
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
     overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";
     const std::string scene = write("x.obj", kDark);

@@ -4,6 +4,7 @@
 #include "scene/classify.hpp"
 #include "scene/mirror_shape.hpp"
 #include "scene/motion.hpp"
+#include "scene/rough_reflectors.hpp"
 #include "scene/shapes.hpp"
 #include "scene/texel.hpp"
 #include "scene/unsupported_feature.hpp"
@@ -38,7 +39,7 @@ Material metal(float roughness, vec3 colour = vec3(1)) {
 }
 
 TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
-    for (const auto& [roughness, is] : {std::pair(0.f, true), {.1f, true}, {.11f, false}}) {
+    for (const auto& [roughness, is] : {std::pair(0.f, true), {.6f, true}, {.61f, false}}) {
         Scene scene = panel(metal(roughness));
         find_mirrors(scene);
         EXPECT_EQ(mirrors(scene).size(), is ? 1u : 0u) << roughness;
@@ -47,7 +48,7 @@ TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
         EXPECT_EQ(scene.unsupported[0].id, "rough-metal");
         EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'm'");
         EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
-        scene.mirror_max_roughness = .2f;
+        scene.mirror_max_roughness = .7f;
         // Classifies again with a higher roughness limit.
         find_mirrors(scene);
         EXPECT_EQ(mirrors(scene).size(), 1u);
@@ -64,18 +65,39 @@ TEST(Classify, LargestF0ChannelDecidesWhetherAMetalIsAMirror) {
     }
 }
 
-TEST(Classify, SmoothDielectricsAreMirrorsOnlyOnRequest) {
-    Scene scene = panel({.name = "lacquer", .albedo = vec3(.5f), .roughness = .05f});
-    find_mirrors(scene);
-    EXPECT_FALSE(scene.objects[0].mirror);
-    ASSERT_EQ(scene.unsupported.size(), 1u);
-    EXPECT_EQ(scene.unsupported[0].id, "smooth-dielectric");
+TEST(Classify, DielectricsAreMirrorsOnlyOnRequestAndIfSmoothEnough) {
+    struct Case {
+        float roughness;
+        const char* gap;
+        bool may_be_mirror;
+    };
+    for (const auto& [roughness, gap, may_be_mirror] :
+         {Case{.04f, "smooth-dielectric", true}, Case{.05f, "rough-dielectric", true},
+          Case{.6f, "rough-dielectric", true}, Case{.61f, "rough-dielectric", false}}) {
+        Scene scene = panel({.name = "lacquer",
+                             .albedo = vec3(.5f),
+                             .roughness = roughness,
+                             .dielectric_f0 = vec3(.04f),
+                             .dielectric_f90 = vec3(1)});
+        find_mirrors(scene);
+        EXPECT_FALSE(scene.objects[0].mirror);
+        ASSERT_EQ(scene.unsupported.size(), 1u);
+        EXPECT_EQ(scene.unsupported[0].id, gap);
+        find_mirrors(scene, true);
+        EXPECT_EQ(scene.objects[0].mirror, may_be_mirror) << roughness;
+        EXPECT_EQ(scene.unsupported.empty(), may_be_mirror);
+        scene.materials[0].unlit = true;
+        find_mirrors(scene, true);
+        EXPECT_FALSE(scene.objects[0].mirror);
+    }
+}
+
+TEST(Classify, LambertianSurfacesReflectNothing) {
+    Scene scene = panel({.name = "wall", .albedo = vec3(.5f), .roughness = .02f});
     find_mirrors(scene, true);
-    EXPECT_TRUE(scene.objects[0].mirror);
+    EXPECT_FALSE(scene.objects[0].mirror);
     EXPECT_TRUE(scene.unsupported.empty());
-    scene.materials[0].unlit = true;
-    find_mirrors(scene, true);
-    EXPECT_FALSE(scene.objects[0].mirror);
+    EXPECT_FALSE(reflects_by_lobe(scene, scene.objects[0]));
 }
 
 std::vector<std::string> ids(const Scene& scene) {
@@ -107,23 +129,6 @@ TEST(SettleGaps, IndirectLightOfDiffuseSurfacesIsListedAsUnsupported) {
         sort_unsupported_features(scene);
         EXPECT_THAT(ids(scene), testing::IsEmpty()) << "it has no diffuse part";
     }
-}
-
-TEST(SettleGaps, LeftOutSpecularLobesOfRoughDielectricsAreListed) {
-    Scene scene = panel({.name = "paint", .albedo = vec3(.5f), .roughness = .3f});
-    sort_unsupported_features(scene);
-    EXPECT_TRUE(scene.unsupported.empty()) << "no file asks for a lobe";
-    const auto listed = [&](float limit) {
-        scene.unsupported.clear();
-        add_unsupported_material(scene.unsupported, "specular-left-out", "materials[0] 'paint'", 0);
-        scene.mirror_max_roughness = limit;
-        sort_unsupported_features(scene);
-        return ids(scene);
-    };
-    EXPECT_THAT(listed(.1f), ElementsAre("specular-left-out"));
-    EXPECT_THAT(listed(.3f), testing::IsEmpty()) << "drawn as a sharp reflection";
-    scene.materials[0].metallic = 1;
-    EXPECT_THAT(listed(.1f), testing::IsEmpty()) << "a rough metal is listed as such";
 }
 
 TEST(Classify, MirrorsOfConstantReflectanceStayMirrors) {

@@ -31,13 +31,19 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
     scene::add_mesh(scene, board(), metal);
     scene.objects.front().mirror = true;
     const scene::FlatFaces rough = scene::find_flat_faces(scene, scene.objects.front());
-    EXPECT_TRUE(rough.is_rough);
+    EXPECT_EQ(rough.misfit, "rough");
     EXPECT_TRUE(rough.faces.empty());
     EXPECT_EQ(rough.bent, (std::vector<scene::TriangleRun>{{0, 2}}));
     scene.materials.front().roughness = .03f;
     const scene::FlatFaces sharp = scene::find_flat_faces(scene, scene.objects.front());
-    EXPECT_FALSE(sharp.is_rough);
+    EXPECT_EQ(sharp.misfit, "");
     EXPECT_TRUE(sharp.is_single_plane());
+    scene.materials.front().normal_texture = scene::Texture{
+        .image = std::make_shared<scene::Image>(
+            scene::Image{.name = "normals", .size = {1, 1}, .texels = {0xffff8080u}})};
+    const scene::FlatFaces bumpy = scene::find_flat_faces(scene, scene.objects.front());
+    EXPECT_EQ(bumpy.misfit, "bumpy");
+    EXPECT_TRUE(bumpy.faces.empty());
 }
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {

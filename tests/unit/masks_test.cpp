@@ -14,20 +14,22 @@ constexpr std::uint32_t masks_hit(std::uint32_t first, std::uint32_t second) {
 
 // The first two hits of six pixels: a wall; mirror 1 that reflects a wall; mirror 2 that reflects
 // mirror 1; a concave mirror 1 that reflects itself; a mirror with the largest possible number; a
-// smooth dielectric, which is no mirror.
-constexpr std::array<std::uint32_t, 6> kMasksHits = {masks_hit(0, 0),     masks_hit(1, 0),
-                                                     masks_hit(2, 1),     masks_hit(1, 1),
-                                                     masks_hit(65535, 0), masks_hit(0, 7)};
+// smooth dielectric and a rough one, which are no mirrors.
+constexpr std::array<std::uint32_t, 7> kMasksHits = {
+    masks_hit(0, 0),     masks_hit(1, 0),     masks_hit(2, 1),    masks_hit(1, 1),
+    masks_hit(65535, 0), masks_hit(0, 32767), masks_hit(0, 32766)};
 
 TEST(Masks, MasksSelectPixelsByTheirFirstTwoHits) {
-    EXPECT_EQ(mask_all_pixels(kMasksHits), (Mask{255, 255, 255, 255, 255, 255}));
-    EXPECT_EQ(mask_mirror_pixels(kMasksHits), (Mask{0, 255, 255, 255, 255, 0}));
-    EXPECT_EQ(mask_first_order_pixels(kMasksHits), (Mask{0, 255, 0, 0, 255, 0}));
-    EXPECT_EQ(mask_mirror_in_mirror(kMasksHits), (Mask{0, 0, 255, 255, 0, 0}));
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(1)), (Mask{0, 255, 0, 255, 0, 0}));
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(65535)), (Mask{0, 0, 0, 0, 255, 0}));
-    EXPECT_EQ(mask_non_mirror_pixels(kMasksHits), (Mask{255, 0, 0, 0, 0, 255}));
-    EXPECT_EQ(mask_smooth_dielectrics(kMasksHits), (Mask{0, 0, 0, 0, 0, 255}));
+    EXPECT_EQ(mask_all_pixels(kMasksHits), (Mask{255, 255, 255, 255, 255, 255, 255}));
+    EXPECT_EQ(mask_mirror_pixels(kMasksHits), (Mask{0, 255, 255, 255, 255, 0, 0}));
+    EXPECT_EQ(mask_first_order_pixels(kMasksHits), (Mask{0, 255, 0, 0, 255, 0, 0}));
+    EXPECT_EQ(mask_mirror_in_mirror(kMasksHits), (Mask{0, 0, 255, 255, 0, 0, 0}));
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(1)), (Mask{0, 255, 0, 255, 0, 0, 0}));
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(65535)),
+              (Mask{0, 0, 0, 0, 255, 0, 0}));
+    EXPECT_EQ(mask_non_mirror_pixels(kMasksHits), (Mask{255, 0, 0, 0, 0, 255, 255}));
+    EXPECT_EQ(mask_smooth_dielectrics(kMasksHits), (Mask{0, 0, 0, 0, 0, 255, 0}));
+    EXPECT_EQ(mask_rough_surfaces(kMasksHits), (Mask{0, 0, 0, 0, 0, 0, 255}));
 }
 
 TEST(Masks, MasksPartitionThePicture) {
@@ -44,9 +46,9 @@ TEST(Masks, MasksPartitionThePicture) {
 }
 
 TEST(Masks, MaskOfAnAbsentMirrorIsAllZero) {
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(9)), Mask(6, 0));
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(9)), Mask(kMasksHits.size(), 0));
     // Mirror numbers start at 1, so 0 is no mirror.
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(0)), Mask(6, 0));
+    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(0)), Mask(kMasksHits.size(), 0));
     EXPECT_EQ(count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(9))), 0U);
 }
 

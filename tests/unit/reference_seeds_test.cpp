@@ -59,12 +59,11 @@ scene::Scene make_metal(float roughness, float limit) {
     return scene;
 }
 
-TEST(RoughReflectors, ReflectByALobeBetweenTheTwoLimits) {
+TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
     for (const auto& [roughness, is_rough] :
-         {std::pair(.0f, false), {.04f, false}, {.05f, true}, {.3f, true}, {.31f, false}}) {
+         {std::pair(.0f, false), {.04f, false}, {.05f, true}, {.3f, true}, {1.f, true}}) {
         const scene::Scene scene = make_metal(roughness, .3f);
         EXPECT_EQ(scene::has_rough_reflector(scene), is_rough) << roughness;
-        EXPECT_EQ(scene::has_rough_mirror(scene), is_rough) << roughness;
         EXPECT_EQ(app::choose_reference("", scene),
                   is_rough ? app::kRoughReference : app::kReference);
         EXPECT_EQ(app::choose_reference("raytrace:depth=2", scene), "raytrace:depth=2");
@@ -75,6 +74,11 @@ TEST(RoughReflectors, ReflectByALobeBetweenTheTwoLimits) {
     scene::Scene unlit = make_metal(.3f, .3f);
     unlit.materials[0].unlit = true;
     EXPECT_FALSE(scene::has_rough_reflector(unlit));
+    scene::Scene lambertian = make_metal(.3f, .3f);
+    lambertian.materials[0].metallic = 0;
+    EXPECT_FALSE(scene::has_rough_reflector(lambertian));
+    lambertian.materials[0].dielectric_f90 = vec3(1);
+    EXPECT_TRUE(scene::has_rough_reflector(lambertian)) << "a dielectric";
 }
 
 /// The texture multiplies the roughness by its green channel.
@@ -82,10 +86,8 @@ TEST(RoughReflectors, TextureCountsByItsWholeRange) {
     scene::Scene scene = make_metal(1, .3f);
     auto image = std::make_shared<scene::Image>();
     image->size = {2, 1};
-    image->texels = {0xFF00FF00u, 0xFF00F000u}; // 255 and 240: too rough
+    image->texels = {0xFF000800u, 0xFF004000u}; // 64 / 255 = .25
     scene.materials[0].roughness_texture = scene::Texture{.image = image};
-    EXPECT_FALSE(scene::has_rough_reflector(scene));
-    image->texels = {0xFF00FF00u, 0xFF004000u}; // 64 / 255 = .25
     EXPECT_TRUE(scene::has_rough_reflector(scene));
     image->texels = {0xFF000800u, 0xFF000100u}; // 8 / 255 = .03
     EXPECT_FALSE(scene::has_rough_reflector(scene));

@@ -68,6 +68,7 @@ public:
         set(row.error_non_mirror, "/error_non_mirror", "non_mirror");
         set(row.error_all, "/error_all", "all");
         set(row.error_dielectrics, "/error_dielectrics", "dielectrics");
+        set(row.error_rough, "/error_rough", "rough");
         row.error_per_mirror.resize(2);
         for (std::size_t i = 0; i < 2; ++i)
             set(row.error_per_mirror[i], "/error_per_mirror/" + std::to_string(i),
@@ -412,6 +413,8 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
         {"FLIP, all", error(row.error_all.flip)},
         {"FLIP, smooth dielectrics", error(row.error_dielectrics.flip)},
         {"rmse, smooth dielectrics", error(row.error_dielectrics.rmse)},
+        {"FLIP, rough surfaces", error(row.error_rough.flip)},
+        {"rmse, rough surfaces", error(row.error_rough.rmse)},
         {"rmse, first order", error(row.error_first_order.rmse)},
         {"rmse, mirror in mirror", error(row.error_mirror_in_mirror.rmse)},
         {"rmse, not a mirror", error(row.error_non_mirror.rmse)},

@@ -64,6 +64,7 @@ TEST(ReportJson, JsonRowHasTheDocumentedFields) {
                              "error_non_mirror",
                              "error_all",
                              "error_dielectrics",
+                             "error_rough",
                              "error_per_mirror",
                              "memory_bytes",
                              "traced_fraction",

@@ -41,6 +41,8 @@ TEST_F(Save, SavedMaterialsLoadUnchanged) {
     material.roughness_texture = Texture{
         .image = image, .u_row = {0, 2, .5f}, .v_row = {-3, 0, .25f}};
     material.emission_texture = Texture{.image = image, .srgb = true};
+    material.normal_texture = Texture{.image = image, .v_row = {0, 2, 0}};
+    material.normal_scale = -1.5f;
     material.emission = {4, 2, 1};
     material.metallic = .25f, material.roughness = .5f;
     material.dielectric_f0 = {.08f, .04f, .02f}, material.dielectric_f90 = vec3(.5f);
@@ -56,7 +58,7 @@ TEST_F(Save, SavedMaterialsLoadUnchanged) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material wanted = scene.materials[i], its = found.materials[i];
         for (auto texture : {&Material::albedo_texture, &Material::roughness_texture,
-                             &Material::emission_texture}) {
+                             &Material::emission_texture, &Material::normal_texture}) {
             ASSERT_EQ((wanted.*texture).has_value(), (its.*texture).has_value());
             if (!(wanted.*texture)) continue;
             EXPECT_EQ((wanted.*texture)->image->texels, (its.*texture)->image->texels);

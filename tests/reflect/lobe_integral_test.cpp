@@ -1,0 +1,174 @@
+// Pixels of raytrace:rays=N against an integrator of its own in double precision: brute-force
+// quadrature over the lobe's half vectors, with rays that meet a wall in closed form.
+#include "scene/build.hpp"
+#include "scene/surroundings.hpp"
+#include "support/lobe_witness.hpp"
+#include "support/numbers.hpp"
+#include "support/rendering.hpp"
+
+#include <iostream>
+#include <set>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr int kIntegralEdge = 16;
+constexpr double kWallZ = -4, kWallTop = 5; ///< the wall covers |x| <= kWallTop, 0 <= y <= kWallTop
+
+enum class Wall { none, glowing, mirror };
+
+/// A floor at y = 0 below an environment, with a wall behind it or without.
+struct IntegralScene {
+    const char* name;
+    dvec3 colour;
+    double metallic, roughness;
+    Wall wall;
+    dvec3 f0() const { return glm::mix(dvec3(.04), colour, metallic); }
+};
+constexpr dvec3 kWallGlow{2, 1, .5};
+constexpr double kWallReflectance = .8;
+
+scene::Scene make_scene(const IntegralScene& wanted) {
+    scene::Scene scene{.name = wanted.name};
+    scene.mirror_max_roughness = 1;
+    const std::size_t floor = test::add_material(scene,
+                                                 {.name = "floor",
+                                                  .albedo = vec3(wanted.colour),
+                                                  .metallic = static_cast<float>(wanted.metallic),
+                                                  .roughness = static_cast<float>(wanted.roughness),
+                                                  .dielectric_f0 = vec3(.04f),
+                                                  .dielectric_f90 = vec3(1)});
+    test::add_quad(scene, "floor", floor, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50});
+    if (wanted.wall != Wall::none) {
+        scene::Material material{.name = "wall", .two_sided = true};
+        if (wanted.wall == Wall::glowing) // seen, but no light for the diffuse part
+            material.emission = vec3(kWallGlow), material.light = vec3(0);
+        else
+            material.mirror = true, material.reflectance = vec3(float(kWallReflectance));
+        test::add_quad(scene, "wall", test::add_material(scene, material), {-kWallTop, 0, kWallZ},
+                       {kWallTop, 0, kWallZ}, {kWallTop, kWallTop, kWallZ},
+                       {-kWallTop, kWallTop, kWallZ});
+    }
+    auto map = std::make_shared<scene::Environment>();
+    map->size = {64, 32};
+    for (std::uint32_t row = 0; row < map->size.y; ++row)
+        for (std::uint32_t column = 0; column < map->size.x; ++column) {
+            const float azimuth = 6.2832f * (float(column) + .5f) / 64;
+            const float height = std::cos(3.1416f * (float(row) + .5f) / 32);
+            map->texels.push_back(
+                {1 + .8f * std::sin(azimuth), .6f + .5f * height, 1 + .9f * std::cos(2 * azimuth)});
+        }
+    scene.environment = std::move(map);
+    scene.cameras.push_back(
+        {.eye = {.5, 2, 4}, .target = {0, 0, -1}, .up = {0, 1, 0}, .vertical_fov_degrees = 40});
+    return scene;
+}
+
+/// Returns the radiance that arrives at a point of the floor from a direction.
+dvec3 arriving(const scene::Scene& scene, const IntegralScene& wanted, const dvec3& from,
+               dvec3 along) {
+    double weight = 1;
+    if (wanted.wall != Wall::none && along.z < 0) {
+        const dvec3 met = from + (kWallZ - from.z) / along.z * along;
+        if (std::abs(met.x) <= kWallTop && met.y <= kWallTop) {
+            if (wanted.wall == Wall::glowing) return kWallGlow;
+            along.z = -along.z, weight = kWallReflectance;
+        }
+    }
+    return weight * scene::environment_radiance(*scene.environment, along);
+}
+
+/// Returns the radiance of the floor's pixel, or nothing where the camera ray meets the wall.
+std::optional<dvec3> integrate_pixel(const scene::Scene& scene, const IntegralScene& wanted, int x,
+                                     int y, const dvec3& irradiance) {
+    constexpr int kPolarSteps = 400, kAzimuthSteps = 300;
+    const dvec3 eye = scene.cameras.front().eye,
+                ray = test::pixel_direction(scene.cameras.front(), x, y, kIntegralEdge);
+    const dvec3 met = eye - eye.y / ray.y * ray;
+    if (ray.y >= 0 || met.z < kWallZ + .1) return {};
+    const dvec3 o(-ray.x, ray.z, -ray.y); // in tangent space: x, -z, y
+    const double alpha = wanted.roughness * wanted.roughness;
+    dvec3 lobe(0), albedo(0);
+    for (int k = 0; k < kPolarSteps; ++k) {
+        // Half vectors whose squared tangent is alpha^2 s / (1 - s) have equal probability.
+        const double s = (k + .5) / kPolarSteps, tan2 = alpha * alpha * s / (1 - s);
+        const double z = 1 / std::sqrt(1 + tan2), flat = std::sqrt(1 - z * z);
+        for (int j = 0; j < kAzimuthSteps; ++j) {
+            const double turn = 2 * test::kPi * (j + .5) / kAzimuthSteps;
+            const dvec3 h(flat * std::cos(turn), flat * std::sin(turn), z);
+            const double cosine = glm::dot(o, h);
+            if (cosine <= 0) continue;
+            const dvec3 i = 2 * cosine * h - o;
+            if (i.z <= 0) continue;
+            // Density of half vectors: D h.z. A solid angle of them is 1 / (4 o.h) of that of
+            // light.
+            const double slope = 1 + tan2 / (alpha * alpha);
+            const double density = 1 / (test::kPi * alpha * alpha * z * z * z * slope * slope);
+            const double weight = test::textbook_lobe(wanted.roughness, o, i) * 4 * cosine /
+                                  (density * kPolarSteps * kAzimuthSteps);
+            const double away = std::pow(1 - cosine, 5);
+            const dvec3 fresnel = wanted.f0() + (1.0 - wanted.f0()) * away;
+            albedo += weight * fresnel;
+            lobe += weight * fresnel * arriving(scene, wanted, met, {i.x, i.z, -i.y});
+        }
+    }
+    const dvec3 diffuse = wanted.colour * (1 - wanted.metallic) * (1.0 - albedo) * irradiance /
+                          test::kPi;
+    return lobe + diffuse;
+}
+
+/// The share of values more than 3 standard errors apart is that of chance. The errors come from 12
+/// seeds, so the statistic has Student's distribution with 11 degrees of freedom: 1.2 %.
+TEST(LobeIntegral, TwoHundredPixelsAgreeWithAnotherIntegrator) {
+    constexpr int kSeeds = 12, kPixelsPerScene = 50;
+    int apart = 0, compared = 0;
+    double largest = 0;
+    for (const IntegralScene& wanted :
+         {IntegralScene{"metal below the sky", {.9, .6, .3}, 1, .25, Wall::none},
+          IntegralScene{"plastic below the sky", {.6, .5, .2}, 0, .4, Wall::none},
+          IntegralScene{"metal before a glowing wall", {.9, .8, .7}, 1, .5, Wall::glowing},
+          IntegralScene{"half metal before a mirror", {.7, .6, .9}, .5, .15, Wall::mirror}}) {
+        const scene::Scene scene = make_scene(wanted);
+        const auto c = scene::compute_irradiance_coefficients(*scene.environment);
+        const dvec3 irradiance = c[0] + c[1] - c[6] - c[8]; // of the upward normal
+        std::vector<measure::Picture> pictures;
+        for (int seed = 1; seed <= kSeeds; ++seed) {
+            app::Request asked = test::make_test_request(
+                scene, {"raytrace:rays=1024,depth=4,seed=" + std::to_string(seed)},
+                {kIntegralEdge, kIntegralEdge});
+            asked.ambient = 0;
+            pictures.push_back(app::run(test::test_engine(), asked).parts.front().hdr);
+        }
+        test::RandomNumbers numbers(17);
+        std::set<std::pair<int, int>> drawn;
+        for (int tries = 0; int(drawn.size()) < kPixelsPerScene && tries < 4000; ++tries) {
+            const std::pair pixel(int(numbers.integer_below(kIntegralEdge)),
+                                  int(numbers.integer_below(kIntegralEdge)));
+            if (drawn.contains(pixel)) continue;
+            const auto& [x, y] = pixel;
+            const std::optional<dvec3> radiance = integrate_pixel(scene, wanted, x, y, irradiance);
+            if (!radiance) continue;
+            drawn.insert(pixel);
+            for (int channel = 0; channel < 3; ++channel) {
+                double mean = 0, squares = 0;
+                for (const measure::Picture& picture : pictures) {
+                    const double value = picture.at(x, y)[channel];
+                    mean += value / kSeeds, squares += value * value / kSeeds;
+                }
+                const double error = std::sqrt(std::max(squares - mean * mean, 0.) / (kSeeds - 1));
+                const double off = std::abs(mean - (*radiance)[channel]);
+                ++compared;
+                apart += off > 3 * error + 5e-4; // the quadrature's own error
+                largest = std::max(largest, off);
+            }
+        }
+        EXPECT_EQ(drawn.size(), std::size_t(kPixelsPerScene)) << wanted.name;
+    }
+    std::cout << "[ MEASURED ] " << apart << " of " << compared
+              << " values apart by 3 standard errors, largest difference " << largest << '\n';
+    EXPECT_LE(apart, compared / 40);
+    EXPECT_LT(largest, .02);
+}
+
+} // namespace
