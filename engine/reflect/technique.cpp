@@ -1,29 +1,19 @@
 #include "reflect/technique.hpp"
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 
 #include <algorithm>
 
 namespace catoptric::reflect {
 
-namespace {
-
-std::vector<const Technique*>& technique_table() {
-    static std::vector<const Technique*> rows; // filled when the program starts
-    return rows;
-}
-
-} // namespace
-
 RegisteredTechnique::RegisteredTechnique(const Technique& technique) {
-    technique_table().push_back(&technique);
+    registered_rows<const Technique*>().push_back(&technique);
 }
 
 std::vector<const Technique*> list_techniques() {
-    std::vector<const Technique*> rows = technique_table();
-    std::ranges::sort(rows, {},
-                      [](const Technique* row) { return std::pair(row->order, row->name); });
-    return rows;
+    return sort_registered_rows<const Technique*>(
+        [](const Technique* row) { return std::pair(row->order, row->name); });
 }
 
 const Technique& find_technique(std::string_view name) {

@@ -1,26 +1,19 @@
 #include "scene/light_kind.hpp"
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 
 #include <algorithm>
 
 namespace catoptric::scene {
 
-namespace {
-
-std::vector<LightKind>& kind_table() {
-    static std::vector<LightKind> rows; // filled while the program starts
-    return rows;
+RegisteredLightKind::RegisteredLightKind(const LightKind& kind) {
+    registered_rows<LightKind>().push_back(kind);
 }
-
-} // namespace
-
-RegisteredLightKind::RegisteredLightKind(const LightKind& kind) { kind_table().push_back(kind); }
 
 const std::vector<LightKind>& list_light_kinds() {
     static const std::vector<LightKind> kSortedLightKinds = [] {
-        std::vector<LightKind> rows = kind_table();
-        std::ranges::sort(rows, {}, &LightKind::id);
+        std::vector<LightKind> rows = sort_registered_rows<LightKind>(&LightKind::id);
         check(std::ranges::adjacent_find(rows, {}, &LightKind::id) == rows.end(), Failure::internal,
               "two kinds of light have one number");
         return rows;

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/table.hpp"
 #include "core/text.hpp"
 #include "scene/built_in.hpp"
 #include "scene/classify.hpp"
@@ -13,11 +14,6 @@
 namespace catoptric::scene {
 
 namespace {
-
-std::vector<BuiltInScene>& built_in_scene_table() {
-    static std::vector<BuiltInScene> scenes; // filled while the program starts
-    return scenes;
-}
 
 std::string lower_case_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -53,17 +49,12 @@ void check_no_animation_chosen(const std::string& scene, const FileOptions& opti
 } // namespace
 
 RegisteredScene::RegisteredScene(BuiltInScene scene) {
-    built_in_scene_table().push_back(std::move(scene));
+    registered_rows<BuiltInScene>().push_back(std::move(scene));
 }
 
 const std::vector<BuiltInScene>& list_built_in_scenes() {
-    static const std::vector<BuiltInScene> kSortedBuiltInScenes = [] {
-        std::vector<BuiltInScene> scenes = built_in_scene_table();
-        std::ranges::sort(scenes, {}, [](const BuiltInScene& scene) {
-            return std::pair(scene.order, scene.name);
-        });
-        return scenes;
-    }();
+    static const std::vector<BuiltInScene> kSortedBuiltInScenes =
+        sort_registered_rows<BuiltInScene>();
     return kSortedBuiltInScenes;
 }
 

@@ -2,21 +2,12 @@
 
 #include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/table.hpp"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 namespace catoptric::app {
-
-namespace {
-
-std::vector<Study>& study_table() {
-    static std::vector<Study> rows; // filled while the program starts
-    return rows;
-}
-
-} // namespace
 
 RegisteredStudy::RegisteredStudy(Study study) {
     for (measure::Metric metric : study.metrics) {
@@ -25,16 +16,11 @@ RegisteredStudy::RegisteredStudy(Study study) {
     }
     study.part.name = study.name;
     if (study.part.tables != nullptr) const report::RegisteredReportPart registers(study.part);
-    study_table().push_back(std::move(study));
+    registered_rows<Study>().push_back(std::move(study));
 }
 
 const std::vector<Study>& list_studies() {
-    static const std::vector<Study> kSortedStudies = [] {
-        std::vector<Study> rows = study_table();
-        std::ranges::sort(rows, {},
-                          [](const Study& row) { return std::pair(row.order, row.name); });
-        return rows;
-    }();
+    static const std::vector<Study> kSortedStudies = sort_registered_rows<Study>();
     return kSortedStudies;
 }
 
