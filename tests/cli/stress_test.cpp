@@ -25,6 +25,21 @@ TEST_F(Cli, StressReportsMeasuredValuesAndThresholds) {
     EXPECT_THAT(read("out/stress.html"), testing::HasSubstr("N10"));
 }
 
+/// Every row of rough surfaces passes for another seed than the default, too.
+TEST_F(Cli, StressMeasuresRoughSurfaces) {
+    const std::vector<std::string> ids{"S1", "S2", "S3", "S4", "S5"};
+    Words words{"stress", "--json", "--seed", "2", "--only"};
+    words.insert(words.end(), ids.begin(), ids.end());
+    const test::ProcessResult ended = cli(words);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    const json document = json::parse(ended.out);
+    ASSERT_EQ(document["rows"].size(), ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        EXPECT_EQ(document["rows"][i]["id"], ids[i]);
+        EXPECT_EQ(document["rows"][i]["verdict"], "pass") << document["rows"][i];
+    }
+}
+
 TEST_F(Cli, StressDrawsItsScenesFromTheSeed) {
     const auto measured = [&](const std::string& seed) {
         return json::parse(

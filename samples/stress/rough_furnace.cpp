@@ -1,0 +1,66 @@
+// Property of rough surfaces in a white environment: they reflect the albedo of their lobe.
+#include "stress/lobe_albedo.hpp"
+#include "stress/property.hpp"
+#include "stress/rough_floor.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+constexpr double kAngles[] = {30, 80};
+
+void judge_metal_furnace(StressBench& bench, double degrees) {
+    std::array<double, kStripRoughness.size()> albedo{};
+    for (std::size_t i = 0; i < albedo.size(); ++i)
+        albedo[i] = compute_lobe_albedo(kStripRoughness[i], degrees);
+    const scene::Scene metal = make_rough_floor(make_white_metal(), degrees, true);
+    for (const char* technique :
+         {"raytrace:rays=16", "reuse:face=16", "pyramid:face=16,rough=rays,rays=16"}) {
+        const auto found = measure_strips(bench, metal, technique);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            bench.add_case(fmt::format("metal of roughness {} at {} degrees, {}: off {:.4f} by",
+                                       kStripRoughness[i], degrees, technique, albedo[i]),
+                           std::abs(found[i] - albedo[i]), .005);
+    }
+}
+
+/// Technique, whether the surfaces are mirrors, and the largest difference allowed.
+struct PlasticRow {
+    const char* technique;
+    bool is_mirror;
+    double tolerance;
+};
+
+void judge_plastic_furnace(StressBench& bench, double degrees) {
+    for (const auto& [technique, is_mirror, tolerance] :
+         {PlasticRow{"raytrace:rays=16", false, .005}, PlasticRow{"naive:bounces=0", false, .001},
+          PlasticRow{"reuse:face=16", true, .001}}) {
+        const auto found = measure_strips(
+            bench, make_rough_floor(make_white_plastic(), degrees, is_mirror), technique);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            bench.add_case(fmt::format("plastic of roughness {} at {} degrees, {}: off 1 by",
+                                       kStripRoughness[i], degrees, technique),
+                           std::abs(found[i] - 1), tolerance);
+    }
+}
+
+void judge_rough_furnace(StressBench& bench) {
+    for (const double degrees : kAngles) {
+        judge_metal_furnace(bench, degrees);
+        judge_plastic_furnace(bench, degrees);
+    }
+}
+
+const RegisteredProperty kRoughFurnaceProperty{
+    {"S1", "metal and white plastic of roughness .05 to 1, all around is white",
+     "metal shows the albedo of its lobe, by quadrature; plastic is white", judge_rough_furnace,
+     "alpha_squared_twice"}};
+
+} // namespace
+
+} // namespace catoptric::stress
