@@ -17,7 +17,10 @@ namespace {
 
 constexpr PictureCostTable kCosts;
 constexpr TechniqueErrorTable kErrors;
-constexpr double kEqualErrorFactor = 1.1;   // errors within this factor count as equal
+constexpr double kEqualErrorFactor = 1.1; // errors within this factor count as equal
+/// Where some mirror is traced anyway, so is each mirror with at least this share of the pixels on
+/// mirrors whose centre does not see all that it shows.
+constexpr double kLargeMirrorShare = .1;
 constexpr int kMinPlanarBounces = 2;        // smallest `bounces` of `planar`
 constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggested
 constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may need more bounces
@@ -180,6 +183,11 @@ PlanCandidate make_candidate(const MirrorFacts& known, bool planes) {
         ways[i] = should_trace(known, i) ? DrawingMethod::hybrid : DrawingMethod::march;
         is_searched = true;
     }
+    if (std::ranges::find(ways, DrawingMethod::hybrid) != ways.end())
+        for (std::size_t i = 0; i < known.count(); ++i)
+            if (ways[i] == DrawingMethod::march && known.paths.hidden[i] > 0 &&
+                static_cast<double>(known.paths.first[i]) >= kLargeMirrorShare * known.on_mirrors)
+                ways[i] = DrawingMethod::hybrid;
     bool has_captures = false;
     for (std::size_t i = 0; i < known.count(); ++i) {
         // If no mirror is searched, a mirrored view costs less than a capture.
@@ -226,7 +234,8 @@ std::string explain_choice(const ModelInput& question, const MirrorFacts& known,
                                           " with what other mirrors show of it";
     if (reached == first && first > 0) seen = share(first) + " of the picture";
     const scene::MirrorShape::Kind kind = scene::classify_mirror_shape(question.now, object).kind;
-    const char* shape = scene::reflects_by_lobe(question.now, object) ? "rough"
+    const char* shape = scene::reflects_by_lobe(question.now, object)            ? "rough"
+                        : question.now.materials[object.material].normal_texture ? "bumpy"
                         : known.is_flat[mirror]
                             ? kind == scene::MirrorShape::Kind::flat ? "flat" : "flat faces"
                         : kind == scene::MirrorShape::Kind::flat   ? "not quite flat"
