@@ -1,4 +1,6 @@
 #include "render/mirrored.hpp"
+
+#include "bvh/tlas.hpp"
 #include "scene/material_facts.hpp"
 
 #include <algorithm>
@@ -94,7 +96,7 @@ MirroredView view_behind_plane(const MirroredView& from, const scene::FlatFace& 
     };
     shared::View& view = made.view = from.view;
     view.eye = vec3(made.eye);
-    view.eye_low = vec3(made.eye - dvec3(view.eye));
+    view.eye_low = bvh::float_rounding_error(made.eye);
     view.right = turned(from.view.right), view.down = turned(from.view.down),
     view.forward = turned(from.view.forward);
     // Through the mirror, nothing is nearer than the mirror is to the eye, so the near plane stays.
