@@ -4,7 +4,8 @@
 
 namespace catoptric::bvh {
 
-/// Which triangles with equal corners and flags count as copies where many share a centre.
+/// Among which triangles copies are looked for, if many triangles have one centre. Copies have
+/// equal corners and flags.
 enum class DuplicateScope {
     within_object, ///< triangles of the same object, as in `build_bvh`
     across_objects ///< triangles of all objects, except kAlphaMasked and kStandsForSphere ones,

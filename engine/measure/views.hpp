@@ -37,7 +37,7 @@ bool differ_over_views(const Row& a, const Row& b, std::string_view figure);
 
 /// Rows in order of a metric over the mirrors for which less is better, with the pairs that tie.
 struct RowOrder {
-    /// Pairs in the order of `rows`.
+    /// Pairs of rows that tie, in the order of `rows`.
     using RowPairs = std::vector<std::pair<const Row*, const Row*>>;
     const Metric* figure;
     /// All rows except the reference and failed rows. A row's score in the metric is the number of

@@ -104,7 +104,7 @@ FaceWork CaptureDecider::decide_faces(std::uint32_t mirror, std::uint32_t face,
     if (shows_same && !now.is_behind && std::ranges::none_of(seen, has_changed))
         return FaceWork::keep;
     if (!needs.is_captured || !(needs.faces >> face & 1)) {
-        // So that the face is drawn if a ray asks for it again.
+        // Without a content hash, the face is drawn as soon as a ray needs it again.
         now.content_hash = 0, now.is_behind = false;
         if (now.drawing > 0) return FaceWork::keep;
         now.drawing = kClearedFaceHash;

@@ -276,7 +276,7 @@ private:
     int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
 };
 
-/// Returns the reference, which draws other rays than the rows if it draws any.
+/// Returns the reference. If its rays are random, it gets another seed than every row.
 std::string separate_reference_from_rows(const std::string& reference,
                                          const std::vector<std::string>& rows) {
     if (!draws_rays_from_lobes(reference)) return reference;
