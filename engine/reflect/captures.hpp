@@ -97,21 +97,24 @@ inline constexpr Knob kShowKnob{
     .choices = kShowChoices};
 
 /// In the order of SharedKnobs::Rough and of SharedKnobs::Law.
-inline constexpr std::array<std::string_view, 4> kRoughChoices{"none", "mips", "prefilter", "rays"};
+inline constexpr std::array<std::string_view, 5> kRoughChoices{"none", "mips", "prefilter", "rays",
+                                                               "fast"};
 inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",
                                                                  "cone", "exact"};
 inline constexpr Knob kRoughKnob{
     .name = "rough",
     .help = "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
-            "prefilter (level filtered by the GGX lobe), rays (searches in directions of the lobe)",
-    .high = 3,
+            "prefilter (level filtered by the GGX lobe), fast (the same with fewer samples in fine "
+            "levels), rays (searches in directions of the lobe)",
+    .high = 4,
     .value = 2,
     .choices = kRoughChoices};
-inline constexpr Knob kTapsKnob{.name = "taps",
-                                .help = "samples of each texel for rough=prefilter",
-                                .low = 1,
-                                .high = 2048,
-                                .value = 32};
+inline constexpr Knob kTapsKnob{
+    .name = "taps",
+    .help = "samples of each texel for rough=prefilter, and most for fast",
+    .low = 1,
+    .high = 2048,
+    .value = 32};
 inline constexpr Knob kRoughRaysKnob{
     .name = "rays",
     .help =
@@ -123,7 +126,7 @@ inline constexpr Knob kRoughRaysKnob{
 inline constexpr Knob kBlurLawKnob{
     .name = "law",
     .help =
-        "how the blur of rough=mips and rough=prefilter depends on the distance of the reflected "
+        "how the blur of rough=mips, prefilter and fast depends on the distance of the reflected "
         "surface: none, frostbite, square, cone, or exact (the lobe's solid angle)",
     .high = 4,
     .value = 4,

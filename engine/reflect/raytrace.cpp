@@ -29,7 +29,7 @@ constexpr Knob kLobeRaysKnob{
     .name = "rays",
     .help =
         "rays of each sample, whose directions are drawn from the lobes of rough surfaces (GGX, "
-        "roughness above 0.04); 0: all surfaces reflect sharply",
+        "roughness above 0.04); 0: rough mirrors reflect sharply",
     .low = 0,
     .high = 65536,
     .value = 0};

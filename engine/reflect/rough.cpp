@@ -1,6 +1,7 @@
 // Filtered levels of captures. Level m has faces of edge / 2^m texels. `mips` takes the mean of
 // each square of texels. `prefilter` filters the capture by the GGX lobe of each level's width
-// (shaders/lib/math/rough.glsl), with samples that read the box-filtered chain.
+// (shaders/lib/math/rough.glsl), with samples that read the box-filtered chain. `fast` takes fewer
+// samples in the fine levels, which have most of the texels: their lobes are few texels wide.
 #include "reflect/rough.hpp"
 
 #include "core/content_hash.hpp"
@@ -83,16 +84,26 @@ void add_box_pass(graph::Graph& graph, const std::string& name,
 struct PrefilterParameters {
     float alpha;
     std::uint32_t taps;
+    float overlap; ///< area of a sample's box in areas for which the sample stands
 };
+/// Few samples stand for large areas, whose boxes would blur the level more than the lobe does.
+constexpr float kOverlap = 2, kFastOverlap = .25f;
+
+/// Returns the samples of a texel of a level. A level of `fast` has twice those of the level below.
+std::uint32_t count_samples(Rough rough, std::uint32_t taps, std::uint32_t level) {
+    constexpr std::uint32_t kSamplesOfFirstLevel = 4;
+    if (rough != Rough::fast || level > 16) return taps;
+    return std::min(taps, kSamplesOfFirstLevel << (level - 1));
+}
 
 void add_prefilter_pass(graph::Graph& graph, const std::string& name,
-                        const std::vector<FilteredCubes>& runs, std::uint32_t taps) {
+                        const std::vector<FilteredCubes>& runs, Rough rough, std::uint32_t taps) {
     graph::PassBuilder pass = graph.add_pass(name);
     for (const FilteredCubes& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled).reads(run.boxes, ResourceUse::sampled);
         declare_level_writes(pass, run.levels);
     }
-    pass.record([runs, taps](graph::PassCommands& commands) {
+    pass.record([runs, rough, taps](graph::PassCommands& commands) {
         commands.bind_pipeline(gpu::ComputeState{"rough/prefilter.comp", {}});
         for (const FilteredCubes& run : runs) {
             commands.bind("captured", run.captured, graph::TextureFilter::linear);
@@ -102,7 +113,8 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
                 commands.push_constants(
                     PrefilterParameters{f32::alpha_of_capture_level(static_cast<float>(level),
                                                                     static_cast<float>(run.face)),
-                                        taps});
+                                        count_samples(rough, taps, level),
+                                        rough == Rough::fast ? kFastOverlap : kOverlap});
                 const std::uint32_t groups = count_groups(run.face, level);
                 commands.dispatch(groups, groups, run.levels.layer_count);
             }
@@ -113,7 +125,9 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
 /// Returns the name of the levels and passes of a way of filtering.
 std::string name_of_levels(const render::FrameInputs& inputs, Rough rough, std::uint32_t taps) {
     return inputs.prefix + "rough/" +
-           (rough == Rough::mips ? std::string("mips") : "prefilter" + std::to_string(taps));
+           (rough == Rough::mips ? std::string("mips")
+                                 : std::string(kRoughChoices[static_cast<std::size_t>(rough)]) +
+                                       std::to_string(taps));
 }
 
 std::string suffix_of_array(std::size_t array) {
@@ -123,7 +137,7 @@ std::string suffix_of_array(std::size_t array) {
 } // namespace
 
 RoughLevels::Filter RoughLevels::filter_of_knobs(const SharedKnobs& knobs) {
-    return {knobs.rough, knobs.rough == Rough::prefilter ? knobs.taps : 0};
+    return {knobs.rough, knobs.filters_by_lobe() ? knobs.taps : 0};
 }
 
 RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
@@ -157,7 +171,8 @@ void RoughLevels::add_lookups(graph::Graph& graph, std::span<const std::uint32_t
     };
     if (knobs.rough == Rough::none || !look.captures || !std::ranges::any_of(mirrors, is_rough))
         return;
-    look.constants.emplace_back("rough", static_cast<std::uint32_t>(knobs.rough));
+    const Rough shown = knobs.rough == Rough::fast ? Rough::prefilter : knobs.rough;
+    look.constants.emplace_back("rough", static_cast<std::uint32_t>(shown));
     if (knobs.rough == Rough::rays) {
         look.constants.emplace_back("lobe_rays", knobs.lobe_rays);
         return;
@@ -191,7 +206,7 @@ void RoughLevels::add_passes_of(graph::Graph& graph, const Filter& filter,
                                                                      levels, hash_of);
         if (outdated.empty()) continue;
         ImageHandle boxes = levels;
-        if (filter.rough == Rough::prefilter)
+        if (filter.rough != Rough::mips)
             boxes = graph.add_image(describe_levels(name + "/boxes" + suffix_of_array(array), cubes,
                                                     count_levels(Rough::mips, cubes.face)));
         for (const LayerRange& run : outdated)
@@ -201,7 +216,8 @@ void RoughLevels::add_passes_of(graph::Graph& graph, const Filter& filter,
     }
     if (runs.empty()) return;
     add_box_pass(graph, name + "/boxes", runs);
-    if (filter.rough == Rough::prefilter) add_prefilter_pass(graph, name, runs, filter.taps);
+    if (filter.rough != Rough::mips)
+        add_prefilter_pass(graph, name, runs, filter.rough, filter.taps);
 }
 
 } // namespace catoptric::reflect

@@ -31,7 +31,7 @@ public:
     void add_passes(graph::Graph& graph) const;
 
 private:
-    /// A way of filtering: SharedKnobs::rough, and SharedKnobs::taps for Rough::prefilter.
+    /// A way of filtering: SharedKnobs::rough, and SharedKnobs::taps if that filters by the lobe.
     struct Filter {
         SharedKnobs::Rough rough = SharedKnobs::Rough::none;
         std::uint32_t taps = 0;

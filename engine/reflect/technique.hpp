@@ -61,16 +61,19 @@ struct SharedKnobs {
     bool by_object = false;          ///< lookup=object
     bool asks_all = false;           ///< captures=all
     bool leaves_out_spheres = false; ///< mirrors=left_out
-    /// Look-up for rough surfaces; numbered as kRough... in shaders/lib/rough.glsl.
-    enum class Rough : std::uint32_t { none, mips, prefilter, rays };
+    /// Look-up for rough surfaces; numbered as kRough... in shaders/lib/rough.glsl. Shaders look up
+    /// `fast` as `prefilter`.
+    enum class Rough : std::uint32_t { none, mips, prefilter, rays, fast };
     /// Distance law; numbered as kLaw... in shaders/lib/math/rough.glsl.
     enum class Law : std::uint32_t { none, frostbite, square, cone, exact };
     Rough rough = Rough::none;
     Law law = Law::none;
-    std::uint32_t taps = 0;      ///< samples of each texel for Rough::prefilter
+    std::uint32_t taps = 0;      ///< most samples of each texel for Rough::prefilter and fast
     std::uint32_t lobe_rays = 1; ///< directions of each rough pixel
     /// Returns whether rough surfaces are looked up in filtered levels of captures.
-    bool looks_up_levels() const { return rough == Rough::mips || rough == Rough::prefilter; }
+    bool looks_up_levels() const { return rough == Rough::mips || filters_by_lobe(); }
+    /// Returns whether these levels are filtered by the lobe.
+    bool filters_by_lobe() const { return rough == Rough::prefilter || rough == Rough::fast; }
     /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
     /// `capture=none`, or the technique has no such knob.
     std::optional<std::uint32_t> capture;

@@ -13,7 +13,7 @@ namespace catoptric::render {
 namespace {
 
 constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kLevelWidths{256, 128, 64, 32, 32, 32, 32, 32};
-constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kLobeSamples{32,  128, 256, 512,
+constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kLobeSamples{64,  128, 256, 512,
                                                                   512, 512, 512, 512};
 constexpr float kBoxOverlap = 2; ///< area of a sample's box in areas for which the sample stands
 constexpr std::uint32_t kMinBaseWidth = 64, kMaxBaseWidth = 1024;

@@ -14,9 +14,8 @@ layout(set = 0, binding = 22, rgba16f) writeonly uniform image2DArray level;
 layout(push_constant, scalar) uniform Push {
     float alpha; // width of the lobe
     uint taps;   // samples of a texel
+    float overlap; // area of a sample's box in areas for which the sample stands
 };
-
-const float kOverlap = 2.0; // area of a sample's box in areas for which the sample stands
 
 void main() {
     int edge = imageSize(level).x, layer = int(gl_WorkGroupID.z);
@@ -34,7 +33,7 @@ void main() {
         vec3 drawn = sample_lobe_seen_head_on(alpha, u, v);
         if (!(drawn.z > 0.0)) continue;
         float density = ggx_density(alpha, half_vector_between(vec3(0, 0, 1), drawn)) / 4.0;
-        float from = 0.5 * log2(kOverlap / (float(taps) * density * texel_area));
+        float from = 0.5 * log2(overlap / (float(taps) * density * texel_area));
         vec3 direction = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
         vec4 place = vec4(direction, layer / 6);
         vec3 colour = textureLod(boxes, place, max(from - 1.0, 0.0)).rgb;

@@ -103,7 +103,8 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
         const scene::Scene scene = make_ball_below_sky(roughness, true);
         for (const char* technique :
              {"reuse:face=32,rough=prefilter", "parallax:face=32,rough=mips",
-              "secant:face=32,rough=prefilter,law=cone", "pyramid:face=32,rough=rays,rays=256"}) {
+              "secant:face=32,rough=prefilter,law=cone", "secant:face=32,rough=fast",
+              "pyramid:face=32,rough=rays,rays=256"}) {
             const measure::Picture picture =
                 test::render_technique(scene, technique, kBallSize, 3).hdr;
             test::RandomNumbers numbers(2);
@@ -173,10 +174,12 @@ TEST(RoughLookups, FilteredLookupsAreNearerToRaysThanSharpOnes) {
             test::render_technique(scene, "pyramid:face=128" + knobs, kBallSize, 8).hdr, traced);
     };
     const double sharp = error(",rough=none"), boxes = error(",rough=mips"),
-                 filtered = error(",rough=prefilter"), drawn = error(",rough=rays,rays=64");
+                 filtered = error(",rough=prefilter"), fast = error(",rough=fast"),
+                 drawn = error(",rough=rays,rays=64");
     std::cout << "[ MEASURED ] rmse: sharp " << sharp << ", boxes " << boxes << ", prefiltered "
-              << filtered << ", 64 searches " << drawn << '\n';
+              << filtered << ", fast " << fast << ", 64 searches " << drawn << '\n';
     EXPECT_LT(filtered, .6 * sharp);
+    EXPECT_LT(fast, boxes);
     EXPECT_LT(drawn, .6 * sharp);
     EXPECT_LT(boxes, sharp);
 }
@@ -186,7 +189,7 @@ TEST(RoughLookups, PerfectMirrorsAreTheSameInEveryMode) {
     for (const std::string technique : {"parallax:face=32", "hybrid:face=32"}) {
         const auto pixels =
             test::render_technique(scene, technique + ",rough=none", kBallSize, 3).hdr.pixels;
-        for (const char* rough : {"mips", "prefilter", "rays"})
+        for (const char* rough : {"mips", "prefilter", "fast", "rays"})
             EXPECT_EQ(test::render_technique(scene, technique + ",rough=" + rough, kBallSize, 3)
                           .hdr.pixels,
                       pixels)

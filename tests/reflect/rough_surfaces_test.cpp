@@ -136,16 +136,18 @@ TEST(RoughSurfaces, HighlightsOfPointLightsFollowTheLobe) {
     std::cout << "[ MEASURED ] largest relative difference: " << largest << '\n';
 }
 
+/// Returns an environment without edges, also at its poles.
 std::shared_ptr<scene::Environment> make_environment(bool is_white) {
     auto map = std::make_shared<scene::Environment>();
     map->size = {64, 32};
     for (std::uint32_t row = 0; row < map->size.y; ++row)
         for (std::uint32_t column = 0; column < map->size.x; ++column) {
             const float azimuth = 6.2832f * (float(column) + .5f) / 64;
-            const float height = std::cos(3.1416f * (float(row) + .5f) / 32);
+            const float polar = 3.1416f * (float(row) + .5f) / 32, flat = std::sin(polar);
             map->texels.push_back(is_white ? vec3(1)
-                                           : vec3(1 + .8f * std::sin(azimuth), .6f + .5f * height,
-                                                  1 + .9f * std::cos(2 * azimuth)));
+                                           : vec3(1 + .8f * flat * std::sin(azimuth),
+                                                  .6f + .5f * std::cos(polar),
+                                                  1 + .9f * flat * flat * std::cos(2 * azimuth)));
         }
     return map;
 }
