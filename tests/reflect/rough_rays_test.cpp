@@ -9,6 +9,8 @@
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
 
+#include <gmock/gmock.h>
+
 #include <array>
 #include <iostream>
 

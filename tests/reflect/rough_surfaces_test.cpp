@@ -7,6 +7,7 @@
 #include "support/lobe_witness.hpp"
 #include "support/numbers.hpp"
 #include "support/rendering.hpp"
+#include "support/special_values.hpp"
 
 #include <iostream>
 
