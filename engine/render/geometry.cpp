@@ -106,13 +106,12 @@ bool has_extra_factors(const scene::Material& material) {
 
 /// Returns whether the visible surface has more than one constant colour and its emission.
 bool has_varying_colour(const scene::Mesh& mesh, const scene::Material& material) {
-    const bool is_specular = material.metallic > 0 || material.dielectric_f0 != vec3(0) ||
-                             material.dielectric_f90 != vec3(0);
     const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
            material.normal_texture || material.unlit || scene::has_alpha_mask(material) ||
            has_extra_factors(material) ||
-           (material.mirror ? throws_back || scene::is_visibly_emissive(material) : is_specular);
+           (material.mirror ? throws_back || scene::is_visibly_emissive(material)
+                            : scene::is_specular(material));
 }
 
 /// Returns whether a mirror shows nothing except reflections.

@@ -46,6 +46,9 @@ inline void visit_members(const Material& material, Visit&& visit) {
 /// `front_only` and for a light that shines to one side. All surfaces but lights cast their shadow
 /// from both sides.
 bool is_one_sided(const Material& material);
+/// Returns whether the surface has a specular part, sharp or rough: it is no Lambertian surface.
+/// False for `mirror`, whose reflectance is another member.
+bool is_specular(const Material& material);
 /// Returns whether the surface can be seen by its own light.
 bool is_visibly_emissive(const Material& material);
 /// Returns the radiance with which the surface lights others; 0 if it lights nothing.

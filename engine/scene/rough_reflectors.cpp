@@ -1,5 +1,6 @@
 #include "scene/rough_reflectors.hpp"
 
+#include "scene/material_facts.hpp"
 #include "shared.h"
 
 #include <algorithm>
@@ -23,10 +24,7 @@ bool is_rough_somewhere(const Material& material) {
 
 bool reflects_by_lobe(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
-    if (material.mirror || material.unlit) return false;
-    const bool reflects = material.metallic > 0 || material.dielectric_f0 != vec3(0) ||
-                          material.dielectric_f90 != vec3(0);
-    return reflects && is_rough_somewhere(material);
+    return is_specular(material) && !material.unlit && is_rough_somewhere(material);
 }
 
 bool has_rough_reflector(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include "support/lobe_witness.hpp"
 #include "support/numbers.hpp"
 #include "support/rendering.hpp"
+#include "support/smooth_environment.hpp"
 #include "support/special_values.hpp"
 
 #include <iostream>
@@ -51,16 +52,7 @@ scene::Scene make_scene(const IntegralScene& wanted) {
                        {kWallTop, 0, kWallZ}, {kWallTop, kWallTop, kWallZ},
                        {-kWallTop, kWallTop, kWallZ});
     }
-    auto map = std::make_shared<scene::Environment>();
-    map->size = {64, 32};
-    for (std::uint32_t row = 0; row < map->size.y; ++row)
-        for (std::uint32_t column = 0; column < map->size.x; ++column) {
-            const float azimuth = 6.2832f * (float(column) + .5f) / 64;
-            const float height = std::cos(3.1416f * (float(row) + .5f) / 32);
-            map->texels.push_back(
-                {1 + .8f * std::sin(azimuth), .6f + .5f * height, 1 + .9f * std::cos(2 * azimuth)});
-        }
-    scene.environment = std::move(map);
+    scene.environment = test::make_smooth_environment();
     scene.cameras.push_back(
         {.eye = {.5, 2, 4}, .target = {0, 0, -1}, .up = {0, 1, 0}, .vertical_fov_degrees = 40});
     return scene;

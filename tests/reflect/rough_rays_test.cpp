@@ -8,6 +8,7 @@
 #include "support/numbers.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
+#include "support/smooth_environment.hpp"
 
 #include <gmock/gmock.h>
 
@@ -20,20 +21,6 @@ using namespace catoptric;
 
 constexpr int kRoughEdge = 16;
 constexpr uvec2 kRoughSize{kRoughEdge, kRoughEdge};
-
-/// Returns an environment of smooth, bright and coloured light.
-std::shared_ptr<scene::Environment> make_smooth_environment() {
-    auto map = std::make_shared<scene::Environment>();
-    map->size = {64, 32};
-    for (std::uint32_t row = 0; row < map->size.y; ++row)
-        for (std::uint32_t column = 0; column < map->size.x; ++column) {
-            const float azimuth = 6.2832f * (float(column) + .5f) / 64;
-            const float height = std::cos(3.1416f * (float(row) + .5f) / 32);
-            map->texels.push_back(
-                {1 + .8f * std::sin(azimuth), .6f + .5f * height, 1 + .9f * std::cos(2 * azimuth)});
-        }
-    return map;
-}
 
 /// Returns a metal floor of this roughness below an environment, seen at a slant.
 scene::Scene make_rough_floor(float roughness, std::shared_ptr<const scene::Environment> sky) {
@@ -76,7 +63,7 @@ measure::Picture trace_with_seed(const scene::Scene& scene, const std::string& t
 TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
     constexpr int kSeeds = 8;
     for (const float roughness : {.1f, .3f, .6f}) {
-        const scene::Scene scene = make_rough_floor(roughness, make_smooth_environment());
+        const scene::Scene scene = make_rough_floor(roughness, test::make_smooth_environment());
         std::vector<measure::Picture> pictures;
         for (int seed = 1; seed <= kSeeds; ++seed)
             pictures.push_back(trace_with_seed(scene, "raytrace:rays=128,depth=2",
@@ -108,7 +95,7 @@ TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
 }
 
 TEST(RoughRays, ErrorFallsWithTheNumberOfRays) {
-    const scene::Scene scene = make_rough_floor(.4f, make_smooth_environment());
+    const scene::Scene scene = make_rough_floor(.4f, test::make_smooth_environment());
     const auto error = [&](const std::string& rays) {
         return test::picture_rmse(trace_with_seed(scene, "raytrace:rays=" + rays, 1),
                                   trace_with_seed(scene, "raytrace:rays=" + rays, 2));
@@ -128,8 +115,8 @@ TEST(RoughRays, SmoothSurfacesAreAsWithoutRays) {
             << name;
     }
     // Up to the sharp limit, a surface is a perfect mirror.
-    const scene::Scene polished = make_rough_floor(.04f, make_smooth_environment()),
-                       rough = make_rough_floor(.06f, make_smooth_environment());
+    const scene::Scene polished = make_rough_floor(.04f, test::make_smooth_environment()),
+                       rough = make_rough_floor(.06f, test::make_smooth_environment());
     EXPECT_EQ(trace_with_seed(polished, "raytrace:rays=1", 1).pixels,
               trace_with_seed(polished, "raytrace", 1).pixels);
     EXPECT_NE(trace_with_seed(rough, "raytrace:rays=1", 1).pixels,
@@ -137,7 +124,7 @@ TEST(RoughRays, SmoothSurfacesAreAsWithoutRays) {
 }
 
 TEST(RoughRays, PictureIsAFunctionOfItsSeed) {
-    const scene::Scene scene = make_rough_floor(.5f, make_smooth_environment());
+    const scene::Scene scene = make_rough_floor(.5f, test::make_smooth_environment());
     EXPECT_EQ(trace_with_seed(scene, "raytrace:rays=3", 7).pixels,
               trace_with_seed(scene, "raytrace:rays=3", 7).pixels);
     EXPECT_NE(trace_with_seed(scene, "raytrace:rays=3", 7).pixels,
