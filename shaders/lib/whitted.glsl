@@ -55,7 +55,7 @@ layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // shadow method: 
 // then traced only where the shadow map cannot tell.
 layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 
-// 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: all surfaces reflect sharply.
+// 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: rough mirrors reflect sharply.
 layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u;
 // The arguments of sample_point for the traced path.
 uint path_pixel = 0u, path_sample = 0u, path_seed = 0u;
