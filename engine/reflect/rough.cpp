@@ -1,7 +1,8 @@
-// Filtered levels of captures. Level m has faces of edge / 2^m texels. `mips` takes the mean of
-// each square of texels. `prefilter` filters the capture by the GGX lobe of each level's width
-// (shaders/lib/math/rough.glsl), with samples that read the box-filtered chain. `fast` takes fewer
-// samples in the fine levels, which have most of the texels: their lobes are few texels wide.
+// Filtered levels of captures. `mips` takes the mean of each square of texels: level m has faces of
+// edge / 2^m texels. `prefilter` filters the capture by the GGX lobe of each level's width
+// (shaders/lib/math/rough.glsl), with samples that read the box-filtered chain. A lobe reaches over
+// many texels, so a level m with faces of edge / 2^(m + 1) texels shows it. `fast` takes fewer
+// samples in the fine levels, which have most of the texels.
 #include "reflect/rough.hpp"
 
 #include "core/content_hash.hpp"
@@ -9,7 +10,6 @@
 #include "reflect/captures.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace catoptric::reflect {
 
@@ -19,14 +19,18 @@ using graph::ImageHandle;
 using graph::ResourceUse;
 using Rough = SharedKnobs::Rough;
 
+/// Returns the face edge of a level, from 1, in texels.
+std::uint32_t edge_of_level(Rough rough, std::uint32_t face, std::uint32_t level) {
+    return graph::size_at_mip(face, rough == Rough::mips ? level : level + 1);
+}
+
 /// Returns the number of levels above the capture: the box-filtered chain ends with one texel a
 /// face, and the prefiltered levels with the first whose lobe has a width alpha of at least 1.
 std::uint32_t count_levels(Rough rough, std::uint32_t face) {
-    const auto most = std::max(1u, static_cast<std::uint32_t>(std::bit_width(face)) - 1);
-    if (rough == Rough::mips) return most;
     std::uint32_t level = 1;
-    while (level < most &&
-           f32::alpha_of_capture_level(static_cast<float>(level), static_cast<float>(face)) < 1)
+    while (edge_of_level(rough, face, level) > 1 &&
+           (rough == Rough::mips ||
+            f32::alpha_of_capture_level(static_cast<float>(level), static_cast<float>(face)) < 1))
         ++level;
     return level;
 }
@@ -38,15 +42,19 @@ struct FilteredCubes {
 };
 
 /// Returns an image for the levels of an array of captures.
-graph::ImageDesc describe_levels(std::string name, const render::CubeArray& cubes,
-                                 std::uint32_t levels) {
-    const std::uint32_t edge = graph::size_at_mip(cubes.face, 1);
-    return {std::move(name), Format::rgba16f, edge, edge, cubes.colour.layer_count, true, levels};
+graph::ImageDesc describe_levels(std::string name, const render::CubeArray& cubes, Rough rough) {
+    const std::uint32_t edge = edge_of_level(rough, cubes.face, 1);
+    return {std::move(name),
+            Format::rgba16f,
+            edge,
+            edge,
+            cubes.colour.layer_count,
+            true,
+            count_levels(rough, cubes.face)};
 }
 
-std::uint32_t count_groups(std::uint32_t face, std::uint32_t level) {
-    return (graph::size_at_mip(face, level) + 7) / 8;
-}
+/// Returns the work groups along an edge of a level's faces.
+std::uint32_t count_groups(std::uint32_t edge) { return (edge + 7) / 8; }
 
 /// Declares that the pass writes all levels. A storage image has one mip.
 void declare_level_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
@@ -73,7 +81,8 @@ void add_box_pass(graph::Graph& graph, const std::string& name,
                 commands.bind("captured", run.captured);
                 commands.bind("below", run.boxes.mip(std::max(level, 2u) - 2));
                 commands.bind("level", run.boxes.mip(level - 1));
-                const std::uint32_t groups = count_groups(run.face, level);
+                const std::uint32_t groups = count_groups(
+                    edge_of_level(Rough::mips, run.face, level));
                 commands.dispatch(groups, groups, run.boxes.layer_count);
             }
         }
@@ -83,11 +92,8 @@ void add_box_pass(graph::Graph& graph, const std::string& name,
 /// Push constants of rough/prefilter.comp.
 struct PrefilterParameters {
     float alpha;
-    std::uint32_t taps;
-    float overlap; ///< area of a sample's box in areas for which the sample stands
+    std::uint32_t rings; ///< of four samples each
 };
-/// Few samples stand for large areas, whose boxes would blur the level more than the lobe does.
-constexpr float kOverlap = 2, kFastOverlap = .25f;
 
 /// Returns the samples of a texel of a level. A level of `fast` has twice those of the level below.
 std::uint32_t count_samples(Rough rough, std::uint32_t taps, std::uint32_t level) {
@@ -113,9 +119,8 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
                 commands.push_constants(
                     PrefilterParameters{f32::alpha_of_capture_level(static_cast<float>(level),
                                                                     static_cast<float>(run.face)),
-                                        count_samples(rough, taps, level),
-                                        rough == Rough::fast ? kFastOverlap : kOverlap});
-                const std::uint32_t groups = count_groups(run.face, level);
+                                        (count_samples(rough, taps, level) + 3) / 4});
+                const std::uint32_t groups = count_groups(edge_of_level(rough, run.face, level));
                 commands.dispatch(groups, groups, run.levels.layer_count);
             }
         }
@@ -156,7 +161,7 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
             const render::CubeArray& cubes = captures_->arrays[array];
             graph::ImageDesc desc = describe_levels(
                 name_of_levels(inputs, filter.rough, filter.taps) + suffix_of_array(array), cubes,
-                count_levels(filter.rough, cubes.face));
+                filter.rough);
             filtered.levels.push_back(captures_->drawings.empty()
                                           ? graph.add_image(std::move(desc))
                                           : graph.add_persistent_image(std::move(desc)));
@@ -207,8 +212,8 @@ void RoughLevels::add_passes_of(graph::Graph& graph, const Filter& filter,
         if (outdated.empty()) continue;
         ImageHandle boxes = levels;
         if (filter.rough != Rough::mips)
-            boxes = graph.add_image(describe_levels(name + "/boxes" + suffix_of_array(array), cubes,
-                                                    count_levels(Rough::mips, cubes.face)));
+            boxes = graph.add_image(
+                describe_levels(name + "/boxes" + suffix_of_array(array), cubes, Rough::mips));
         for (const LayerRange& run : outdated)
             runs.push_back({cubes.colour.layers(run.first, run.count),
                             boxes.layers(run.first, run.count), levels.layers(run.first, run.count),

@@ -13,9 +13,11 @@ layout(set = 0, binding = 21) uniform samplerCubeArray boxes; // levels from 1 o
 layout(set = 0, binding = 22, rgba16f) writeonly uniform image2DArray level;
 layout(push_constant, scalar) uniform Push {
     float alpha; // width of the lobe
-    uint taps;   // samples of a texel
-    float overlap; // area of a sample's box in areas for which the sample stands
+    uint rings;  // of four samples each
 };
+
+// Area of a sample's box in areas for which the sample stands. Larger boxes blur the level more than the lobe does.
+const float kOverlap = 0.5;
 
 void main() {
     int edge = imageSize(level).x, layer = int(gl_WorkGroupID.z);
@@ -27,23 +29,23 @@ void main() {
     float captured_edge = float(textureSize(captured, 0).x), texel_area = 4.0 * kPi / (6.0 * captured_edge * captured_edge);
     vec3 sum = vec3(0);
     float weights = 0.0;
-    for (uint i = 0u; i < taps; ++i) {
+    // Samples lie on rings of four, because a ring leaves the filtered light in its place.
+    for (uint i = 0u; i < rings; ++i) {
         float u, v;
-        hammersley_point(i, taps, u, v);
-        vec3 drawn = sample_lobe_seen_head_on(alpha, u, v);
+        hammersley_point(i, rings, u, v);
+        vec3 drawn = sample_lobe_seen_head_on(alpha, v / 4.0, u);
         if (!(drawn.z > 0.0)) continue;
         float density = ggx_density(alpha, half_vector_between(vec3(0, 0, 1), drawn)) / 4.0;
-        float from = 0.5 * log2(overlap / (float(taps) * density * texel_area));
-        vec3 direction = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
-        vec4 place = vec4(direction, layer / 6);
-        vec3 colour = textureLod(boxes, place, max(from - 1.0, 0.0)).rgb;
-        count_once(kWorkColourLookups);
-        if (from < 1.0) {
-            colour = mix(textureLod(captured, place, 0).rgb, colour, max(from, 0.0));
+        // A sample reads one level of the boxes, because a mix of two levels costs twice as much.
+        float from = round(0.5 * log2(kOverlap / (float(4u * rings) * density * texel_area)));
+        for (int turn = 0; turn < 4; ++turn) {
+            vec4 place = vec4(drawn.x * tangent + drawn.y * bitangent + drawn.z * normal, layer / 6);
+            vec3 colour = from < 1.0 ? textureLod(captured, place, 0).rgb : textureLod(boxes, place, from - 1.0).rgb;
             count_once(kWorkColourLookups);
+            sum += drawn.z * colour;
+            weights += drawn.z;
+            drawn.xy = vec2(-drawn.y, drawn.x);
         }
-        sum += drawn.z * colour;
-        weights += drawn.z;
     }
     imageStore(level, ivec3(texel, layer), vec4(min(sum / weights, vec3(kLargestHalf)), 1));
 }

@@ -122,13 +122,15 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
 
 /// Kills a wrong level, roughness where alpha is meant, and faces that do not meet.
 TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
-    constexpr double kFace = 64;
-    for (const int level : {1, 2, 3}) {
+    constexpr double kFace = 128;
+    // Faces of 4 texels are too coarse to interpolate between.
+    for (const auto& [level, tolerance] :
+         {std::pair(1, .06), std::pair(2, .06), std::pair(3, .07), std::pair(4, .12)}) {
         const double alpha = f64::alpha_of_capture_level(double(level), kFace),
                      roughness = std::sqrt(alpha);
         const scene::Scene scene = make_ball_below_sky(float(roughness));
         const measure::Picture picture =
-            test::render_technique(scene, "reuse:face=64,taps=256", kBallSize, 3).hdr;
+            test::render_technique(scene, "reuse:face=128,taps=256", kBallSize, 3).hdr;
         double largest = 0;
         test::RandomNumbers numbers(7);
         const std::vector<BallPixel> pixels = list_ball_pixels(scene, .3);
@@ -144,7 +146,7 @@ TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
         }
         std::cout << "[ MEASURED ] level " << level << ", roughness " << roughness
                   << ": largest relative difference " << largest << '\n';
-        EXPECT_LT(largest, .06) << level;
+        EXPECT_LT(largest, tolerance) << level;
     }
 }
 

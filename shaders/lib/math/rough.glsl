@@ -1,7 +1,6 @@
 // Part of lib/math.glsl; only lib/math.glsl includes this file.
-// Levels of captures for rough reflections. Level 0 is the capture itself. Level m has faces of edge / 2^m texels, and
-// holds the capture filtered by a lobe whose width alpha is twice its texel's angle. A lobe twice as wide is one level
-// up.
+// Levels of captures for rough reflections. Level 0 is the capture itself. Level m holds the capture filtered by a lobe
+// whose width alpha is 2^(m + 1) times the angle of a texel of the capture. A lobe twice as wide is one level up.
 
 const real kLargestHalf = real(65504); // largest finite 16-bit float
 
