@@ -3,6 +3,8 @@
 #include "render/footprint.hpp"
 #include "render/views.hpp"
 
+#include <algorithm>
+
 namespace catoptric::render {
 
 namespace {
@@ -64,6 +66,8 @@ std::vector<double> find_face_needs(const Geometry& geometry, std::span<const st
             needs.push_back(texels_needed_by_mesh(
                 pixels, geometry.vertices,
                 std::span(geometry.indices).subspan(range.first_index, range.index_count)));
+        if (range.lobe_alpha > 0)
+            needs.back() = std::min(needs.back(), texels_needed_by_lobe(range.lobe_alpha));
     }
     return needs;
 }

@@ -7,7 +7,8 @@
 namespace catoptric::render {
 
 /// Returns, for each mirror, the texels that the edge of its cube needs (render/footprint.hpp). The
-/// camera is at `eye` and draws a picture of `height` rows. A mirror outside the picture needs 0.
+/// camera is at `eye` and draws a picture of `height` rows. A mirror outside the picture needs 0. A
+/// rough mirror needs no more than its lobe does, unless a texture varies its roughness.
 /// `mirrors`: object indices; `probes` in the same order. Costs O(triangles of mirrors).
 std::vector<double> find_face_needs(const Geometry& geometry, std::span<const std::size_t> mirrors,
                                     std::span<const shared::Probe> probes,

@@ -1,5 +1,7 @@
 #include "render/footprint.hpp"
 
+#include "core/shader_math.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,6 +139,8 @@ double texels_needed_by_mesh(const PixelGrid& pixels, std::span<const shared::Ve
     }
     return need;
 }
+
+double texels_needed_by_lobe(double alpha) { return f64::alpha_of_capture_level(1., 1.) / alpha; }
 
 std::uint32_t common_capture_edge(std::span<const double> needs, std::uint32_t most) {
     const double need = needs.empty() ? 0 : *std::ranges::max_element(needs);

@@ -51,6 +51,11 @@ double texels_needed_by_sphere(const PixelGrid& pixels, const vec3& centre, doub
 double texels_needed_by_mesh(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
                              std::span<const std::uint32_t> indices);
 
+/// Returns the texels along the edge of a cube face that a rough surface needs: with them, the
+/// lobe's width alpha is that of the first filtered level (shaders/lib/math/rough.glsl). A finer
+/// capture would be filtered to the same picture. `alpha`: above 0.
+double texels_needed_by_lobe(double alpha);
+
 /// Returns the common edge of captures in one cube array: the largest need, rounded up to a
 /// multiple of 16, at least 16 and at most `most`. The small multiple keeps the excess small.
 std::uint32_t common_capture_edge(std::span<const double> needs, std::uint32_t most);

@@ -1,5 +1,6 @@
 #include "render/geometry.hpp"
 
+#include "core/shader_math.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/rough_reflectors.hpp"
 #include "scene/transform.hpp"
@@ -142,6 +143,8 @@ DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) 
     range.has_normal_texture = material.normal_texture.has_value();
     range.has_lobe = scene::reflects_by_lobe(now, object);
     range.rough = range.mirror && range.has_lobe;
+    if (range.rough && !material.roughness_texture)
+        range.lobe_alpha = f32::roughness_to_alpha(material.roughness);
     // Captures do not show lights without a surface, so a rough mirror's highlights are its own
     // light.
     range.lit = range.mirror && (!shows_only_reflections(mesh, material) ||

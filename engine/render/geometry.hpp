@@ -35,6 +35,7 @@ struct DrawRange {
     bool has_normal_texture = false;
     bool has_lobe = false; ///< some part reflects by a lobe (scene::reflects_by_lobe)
     bool rough = false;    ///< a mirror that reflects by a lobe (scene::reflects_by_lobe)
+    float lobe_alpha = 0;  ///< of a rough mirror, the width of its lobe; 0: a texture varies it
     bool turns = false;    ///< the normal turns to the viewer's side
     bool masked = false;   ///< whether an alpha mask may cut out parts of the object
     /// A mirror with diffuse or emitted light beside its reflection.

@@ -1,9 +1,12 @@
 // Tests that `face=auto` chooses the useful resolution of captures: a smaller edge looks up clearly
 // worse directions, and a larger edge improves little.
+#include "scene/build.hpp"
 #include "scene/built_in.hpp"
+#include "scene/classify.hpp"
 #include "support/searches.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace {
@@ -46,6 +49,31 @@ TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
     ASSERT_TRUE(part.auto_face.has_value());
     EXPECT_EQ(part.auto_face->needs, std::vector<double>(2, 0));
     EXPECT_EQ(part.auto_face->edge, 16u);
+}
+
+/// A lobe hides what is finer than it, so a finer capture would not bring a better picture. A
+/// texture may make some parts smooth.
+TEST(AutoFace, RoughFlatMirrorsNeedTheTexelsOfTheirLobe) {
+    scene::Scene scene = test::make_furnace_scene(0);
+    std::erase_if(scene.objects, [&](const auto& object) { return is_mirror(scene, object); });
+    const std::size_t metal = test::add_material(
+        scene, {.name = "metal", .albedo = vec3(.9f), .metallic = 1, .roughness = .3f});
+    test::add_quad(scene, "wall", metal, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+    scene.cameras = {{.name = "front", .eye = {0, 0, 2}, .target = {0, 0, 0}}};
+    scene::find_mirrors(scene);
+    const auto needs = [&] {
+        return test::render_technique(scene, "parallax:face=auto", {512, 512}).auto_face.value();
+    };
+    EXPECT_NEAR(needs().needs.at(0), 2 * std::numbers::pi / .09, 1e-3);
+    EXPECT_EQ(needs().edge, 80u);
+    auto image = std::make_shared<scene::Image>();
+    image->size = {1, 1};
+    image->texels = {0xFFFFFFFFu};
+    scene.materials[metal].roughness_texture = scene::Texture{.image = image};
+    EXPECT_GT(needs().edge, 500u);
+    scene.materials[metal].roughness_texture.reset();
+    scene.materials[metal].roughness = 0;
+    EXPECT_GT(needs().edge, 500u);
 }
 
 TEST(AutoFace, SphereMeshNeedsNoMoreThanItsSphere) {
