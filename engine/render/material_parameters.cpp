@@ -31,7 +31,7 @@ std::uint32_t to_unorm16(float value) {
 /// f32::lobe_albedo_terms. Takes about 0.1 s.
 std::vector<std::uint32_t> compute_lobe_albedos() {
     constexpr std::uint32_t kEdge = shared::kLobeTableEdge;
-    constexpr int kSampleEdge = 32;
+    constexpr int kSampleEdge = 64;
     constexpr float kMinCosine = 1e-4f; // at a cosine of 0 no direction is sampled
     std::vector<std::uint32_t> words;
     for (std::uint32_t y = 0; y < kEdge; ++y)

@@ -97,16 +97,18 @@ INLINE vec3 lobe_sample_weight(real alpha, vec3 f0, vec3 f90, vec3 to_eye, vec3 
 }
 
 // Computes the albedo of the lobe as f0 * `head_on` + f90 * `grazing`, for a viewer at the angle `cosine` to the normal,
-// from the mean weight of edge x edge samples.
+// from the mean weight of edge x edge samples. The lobe is symmetric about the plane of incidence, so one half of the
+// samples is enough.
 INLINE void lobe_albedo_terms(real alpha, real cosine, int edge, OUT(real) head_on, OUT(real) grazing) {
     vec3 to_eye = vec3(sqrt(max(real(0), real(1) - cosine * cosine)), real(0), cosine);
-    head_on = grazing = real(0);
-    for (int i = 0; i < edge * edge; ++i) {
-        vec3 to_light = sample_lobe(alpha, to_eye, (real(i % edge) + real(0.5)) / real(edge),
-                                    (real(i / edge) + real(0.5)) / real(edge));
-        head_on += lobe_sample_weight(alpha, vec3(real(1)), vec3(real(0)), to_eye, to_light).x;
-        grazing += lobe_sample_weight(alpha, vec3(real(0)), vec3(real(1)), to_eye, to_light).x;
+    vec3 sum = vec3(real(0));
+    int half_edge = edge / 2;
+    for (int i = 0; i < half_edge * edge; ++i) {
+        vec3 to_light = sample_lobe(alpha, to_eye, (real(i % half_edge) + real(0.5)) / real(edge),
+                                    (real(i / half_edge) + real(0.5)) / real(edge));
+        sum += lobe_sample_weight(alpha, vec3(real(1), real(0), real(0)), vec3(real(0), real(1), real(0)), to_eye,
+                                  to_light);
     }
-    head_on /= real(edge * edge);
-    grazing /= real(edge * edge);
+    head_on = sum.x / real(half_edge * edge);
+    grazing = sum.y / real(half_edge * edge);
 }
