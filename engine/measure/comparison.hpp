@@ -250,11 +250,11 @@ struct Comparison {
     std::string timing = "isolated";
     std::string model = "everything"; ///< "everything", "required", or "both" for each row
     bool together = false;            ///< whether one frame and one command buffer held all rows
-    std::string reference_technique;
-    std::string reference_label;
+    std::string reference_technique, reference_label;
     std::vector<Setting> reference_settings;
     SampleSummary reference_gpu_ms;
     Picture reference_display;
+    double reference_area_flip = NAN; ///< see kAreaSamples (study/compare.cpp); NaN: not measured
     std::shared_ptr<ReferenceNoise> noise; ///< see measure/halves.hpp; null: no noise
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
     std::optional<SampleSummary> clear_ms;

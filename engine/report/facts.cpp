@@ -49,6 +49,10 @@ std::string describe_pipeline_cache(const std::string& cache) {
 std::string describe_reference(const Comparison& comparison) {
     std::string text = comparison.reference_label + ", " +
                        format_ms(comparison.reference_gpu_ms.median) + " ms";
+    if (std::isfinite(comparison.reference_area_flip))
+        text += "; one ray through each pixel's centre, FLIP " +
+                format_error(comparison.reference_area_flip) +
+                " over the mirrors from the mean over the pixel's area (--truth converged)";
     if (!comparison.noise) return text;
     const measure::ReferenceNoise& noise = *comparison.noise;
     text += fmt::format(

@@ -244,6 +244,7 @@ Json make_report_json(const Comparison& comparison) {
                          {"settings", to_json(comparison.reference_settings)},
                          {"label", comparison.reference_label},
                          {"gpu_ms", to_json(comparison.reference_gpu_ms)}};
+    json["reference"]["area_flip"] = number_json(comparison.reference_area_flip);
     if (comparison.noise) json["reference"]["noise"] = to_json(*comparison.noise);
     if (comparison.clear_ms) json["clear_ms"] = to_json(*comparison.clear_ms);
     json["model"] = comparison.model;

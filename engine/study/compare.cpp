@@ -4,6 +4,7 @@
 #include "measure/halves.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
+#include "measure/masks.hpp"
 #include "measure/statistics.hpp"
 #include "reflect/technique.hpp"
 #include "report/comparison.hpp"
@@ -28,11 +29,16 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace catoptric::app {
 
 namespace {
+
+/// Samples over a pixel's area by which its centre is judged, and the most time for them.
+constexpr const char* kAreaSamples = "16";
+constexpr double kMostAreaSeconds = 10;
 
 bool is_same_choice(const TechniqueChoice& a, const TechniqueChoice& b) {
     return a.technique == b.technique && a.settings == b.settings;
@@ -86,6 +92,7 @@ public:
             fill_reference();
             measure_rounds();
             reduce_reference_noise();
+            measure_pixel_area();
             truths_.write_file();
             for (const StudyChoice& choice : asked_studies())
                 find_study(choice.name)
@@ -234,6 +241,22 @@ private:
                 report_progress();
             }
         judged_.clear();
+    }
+
+    /// Measures the FLIP over the mirrors between a reference of one sample a pixel and the mean of
+    /// kAreaSamples samples over each pixel's area. Does nothing for other references, and if the
+    /// samples would take longer than kMostAreaSeconds.
+    void measure_pixel_area() {
+        const TechniqueChoice choice = parse_technique(request_.reference);
+        if (truths_.is_noisy() || choice.technique != "raytrace" ||
+            find_sample_count(choice) != "1" ||
+            comparison_.reference_gpu_ms.median * std::stoi(kAreaSamples) > 1000 * kMostAreaSeconds)
+            return;
+        const ComparedTruth area = truths_.find_reference(kAreaSamples).truth();
+        const std::vector<float> map = compute_flip_map(truths_.find_reference("1").part.hdr, area,
+                                                        request_.base.exposure);
+        comparison_.reference_area_flip = measure::flip_mean(
+            map, measure::mask_mirror_pixels(truths_.find_mirror_hits()));
     }
 
     double choose_wanted_floor(const std::vector<std::size_t>& indices) const {

@@ -31,9 +31,13 @@ double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mas
 
 } // namespace
 
-std::string choose_reference(const std::string& asked, const scene::Scene& scene) {
+std::string choose_reference(const std::string& asked, const scene::Scene& scene,
+                             PixelTruth truth) {
     if (!asked.empty()) return asked;
-    return scene::has_rough_reflector(scene) ? kRoughReference : kReference;
+    const bool is_rough = scene::has_rough_reflector(scene);
+    if (truth == PixelTruth::converged)
+        return is_rough ? kConvergedRoughReference : kConvergedReference;
+    return is_rough ? kRoughReference : kReference;
 }
 
 std::string find_sample_count(const TechniqueChoice& choice) {
@@ -43,7 +47,9 @@ std::string find_sample_count(const TechniqueChoice& choice) {
 }
 
 std::string set_reference_samples(const std::string& reference, const std::string& samples) {
-    if (samples == "1" || parse_technique(reference).technique != "raytrace") return reference;
+    const TechniqueChoice choice = parse_technique(reference);
+    if (samples == "1" || choice.technique != "raytrace" || find_sample_count(choice) != "1")
+        return reference;
     return reference + (reference.find(':') == std::string::npos ? ":" : ",") +
            "samples=" + samples;
 }

@@ -20,9 +20,18 @@ namespace catoptric::app {
 
 /// Rays from each rough surface in a frame of the default reference of scenes with rough mirrors.
 inline constexpr const char* kRoughReference = "raytrace:depth=16,rays=64";
-/// Returns the reference of a comparison: the one that was asked for, kRoughReference if the scene
-/// has a rough mirror, or kReference.
-std::string choose_reference(const std::string& asked, const scene::Scene& scene);
+/// What the pixels of the reference show.
+enum class PixelTruth {
+    centre,   ///< what one camera ray through the pixel's centre meets, as the techniques do
+    converged ///< the mean over the pixel's area, by many camera rays
+};
+/// References of PixelTruth::converged, for scenes without and with rough mirrors.
+inline constexpr const char* kConvergedReference = "raytrace:depth=16,samples=256";
+inline constexpr const char* kConvergedRoughReference = "raytrace:depth=16,samples=64,rays=1";
+/// Returns the reference of a comparison: the one that was asked for, or the one for these pixels
+/// and for this scene, which may have rough mirrors.
+std::string choose_reference(const std::string& asked, const scene::Scene& scene,
+                             PixelTruth truth = PixelTruth::centre);
 
 /// Two means of frames of a reference with noise. The frames of both have different seeds.
 struct NoisyReference {
@@ -46,8 +55,8 @@ struct ReferencePicture {
 
 /// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
 std::string find_sample_count(const TechniqueChoice& choice);
-/// Returns the text of the reference with `samples` set, or the text unchanged if it has no such
-/// knob.
+/// Returns the text of the reference with `samples` set. Returns the text unchanged if it has no
+/// such knob, or if it states more than one sample, because it is then the reference of all rows.
 std::string set_reference_samples(const std::string& reference, const std::string& samples);
 
 /// The reference of a comparison, rendered once for each sample count and instant on demand. A

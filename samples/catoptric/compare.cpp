@@ -48,6 +48,7 @@ struct CompareOptions {
     std::vector<std::string> techniques;
     bool together = false;
     double reference_seconds = app::CompareRequest().reference_seconds;
+    app::PixelTruth truth = app::PixelTruth::centre;
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumns csv = report::CsvColumns::table;
     std::vector<app::StudyChoice> studies;
@@ -77,7 +78,8 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     if (keeps && !common.animate && !common.warmup) request.base.warmup = app::Request().total();
     request.base.techniques = options.techniques;
     request.both_models = options.common.both_models;
-    request.reference = app::choose_reference(options.common.reference, request.base.scene);
+    request.reference = app::choose_reference(options.common.reference, request.base.scene,
+                                              options.truth);
     request.reference_seconds = options.reference_seconds;
     request.reference_file = options.common.reference_file;
     request.together = options.together;
@@ -94,6 +96,8 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     check_techniques_hold_no_scene(options.techniques);
     app::check_rows(options.techniques);
     const std::string& reference = options.common.reference;
+    check(options.truth == app::PixelTruth::centre || reference.empty(), Failure::usage,
+          "--truth converged chooses the reference; wanted no --reference, found ", reference);
     for (const app::StudyChoice& choice : options.studies)
         app::check_study(choice, reference.empty() ? app::kReference : reference);
     std::vector<app::CompareRequest> requests;
@@ -314,6 +318,14 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                 [options](const std::string& text) {
                     options->rounds = static_cast<int>(
                         parse_integer("--rounds", text, app::kRounds, 10000));
+                });
+    verb.option("--truth", "T",
+                "pixels of the reference: centre (one camera ray, as techniques draw them) or "
+                "converged (the mean over the pixel's area) (centre)",
+                [options](const std::string& text) {
+                    options->truth = parse_choice_index("--truth", text, {"centre", "converged"})
+                                         ? app::PixelTruth::converged
+                                         : app::PixelTruth::centre;
                 });
     verb.option(
         "--reference-seconds", "S",

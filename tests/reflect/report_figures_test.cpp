@@ -2,6 +2,7 @@
 // separately and by code that shares nothing with the engine.
 #include "compare.hpp"
 #include "measure/flip.hpp"
+#include "measure/masks.hpp"
 #include "measure/statistics.hpp"
 #include "report/writer.hpp"
 #include "scene/built_in.hpp"
@@ -263,6 +264,25 @@ TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
     EXPECT_GE(setup["pipelines"], 0) << "those of other tests are there";
     EXPECT_EQ(setup["pipeline_cache"], "none");
     expect_summary(document["reference"]["gpu_ms"], {});
+}
+
+/// The report states how far a picture of pixel centres is from the mean over the pixels.
+TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
+    app::CompareRequest request = report_figures_asked({"parallax:face=32"});
+    const json document = compared(request);
+    const measure::Picture centre =
+        test::render_technique(request.base.scene, "raytrace:depth=16", kReportFiguresSize).hdr;
+    const app::TechniqueResult area = test::render_technique(
+        request.base.scene, "raytrace:depth=16,samples=16", kReportFiguresSize);
+    const std::vector<float> map = measure::flip(
+        measure::to_unrounded_display(centre, request.base.exposure),
+        measure::to_unrounded_display(area.hdr, request.base.exposure));
+    const measure::Mask mirrors = measure::mask_mirror_pixels(
+        test::render_technique(request.base.scene, "raytrace:depth=1", kReportFiguresSize).hits);
+    EXPECT_GT(measure::flip_mean(map, mirrors), .001);
+    EXPECT_NEAR(document["reference"]["area_flip"], measure::flip_mean(map, mirrors), 1e-7);
+    request.reference = "raytrace:depth=16,samples=4";
+    EXPECT_TRUE(compared(request)["reference"]["area_flip"].is_null());
 }
 
 /// The host's work for a moving scene must be reported in the parts of the frame to which the work

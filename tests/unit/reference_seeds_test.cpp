@@ -93,6 +93,16 @@ TEST(RoughReflectors, TextureCountsByItsWholeRange) {
     EXPECT_FALSE(scene::has_rough_reflector(scene));
 }
 
+TEST(PixelTruth, ConvergedReferencesAreThoseOfAllRows) {
+    EXPECT_EQ(app::choose_reference("", make_metal(0, .3f), app::PixelTruth::converged),
+              app::kConvergedReference);
+    EXPECT_EQ(app::choose_reference("", make_metal(.3f, .3f), app::PixelTruth::converged),
+              app::kConvergedRoughReference);
+    EXPECT_EQ(app::set_reference_samples("raytrace:depth=16", "4"), "raytrace:depth=16,samples=4");
+    for (const char* reference : {app::kConvergedReference, app::kConvergedRoughReference})
+        EXPECT_EQ(app::set_reference_samples(reference, "4"), reference);
+}
+
 TEST(RoughReflectors, BuiltInScenesOfPerfectMirrorsKeepTheirReference) {
     for (const char* name : {"cornell-mirrors", "gallery", "room", "courtyard"})
         EXPECT_EQ(app::choose_reference("", scene::load(name)), app::kReference) << name;
