@@ -83,15 +83,8 @@ void change_object_materials(Scene& scene, const std::vector<std::size_t>& objec
 
 void apply_mirror_override(Scene& scene, const MirrorOverride& wish) {
     change_object_materials(
-        scene, find_objects_by_pattern(scene, {"--mirror"}, wish.pattern), [&](Material& material) {
-            if (wish.roughness == 0)
-                material = {.name = material.name, .mirror = true, .reflectance = wish.reflectance};
-            else
-                material = {.name = material.name,
-                            .albedo = wish.reflectance,
-                            .metallic = 1,
-                            .roughness = wish.roughness};
-        });
+        scene, find_objects_by_pattern(scene, {"--mirror"}, wish.pattern),
+        [&](Material& material) { material = make_mirror_material(material.name, wish); });
 }
 
 /// Returns the objects that the pattern matches and that emit light. Throws if there are none.
@@ -116,6 +109,15 @@ void keep_matching_lights(Scene& scene, const std::string& pattern) {
 }
 
 } // namespace
+
+Material make_mirror_material(std::string name, const MirrorOverride& wish) {
+    if (wish.roughness == 0)
+        return {.name = std::move(name), .mirror = true, .reflectance = wish.reflectance};
+    return {.name = std::move(name),
+            .albedo = wish.reflectance,
+            .metallic = 1,
+            .roughness = wish.roughness};
+}
 
 SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOverrides& weaker) {
     SceneOverrides both = weaker;

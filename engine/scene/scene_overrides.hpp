@@ -21,6 +21,9 @@ struct MirrorOverride {
     bool operator==(const MirrorOverride&) const = default;
 };
 
+/// Returns the material of an object that the override makes a mirror: a perfect mirror, or metal.
+Material make_mirror_material(std::string name, const MirrorOverride& wish);
+
 struct ExposureOverride {
     std::optional<double> stops; ///< none: "auto"
     bool operator==(const ExposureOverride&) const = default;

@@ -57,8 +57,11 @@ void ViewLoop::show_message(const std::string& text) {
 }
 
 std::string ViewLoop::command() const {
-    return make_render_command(options_.words, state_,
-                               camera_option_text(request_.scene, state_.camera),
+    std::vector<std::string> words = options_.words;
+    const std::vector<std::string> roughness = roughness_option_words(request_.scene,
+                                                                      state_.roughness);
+    words.insert(std::ranges::find(words, "--"), roughness.begin(), roughness.end());
+    return make_render_command(words, state_, camera_option_text(request_.scene, state_.camera),
                                viewer_->frame_spec().size);
 }
 
@@ -144,6 +147,7 @@ void ViewLoop::load(const std::string& file) {
         request_ = resolve_view_request(options_).request;
         state_.plan = drop_mirror_settings(state_.plan),
         state_.other = drop_mirror_settings(state_.other);
+        state_.roughness.clear();
         open(SceneOrigin::another);
         show_message("loaded: " + file);
     } catch (const Error& error) {

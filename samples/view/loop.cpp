@@ -91,7 +91,7 @@ void ViewLoop::recover_from_error(const Error& error) {
     constexpr int kMaxDeviceLosses = 2; // device losses without a frame in between
     const auto asked = [](const ViewState& state) {
         return std::tie(state.plan, state.other, state.mode, state.model, state.camera,
-                        state.motion.time);
+                        state.motion.time, state.roughness);
     };
     const bool is_lost = !viewer_->engine().usable();
     losses_ += is_lost;
@@ -101,6 +101,7 @@ void ViewLoop::recover_from_error(const Error& error) {
         state_.plan = good_.plan, state_.other = good_.other;
         state_.mode = good_.mode, state_.model = good_.model;
         state_.camera = good_.camera, state_.motion.time = good_.motion.time;
+        state_.roughness = good_.roughness;
     }
     if (!is_lost) return show_message(error.what());
     cli::print_warning(std::string(error.what()) + "; a new session is made");

@@ -24,7 +24,8 @@ struct PanelRequests {
 void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants);
 
 // Parts of draw_panels, one file each.
-/// `entries` are those of the plan as the user typed it.
+/// `entries` are those of the plan as the user typed it. `scene` is the scene without changes of
+/// roughness.
 void draw_plan_controls(ViewState& state, const scene::Scene& scene,
                         const std::vector<PlanEntry>& entries);
 void draw_frame_times(const Viewer& viewer);

@@ -113,18 +113,40 @@ void draw_mirror_technique(PlanState& plan, std::uint32_t& chosen, const scene::
         plan.own[chosen] = drawing;
 }
 
+/// Draws a slider of the chosen mirror's roughness. It is disabled if a texture varies the
+/// material.
+void draw_roughness(ViewState& state, const scene::Scene& scene) {
+    if (state.chosen == 0) return;
+    const std::optional<float> given = find_editable_roughness(scene, state.chosen);
+    if (!given) return ImGui::TextDisabled("roughness: by the scene's material");
+    const auto set = state.roughness.find(state.chosen);
+    float value = set == state.roughness.end() ? *given : set->second;
+    ImGui::PushItemWidth(110);
+    if (ImGui::SliderFloat("roughness", &value, 0, scene.mirror_max_roughness, "%.2f",
+                           ImGuiSliderFlags_AlwaysClamp))
+        state.roughness[state.chosen] = value;
+    ImGui::PopItemWidth();
+    if (set == state.roughness.end()) return;
+    ImGui::SameLine(210);
+    if (ImGui::SmallButton("as in the scene")) state.roughness.erase(state.chosen);
+}
+
 } // namespace
 
 void draw_plan_controls(ViewState& state, const scene::Scene& scene,
                         const std::vector<PlanEntry>& entries) {
     const bool has_other = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
                            state.against == ComparisonPicture::other;
-    if (!has_other) return draw_mirror_technique(state.plan, state.chosen, scene, entries);
+    if (!has_other) {
+        draw_mirror_technique(state.plan, state.chosen, scene, entries);
+        return draw_roughness(state, scene);
+    }
     if (ImGui::RadioButton("the plan", !state.edits_other)) state.edits_other = false;
     ImGui::SameLine();
     if (ImGui::RadioButton("the other", state.edits_other)) state.edits_other = true;
     draw_mirror_technique(state.edits_other ? state.other : state.plan, state.chosen, scene,
                           entries);
+    draw_roughness(state, scene);
 }
 
 } // namespace catoptric::view

@@ -3,10 +3,13 @@
 #include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
+#include "scene/rough_reflectors.hpp"
 
 namespace catoptric::view {
 
 namespace {
+
+constexpr std::uint64_t kFirstSeed = 1'000'000;
 
 app::TechniqueResult render_traced(app::Session& session, app::FrameSpec spec,
                                    const std::string& technique, std::uint64_t seed) {
@@ -22,36 +25,44 @@ std::vector<std::uint32_t> render_mirror_hits(app::Session& session, const app::
     return render_traced(session, spec, "raytrace:depth=1,shadow=none", spec.seed).hits;
 }
 
+/// Adds a picture to the mean that is displayed.
+void ProgressiveReference::add_pass(const measure::Picture& picture, double exposure) {
+    measure::Picture mean = sum_;
+    ++summed_;
+    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+        sum_.pixels[i] += picture.pixels[i];
+        mean.pixels[i] = sum_.pixels[i] / static_cast<float>(summed_);
+    }
+    display_ = std::make_shared<measure::Picture>(measure::to_display(mean, exposure));
+    if (is_rough_) judged_ = std::move(mean);
+}
+
 bool ProgressiveReference::render_one_pass(app::Session& session, const app::FrameSpec& spec) {
     if (passes_ == kMaxReferencePasses) return false;
-    if (passes_ == 0) {
-        app::TechniqueResult part = render_traced(session, spec, "raytrace:depth=16", spec.seed);
-        hits_ = std::move(part.hits);
-        centre_ = std::move(part.hdr);
-        sum_ = measure::Picture(centre_.width, centre_.height);
-        display_ = std::make_shared<measure::Picture>(std::move(part.display));
-        passes_ = 1;
+    const auto pass = static_cast<std::uint64_t>(passes_);
+    if (passes_++ > 0) {
+        // A row of rays has the seed 0 unless the user sets one.
+        const std::string technique = is_rough_ ? "raytrace:depth=16,rays=16,seed=" +
+                                                      std::to_string(kFirstSeed + pass)
+                                                : "raytrace:depth=16,samples=2";
+        add_pass(render_traced(session, spec, technique, pass).hdr, spec.exposure);
         return true;
     }
-    const measure::Picture more = render_traced(session, spec, "raytrace:depth=16,samples=2",
-                                                static_cast<std::uint64_t>(passes_))
-                                      .hdr;
-    measure::Picture mean = sum_;
-    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-        sum_.pixels[i] += more.pixels[i];
-        mean.pixels[i] = sum_.pixels[i] / static_cast<float>(passes_);
-    }
-    display_ = std::make_shared<measure::Picture>(measure::to_display(mean, spec.exposure));
-    ++passes_;
+    is_rough_ = scene::has_rough_reflector(session.scene());
+    app::TechniqueResult part = render_traced(session, spec, "raytrace:depth=16", spec.seed);
+    hits_ = std::move(part.hits);
+    judged_ = std::move(part.hdr);
+    sum_ = measure::Picture(judged_.width, judged_.height);
+    display_ = std::make_shared<measure::Picture>(std::move(part.display));
     return true;
 }
 
 measure::Difference ProgressiveReference::compare_with_reference(const measure::Picture& hdr,
                                                                  double exposure) const {
     const std::vector<float> map = measure::flip(measure::to_unrounded_display(hdr, exposure),
-                                                 measure::to_unrounded_display(centre_, exposure));
+                                                 measure::to_unrounded_display(judged_, exposure));
     return measure::difference(measure::apply_exposure(hdr, exposure),
-                               measure::apply_exposure(centre_, exposure),
+                               measure::apply_exposure(judged_, exposure),
                                measure::mask_mirror_pixels(hits_), map);
 }
 

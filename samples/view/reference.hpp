@@ -8,9 +8,11 @@
 
 namespace catoptric::view {
 
-/// The ray-traced reference picture, which improves with each pass while nothing changes. The first
-/// pass traces one ray through each pixel's centre. Errors are measured against this pass, as in
-/// `compare`. Further passes are averaged.
+/// The ray-traced reference picture, which improves with each pass while nothing changes. If all
+/// mirrors are sharp, the first pass traces one ray through each pixel's centre, and errors are
+/// measured against this pass, as in `compare`. Further passes are averaged, for display. In a
+/// scene with rough surfaces each pass draws rays from their lobes, and errors are measured against
+/// the mean of all passes, whose noise they include.
 class ProgressiveReference {
 public:
     static constexpr int kMaxReferencePasses = 64;
@@ -20,15 +22,22 @@ public:
     /// of the live frame. Returns false if no further pass is needed.
     bool render_one_pass(app::Session& session, const app::FrameSpec& spec);
     int passes() const { return passes_; }
+    /// Returns whether errors can be measured: after a pass, or after 16 if passes have noise.
+    bool can_judge() const { return is_rough_ ? passes_ > 16 : passes_ > 0; }
     /// Returns the picture as the screen shows it; null before the first pass.
     std::shared_ptr<const measure::Picture> display() const { return display_; }
-    /// Returns the errors of a live picture over mirror pixels. Needs the first pass. Costs one
-    /// FLIP.
+    /// Returns the errors of a live picture over mirror pixels. Needs can_judge().
+    /// Costs one FLIP.
     measure::Difference compare_with_reference(const measure::Picture& hdr, double exposure) const;
 
 private:
     int passes_ = 0;
-    measure::Picture centre_, sum_;
+    bool is_rough_ = false; ///< whether passes draw rays from lobes
+    void add_pass(const measure::Picture& picture, double exposure);
+
+    measure::Picture judged_; ///< what errors are measured against
+    measure::Picture sum_;
+    int summed_ = 0;
     std::vector<std::uint32_t> hits_;
     std::shared_ptr<const measure::Picture> display_;
 };

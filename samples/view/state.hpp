@@ -2,6 +2,7 @@
 
 #include "camera.hpp"
 #include "plan_state.hpp"
+#include "roughness.hpp"
 #include "session/screen.hpp"
 #include "session/session.hpp"
 
@@ -48,9 +49,10 @@ struct ViewState {
     double exposure = 0;
     bool judges = false; ///< whether errors against the traced reference are measured at rest
     bool shows_panels = true, shows_keys = false;
-    std::uint32_t chosen = 0; ///< number of the mirror whose technique is edited; 0: all
-    bool edits_other = false; ///< whether the controls edit `other` instead of `plan`
-    std::string said;         ///< message to the user, until the next message
+    MirrorRoughness roughness; ///< of mirrors whose roughness the user set
+    std::uint32_t chosen = 0;  ///< number of the mirror whose technique is edited; 0: all
+    bool edits_other = false;  ///< whether the controls edit `other` instead of `plan`
+    std::string said;          ///< message to the user, until the next message
 };
 
 /// The techniques that one frame renders, and the pictures that it shows.

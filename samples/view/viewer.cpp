@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 #include "measure/picture_file.hpp"
+#include "scene/build.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -34,7 +35,9 @@ Viewer::Viewer(ViewWindow& window, const app::EngineOptions& options, const app:
     window.add_to(hooks);
     engine_.reset(new app::Engine(app::Access::make_engine(options, hooks)));
     screen_ = std::make_unique<app::WindowScreen>(*engine_);
-    session_ = std::make_unique<app::Session>(*engine_, request.scene, kFramesInFlight);
+    given_ = request.scene;
+    separate_mirror_materials(given_);
+    session_ = std::make_unique<app::Session>(*engine_, given_, kFramesInFlight);
     spec_ = request;
     budget_ms_ = request.budget_ms;
 }
@@ -61,6 +64,26 @@ void Viewer::cut_history() {
     ++cuts_;
 }
 
+/// Gives the session's mirrors their roughness. Returns whether any changed.
+bool Viewer::update_roughness(const MirrorRoughness& roughness) {
+    if (roughness == roughness_) return false;
+    const std::vector<std::size_t> mirrors = scene::mirrors(given_);
+    const auto set = [&](std::uint32_t mirror, scene::Material value) {
+        session_->change(
+            scene::set_material(given_.objects[mirrors[mirror - 1]].material, std::move(value)));
+    };
+    for (const auto& [mirror, value] : roughness_)
+        if (!roughness.contains(mirror))
+            set(mirror, given_.materials[given_.objects[mirrors[mirror - 1]].material]);
+    for (const auto& [mirror, value] : roughness) {
+        const auto before = roughness_.find(mirror);
+        if (before == roughness_.end() || before->second != value)
+            set(mirror, change_roughness(given_, mirror, value));
+    }
+    roughness_ = roughness;
+    return true;
+}
+
 /// Updates the frame specification from the state, and counts frames at rest.
 void Viewer::update_from_state(const ViewState& state, uvec2 size) {
     app::FrameSpec next = spec_;
@@ -71,9 +94,11 @@ void Viewer::update_from_state(const ViewState& state, uvec2 size) {
     next.exposure = state.exposure;
     next.model = state.model;
     next.budget_ms = state.model == app::RenderedWork::required ? budget_ms_ : 0;
-    const bool same = shows_same_picture(next, spec_);
+    const bool is_changed = update_roughness(state.roughness);
+    const bool same = shows_same_picture(next, spec_) && !is_changed;
     const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
-                           next.time == spec_.time && next.exposure == spec_.exposure;
+                           next.time == spec_.time && next.exposure == spec_.exposure &&
+                           !is_changed;
     still_ = same ? still_ + 1 : 0;
     if (!same_view && frames_ > 0) {
         reference_.reset();
@@ -106,7 +131,7 @@ void Viewer::measure_at_rest(const ViewState& state) {
     // A picture of search answers has no error to measure.
     const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
     if (still_ >= kSettledFrames && !waits && state.judges && state.mode != ViewMode::answers &&
-        !error_ && reference_.passes() > 0) {
+        !error_ && reference_.can_judge()) {
         last_ = session_->frame(spec_);
         error_ = reference_.compare_with_reference(last_->hdr(), spec_.exposure);
     }

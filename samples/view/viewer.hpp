@@ -48,6 +48,7 @@ public:
 
 private:
     void update_from_state(const ViewState& state, uvec2 size);
+    bool update_roughness(const MirrorRoughness& roughness);
     void measure_at_rest(const ViewState& state);
     std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
     void collect_finished_frames(std::size_t most);
@@ -64,6 +65,8 @@ private:
     std::optional<app::Frame> last_;
     app::WindowPictures showing_; ///< what the last frame showed
     app::FrameSpec spec_;
+    scene::Scene given_;        ///< the scene without changes of roughness
+    MirrorRoughness roughness_; ///< as the session shows it
     TimeStatistics times_;
     ProgressiveReference reference_;
     std::optional<measure::Difference> error_;

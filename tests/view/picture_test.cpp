@@ -220,6 +220,57 @@ TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
     EXPECT_TRUE(read("shown.png") == read("view.png")) << command;
 }
 
+/// The roughness that the user sets for a mirror is shown at once, and is an option of the command.
+TEST_F(ViewPicture, RoughnessOfAMirrorIsShownAndCopied) {
+    std::string command;
+    std::vector<int> passes;
+    TestDriver driver;
+    driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
+        inputs.on_controls = false;
+        state.judges = true;
+        if (frame == 8) state.roughness = {{1, .1f}, {3, .2f}};
+        if (frame == 12) state.roughness = {{1, .3f}};
+    };
+    driver.after = [&](const ViewReport& report) {
+        command = report.command;
+        passes.push_back(report.viewer.reference().passes());
+    };
+    EXPECT_EQ(view({"cornell-mirrors", "--technique", "parallax:face=32", "--size", "64x48",
+                    "--frames", "40", "--screenshot", path("shown.png")},
+                   driver),
+              0);
+    EXPECT_GT(passes[6], 1);
+    EXPECT_EQ(passes[7], 0) << "the reference begins again";
+    EXPECT_GT(passes[38], 1);
+    ASSERT_THAT(command, HasSubstr(" --mirror ball1=1,1,1,roughness=0.3 --technique "));
+    const test::ProcessResult ended = test::run_process(
+        {.command = {"/bin/sh", "-c", CATOPTRIC_CLI + command.substr(9)}, .folder = folder});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(read("shown.png") == read("view.png")) << command;
+}
+
+/// Errors of rough mirrors are measured against rays from their lobes, not against sharp mirrors.
+TEST_F(ViewPicture, ReferenceOfRoughMirrorsIsRough) {
+    double error = 0;
+    TestDriver driver;
+    driver.before = [&](std::size_t, UserInput& inputs, ViewState& state, ViewWindow&) {
+        inputs.on_controls = false;
+        state.judges = true;
+    };
+    driver.after = [&](const ViewReport& report) {
+        if (report.viewer.error()) error = report.viewer.error()->rmse;
+    };
+    for (const auto& [technique, low, high] :
+         {std::tuple("parallax:face=64", .001, .06), {"parallax:face=64,rough=none", .07, 1.}}) {
+        EXPECT_EQ(
+            view({"cornell-rough", "--technique", technique, "--size", "64x48", "--frames", "24"},
+                 driver),
+            0);
+        EXPECT_GT(error, low) << technique;
+        EXPECT_LT(error, high) << technique;
+    }
+}
+
 /// A scene file that is dropped on the window is shown. A dropped file that is no scene only leads
 /// to a message.
 TEST_F(ViewPicture, DroppedSceneFileIsLoaded) {
