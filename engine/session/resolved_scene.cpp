@@ -11,6 +11,7 @@
 #include "scene/file_options.hpp"
 #include "scene/inside_camera.hpp"
 #include "scene/light.hpp"
+#include "scene/number.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/unsupported_feature.hpp"
 
@@ -190,6 +191,14 @@ ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& 
         wanted.overrides = scene::combine_overrides(options.overrides, filed->overrides);
         wanted.said.push_back("read beside the scene: " + filed->path.string() +
                               " (--no-scene-file leaves it out)");
+        const std::optional<double>& limit = filed->overrides.mirror_max_roughness;
+        if (limit && !options.overrides.mirror_max_roughness)
+            wanted.said.push_back(
+                filed->path.string() + ": surfaces rougher than " +
+                scene::format_shortest_number(*limit) +
+                " are no mirrors (mirror_max_roughness; --mirror-max-roughness sets another limit, " +
+                scene::format_shortest_number(scene::Scene().mirror_max_roughness) +
+                " by default)");
     }
     scene::FileOptions load = options.load;
     if (wanted.overrides.animation) load.animation = *wanted.overrides.animation;

@@ -63,7 +63,11 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     EXPECT_EQ(scene.cameras.front().eye, dvec3(1, 2, 3)) << "first, so that it is hashed";
     EXPECT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(found.overrides.animation, "none");
-    EXPECT_THAT(found.said, ElementsAre(HasSubstr("x.obj.catoptric.json (--no-scene-file")));
+    EXPECT_THAT(found.said,
+                ElementsAre(HasSubstr("x.obj.catoptric.json (--no-scene-file"),
+                            HasSubstr("x.obj.catoptric.json: surfaces rougher than 0.25 are no "
+                                      "mirrors (mirror_max_roughness; --mirror-max-roughness sets "
+                                      "another limit, 0.6 by default)")));
     EXPECT_EQ(scene.files.size(), 3u) << "nothing may be written over what was read";
 }
 
