@@ -1,23 +1,28 @@
 #!/usr/bin/env python3
 """Measures how the error of look-ups in captures depends on roughness, distance law and technique.
 
-rough.py PROGRAM [--views N] [--size WxH] [-o FOLDER] renders drawn views of the scene `roughness` and prints tables
-in Markdown. An error is the root of the mean squared error over the views and over the pixels of the balls and slabs
-of one roughness, clamped to [0,1], against two halves of a traced reference (docs/noise.md). Rows are compared in
-pairs over the same views, with 95 % intervals of the ratio by bootstrap over views.
+rough.py PROGRAM [--views N] [--size WxH] [-o FOLDER] [--into FILE] renders drawn views of the scene `roughness` and
+prints tables in Markdown, or writes them between `<!-- laws -->` and `<!-- /laws -->` of a file. Results of views in
+FOLDER/views.json are kept. An error is the rmse over the pixels of the balls and slabs of one roughness in one view,
+clamped to [0,1], against two halves of a traced reference (docs/noise.md). Views that show fewer than 200 such pixels
+are left out. The first table has medians over views, and in its heading the number of views. The second has the
+geometric mean over views of the ratio to `law=none`, with its 95 % interval by bootstrap over views.
 """
 import argparse
 import json
+import math
 import os
 import random
 import re
+import statistics
 import subprocess
 import sys
 
 LAWS = ["none", "frostbite", "square", "cone", "exact"]
 KNOBS = "face=128"
+MIN_PIXELS = 200
 ROWS = ([f"pyramid:{KNOBS},law={law}" for law in LAWS] + [f"parallax:{KNOBS},law={law}" for law in LAWS] +
-        [f"pyramid:{KNOBS},rough=none", f"pyramid:{KNOBS},rough=mips", f"pyramid:{KNOBS},rough=rays", f"reuse:{KNOBS}"])
+        [f"pyramid:{KNOBS},rough=none", f"pyramid:{KNOBS},rough=mips", f"reuse:{KNOBS}"])
 
 
 def view_errors(arguments, view):
@@ -25,7 +30,7 @@ def view_errors(arguments, view):
     folder = os.path.join(arguments.out, "compare")
     run = subprocess.run([arguments.program, "compare", "roughness", "-o", folder, "--size", arguments.size, "--camera",
                           "seeded", "--seed", str(view), "--frames", "1", "--warmup", "5", "--model", "required",
-                          "--reference-seconds", "4", "--quiet", "--json", "--techniques", *ROWS],
+                          "--reference-seconds", "6", "--quiet", "--json", "--techniques", *ROWS],
                          capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(f"rough: view {view}: {run.stderr}")
@@ -44,30 +49,46 @@ def view_errors(arguments, view):
     return found
 
 
-def rms(views, row, roughness):
-    """Returns the root of the mean squared error over views, at least 0."""
-    pairs = [view[row][roughness] for view in views if roughness in view.get(row, {})]
-    pixels = sum(count for _, count in pairs)
-    return max(0, sum(total for total, _ in pairs) / pixels) ** .5 if pixels else float("nan")
+def rmse_of_view(view, row, roughness):
+    """Returns the rmse over the pixels of a roughness, or nothing if they are too few or the noise hides the error."""
+    total, count = view.get(row, {}).get(roughness, (0, 0))
+    return (total / count) ** .5 if count >= MIN_PIXELS and total > 0 else None
 
 
-def ratio_interval(views, a, b, roughness):
-    """Returns the ratio of the errors of row `a` and row `b`, and its 95 % interval."""
+def median_rmse(views, row, roughness):
+    """Returns the median over views."""
+    found = [rmse for rmse in (rmse_of_view(view, row, roughness) for view in views) if rmse]
+    return statistics.median(found) if found else float("nan")
+
+
+def mean_ratio(views, a, b, roughness):
+    """Returns the geometric mean over views of the ratio of the errors of row `a` and row `b`, and its 95 % interval."""
+    pairs = [(rmse_of_view(view, a, roughness), rmse_of_view(view, b, roughness)) for view in views]
+    logs = [math.log(first / second) for first, second in pairs if first and second]
+    if not logs:
+        return float("nan"), float("nan"), float("nan")
     draw = random.Random(1)
-    ratios = sorted(rms(drawn, a, roughness) / max(rms(drawn, b, roughness), 1e-9)
-                    for drawn in ([draw.choice(views) for _ in views] for _ in range(1000)))
-    return rms(views, a, roughness) / max(rms(views, b, roughness), 1e-9), ratios[25], ratios[974]
+    means = sorted(statistics.fmean(draw.choices(logs, k=len(logs))) for _ in range(1000))
+    return math.exp(statistics.fmean(logs)), math.exp(means[25]), math.exp(means[974])
 
 
 def short(number):
     return f"{number:.4f}".lstrip("0") if number < 1 else f"{number:.2f}"
 
 
-def print_table(head, rows):
-    print("| " + " | ".join(head) + " |\n|---" + "|--:" * (len(head) - 1) + "|")
-    for cells in rows:
-        print("| " + " | ".join(cells) + " |")
-    print()
+def format_table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|---" + "|--:" * (len(head) - 1) + "|"]
+    return "\n".join(lines + ["| " + " | ".join(cells) + " |" for cells in rows]) + "\n"
+
+
+def insert_tables(file, tables):
+    """Replaces the text between the marks of a Markdown file."""
+    text = open(file).read()
+    begin, end = "<!-- laws -->\n", "<!-- /laws -->"
+    if begin not in text or end not in text:
+        sys.exit(f"rough: {file}: wanted the marks {begin.strip()} and {end}")
+    with open(file, "w") as out:
+        out.write(text[:text.index(begin) + len(begin)] + tables + text[text.index(end):])
 
 
 def main():
@@ -76,6 +97,7 @@ def main():
     parser.add_argument("--views", type=int, default=30)
     parser.add_argument("--size", default="128x128")
     parser.add_argument("-o", dest="out", default="out/rough")
+    parser.add_argument("--into", metavar="FILE")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
     kept = os.path.join(arguments.out, "views.json")
@@ -86,18 +108,23 @@ def main():
             json.dump(views, file)
         print(f"view {view} of {arguments.views}", file=sys.stderr)
     roughnesses = sorted({r for view in views for row in view.values() for r in row}, key=float)
-    print_table(["row"] + roughnesses,
-                [[f"`{row}`"] + [short(rms(views, row, r)) for r in roughnesses] for row in ROWS])
+    headings = [f"{r} ({sum(rmse_of_view(view, ROWS[0], r) is not None for view in views)})" for r in roughnesses]
+    tables = format_table(["row, rmse"] + headings,
+                          [[f"`{row}`"] + [short(median_rmse(views, row, r)) for r in roughnesses] for row in ROWS])
     laws = []
     for technique in ("pyramid", "parallax"):
         for law in LAWS[1:]:
             cells = [f"`{technique}`, `{law}`"]
             for r in roughnesses:
-                ratio, low, high = ratio_interval(views, f"{technique}:{KNOBS},law={law}",
-                                                  f"{technique}:{KNOBS},law=none", r)
-                cells.append(f"{short(ratio)} [{short(low)} - {short(high)}]")
+                ratio, low, high = mean_ratio(views, f"{technique}:{KNOBS},law={law}",
+                                              f"{technique}:{KNOBS},law=none", r)
+                cells.append(f"{ratio:.2f} [{low:.2f} - {high:.2f}]")
             laws.append(cells)
-    print_table(["error / error of `law=none`"] + roughnesses, laws)
+    tables += "\n" + format_table(["rmse / rmse of `law=none`"] + roughnesses, laws)
+    if arguments.into:
+        insert_tables(arguments.into, tables)
+    else:
+        print(tables)
 
 
 if __name__ == "__main__":
