@@ -21,10 +21,12 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 class Results : public Faults {
 protected:
     /// Returns the command line of a comparison of `rows` rows. The fifth row traces `samples`
-    /// samples per pixel, which sets how long the row takes.
+    /// samples per pixel, which sets how long the row takes. With a reference of several samples,
+    /// the last row is the last frame: no frame measures how far pixel centres are from pixels.
     static Words comparison(int rows, int samples = 2) {
         Words words{"compare", "-o",       "out", "--size",     "64x64",  "--frames",
-                    "1",       "--warmup", "0",   "--progress", "always", "--techniques"};
+                    "1",       "--warmup", "0",   "--progress", "always", "--reference"};
+        words.insert(words.end(), {"raytrace:depth=16,samples=2", "--techniques"});
         for (int i = 0; i < rows; ++i)
             words.push_back("raytrace:depth=" + std::to_string(i) +
                             (i == 4 ? ",samples=" + std::to_string(samples) : ""));
