@@ -4,7 +4,11 @@
 #include "core/file.hpp"
 #include "core/json.hpp"
 #include "core/knob.hpp"
+#include "core/text.hpp"
 #include "report/json.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +38,14 @@ struct CostValue {
         const auto found = json.find(name);
         return {found == json.end() ? kNone : *found,
                 place + (place.ends_with(":") ? " " : ".") + name};
+    }
+    /// Throws `bad_data` for a member with another name, such as a misspelt one.
+    void check_members(const std::vector<std::string>& names) const {
+        if (!json.is_object()) fail_wanted("an object");
+        for (const auto& [name, value] : json.items())
+            check(std::ranges::find(names, name) != names.end(), Failure::bad_data, place,
+                  place.ends_with(":") ? "" : ":", " wanted the members ",
+                  fmt::format("{}", fmt::join(names, ", ")), ", found ", quote_printable(name));
     }
     std::vector<CostValue> elements() const {
         if (!json.is_array() || json.empty()) fail_wanted("a list with at least one entry");
@@ -86,6 +98,7 @@ measure::Interval read_range(const CostValue& value, double ns) {
 }
 
 measure::UnitCost read_unit(const CostValue& value) {
+    value.check_members({"work", "ns", "range", "source"});
     measure::UnitCost unit;
     unit.kind = read_kind(value.member("work"));
     unit.ns = value.member("ns").number(0, "nanoseconds of at least 0");
@@ -111,6 +124,7 @@ Json read_document(const std::filesystem::path& file) {
 measure::DeviceCosts read_costs_document(const Json& json, const std::string& file) {
     const CostValue document{json, file + ":"};
     check_schema(document, kCostsSchema, "costs of a device");
+    document.check_members({"schema", "device", "origin", "note", "costs", "fit"});
     measure::DeviceCosts costs;
     costs.device = document.member("device").text();
     costs.origin = read_origin(document.member("origin"));
@@ -168,14 +182,17 @@ TimesElsewhere read_times_file(const std::filesystem::path& file) {
     const Json json = read_document(file);
     const CostValue document{json, file.string() + ":"};
     check_schema(document, kMeasuredTimesSchema, "times of rows");
+    document.check_members({"schema", "device", "note", "work", "rows"});
     TimesElsewhere times;
     times.device = document.member("device").text();
     times.note = document.member("note").optional_text();
     for (const CostValue& kind : document.member("work").elements())
         times.kinds.push_back(read_kind(kind));
-    for (const CostValue& row : document.member("rows").elements())
+    for (const CostValue& row : document.member("rows").elements()) {
+        row.check_members({"technique", "ms"});
         times.rows.push_back({row.member("technique").text(),
                               row.member("ms").number(1e-6, "milliseconds above 0")});
+    }
     return times;
 }
 

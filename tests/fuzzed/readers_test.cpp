@@ -337,4 +337,20 @@ TEST_F(Readers, ChangedDeviceProfilesAreReadOrRefused) {
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
 
+TEST_F(Readers, ChangedCostFilesAreReadOrRefused) {
+    Json document = {{"schema", "catoptric/costs/1"},
+                     {"device", "a device"},
+                     {"origin", "literature"},
+                     {"costs", Json::array()}};
+    for (const char* work : {"camera_rays", "mirror_rays", "colour_lookups", "fragments", "draws"})
+        document["costs"].push_back(
+            {{"work", work}, {"ns", 2.5}, {"range", {1.0, 4.0}}, {"source", "a paper"}});
+    feed(
+        "costs.json", document.dump(1),
+        {"compare", "-o", "out", "--size", "8x8", "--frames", "1", "--warmup", "0", "--techniques",
+         "reuse:face=8", "--costs", "costs.json"},
+        [&](Random& random) { return changed_bytes(document.dump(1), random); },
+        [&](Random& random) { return changed_json(document, random).dump(1); });
+}
+
 } // namespace

@@ -174,6 +174,10 @@ TEST(Costs, FileIsRefusedWithPlaceWantedAndFound) {
     EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": 3},
                                                  {"work": "draws", "ns": 3}]})"),
               "c.json: costs[1].work: 'draws' is given twice");
+    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": 3, "rnage": [2, 4]}]})"),
+              "c.json: costs[0]: wanted the members work, ns, range, source, found 'rnage'");
+    EXPECT_EQ(refuse_costs(head + R"(, "note": "", "cost": []})"),
+              "c.json: wanted the members schema, device, origin, note, costs, fit, found 'cost'");
     EXPECT_EQ(refuse_costs(R"({"schema": "catoptric/costs/1", "device": "d", "origin": "felt"})"),
               "c.json: origin: wanted fitted, literature or given, found '\"felt\"'");
 }
