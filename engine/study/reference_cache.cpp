@@ -60,6 +60,12 @@ RunResult ReferenceCache::render_reference(const std::string& technique, int num
     request.model = RenderedWork::everything;
     request.warmup = std::min(request.warmup, number - 1);
     request.frames = number - request.warmup;
+    if (find_sample_count(parse_technique(technique)) != "1") {
+        // One frame, because many samples take long. Rays do not depend on frames before.
+        request.time = base_.instant(number);
+        request.animate = false;
+        request.warmup = 0, request.frames = 1;
+    }
     return run(session_, request, watcher_);
 }
 
