@@ -254,7 +254,7 @@ struct Comparison {
     std::vector<Setting> reference_settings;
     SampleSummary reference_gpu_ms;
     Picture reference_display;
-    double reference_area_flip = NAN; ///< see kAreaSamples (study/compare.cpp); NaN: not measured
+    double reference_area_flip = NAN; ///< over mirrors, from the mean over pixels; NaN: unknown
     std::shared_ptr<ReferenceNoise> noise; ///< see measure/halves.hpp; null: no noise
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
     std::optional<SampleSummary> clear_ms;

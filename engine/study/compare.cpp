@@ -243,13 +243,12 @@ private:
         judged_.clear();
     }
 
-    /// Measures the FLIP over the mirrors between a reference of one sample a pixel and the mean of
-    /// kAreaSamples samples over each pixel's area. Does nothing for other references, and if the
-    /// samples would take longer than kMostAreaSeconds.
+    /// Measures the FLIP over the mirrors between the default reference, whose pixels are their
+    /// centres, and the mean of kAreaSamples samples over each pixel's area. Does nothing for other
+    /// references, which may refuse samples, and if the samples would take longer than
+    /// kMostAreaSeconds.
     void measure_pixel_area() {
-        const TechniqueChoice choice = parse_technique(request_.reference);
-        if (truths_.is_noisy() || choice.technique != "raytrace" ||
-            find_sample_count(choice) != "1" ||
+        if (!is_same_choice(parse_technique(request_.reference), parse_technique(kReference)) ||
             comparison_.reference_gpu_ms.median * std::stoi(kAreaSamples) > 1000 * kMostAreaSeconds)
             return;
         const ComparedTruth area = truths_.find_reference(kAreaSamples).truth();

@@ -11,8 +11,8 @@ namespace catoptric::view {
 /// The ray-traced reference picture, which improves with each pass while nothing changes. If all
 /// mirrors are sharp, the first pass traces one ray through each pixel's centre, and errors are
 /// measured against this pass, as in `compare`. Further passes are averaged, for display. In a
-/// scene with rough surfaces each pass draws rays from their lobes, and errors are measured against
-/// the mean of all passes, whose noise they include.
+/// scene with rough surfaces each further pass draws rays from their lobes, and errors are measured
+/// against the mean of these passes, whose noise they include.
 class ProgressiveReference {
 public:
     static constexpr int kMaxReferencePasses = 64;
@@ -31,13 +31,13 @@ public:
     measure::Difference compare_with_reference(const measure::Picture& hdr, double exposure) const;
 
 private:
-    int passes_ = 0;
-    bool is_rough_ = false; ///< whether passes draw rays from lobes
     void add_pass(const measure::Picture& picture, double exposure);
 
+    int passes_ = 0;
+    bool is_rough_ = false;   ///< whether passes draw rays from lobes
     measure::Picture judged_; ///< what errors are measured against
-    measure::Picture sum_;
-    int summed_ = 0;
+    measure::Picture sum_;    ///< of the passes after the first
+    int summed_ = 0;          ///< number of pictures in `sum_`
     std::vector<std::uint32_t> hits_;
     std::shared_ptr<const measure::Picture> display_;
 };
