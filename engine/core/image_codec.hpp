@@ -28,6 +28,7 @@ struct ImageShape {
     std::size_t channel_count = 0;
     std::vector<std::string> channels; ///< channel names: "R", "G", "B", "A", "Y" ...
     std::string description;           ///< text in the header of an OpenEXR file; may be empty
+    bool has_8_bits = false;           ///< PNG: whether each value is stored in 8 bits or fewer
 };
 
 /// Reads a picture. At first only the header is read. `bytes` must outlive the reader.

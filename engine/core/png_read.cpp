@@ -162,7 +162,11 @@ ImageShape PngReader::shape() const {
     constexpr const char* kColourChannelNames[] = {"R", "G", "B", "A"};
     const bool is_grey = open_->channel_count < 3;
     const char* const* const names = is_grey ? kGreyChannelNames : kColourChannelNames;
-    return {open_->size, open_->channel_count, {names, names + open_->channel_count}};
+    return {.size = open_->size,
+            .channel_count = open_->channel_count,
+            .channels = {names, names + open_->channel_count},
+            .description = {},
+            .has_8_bits = !open_->is_wide};
 }
 
 void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type,

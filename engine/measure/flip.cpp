@@ -137,25 +137,36 @@ CATOPTRIC_WIDE void convert_to_opponent(double* __restrict x, double* __restrict
     }
 }
 
+/// Writes the pixels, three values each, as linear RGB.
+void decode_pixels(const vec3* pixels, std::size_t count, PixelEncoding encoding,
+                   double* __restrict red, double* __restrict green, double* __restrict blue) {
+    const auto decode = [&](const auto& curve) {
+        for (std::size_t i = 0; i < count; ++i) {
+            red[i] = curve(pixels[i].x);
+            green[i] = curve(pixels[i].y);
+            blue[i] = curve(pixels[i].z);
+        }
+    };
+    if (encoding == PixelEncoding::srgb)
+        decode(LinearTable());
+    else
+        decode([](float light) { return static_cast<double>(light); });
+}
+
 /// Writes the opponent colours of a part of a displayed picture with a border of `reach` pixels.
 /// Beyond the picture, its outermost pixels are repeated.
-void convert_part_to_opponent(const Picture& display, const PixelRegion& part, int reach,
-                              ChannelPlanes& result) {
+void convert_part_to_opponent(const Picture& display, PixelEncoding encoding,
+                              const PixelRegion& part, int reach, ChannelPlanes& result) {
     const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
     const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
     for (ChannelPlane& plane : result) plane.resize(size.x, size.y);
-    constexpr LinearTable kLinear;
+    const auto count = static_cast<std::size_t>(end - first);
     for (int y = 0; y < size.y; ++y) {
         const vec3* const pixels = &display.at(0, std::clamp(low.y + y, 0, display.height - 1));
         const std::array<double*, 3> rows = {result[0].row(y), result[1].row(y), result[2].row(y)};
-        for (int x = first; x < end; ++x) {
-            const vec3& pixel = pixels[low.x + x];
-            rows[0][x] = kLinear(pixel.x);
-            rows[1][x] = kLinear(pixel.y);
-            rows[2][x] = kLinear(pixel.z);
-        }
-        convert_to_opponent(rows[0] + first, rows[1] + first, rows[2] + first,
-                            static_cast<std::size_t>(end - first));
+        decode_pixels(pixels + low.x + first, count, encoding, rows[0] + first, rows[1] + first,
+                      rows[2] + first);
+        convert_to_opponent(rows[0] + first, rows[1] + first, rows[2] + first, count);
         for (double* const row : rows) {
             std::fill(row, row + first, row[first]);
             std::fill(row + end, row + size.x, row[end - 1]);
@@ -316,7 +327,8 @@ CATOPTRIC_WIDE void compare_flip_inputs(const FlipInput& a, const FlipInput& b,
 /// Computes parts of a map, one after the other in the same memory.
 class FlipMapPart {
 public:
-    explicit FlipMapPart(const FlipKernels& kernels) : kernels_(kernels) {}
+    FlipMapPart(const FlipKernels& kernels, PixelEncoding encoding)
+        : kernels_(kernels), encoding_(encoding) {}
 
     /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
     void write(const Picture& a, const Picture& b, const PixelRegion& part, float* to,
@@ -333,7 +345,7 @@ public:
 
 private:
     void see(const Picture& display, const PixelRegion& part, FlipInput& seen) {
-        convert_part_to_opponent(display, part, kernels_.reach, opponent_);
+        convert_part_to_opponent(display, encoding_, part, kernels_.reach, opponent_);
         const auto& [achromatic, red_green, blue_yellow] = opponent_;
         const ColourKernels& colour = kernels_.colour;
         convolve_along_x(achromatic, colour.achromatic, kernels_.reach, part_);
@@ -361,6 +373,7 @@ private:
     }
 
     const FlipKernels& kernels_;
+    PixelEncoding encoding_;
     ChannelPlanes opponent_;
     ChannelPlane part_, part_2_, smooth_x_;
     FlipInput a_, b_;
@@ -371,11 +384,11 @@ private:
 } // namespace
 
 std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_degree) {
-    return flip_of_rows(a, b, 0, a.height, pixels_per_degree);
+    return flip_of_rows(a, b, 0, a.height, PixelEncoding::srgb, pixels_per_degree);
 }
 
 std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, int end,
-                                double pixels_per_degree) {
+                                PixelEncoding encoding, double pixels_per_degree) {
     check(a.width == b.width && a.height == b.height, Failure::bad_data,
           "FLIP wants two pictures "
           "of the same size, found ",
@@ -397,7 +410,7 @@ std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, i
     const int tile_count = tiles.x * tiles.y;
     std::atomic<int> next{0};
     const auto work = [&](std::size_t) {
-        FlipMapPart part_of_map(kernels);
+        FlipMapPart part_of_map(kernels, encoding);
         for (int tile = next++; tile < tile_count; tile = next++) {
             const ivec2 low = kFlipTileEdge * ivec2(tile % tiles.x, tile / tiles.x);
             const ivec2 high = min(low + kFlipTileEdge, size), from(0, first);

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 namespace catoptric::measure {
@@ -40,80 +39,90 @@ Mask mask_patch_corners(const Mask& mask, std::size_t width) {
     return corners;
 }
 
-/// Pixels that belong to no set yet, with a border of pixels that do not count.
-class RemainingPixels {
-public:
-    RemainingPixels(const Mask& mask, std::size_t width)
-        : stride_(width + 2 * kPixelBorder),
-          pixels_(stride_ * (mask.size() / width + 2 * kPixelBorder)) {
-        for (std::size_t first = 0, y = 0; first < mask.size(); first += width, ++y)
-            std::copy_n(mask.begin() + static_cast<std::ptrdiff_t>(first), width,
-                        pixels_.begin() +
-                            static_cast<std::ptrdiff_t>((y + kPixelBorder) * stride_) +
-                            kPixelBorder);
-    }
-
-    std::uint8_t& at(int x, int y) { return row(y)[x + kPixelBorder]; }
-
-    /// Removes the pixels that (x, y) touches and calls `found` for each, row by row.
-    template <typename Found>
-    void take_around(int x, int y, Found&& found) {
-        for (int v = y - kPixelBorder; v <= y + kPixelBorder; ++v) {
-            // Points to column x - kPixelBorder, because rows have a border.
-            std::uint8_t* const around = row(v) + x;
-            if ((four(around) | four(around + kPixelBorder)) == 0) continue;
-            for (int i = 0; i <= 2 * kPixelBorder; ++i) {
-                if (around[i] == 0) continue;
-                around[i] = 0;
-                found(x - kPixelBorder + i, v);
-            }
-        }
-    }
-
-private:
-    std::uint8_t* row(int y) {
-        return pixels_.data() + static_cast<std::size_t>(y + kPixelBorder) * stride_;
-    }
-    static std::uint32_t four(const std::uint8_t* pixels) {
-        std::uint32_t result;
-        std::memcpy(&result, pixels, sizeof(result));
-        return result;
-    }
-
-    std::size_t stride_;
-    Mask pixels_;
-};
-
-/// Bounding box of a set of connected pixels.
-struct PixelSetBounds {
+/// Set of connected pixels: its bounding box, and its parent in a forest of merged sets.
+struct PixelSet {
+    int parent;
     int low_x, high_x, low_y, high_y;
-    bool is_patch = false;
+    bool is_patch;
 
     int length() const { return std::max(high_x - low_x, high_y - low_y) + 1; }
 };
 
-/// Removes the set of pixel (x, y) from `remaining` and returns it.
-PixelSetBounds remove_connected_set(const Mask& corners, std::size_t width,
-                                    RemainingPixels& remaining, int x, int y) {
-    PixelSetBounds set{x, x, y, y};
-    // Breadth first: only as many pixels wait as the set's edge is long. Depth first, most of a
-    // large set would wait.
-    std::vector<std::pair<int, int>> open{{x, y}}, next;
-    remaining.at(x, y) = 0;
-    for (std::size_t i = 0; !open.empty(); ++i) {
-        if (i == open.size()) {
-            open.clear(), std::swap(open, next), i = 0;
-            if (open.empty()) break;
-        }
-        const auto [at_x, at_y] = open[i];
-        set.low_x = std::min(set.low_x, at_x), set.high_x = std::max(set.high_x, at_x);
-        set.low_y = std::min(set.low_y, at_y), set.high_y = std::max(set.high_y, at_y);
-        set.is_patch =
-            set.is_patch ||
-            corners[static_cast<std::size_t>(at_y) * width + static_cast<std::size_t>(at_x)] != 0;
-        remaining.take_around(at_x, at_y, [&](int u, int v) { next.emplace_back(u, v); });
+/// Disjoint sets of pixels, numbered from 0.
+class PixelSets {
+public:
+    /// Adds a set of pixels of row `y` and returns its number.
+    int add(int low_x, int high_x, int y, bool is_patch) {
+        const int number = static_cast<int>(sets_.size());
+        sets_.push_back({number, low_x, high_x, y, y, is_patch});
+        return number;
     }
-    return set;
+
+    void merge(int one, int other) {
+        one = root(one), other = root(other);
+        if (one == other) return;
+        PixelSet &to = at(one), &from = at(other);
+        to.low_x = std::min(to.low_x, from.low_x), to.high_x = std::max(to.high_x, from.high_x);
+        to.low_y = std::min(to.low_y, from.low_y), to.high_y = std::max(to.high_y, from.high_y);
+        to.is_patch = to.is_patch || from.is_patch;
+        from.parent = one;
+    }
+
+    /// Returns the length of the longest set that is no patch, or 0.
+    int longest_line() const {
+        int longest = 0;
+        for (std::size_t i = 0; i < sets_.size(); ++i)
+            if (sets_[i].parent == static_cast<int>(i) && !sets_[i].is_patch)
+                longest = std::max(longest, sets_[i].length());
+        return longest;
+    }
+
+private:
+    PixelSet& at(int number) { return sets_[static_cast<std::size_t>(number)]; }
+    /// Returns the set into which `number` was merged. Shortens the path for the next call.
+    int root(int number) {
+        while (at(number).parent != number)
+            number = at(number).parent = at(at(number).parent).parent;
+        return number;
+    }
+
+    std::vector<PixelSet> sets_;
+};
+
+/// Pixels of a row, each of which touches the next.
+struct PixelRun {
+    int low, high;
+    int set;
+};
+
+/// Appends the runs of row `y` to `runs`, each as a set of its own.
+void find_runs(const std::uint8_t* row, const std::uint8_t* corners, int width, int y,
+               PixelSets& sets, std::vector<PixelRun>& runs) {
+    for (int x = 0; x < width; ++x) {
+        if (row[x] == 0) continue;
+        int high = x;
+        for (int next = x + 1; next < width && next - high <= kPixelBorder; ++next)
+            if (row[next] != 0) high = next;
+        const bool is_patch = std::memchr(corners + x, 1, static_cast<std::size_t>(high - x + 1));
+        runs.push_back({x, high, sets.add(x, high, y, is_patch)});
+        x = high;
+    }
+}
+
+/// Merges the sets of runs that touch. `one` and `other` are runs of two rows that are at most
+/// kPixelBorder apart, from left to right.
+void merge_touching_runs(const std::vector<PixelRun>& one, const std::vector<PixelRun>& other,
+                         PixelSets& sets) {
+    for (auto a = one.begin(), b = other.begin(); a != one.end() && b != other.end();) {
+        // Pixels of a run are at most kPixelBorder apart, so no gap of a run holds a pixel of
+        // another row that touches none of it.
+        if (a->low <= b->high + kPixelBorder && b->low <= a->high + kPixelBorder)
+            sets.merge(a->set, b->set);
+        if (a->high < b->high)
+            ++a;
+        else
+            ++b;
+    }
 }
 
 const RegisteredMetric kLongestLineMetric{
@@ -131,17 +140,19 @@ const RegisteredMetric kLongestLineMetric{
 int longest_line_length(const Mask& off, int width) {
     if (off.empty()) return 0;
     const auto columns = static_cast<std::size_t>(width);
-    const int height = static_cast<int>(off.size() / columns);
+    const std::size_t height = off.size() / columns;
     const Mask corners = mask_patch_corners(off, columns);
-    RemainingPixels remaining(off, columns);
-    int longest = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            if (remaining.at(x, y) == 0) continue;
-            const PixelSetBounds set = remove_connected_set(corners, columns, remaining, x, y);
-            if (!set.is_patch) longest = std::max(longest, set.length());
-        }
-    return longest;
+    PixelSets sets;
+    std::array<std::vector<PixelRun>, kPixelBorder + 1> last_rows;
+    for (std::size_t y = 0; y < height; ++y) {
+        std::vector<PixelRun>& runs = last_rows[y % last_rows.size()];
+        runs.clear();
+        find_runs(off.data() + y * columns, corners.data() + y * columns, width,
+                  static_cast<int>(y), sets, runs);
+        for (const std::vector<PixelRun>& above : last_rows)
+            if (&above != &runs) merge_touching_runs(above, runs, sets);
+    }
+    return sets.longest_line();
 }
 
 } // namespace catoptric::measure

@@ -108,10 +108,12 @@ std::string PictureReader::format() const {
     return open_->format == "png" ? "PNG" : open_->format == "hdr" ? "Radiance" : "OpenEXR";
 }
 
+bool PictureReader::has_8_bits() const { return open_->reader.shape().has_8_bits; }
+
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
     static const LinearDecoder kDecoded;
     // Pixels that are read at once; at least a row.
-    constexpr std::size_t kPixelsPerBlock = std::size_t{1} << 18;
+    constexpr std::size_t kPixelsPerBlock = std::size_t{1} << 15;
     const bool is_stored = open_->format == "png"; // PNGs store sRGB values
     const std::size_t channel_count = open_->reader.shape().channel_count;
     const auto columns = static_cast<std::size_t>(width());

@@ -18,9 +18,11 @@ CATOPTRIC_WIDE void sum_weighted_rows(const double* const* rows, const double* w
         FourValues sums[kRegisterSums] = {};
         for (std::size_t tap = 0; tap < taps; ++tap) {
             const FourValues* row = reinterpret_cast<const FourValues*>(rows[tap] + x);
+#pragma GCC unroll 8 // -O2 alone would keep the sums in memory
             for (int i = 0; i < kRegisterSums; ++i) sums[i] += weights[tap] * row[i];
         }
         FourValues* const there = reinterpret_cast<FourValues*>(to + x);
+#pragma GCC unroll 8
         for (int i = 0; i < kRegisterSums; ++i) there[i] = sums[i];
     }
     for (; x < width; ++x) {
