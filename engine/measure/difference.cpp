@@ -179,7 +179,7 @@ void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
         squares_ += run.square[i];
         absolutes_ += run.absolute[i];
         flips_ += static_cast<double>(flip_map[i]);
-        largest_.push_back(static_cast<float>(largest));
+        largest_.push_back(largest);
         off_[first + i] = largest > kVisibleDifference;
         off_count_ += off_[first + i];
         if (largest_.size() == 1 || largest > result_.max) {
@@ -194,7 +194,7 @@ void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
 Difference DifferenceSum::finish_difference() {
     Difference result = std::exchange(result_, {});
     const Mask off = std::exchange(off_, {});
-    std::vector<float> largest = std::exchange(largest_, {});
+    std::vector<double> largest = std::exchange(largest_, {});
     if (largest.empty()) return result;
     const auto judged = static_cast<double>(largest.size());
     result.rmse = std::sqrt(squares_ / (3 * judged));
@@ -202,7 +202,7 @@ Difference DifferenceSum::finish_difference() {
     result.flip = flips_ / judged;
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.off = static_cast<double>(off_count_) / judged;
-    result.p99 = compute_float_percentile(std::move(largest), 0.99);
+    result.p99 = compute_percentile(std::move(largest), 0.99);
     result.longest_line = longest_line_length(off, width_);
     return result;
 }

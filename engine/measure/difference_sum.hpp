@@ -8,7 +8,7 @@
 namespace catoptric::measure {
 
 /// Sums the difference of two pictures row by row, so that neither picture needs to be in memory as
-/// a whole. Keeps 5 bytes a pixel. The result does not depend on how many rows each call adds.
+/// a whole. Keeps 9 bytes a pixel. The result does not depend on how many rows each call adds.
 class DifferenceSum {
 public:
     /// Reserves memory for all pixels at once, because growing step by step would take twice as
@@ -33,7 +33,7 @@ private:
     int width_;
     Difference result_;
     /// Largest channel difference of each finite pixel of the mask.
-    std::vector<float> largest_;
+    std::vector<double> largest_;
     Mask off_;
     std::size_t off_count_ = 0;
     double squares_ = 0, absolutes_ = 0, flips_ = 0;

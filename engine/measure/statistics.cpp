@@ -9,10 +9,7 @@
 
 namespace catoptric::measure {
 
-namespace {
-
-template <typename Value>
-double select_percentile(std::vector<Value> values, double fraction) {
+double compute_percentile(std::vector<double> values, double fraction) {
     check(!values.empty(), Failure::internal, "a percentile wants at least one value, found none");
     check(fraction >= 0 && fraction <= 1, Failure::internal,
           "a percentile wants a fraction in [0,1], found ", fraction);
@@ -21,19 +18,9 @@ double select_percentile(std::vector<Value> values, double fraction) {
     const auto low = values.begin() + rank;
     std::nth_element(values.begin(), low, values.end());
     const double rest = position - static_cast<double>(rank);
-    const auto here = static_cast<double>(*low);
-    if (rest == 0) return here;
-    const auto high = static_cast<double>(*std::min_element(low + 1, values.end()));
-    return here + rest * (high - here);
-}
-
-} // namespace
-
-double compute_percentile(std::vector<double> values, double fraction) {
-    return select_percentile(std::move(values), fraction);
-}
-double compute_float_percentile(std::vector<float> values, double fraction) {
-    return select_percentile(std::move(values), fraction);
+    if (rest == 0) return *low;
+    const double high = *std::min_element(low + 1, values.end());
+    return *low + rest * (high - *low);
 }
 
 SampleSummary summarise_samples(std::span<const double> samples) {

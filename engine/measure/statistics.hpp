@@ -17,6 +17,5 @@ SampleSummary summarise_samples(std::span<const std::vector<double>> rounds);
 /// the two nearest ranks, at position fraction * (n - 1) of the sorted list. Throws `internal` if
 /// the list is empty. Costs O(n).
 double compute_percentile(std::vector<double> values, double fraction);
-double compute_float_percentile(std::vector<float> values, double fraction);
 
 } // namespace catoptric::measure
