@@ -5,12 +5,14 @@ namespace catoptric::reflect {
 
 namespace {
 
+constexpr std::array<std::string_view, 2> kLampChoices{"sampled", "met"};
 constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kFirstHitChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
 /// Numbered as in shaders/lib/plain.glsl.
 constexpr std::array<std::string_view, 6> kDroppedRuleChoices{
     "none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
+enum class LampMethod { sampled, met };
 enum class SphereShape { mesh, exact };
 enum class FirstHitMethod { ray, raster };
 enum class HitPrecision { f32, f64 };
@@ -40,6 +42,13 @@ constexpr Knob kLobeSeedKnob{
     .low = 0,
     .high = 999'999'999,
     .value = 0};
+constexpr Knob kLampsKnob{
+    .name = "lamps",
+    .help =
+        "how rays of rough surfaces find lamps: sampled = beside each ray, one to a point drawn "
+        "on a lamp (next-event estimation; not with sphere=exact or hit=f64); met = by chance",
+    .high = 1,
+    .choices = kLampChoices};
 constexpr std::int64_t kMaxPathsPerPixel = 65536; // of a pixel: samples times rays
 constexpr Knob kSphereKnob{.name = "sphere",
                            .help = "shape of balls: triangles or exact spheres",
@@ -58,10 +67,10 @@ constexpr Knob kWithoutRuleKnob{.name = "without",
                                 .help = "rule of robustness to leave out, to measure its cost",
                                 .high = 5,
                                 .choices = kDroppedRuleChoices};
-constexpr Knob kRaytraceKnobs[] = {kDepthKnob,         kSamplesKnob,      kLobeRaysKnob,
-                                   kLobeSeedKnob,      kTracedShadowKnob, kSphereKnob,
-                                   kFirstHitKnob,      kHitPrecisionKnob, kWithoutRuleKnob,
-                                   kShadowMapEdgeKnob, kCaptureKnob};
+constexpr Knob kRaytraceKnobs[] = {kDepthKnob,       kSamplesKnob,       kLobeRaysKnob,
+                                   kLobeSeedKnob,    kLampsKnob,         kTracedShadowKnob,
+                                   kSphereKnob,      kFirstHitKnob,      kHitPrecisionKnob,
+                                   kWithoutRuleKnob, kShadowMapEdgeKnob, kCaptureKnob};
 
 bool is_first_raster(const KnobSettings& settings) {
     return settings.enum_value<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
@@ -72,6 +81,7 @@ TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting&
     return {.depth = static_cast<std::uint32_t>(settings.integer_value(kDepthKnob)),
             .samples = settings.integer_value(kSamplesKnob),
             .rays = static_cast<std::uint32_t>(settings.integer_value(kLobeRaysKnob)),
+            .samples_lamps = settings.enum_value<LampMethod>(kLampsKnob) == LampMethod::sampled,
             .seed = static_cast<std::uint32_t>(settings.integer_value(kLobeSeedKnob)),
             // A scene without lights has no shadow map, and no light needs a shadow test.
             .shadow = shadow == SharedKnobs::ShadowMethod::none ? TracerSettings::TracedShadow::none

@@ -44,6 +44,13 @@ render::SphereMode sphere_mode_of_tracer(const TracerSettings& tracer) {
     return tracer.exact_spheres ? render::SphereMode::exact : render::SphereMode::mesh;
 }
 
+/// Returns whether rays aim at lamps. Exact spheres and points in double precision differ from the
+/// triangles on which points are drawn.
+bool aims_at_lamps(const TracerSettings& tracer, const render::GpuScene& scene) {
+    return tracer.samples_lamps && tracer.rays > 0 && !tracer.exact_spheres && !tracer.doubles &&
+           scene.has_sampled_lamps();
+}
+
 bool reads_shadow_map(const TracerSettings& tracer) {
     return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
@@ -61,6 +68,7 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
              {"first_raster", tracer.first_raster ? 1u : 0u},
              {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
+             {"samples_lamps", aims_at_lamps(tracer, scene) ? 1u : 0u},
              {"without", tracer.without},
              {"fixed_offset", scene.space().to_scene_length(kSeedReportRayOffset)}},
             scene.tracing_features(sphere_mode_of_tracer(tracer))};

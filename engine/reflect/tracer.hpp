@@ -13,6 +13,9 @@ struct TracerSettings {
     /// Rays from each rough surface, in directions drawn from its lobe; each starts with a camera
     /// ray of its own. 0: rough surfaces reflect sharply.
     std::uint32_t rays = 0;
+    /// Whether a ray to a point drawn on a lamp goes with each ray of a lobe
+    /// (shaders/lib/lamps.glsl).
+    bool samples_lamps = true;
     /// Seed of these directions, in addition to FrameInputs::seed.
     std::uint32_t seed = 0;
     TracedShadow shadow = TracedShadow::ray;

@@ -5,6 +5,7 @@
 #include "render/enclosure.hpp"
 #include "render/face_needs.hpp"
 #include "render/footprint.hpp"
+#include "render/lamp_table.hpp"
 #include "render/limits.hpp"
 #include "render/texels.hpp"
 #include "render/views.hpp"
@@ -88,7 +89,8 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
       placement_buffer_("placements", gpu::BufferUsage::plain, slots),
       light_buffer_("lights", gpu::BufferUsage::uniform, slots),
       probe_buffer_("probes", gpu::BufferUsage::texels, slots),
-      mirror_tree_("mirror_tree", gpu::BufferUsage::texels, slots), details_(slots), sky_(slots),
+      mirror_tree_("mirror_tree", gpu::BufferUsage::texels, slots),
+      lamp_buffer_("lamps", gpu::BufferUsage::texels, slots), details_(slots), sky_(slots),
       tracing_(std::make_unique<RayTracingTrees>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
@@ -105,7 +107,10 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     const bool moves_vertices = vertices_.layouts() != known_layouts_;
     if (changes.layout || changes.materials || moves_vertices)
         details_.fill(now, geometry_, vertices_, device_.max_texel_count(sizeof(std::uint32_t)));
-    if (changes.has_shape_changes() || changes.materials || moves_vertices) fill_surfaces(now);
+    if (changes.has_shape_changes() || changes.materials || moves_vertices) {
+        fill_surfaces(now);
+        fill_lamp_table();
+    }
     if (changes.has_shape_changes()) fill_placements();
     known_layouts_ = vertices_.layouts();
     if (changes.has_shape_changes() || changes.lights) fill_lights(now, changes.lights);
@@ -187,6 +192,15 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
     surface_buffer_.set_contents(pack_into_texels(listed));
+}
+
+/// Lists the triangles of lamps, which only rays of rough surfaces read.
+void GpuScene::fill_lamp_table() {
+    std::vector<vec4> table;
+    if (details_.any_lobes()) table = make_lamp_table(geometry_, surfaces_);
+    has_sampled_lamps_ = !table.empty();
+    table.resize(std::max<std::size_t>(table.size(), 1)); // a buffer needs a texel
+    lamp_buffer_.set_contents(table);
 }
 
 /// Writes the placements of object spaces: an entry for each object, or a single entry if no object
@@ -276,7 +290,7 @@ std::uint32_t GpuScene::common_face_edge() const {
 void GpuScene::write_buffers(std::size_t slot) {
     uploads_ += vertices_.write(device_, slot) + sky_.write(device_, slot);
     for (DeviceList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
-                               &light_buffer_, &probe_buffer_, &mirror_tree_})
+                               &light_buffer_, &probe_buffer_, &mirror_tree_, &lamp_buffer_})
         uploads_ += buffer->write_changed_pages(device_, slot);
     uploads_ += details_.write(device_, slot);
 }
@@ -289,6 +303,7 @@ void GpuScene::bind(graph::PassCommands& commands) const {
     commands.bind("Lights", light_buffer_.buffer_of_copy(slot_));
     commands.bind("probe_texels", probe_buffer_.buffer_of_copy(slot_));
     commands.bind("mirror_nodes", mirror_tree_.buffer_of_copy(slot_));
+    commands.bind("lamp_texels", lamp_buffer_.buffer_of_copy(slot_));
     details_.bind(commands, slot_);
     sky_.bind(commands, slot_);
     vertices_.bind(commands, slot_);

@@ -100,6 +100,8 @@ public:
     gpu::ShaderConstants tracing_features(SphereMode spheres) const;
     /// Returns whether some surface has more than one colour.
     bool has_details() const { return details_.any(); }
+    /// Returns whether rays of rough surfaces can aim at points drawn on lamps.
+    bool has_sampled_lamps() const { return has_sampled_lamps_; }
     /// Returns whether rays that leave the scene can see an environment.
     bool has_sky() const { return sky_.environment_kind() != 0; }
 
@@ -157,6 +159,7 @@ private:
     void fill_surfaces(const scene::Scene& now);
     void fill_placements();
     void fill_lights(const scene::Scene& now, bool others);
+    void fill_lamp_table();
     void fill_probes(const scene::Scene& now, const SceneChanges& changes);
     InnerBall make_inner_ball(std::size_t object, const dvec3& centre);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
@@ -189,14 +192,15 @@ private:
     uvec2 size_{0};
     bool complete_ = false; ///< the last update finished without an exception
     bool has_object_spaces_ = false;
-    bool has_light_kinds_ = false; ///< some light has no surface, or shines to two sides
+    bool has_sampled_lamps_ = false; ///< the lamp table is not empty
+    bool has_light_kinds_ = false;   ///< some light has no surface, or shines to two sides
     std::uint32_t shadow_faces_ = 6;
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     mutable DeviceList view_buffer_;
     DeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
-        mirror_tree_;
+        mirror_tree_, lamp_buffer_;
     MaterialParameterLists details_;
     EnvironmentOnDevice sky_;
     std::unique_ptr<RayTracingTrees> tracing_;

@@ -165,6 +165,21 @@ bool sample_specular_lobe(vec3 direction, vec3 facet, float u, float v, inout ve
     return true;
 }
 
+// Returns the share of light, per steradian, that the rough surface evaluated last reflects from `leaving` to where the
+// ray comes from, and the density with which sample_specular_lobe draws `leaving`. `mirrored` is the direction of the
+// perfect mirror. Returns 0 if the ray arrives from behind, or for light from below the facet's plane.
+vec3 evaluate_specular_lobe(vec3 direction, vec3 mirrored, vec3 facet, vec3 leaving, out float density) {
+    vec3 tangent, bitangent;
+    vec3 normal = normalize(mirrored - direction);
+    tangent_frame(normal, tangent, bitangent);
+    vec3 to_eye = -vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
+    vec3 to_light = vec3(dot(tangent, leaving), dot(bitangent, leaving), dot(normal, leaving));
+    float alpha = roughness_to_alpha(specular_lobe.roughness);
+    density = lobe_pdf(alpha, to_eye, to_light);
+    if (!(dot(leaving, facet_side(normal, facet)) > 0.0)) return vec3(0);
+    return specular_lobe.gain * evaluate_lobe(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, to_light);
+}
+
 // Returns entry (x, y) of the table of lobe_albedo_terms.
 vec2 read_lobe_albedo(int x, int y) {
     return unpackUnorm2x16(texture_words_at(kSrgbTableWords + uint(y) * kLobeTableEdge + uint(x)));

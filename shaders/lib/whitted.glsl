@@ -8,6 +8,7 @@
 #include "lib/environment.glsl"
 #include "lib/eye.glsl"
 #include "lib/first_hit.glsl"
+#include "lib/lamps.glsl"
 #include "lib/lights.glsl"
 #include "lib/material.glsl"
 
@@ -286,6 +287,58 @@ bool draw_lobe_direction(SurfacePoint p, vec3 direction, uint bounce, inout vec3
     return sample_specular_lobe(direction, p.facet, u, v, weight, leaving);
 }
 
+// With samples_lamps, a ray to a point drawn on a lamp is traced before the path goes on: that point, the weight of its
+// emission, and the path's next ray with the rounding error of its origin.
+bool traces_to_lamp = false;
+LampPoint lamp;
+vec3 lamp_weight, path_low;
+Ray path_ray;
+const uint kLampDimensions = 0x10000u; // first dimension of sample_point for lamps; lobes have those below
+
+// Replaces the path's next ray by one to a point drawn on a lamp, unless the surface reflects no light from there to
+// where `direction` comes from. `weight` is the path's weight before the surface. Light that rays of the lobe meet, too,
+// counts by the shares of both densities (multiple importance sampling, balance heuristic: Veach and Guibas,
+// "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995).
+void aim_at_lamp(SurfacePoint p, vec3 direction, uint bounce, vec3 weight, inout Ray ray) {
+    float u, v, lobe_density;
+    sample_point(path_pixel, path_sample, kLampDimensions + bounce, path_seed, u, v);
+    lamp = draw_lamp_point(u, v);
+    vec3 to_lamp = lamp.position - p.position;
+    vec3 mirrored = mirror_direction(direction, p.normal, p.facet);
+    vec3 reflected = evaluate_specular_lobe(direction, mirrored, p.facet, normalize(to_lamp), lobe_density);
+    float lamp_density = solid_angle_density(lamp_point_density(lamp.object), to_lamp, lamp.normal);
+    lamp_weight = weight * reflected / (lobe_density + lamp_density);
+    traces_to_lamp = largest(lamp_weight) > 0.0;
+    if (!traces_to_lamp) return;
+    path_ray = ray;
+    path_low = trace_low;
+    vec3 origin = leaving_ray_origin(p, to_lamp);
+    ray = Ray(origin, normalize(lamp.position - origin), p.leaves);
+    ++shadow_rays;
+}
+
+// Goes on with the path after its ray to a lamp.
+void resume_path(out Ray ray) {
+    ray = path_ray;
+    trace_low = path_low;
+    traces_to_lamp = false;
+}
+
+// Returns whether the ray has met the point drawn on a lamp, and no other surface before.
+bool meets_lamp_point(SurfacePoint p, vec3 origin) {
+    const float kTolerance = 1e-4; // of the distance; far above the rounding of positions
+    vec3 miss = p.position - lamp.position, way = lamp.position - origin;
+    return p.object == lamp.object && dot(miss, miss) <= kTolerance * kTolerance * dot(way, way);
+}
+
+// Returns the share of a surface's emission that counts where a ray of a lobe meets it: the rest is counted by rays to
+// lamps. `lobe_density` is the density with which the ray was drawn, 0 for a ray that no lamp ray accompanies.
+float met_emission_share(SurfacePoint p, vec3 origin, float lobe_density) {
+    float density = lamp_point_density(p.object);
+    if (lobe_density == 0.0 || density == 0.0) return 1.0;
+    return lobe_density / (lobe_density + solid_angle_density(density, p.position - origin, p.facet));
+}
+
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
     if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
@@ -338,17 +391,31 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
     uint bounce = first;
     TraceHit hit;
     uint known = kUnknownHit;
+    float lobe_density = 0.0; // with which the path's ray was drawn, if a ray to a lamp accompanied it
     if (first_raster != 0u && first == 0u) known = known_hit(ray, hit);
     if (known == kUnknownHit && first == 0u) ++camera_rays;
     do {
         bool found = trace_ray(ray, skipped, known, hit, point);
         known = kUnknownHit;
+        bool is_to_lamp = samples_lamps != 0u && traces_to_lamp;
+        if (is_to_lamp && !found) {
+            resume_path(ray);
+            done = weight == vec3(0);
+            continue;
+        }
         if (!found) {
             if (environment_kind != kNoEnvironment) result += weight * environment_radiance(ray.direction);
             done = true;
             continue;
         }
         Surface surface = evaluate_surface(point, ray.direction);
+        if (is_to_lamp) {
+            if (meets_lamp_point(point, ray.origin)) result += lamp_weight * surface.emission;
+            resume_path(ray);
+            done = weight == vec3(0);
+            continue;
+        }
+        if (samples_lamps != 0u) surface.emission *= met_emission_share(point, ray.origin, lobe_density);
         if (bounce < first + 2u) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
@@ -365,8 +432,9 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         } else if (bounce == max_depth) {
             done = true;
         } else {
-            vec3 direction;
-            if (!draw_lobe_direction(point, ray.direction, bounce, weight, direction)) {
+            vec3 direction, weight_before = weight, arriving = ray.direction;
+            bool is_drawn = draw_lobe_direction(point, arriving, bounce, weight, direction);
+            if (!is_drawn) {
                 weight *= surface.reflectance;
 #ifdef DOUBLES
                 direction = exact_reflection();
@@ -375,8 +443,15 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             ray = Ray(leaving_ray_origin(point, direction), direction, point.leaves);
             skipped = 0u;
             ++mirror_rays;
+            if (samples_lamps != 0u) {
+                lobe_density = 0.0;
+                if (is_drawn) {
+                    evaluate_specular_lobe(arriving, mirror_direction(arriving, point.normal, point.facet), point.facet, direction, lobe_density);
+                    aim_at_lamp(point, arriving, bounce, weight_before, ray);
+                }
+            }
             ++bounce;
-            if (traces_lobes != 0u) done = weight == vec3(0);
+            if (traces_lobes != 0u) done = weight == vec3(0) && !traces_to_lamp;
         }
     } while (!done);
     // The software driver silently stops this loop, too, after it has stopped a loop of the BVH walk.

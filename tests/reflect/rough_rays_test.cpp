@@ -159,6 +159,79 @@ TEST(RoughRays, RoughMirrorsInAFurnaceGainNoLight) {
     EXPECT_GT(rough_sum, .8 * sharp_sum);
 }
 
+/// A hall of rough metal with two lamps that rays of lobes seldom meet: a small quad with another
+/// colour than a far, large ball. A board hides the small lamp from a part of the floor.
+scene::Scene make_hall_with_small_lamps() {
+    scene::Scene scene{.name = "hall"};
+    scene.mirror_max_roughness = 1;
+    const auto metal = [&](const char* name, float roughness, vec3 colour) {
+        return test::add_material(
+            scene, {.name = name, .albedo = colour, .metallic = 1, .roughness = roughness});
+    };
+    const auto lamp = [&](const char* name, vec3 emission) {
+        return test::add_material(scene, {.name = name, .emission = emission, .two_sided = true});
+    };
+    test::add_quad(scene, "floor", metal("floor metal", .4f, {.9f, .6f, .3f}), {-5, 0, 5},
+                   {5, 0, 5}, {5, 0, -5}, {-5, 0, -5});
+    test::add_quad(scene, "wall", metal("wall metal", .25f, {.5f, .7f, .9f}), {-5, 0, -5},
+                   {5, 0, -5}, {5, 4, -5}, {-5, 4, -5});
+    test::add_quad(scene, "small lamp", lamp("small", {40, 30, 20}), {.2, 2, -.9}, {.6, 2, -.9},
+                   {.6, 2, -1.3}, {.2, 2, -1.3});
+    test::add_ball(scene, "ball lamp", lamp("ball", {1, 2, 3}), {-2, 1, -3}, .4);
+    test::add_quad(scene, "board", metal("board metal", .5f, vec3(.8f)), {.4, 1.2, -1},
+                   {.8, 1.2, -1}, {.8, 1.2, -1.4}, {.4, 1.2, -1.4});
+    scene::find_mirrors(scene);
+    scene.cameras.push_back(
+        {.eye = {0, 2, 5}, .target = {0, .5, -2}, .up = {0, 1, 0}, .vertical_fov_degrees = 50});
+    return scene;
+}
+
+/// Rays that aim at lamps change the noise of a picture but not its mean, in each block of pixels.
+TEST(RoughRays, SampledLampsKeepTheMeanAndLowerTheNoise) {
+    const scene::Scene scene = make_hall_with_small_lamps();
+    constexpr int kSeeds = 12, kBlock = 4, kBlocks = kRoughEdge / kBlock;
+    /// Sums over the seeds of a block's red, and of its square.
+    struct BlockSums {
+        double values = 0, squares = 0;
+        double mean() const { return values / kSeeds; }
+        double variance() const {
+            return std::max(squares / kSeeds - mean() * mean(), 0.) / (kSeeds - 1);
+        }
+    };
+    const auto trace = [&](const std::string& technique) {
+        std::array<BlockSums, kBlocks * kBlocks> blocks;
+        for (int seed = 1; seed <= kSeeds; ++seed) {
+            const measure::Picture picture = trace_with_seed(scene, technique,
+                                                             static_cast<std::uint64_t>(seed));
+            for (int block = 0; block < kBlocks * kBlocks; ++block) {
+                double red = 0;
+                for (int i = 0; i < kBlock * kBlock; ++i)
+                    red += picture
+                               .at(block % kBlocks * kBlock + i % kBlock,
+                                   block / kBlocks * kBlock + i / kBlock)
+                               .x;
+                blocks[std::size_t(block)].values += red;
+                blocks[std::size_t(block)].squares += red * red;
+            }
+        }
+        return blocks;
+    };
+    const auto sampled = trace("raytrace:rays=64,depth=3"),
+               met = trace("raytrace:rays=512,depth=3,lamps=met");
+    double most = 0, sampled_variance = 0, met_variance = 0;
+    for (std::size_t i = 0; i < sampled.size(); ++i) {
+        const double apart = std::abs(sampled[i].mean() - met[i].mean());
+        most = std::max(most, apart / std::sqrt(sampled[i].variance() + met[i].variance() + 1e-12));
+        sampled_variance += sampled[i].variance(), met_variance += met[i].variance();
+        EXPECT_GT(met[i].mean(), 0) << i;
+    }
+    std::cout << "[ MEASURED ] blocks at most " << most << " standard errors apart; variance "
+              << sampled_variance << " with 64 sampled rays, " << met_variance
+              << " with 512 that meet lamps by chance\n";
+    EXPECT_LE(most, 5); // 16 blocks of Student's distribution with few seeds
+    EXPECT_LT(sampled_variance, met_variance);
+}
+
 TEST(RoughRays, TooManyRaysAreRefused) {
     EXPECT_THAT(test::error_text_of(Failure::usage,
                                     [] {

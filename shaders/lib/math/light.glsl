@@ -68,6 +68,13 @@ INLINE bool compute_directional_light_factor(vec3 normal, vec3 axis, OUT(vec3) d
     return factor > real(0);
 }
 
+// Converts a density per area at a point with the unit normal `normal` to a density per steradian, as seen from
+// -`to_point` away. Infinite for a point seen edge-on.
+INLINE real solid_angle_density(real area_density, vec3 to_point, vec3 normal) {
+    real square = dot(to_point, to_point);
+    return area_density * square * sqrt(square) / abs(dot(normal, to_point));
+}
+
 // Returns the radiance of a Lambertian surface. `direct` is the sum over all lights of intensity * factor * visible.
 INLINE vec3 lambert(vec3 emission, vec3 albedo, vec3 direct, real ambient) {
     return emission + albedo / kPi * direct + albedo * ambient;
