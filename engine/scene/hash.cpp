@@ -132,6 +132,7 @@ std::string hash_scene(const Scene& scene) {
     hasher.add(hasher.state_of(scene.environment.get()));
     hasher.add(scene.mirror_max_roughness);
     hasher.add(scene.has_multiple_scattering);
+    if (scene.light_samples != 1) hasher.add(scene.light_samples); // older scenes keep their hash
     hasher.add(scene.exposure);
     std::string digits(16, '0');
     for (std::size_t i = 0; i < digits.size(); ++i)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -186,6 +187,111 @@ MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_ob
     return components;
 }
 
+/// Triangle of a lamp, world units.
+struct LampFacet {
+    dvec3 corner, second, third; ///< a corner, and the sides from it to the two others
+    dvec3 normal{0};             ///< unit length, on the side of the vertex normals
+    double area = 0;
+};
+
+/// Returns a number by which facets lie along a curve through space (Morton order). Neighbours on
+/// the curve are near each other. `middle` is between 0 and 1 in each coordinate.
+std::uint64_t morton_code(const dvec3& middle) {
+    constexpr int kMortonBits = 20; // of each coordinate
+    std::uint64_t code = 0;
+    for (int bit = kMortonBits - 1; bit >= 0; --bit)
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto cell = static_cast<std::uint64_t>(std::clamp(middle[axis], 0.0, 1.0) *
+                                                         ((1 << kMortonBits) - 1));
+            code = code << 1 | (cell >> bit & 1);
+        }
+    return code;
+}
+
+/// Sorts facets so that equal parts of their area, one after the other, are compact patches. In the
+/// order of a mesh, points at equal steps of area could all lie on one side of a lamp.
+void sort_facets_in_space(std::vector<LampFacet>& facets) {
+    Bounds<double> box;
+    const auto middle = [](const LampFacet& facet) {
+        return facet.corner + (facet.second + facet.third) / 3.0;
+    };
+    for (const LampFacet& facet : facets) box.add(middle(facet));
+    const dvec3 extent = box.extent();
+    const double size = std::max({extent.x, extent.y, extent.z});
+    if (!(size > 0)) return;
+    std::vector<std::pair<std::uint64_t, std::size_t>> order;
+    for (std::size_t i = 0; i < facets.size(); ++i)
+        order.emplace_back(morton_code((middle(facets[i]) - box.lo) / size), i);
+    std::ranges::sort(order);
+    std::vector<LampFacet> sorted;
+    for (const auto& [code, i] : order) sorted.push_back(facets[i]);
+    facets = std::move(sorted);
+}
+
+/// Returns the triangles of the mesh by component.
+std::vector<std::vector<LampFacet>> list_lamp_facets(const Mesh& mesh,
+                                                     const dmat4& world_from_object,
+                                                     const MeshComponents& components) {
+    std::vector<dvec3> world;
+    for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
+    const dmat3 normal_to_world = normal_matrix(world_from_object);
+    std::vector<std::vector<LampFacet>> facets(components.sums.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (!components.of_triangles[i]) continue;
+        const uvec3& t = mesh.triangles[i];
+        LampFacet facet{world[t.x], world[t.y] - world[t.x], world[t.z] - world[t.x],
+                        normalized_or_zero(triangle_cross_product(world, t)),
+                        compute_triangle_area(world, t)};
+        const dvec3 vertex_normals = normal_to_world *
+                                     (dvec3(mesh.normals[t.x]) + dvec3(mesh.normals[t.y]) +
+                                      dvec3(mesh.normals[t.z]));
+        if (glm::dot(facet.normal, vertex_normals) < 0) facet.normal = -facet.normal;
+        facets[*components.of_triangles[i]].push_back(facet);
+    }
+    for (std::vector<LampFacet>& component : facets) sort_facets_in_space(component);
+    return facets;
+}
+
+/// Returns number `i` of van der Corput's sequence to base 2, in [0,1).
+double van_der_corput(std::uint32_t i) {
+    double result = 0, digit = .5;
+    for (; i != 0; i >>= 1, digit /= 2) result += (i & 1) * digit;
+    return result;
+}
+
+/// Appends `count` lights that replace a lamp, each with an equal share of its area. They lie at
+/// stratified points (Hammersley) of its facets. Each shines to the facet's front, or to both sides
+/// if the lamp is open and two-sided. The front of a closed lamp is the side away from the mean of
+/// its vertices.
+void add_lamp_samples(const std::vector<LampFacet>& facets, const PointLight& lamp, bool two_sided,
+                      int count, std::vector<PointLight>& lights) {
+    double before = 0; // area of the facets before `facet`
+    auto facet = facets.begin();
+    for (int i = 0; i < count; ++i) {
+        const double place = (i + .5) / count * lamp.area;
+        while (facet + 1 != facets.end() && place > before + facet->area) before += (facet++)->area;
+        const double root = std::sqrt(std::clamp((place - before) / facet->area, 0.0, 1.0)),
+                     across = van_der_corput(static_cast<std::uint32_t>(i));
+        PointLight light{.position = facet->corner + root * (1 - across) * facet->second +
+                                     root * across * facet->third,
+                         .area = lamp.area / count,
+                         .is_lamp = true,
+                         .closed = lamp.closed,
+                         .emission = lamp.emission};
+        if (two_sided && !lamp.closed) {
+            LightSums one;
+            one.area = light.area;
+            one.facets = light.area * glm::outerProduct(facet->normal, facet->normal);
+            set_two_sided_axes(light, one);
+        } else {
+            light.normal = facet->normal;
+            if (lamp.closed && glm::dot(light.normal, light.position - lamp.position) < 0)
+                light.normal = -light.normal;
+        }
+        lights.push_back(light);
+    }
+}
+
 PointLight make_point_light(const PunctualLight& punctual) {
     const LightKind& kind = light_kind_of(punctual.kind);
     PointLight light{.position = dvec3(punctual.world_from_light[3]),
@@ -219,8 +325,17 @@ std::vector<PointLight> list_lights(const Scene& scene) {
         const Material& material = scene.materials[object.material];
         if (scene::emitted_radiance(material) == vec3(0)) continue;
         const Mesh& mesh = scene.meshes[object.mesh];
-        for (const LightSums& sums : find_mesh_components(mesh, object.world_from_object).sums)
-            all.push_back(make_point_light(sums, material));
+        const MeshComponents components = find_mesh_components(mesh, object.world_from_object);
+        std::vector<std::vector<LampFacet>> facets;
+        if (scene.light_samples > 1)
+            facets = list_lamp_facets(mesh, object.world_from_object, components);
+        for (std::size_t i = 0; i < components.sums.size(); ++i) {
+            const PointLight lamp = make_point_light(components.sums[i], material);
+            if (scene.light_samples > 1)
+                add_lamp_samples(facets[i], lamp, material.two_sided, scene.light_samples, all);
+            else
+                all.push_back(lamp);
+        }
     }
     for (const PunctualLight& punctual : scene.punctual) all.push_back(make_point_light(punctual));
     return all;

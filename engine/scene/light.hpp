@@ -29,10 +29,10 @@ struct PointLight {
     PunctualLight::Kind kind = PunctualLight::Kind::point; ///< of a light without a surface
 };
 
-/// Returns the scene's lights: one for each connected component of each mesh that lights, in file
-/// order, then the lights without a surface. Vertices connect through a shared index or an
-/// identical position. Vertices at one position count once in the mean. Triangles without area, and
-/// vertices that only they use, contribute nothing.
+/// Returns the scene's lights: Scene::light_samples lights for each connected component of each
+/// mesh that lights, in file order, then the lights without a surface. Vertices connect through a
+/// shared index or an identical position. Vertices at one position count once in the mean.
+/// Triangles without area, and vertices that only they use, contribute nothing.
 std::vector<PointLight> list_lights(const Scene& scene);
 
 /// Returns how much of a light's area shines in the unit direction `along`, away from it, 0 to 1:

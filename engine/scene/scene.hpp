@@ -153,6 +153,7 @@ struct Scene {
     std::shared_ptr<const Environment> environment; ///< none: black
     float mirror_max_roughness = .6f;               ///< rougher surfaces are no mirrors
     bool has_multiple_scattering = false;           ///< rough lobes lose no light (Turquin 2019)
+    int light_samples = 1;                          ///< points that replace each lamp
     std::optional<double> exposure;                 ///< stops, if the file gives them
     std::vector<UnsupportedFeature> unsupported;
     std::vector<std::string> warnings; ///< about features that the loader left out or repaired

@@ -75,7 +75,7 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
-const std::array<SceneFileKey, 13> kSceneFileKeys{
+const std::array<SceneFileKey, 14> kSceneFileKeys{
     {{"mirrors",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : read_texts(file, value, "mirrors"))
@@ -122,6 +122,15 @@ const std::array<SceneFileKey, 13> kSceneFileKeys{
           if (!overrides.multiple_scattering) return Json();
           return Json(*overrides.multiple_scattering ? "turquin" : "none");
       }},
+     {"light_samples",
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          const double count = read_bounded_number(file, value, "light_samples", 1,
+                                                   kMaxLightSamples);
+          file.require(count == std::floor(count), "light_samples: wanted a whole number, found ",
+                       gltf::describe_json_value(value));
+          overrides.light_samples = static_cast<int>(count);
+      },
+      [](const SceneOverrides& overrides) { return overrides_to_json(overrides.light_samples); }},
      {"environment",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           overrides.environment = read_text(file, value, "environment");

@@ -130,6 +130,7 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
     replace_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
     replace_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
     replace_if_set(both.multiple_scattering, stronger.multiple_scattering);
+    replace_if_set(both.light_samples, stronger.light_samples);
     replace_if_set(both.environment, stronger.environment);
     replace_if_set(both.environment_scale, stronger.environment_scale);
     replace_if_set(both.environment_rotation, stronger.environment_rotation);

@@ -36,6 +36,8 @@ inline constexpr double kMaxExposureStops =
 inline constexpr double kMaxRotationDegrees =
     36000;                                     ///< limit of an environment's rotation, degrees
 inline constexpr double kMaxLightScale = 1e30; ///< limit of factors that scale light
+inline constexpr int kMaxLightSamples =
+    128; ///< most points that replace a lamp (shared::kMaxLights)
 
 /// Overrides as the user gave them. An empty member was not given.
 struct SceneOverrides {
@@ -44,6 +46,7 @@ struct SceneOverrides {
     std::optional<double> mirror_max_roughness;
     std::optional<bool> dielectric_mirrors;
     std::optional<bool> multiple_scattering; ///< "turquin" in files and on the command line
+    std::optional<int> light_samples;        ///< 1 to kMaxLightSamples
     std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;

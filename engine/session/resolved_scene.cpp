@@ -14,6 +14,7 @@
 #include "scene/number.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/unsupported_feature.hpp"
+#include "shared.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +115,21 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
     scene.environment = std::move(environment);
 }
 
+/// Sets the number of points that replace each lamp. Throws `usage` if the device cannot hold all.
+void apply_light_samples(ResolvedScene& wanted) {
+    if (!wanted.overrides.light_samples) return;
+    scene::Scene& scene = wanted.scene;
+    const int samples = *wanted.overrides.light_samples;
+    const std::size_t others = scene.punctual.size(),
+                      lamps = scene::list_lights(scene).size() - others,
+                      most = shared::kMaxLights - std::min<std::size_t>(others, shared::kMaxLights);
+    check(lamps * static_cast<std::size_t>(samples) <= most, Failure::usage, "--light-samples ",
+          samples, " (light_samples in a scene file): ", lamps, " lamps would become ",
+          lamps * static_cast<std::size_t>(samples), " lights; wanted at most ", most,
+          ", which are ", most / std::max<std::size_t>(lamps, 1), " for each lamp");
+    scene.light_samples = samples;
+}
+
 /// Adds a message about the cost of many mirrors.
 void warn_of_many_mirrors(scene::Scene& scene) {
     // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
@@ -207,6 +223,7 @@ ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& 
     wanted.scene = scene::load_file(name, load);
     apply_scene_overrides(wanted, options.overrides, filed);
     if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMaxLights);
+    apply_light_samples(wanted);
     apply_environment_overrides(wanted, options.overrides);
     scene::sort_unsupported_features(wanted.scene);
     warn_of_many_mirrors(wanted.scene);

@@ -24,6 +24,12 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
         "make lamps of emitting objects or materials with this name, also if a texture varies the "
         "emission; may be repeated",
         [&](const std::string& text) { overrides.lights.push_back(text); });
+    verb.option("--light-samples", "N",
+                "points that replace each lamp and each cast a shadow, from 1 to 128 (1)",
+                [&](const std::string& text) {
+                    overrides.light_samples = static_cast<int>(
+                        parse_integer("--light-samples", text, 1, scene::kMaxLightSamples));
+                });
     verb.option("--mirror-max-roughness", "A", "largest roughness of a mirror, from 0 to 1 (0.6)",
                 [&](const std::string& text) {
                     overrides.mirror_max_roughness = parse_real("--mirror-max-roughness", text, 0,

@@ -52,6 +52,7 @@ TEST_F(Cli, HelpNamesEveryCommonOption) {
                                "--mirror-max-roughness",
                                "--dielectric-mirrors",
                                "--multiple-scattering",
+                               "--light-samples",
                                "--environment",
                                "--environment-scale",
                                "--environment-rotate",
@@ -197,6 +198,20 @@ TEST_F(Cli, InvalidNumberOfAnOptionIsRefused) {
     refused("--mirror", "a=2", "from 0 to 1");
     for (const std::string seed : {"-1", "1.5", "18446744073709551616"})
         refused("--seed", seed, "whole number");
+}
+
+TEST_F(Cli, MorePointsOnLampsThanADeviceHoldsAreRefused) {
+    const std::vector<std::string> render{"render", "gallery", "--technique",
+                                          "reuse",  "-o",      "x.png"};
+    const auto with = [&](const char* samples) {
+        std::vector<std::string> words = render;
+        words.insert(words.end(), {"--light-samples", samples});
+        return words;
+    };
+    expect_refused(with("64"), 2,
+                   {"--light-samples 64", "3 lamps would become 192 lights", "wanted at most 128",
+                    "42 for each lamp"});
+    expect_refused(with("129"), 2, {"--light-samples", "from 1 to 128", "129"});
 }
 
 TEST_F(Cli, UnknownChoiceOfAnOptionIsRefused) {

@@ -275,6 +275,7 @@ TEST_F(Readers, ChangedSceneOverrideFilesAreReadOrRefused) {
                            {"mirror_max_roughness", 0.1},
                            {"dielectric_mirrors", false},
                            {"multiple_scattering", "turquin"},
+                           {"light_samples", 4},
                            {"environment", "good.exr"},
                            {"environment_scale", 1},
                            {"environment_rotate", 90},

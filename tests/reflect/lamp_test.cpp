@@ -3,7 +3,9 @@
 #include "support/lit.hpp"
 #include "support/special_values.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 namespace {
@@ -55,6 +57,66 @@ TEST(Lamp, TwoSidedBoardShinesByTheCosineOnBothSides) {
         const double wanted = .5 / test::kPi * 30 * .04 * std::abs(std::cos(turn)) / 4;
         for (const std::string& technique : kLampWorlds)
             EXPECT_NEAR(floor_pixel(scene, technique), wanted, 1e-5) << technique << " " << turn;
+    }
+}
+
+/// Returns the form factor of the rectangle [0,x] x [0,z] at this height, seen from a surface at
+/// the origin that faces it; negative for one negative side.
+double rectangle_form_factor(double x, double z, double height) {
+    x /= height, z /= height;
+    const double a = std::sqrt(1 + x * x), b = std::sqrt(1 + z * z);
+    return (x / a * std::atan(z / a) + z / b * std::atan(x / b)) / (2 * test::kPi);
+}
+
+/// A board with a straight edge hides a part of a square lamp. What a point of the floor sees of
+/// the lamp is a rectangle.
+TEST(Lamp, SoftShadowOfASquareLampIsItsVisibleFormFactor) {
+    constexpr int kEdge = 32;
+    constexpr double kLampHeight = 2, kBoardHeight = 1, kHalf = .5, kEmission = 8;
+    scene::Scene scene{.name = "penumbra"};
+    const std::size_t white = test::add_material(scene, {.name = "white", .albedo = vec3(1)}),
+                      lamp = test::add_material(scene,
+                                                {.name = "lamp", .emission = vec3(kEmission)});
+    test::add_quad(scene, "floor", white, {-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4});
+    test::add_quad(scene, "board", white, {0, kBoardHeight, -9}, {9, kBoardHeight, -9},
+                   {9, kBoardHeight, 9}, {0, kBoardHeight, 9});
+    test::add_quad(scene, "lamp", lamp, {-kHalf, kLampHeight, -kHalf}, {kHalf, kLampHeight, -kHalf},
+                   {kHalf, kLampHeight, kHalf}, {-kHalf, kLampHeight, kHalf});
+    scene.cameras.push_back({.name = "below the board",
+                             .eye = {0, .9, 0},
+                             .target = {0, 0, 0},
+                             .up = {0, 0, -1},
+                             .vertical_fov_degrees = 60});
+    const auto rmse = [&](const std::string& technique, int samples) {
+        scene.light_samples = samples;
+        const measure::Picture found =
+            test::render_without_ambient(scene, technique, {kEdge, kEdge}).hdr;
+        double squares = 0;
+        for (int y = 0; y < kEdge; ++y)
+            for (int x = 0; x < kEdge; ++x) {
+                const dvec3 along = test::pixel_direction(scene.cameras.front(), x, y, kEdge);
+                const dvec3 at = scene.cameras.front().eye + along * (.9 / -along.y);
+                // The edge of the board is half-way between the floor and the lamp.
+                const double right = std::clamp(-at.x, -kHalf, kHalf);
+                double visible = 0;
+                for (const double z : {-kHalf, kHalf})
+                    visible += (z > 0 ? 1 : -1) *
+                               (rectangle_form_factor(right - at.x, z - at.z, kLampHeight) -
+                                rectangle_form_factor(-kHalf - at.x, z - at.z, kLampHeight));
+                const double error = found.at(x, y).x - kEmission * visible;
+                squares += error * error;
+            }
+        return std::sqrt(squares / (kEdge * kEdge));
+    };
+    for (const std::string& technique : kLampWorlds) {
+        const double one = rmse(technique, 1), few = rmse(technique, 16),
+                     many = rmse(technique, 64);
+        std::cout << "[ MEASURED ] " << technique << ": rmse " << one << " with 1 point, " << few
+                  << " with 16, " << many << " with 64; brightest about "
+                  << kEmission * 4 * rectangle_form_factor(kHalf, kHalf, kLampHeight) << '\n';
+        EXPECT_GT(one, .1) << technique;
+        EXPECT_LT(few, one / 4) << technique;
+        EXPECT_LT(many, .012) << technique;
     }
 }
 

@@ -44,7 +44,7 @@ protected:
 TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
     const app::ResolvedScene found = load(
-        R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true, "multiple_scattering": "turquin",
+        R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true, "multiple_scattering": "turquin", "light_samples": 4,
             "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
             "ambient": 0.125, "exposure": -1.5, "camera": "1,2,3:0,0,0:30", "up": "y",
             "animation": "none"})");
@@ -53,6 +53,7 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     EXPECT_EQ(scene.mirror_max_roughness, .25f);
     EXPECT_EQ(found.overrides.dielectric_mirrors, true);
     EXPECT_TRUE(scene.has_multiple_scattering);
+    EXPECT_EQ(scene.light_samples, 4);
     ASSERT_NE(scene.environment, nullptr);
     EXPECT_EQ(scene.environment->name, "sky.exr");
     EXPECT_EQ(scene.environment->size, uvec2(4, 2));
@@ -130,6 +131,10 @@ TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
     EXPECT_THAT(refused(R"({"dielectric_mirrors": 1})"), HasSubstr("wanted true or false"));
     EXPECT_THAT(refused(R"({"multiple_scattering": "full"})"),
                 HasSubstr("wanted \"none\" or \"turquin\", found 'full'"));
+    EXPECT_THAT(refused(R"({"light_samples": 0})"),
+                HasSubstr("light_samples: wanted a number from 1 to 128, found 0"));
+    EXPECT_THAT(refused(R"({"light_samples": 2.5})"),
+                HasSubstr("light_samples: wanted a whole number, found 2.5"));
     EXPECT_THAT(refused(R"({"up": "x"})"), HasSubstr("up: wanted \"y\" or \"z\", found \"x\""));
     EXPECT_THAT(refused(R"({"environment": "../sky.exr"})"), HasSubstr("--root"));
     EXPECT_THAT(test::error_text_of(Failure::missing_input,
@@ -182,7 +187,7 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.mirrors = {{"a=b", vec3(1)}, {"c", {.1f, .5f, 0}}};
     overrides.lights = {"l*"};
     overrides.mirror_max_roughness = .3, overrides.dielectric_mirrors = false;
-    overrides.multiple_scattering = true;
+    overrides.multiple_scattering = true, overrides.light_samples = 9;
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
     overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";
     const std::string scene = write("x.obj", kDark);

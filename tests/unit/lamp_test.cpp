@@ -178,6 +178,77 @@ TEST_F(Lamps, ClosedLampsShineLikeAQuarterOfTheirSurface) {
         }
 }
 
+/// Returns the form factor of the rectangle [0,x] x [0,z] at height 1, seen from a surface at the
+/// origin that faces it. Negative for one negative side (Siegel and Howell, "Thermal Radiation Heat
+/// Transfer", configuration 1).
+double corner_form_factor(double x, double z) {
+    const double a = std::sqrt(1 + x * x), b = std::sqrt(1 + z * z);
+    return (x / a * std::atan(z / a) + z / b * std::atan(x / b)) / (2 * test::kPi);
+}
+
+/// A square lamp close to a plane: many points light it as the whole square does, one does not.
+TEST_F(Lamps, SampledSquareLightsAPlaneByItsFormFactor) {
+    const Mesh board = scene::quad("lamp", {-.5, 1, -.5}, {.5, 1, -.5}, {.5, 1, .5}, {-.5, 1, .5});
+    for (const bool two_sided : {false, true}) {
+        Scene scene = load(write("lamp.glb", glb_of(board, two_sided)));
+        const auto largest_error = [&](int samples) {
+            scene.light_samples = samples;
+            EXPECT_EQ(list_lights(scene).size(), static_cast<std::size_t>(samples));
+            double most = 0;
+            for (const double x : {0.0, .3, .8, 1.5})
+                for (const double z : {0.0, .6, 1.1}) {
+                    const double wanted = corner_form_factor(.5 - x, .5 - z) -
+                                          corner_form_factor(-.5 - x, .5 - z) -
+                                          corner_form_factor(.5 - x, -.5 - z) +
+                                          corner_form_factor(-.5 - x, -.5 - z);
+                    double found = 0;
+                    for (const PointLight& light : list_lights(scene)) {
+                        const dvec3 way = dvec3(x, 0, z) - light.position,
+                                    along = glm::normalize(way);
+                        found += light.area * light_share_towards(light, along) * -along.y /
+                                 glm::dot(way, way) / test::kPi;
+                    }
+                    most = std::max(most, std::abs(found - wanted));
+                }
+            return most;
+        };
+        EXPECT_GT(largest_error(1), .03) << two_sided;
+        EXPECT_LT(largest_error(64), .002) << two_sided;
+    }
+}
+
+/// Whatever the shape, the points share its area, lie on it, and shine away from it.
+TEST_F(Lamps, SampledClosedLampsShineLikeTheirClosedForms) {
+    constexpr double kAway = 2;
+    const struct {
+        const char* name;
+        Mesh mesh;
+        double area;
+    } lamps[] = {{"sphere", uneven_sphere(.1), 4 * test::kPi * .01},
+                 {"box", uneven_box({.1, .05, .08}), 8 * (.005 + .008 + .004)}};
+    for (const auto& [name, mesh, area] : lamps)
+        for (auto& [how, scene] : scenes(mesh)) {
+            scene.light_samples = 128;
+            double total = 0;
+            for (const PointLight& light : list_lights(scene)) {
+                total += light.area;
+                EXPECT_GT(glm::dot(light.normal, light.position), 0) << name << ", " << how;
+            }
+            EXPECT_NEAR(total / area, 1, .01) << name << ", " << how;
+            // Over all directions, a convex body shows a quarter of its surface.
+            constexpr int kDirections = 400;
+            double found = 0;
+            for (int i = 0; i < kDirections; ++i) {
+                const double y = 1 - (2 * i + 1.) / kDirections, turn = 2.399963 * i,
+                             flat = std::sqrt(1 - y * y);
+                found += irradiance(scene, kAway * dvec3(flat * std::cos(turn), y,
+                                                         flat * std::sin(turn))) /
+                         kDirections;
+            }
+            EXPECT_NEAR(found / (30 * area / 4 / (kAway * kAway)), 1, .03) << name << ", " << how;
+        }
+}
+
 TEST_F(Lamps, OpenTwoSidedBoardShinesByItsVisibleArea) {
     const Mesh board = scene::quad("lamp", {-.1, .02, -.1}, {-.1, .02, .1}, {.1, .02, .1},
                                    {.1, .02, -.1});
