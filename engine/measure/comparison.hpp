@@ -205,12 +205,10 @@ struct Row : Errors {
     SampleSummary closure;
     std::uint64_t memory_bytes = 0; ///< memory of the frame's images
     std::optional<RayCounts> rays;  ///< rays of one frame; empty if the row traces none
-    /// Texels of half-float captures that are clipped at 65504.
-    std::optional<std::size_t> saturated_texels;
-    std::optional<LookupErrorSummary>
-        lookup; ///< of the looked-up directions, over first-order pixels
-    std::optional<LightEdgeErrors> light_edges; ///< only for rows that look into captures
-    std::shared_ptr<Causes> causes;             ///< see CompareRequest::studies; may be null
+    std::optional<std::size_t> saturated_texels; ///< of half-float captures, clipped at 65504
+    std::optional<LookupErrorSummary> lookup;    ///< of directions, over first-order pixels
+    std::optional<LightEdgeErrors> light_edges;  ///< only for rows that look into captures
+    std::shared_ptr<Causes> causes;              ///< see CompareRequest::studies; may be null
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
     /// Errors in each of Comparison::views, in the same order. Empty if no views were drawn. A run
@@ -243,9 +241,8 @@ struct Comparison {
     SetupFacts setup; ///< costs of the set-up work that was done before the end of the comparison
     int width = 0, height = 0;
     int frames = 0, warmup = 0;
-    int rounds = 0; ///< number of rounds in which the frames were measured
-    /// Runnable threads of the machine; NaN if unknown.
-    double load_start = NAN, load_end = NAN;
+    int rounds = 0;                          ///< number of rounds in which the frames were measured
+    double load_start = NAN, load_end = NAN; ///< runnable threads of the machine; NaN: unknown
     double time = 0, ambient = 0.05, exposure = 0;
     std::string timing = "isolated";
     std::string model = "everything"; ///< "everything", "required", or "both" for each row
@@ -264,8 +261,9 @@ struct Comparison {
     /// Indices of the rows on the front of time against FLIP over the mirrors, from
     /// measure::find_front.
     std::vector<std::size_t> pareto;
-    std::shared_ptr<LagResults> lag;  ///< see CompareRequest::studies; may be null
-    std::vector<std::string> studies; ///< names of the studies that were asked for
+    double max_ms = NAN, max_flip = NAN; ///< budgets (measure/budget.hpp); NaN: none
+    std::shared_ptr<LagResults> lag;     ///< see CompareRequest::studies; may be null
+    std::vector<std::string> studies;    ///< names of the studies that were asked for
     std::vector<std::string> warnings;
     /// Folder of the pictures below images/, such as "1-room/"; empty for images/ itself.
     std::string images;

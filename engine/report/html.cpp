@@ -1,5 +1,6 @@
 // Writes report.html: one self-contained page without script.
 #include "report/html.hpp"
+#include "measure/budget.hpp"
 #include "measure/heat.hpp"
 #include "measure/judge.hpp"
 #include "report/plot.hpp"
@@ -255,8 +256,12 @@ std::string make_html_page(const std::string& title, const std::string& content)
 
 std::string make_html_section(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html = "<header><p class=\"kicker\">Reflections compared</p><h1>" +
-                       escape_html(comparison.scene.name) + "</h1><p class=\"lede\">" +
-                       escape_html(summarise_verdict(comparison)) + "</p>";
+                       escape_html(comparison.scene.name) + "</h1>" +
+                       (measure::has_budget(comparison)
+                            ? "<p class=\"lede answer\"><strong>" +
+                                  escape_html(describe_budget_answer(comparison)) + "</strong></p>"
+                            : "") +
+                       "<p class=\"lede\">" + escape_html(summarise_verdict(comparison)) + "</p>";
     const std::vector<std::string> notes = list_cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + html_list(notes) + "</aside>";
     const bool is_page = html_id_prefix(comparison).empty(); // a page has exactly one <main>

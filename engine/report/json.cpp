@@ -3,6 +3,7 @@
 
 #include "core/mirror_id.hpp"
 #include "core/text.hpp"
+#include "measure/budget.hpp"
 #include "measure/flip.hpp"
 #include "measure/halves.hpp"
 #include "measure/lag.hpp"
@@ -94,6 +95,24 @@ Json add_difference_metrics_json(Json json, const measure::Difference& error) {
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         json[std::string(quantity.name)] = value_json(measure::metric_value(quantity, error));
     return json;
+}
+
+/// Returns the budgets, and the labels of the rows that answer them.
+Json make_budget_json(const Comparison& comparison) {
+    const measure::BudgetAnswer answer = measure::find_row_within_budget(comparison);
+    const auto label = [](const Row* row) { return row == nullptr ? Json() : Json(row->label); };
+    const auto labels = [](const std::vector<const Row*>& rows) {
+        Json list = Json::array();
+        for (const Row* row : rows) list.push_back(row->label);
+        return list;
+    };
+    return {{"max_ms", number_json(comparison.max_ms)},
+            {"max_flip", number_json(comparison.max_flip)},
+            {"row", label(answer.row)},
+            {"ties", labels(answer.ties)},
+            {"undecided", labels(answer.undecided)},
+            {"nearest", label(answer.nearest)},
+            {"text", describe_budget_answer(comparison)}};
 }
 
 void add_error_fields_json(Json& json, const Row& row) {
@@ -252,6 +271,7 @@ Json make_report_json(const Comparison& comparison) {
     json["rows"] = list_json(comparison.rows,
                              [&](const Row& row) { return to_json(comparison, row); });
     json["pareto"] = comparison.pareto;
+    if (measure::has_budget(comparison)) json["budget"] = make_budget_json(comparison);
     if (comparison.lag) json["lag"] = to_json(*comparison.lag);
     return json;
 }

@@ -1,4 +1,5 @@
 #include "core/text.hpp"
+#include "measure/budget.hpp"
 #include "report/report_part.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -82,7 +83,11 @@ std::string to_markdown(const ReportTable& table) {
 
 std::string to_markdown(const Comparison& comparison) {
     std::string text = "# Reflections compared: " + escape_markdown(comparison.scene.name) +
-                       "\n\n" + escape_markdown(summarise_verdict(comparison)) + "\n\n";
+                       "\n\n" +
+                       (measure::has_budget(comparison)
+                            ? "**" + escape_markdown(describe_budget_answer(comparison)) + "**\n\n"
+                            : "") +
+                       escape_markdown(summarise_verdict(comparison)) + "\n\n";
     for (const ReportFact& fact : list_report_facts(comparison))
         text += "- **" + fact.name + "**: " + escape_markdown(fact.value) + "\n";
     text += "\n";

@@ -96,6 +96,9 @@ std::vector<std::string> list_cautions(const Comparison& comparison);
 std::vector<std::string> list_findings(const Comparison& comparison);
 std::string make_findings_title(const Comparison& comparison);
 
+/// Returns the answer to the budgets of the comparison, or an empty text if it has none: the row to
+/// take on this device, what ties with it, or what comes nearest.
+std::string describe_budget_answer(const Comparison& comparison);
 /// Returns one sentence that names the device and says whether ray tracing beats the other rows on
 /// it. If all rows are of one kind, it names the fastest and the closest row.
 std::string summarise_verdict(const Comparison& comparison);

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/image_module.hpp"
 #include "core/text.hpp"
+#include "measure/budget.hpp"
 #include "measure/causes.hpp"
 #include "measure/interval.hpp"
 #include "measure/lag.hpp"
@@ -12,6 +13,7 @@
 #include "output_checks.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
+#include "report/tables.hpp"
 #include "report/writer.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
@@ -22,6 +24,7 @@
 #include "verbs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -49,6 +52,7 @@ struct CompareOptions {
     bool together = false;
     double reference_seconds = app::CompareRequest().reference_seconds;
     app::PixelTruth truth = app::PixelTruth::centre;
+    double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumns csv = report::CsvColumns::table;
     std::vector<app::StudyChoice> studies;
@@ -183,7 +187,10 @@ public:
                 print_note(manners, row.label + ": " + what);
         if (!manners.json)
             print_result((is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
-                         make_compare_table(comparison));
+                         make_compare_table(comparison) +
+                         (measure::has_budget(comparison)
+                              ? report::describe_budget_answer(comparison) + "\n"
+                              : ""));
         else if (is_one_)
             print_result(report::to_json(comparison));
     }
@@ -202,8 +209,8 @@ private:
 
 /// Measures one scene and writes the report on all scenes so far.
 report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& request,
-                                 std::size_t index, ProgressPrinter& progress,
-                                 CompareOutput& output) {
+                                 std::size_t index, const CompareOptions& budget,
+                                 ProgressPrinter& progress, CompareOutput& output) {
     const std::size_t row_count = list_requested_rows(request).size();
     request.watcher = make_progress_watcher(progress);
     tell_row(request.watcher, "reference " + request.reference, 0, row_count);
@@ -211,6 +218,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
         output.write_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
+    comparison.max_ms = budget.max_ms, comparison.max_flip = budget.max_flip;
     progress.clear();
     // If no row was finished, an earlier report is worth more.
     if (!comparison.rows.empty()) output.write_report(index, comparison);
@@ -235,20 +243,23 @@ int run_compare(const CompareOptions& options) {
     ProgressPrinter progress(manners, ProgressPrinter::ProgressOffTerminal::tenths);
     CompareOutput output(options, requests.size());
     std::vector<std::string> broken;
+    bool keeps_budgets = true;
     for (std::size_t i = 0; i < requests.size(); ++i) {
-        const report::Comparison comparison = compare_scene(engine, requests[i], i, progress,
-                                                            output);
+        const report::Comparison comparison = compare_scene(engine, requests[i], i, options,
+                                                            progress, output);
         if (comparison.stopped || i + 1 == requests.size()) output.show_all();
         if (!comparison.stopped && i + 1 == requests.size())
             print_note(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
+        keeps_budgets = keeps_budgets && (!measure::has_budget(comparison) ||
+                                          measure::find_row_within_budget(comparison).row);
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
     if (options.common.device.validate) engine.check_validation();
-    return 0;
+    return keeps_budgets ? 0 : 1;
 }
 
 enum class StudyOption : std::uint8_t { number, words, flag };
@@ -319,6 +330,20 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                     options->rounds = static_cast<int>(
                         parse_integer("--rounds", text, app::kRounds, 10000));
                 });
+    verb.option(
+        "--max-ms", "M",
+        "say which row has the least error within M milliseconds of this device; exit code 1 "
+        "if no row is that fast",
+        [options](const std::string& text) {
+            options->max_ms = parse_real("--max-ms", text, 0, 1e6);
+        });
+    verb.option(
+        "--max-flip", "F",
+        "say which row is the fastest with a FLIP of at most F, within --max-ms if given; exit "
+        "code 1 if no row is that close",
+        [options](const std::string& text) {
+            options->max_flip = parse_real("--max-flip", text, 0, 1);
+        });
     verb.option("--truth", "T",
                 "pixels of the reference: centre (one camera ray, as techniques draw them) or "
                 "converged (the mean over the pixel's area) (centre)",

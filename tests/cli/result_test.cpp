@@ -80,6 +80,37 @@ TEST_F(Cli, SameRenderCommandWritesTheSameBytes) {
         }
 }
 
+/// The answer stands on the terminal, in each file and in JSON; the exit code says whether a row
+/// keeps the budget.
+TEST_F(Cli, CompareSaysWhichRowKeepsABudget) {
+    const auto compare = [&](const Words& more) {
+        Words words{"compare", "-o", "out", "--techniques", "reuse:face=8", "raytrace:depth=2"};
+        words.insert(words.end(), more.begin(), more.end());
+        return cli(quick(words));
+    };
+    const test::ProcessResult plenty = compare({"--max-ms", "100000"});
+    EXPECT_EQ(plenty.exit_code, 0) << plenty.err;
+    const json budget = json::parse(read_path(folder / "out/report.json"))["budget"];
+    EXPECT_EQ(budget["max_ms"], 100000);
+    EXPECT_TRUE(budget["max_flip"].is_null());
+    EXPECT_EQ(budget["row"], "raytrace:depth=2");
+    const std::string text = budget["text"];
+    EXPECT_THAT(text, testing::StartsWith("Within 100000 ms on "));
+    EXPECT_THAT(plenty.out, testing::HasSubstr(text));
+    for (const char* file : {"out/report.md", "out/report.html"})
+        EXPECT_THAT(read_path(folder / file), testing::HasSubstr("has the least FLIP")) << file;
+
+    const test::ProcessResult none = compare({"--max-ms", "0", "--max-flip", "0.5"});
+    EXPECT_EQ(none.exit_code, 1) << none.err;
+    EXPECT_THAT(none.out, testing::HasSubstr("No row keeps 0 ms and FLIP 0.5 on "));
+    const json missed = json::parse(read_path(folder / "out/report.json"))["budget"];
+    EXPECT_TRUE(missed["row"].is_null());
+    EXPECT_FALSE(missed["nearest"].is_null());
+    ASSERT_EQ(compare({}).exit_code, 0);
+    EXPECT_FALSE(json::parse(read_path(folder / "out/report.json")).contains("budget"));
+    expect_refused({"compare", "-o", "out", "--max-flip", "2"}, 2, {"--max-flip", "from 0 to 1"});
+}
+
 TEST_F(Cli, CameraOptionPlacesTheCamera) {
     // The text `same` below describes the camera that the scene uses by default.
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.png"})).exit_code, 0);

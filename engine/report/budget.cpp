@@ -1,0 +1,68 @@
+// The sentence that answers a budget of time or error.
+#include "measure/budget.hpp"
+
+#include "report/tables.hpp"
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace catoptric::report {
+
+namespace {
+
+std::string format_row_with_interval(const Row& row) {
+    const measure::SampleSummary& time = row.time_ms();
+    std::string interval;
+    if (time.ci95.is_known())
+        interval = fmt::format(" [{} - {}]", format_ms(time.ci95.low), format_ms(time.ci95.high));
+    return fmt::format("{} ({} ms{}, FLIP {})", row.label, format_ms(time.median), interval,
+                       format_flip(row.error));
+}
+
+std::string format_rows_with_intervals(const std::vector<const Row*>& rows) {
+    std::vector<std::string> texts;
+    for (const Row* row : rows) texts.push_back(format_row_with_interval(*row));
+    return join_texts(texts, "; ");
+}
+
+/// Returns "4 ms", "FLIP 0.1" or "4 ms and FLIP 0.1".
+std::string format_limits(const Comparison& comparison) {
+    std::vector<std::string> limits;
+    if (!std::isnan(comparison.max_ms)) limits.push_back(fmt::format("{:g} ms", comparison.max_ms));
+    if (!std::isnan(comparison.max_flip))
+        limits.push_back(fmt::format("FLIP {:g}", comparison.max_flip));
+    return join_texts(limits, " and ");
+}
+
+} // namespace
+
+std::string describe_budget_answer(const Comparison& comparison) {
+    if (!measure::has_budget(comparison)) return "";
+    const measure::BudgetAnswer answer = measure::find_row_within_budget(comparison);
+    const std::string where = format_limits(comparison) + " on " + comparison.device.name;
+    std::string text;
+    if (answer.row != nullptr)
+        text = fmt::format(
+            "Within {}: {} has the least {}{}", where, format_row_with_interval(*answer.row),
+            std::isnan(comparison.max_flip) ? "FLIP" : "time",
+            answer.ties.empty() ? ""
+                                : ". Not told from it: " + format_rows_with_intervals(answer.ties));
+    else if (answer.nearest == nullptr)
+        return fmt::format("Within {}: no row could be judged.", where);
+    else
+        text = fmt::format("No row keeps {}. The {} is {}", where,
+                           measure::keeps_time_budget(comparison, *answer.nearest) &&
+                                   !std::isnan(comparison.max_flip)
+                               ? std::isnan(comparison.max_ms) ? "closest row"
+                                                               : "closest row within the time"
+                               : "fastest row",
+                           format_row_with_interval(*answer.nearest));
+    if (!answer.undecided.empty())
+        text += ". Within the time by its median, but not with 95 % confidence: " +
+                format_rows_with_intervals(answer.undecided);
+    return text + ".";
+}
+
+} // namespace catoptric::report

@@ -1,0 +1,105 @@
+// Tests of the row that keeps a budget of time or error, and of the sentence that names it.
+#include "measure/budget.hpp"
+
+#include "report/tables.hpp"
+#include "unit/report_sample.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+using report::sample::row;
+using report::sample::times;
+using testing::HasSubstr;
+
+/// Returns rows from fast and far to slow and close, and a row with black mirrors.
+measure::Comparison make_rows() {
+    measure::Comparison made;
+    made.device.name = "card";
+    made.rows = {row("black", 1, .5, .4), row("fast", 3, .2, .2), row("middle", 5, .1, .1),
+                 row("slow", 9, .01, .01)};
+    made.rows[0].mirrors_black = true;
+    return made;
+}
+
+std::string label_of(const measure::Row* found) { return found == nullptr ? "" : found->label; }
+
+std::string choose(double max_ms, double max_flip) {
+    measure::Comparison made = make_rows();
+    made.max_ms = max_ms, made.max_flip = max_flip;
+    return label_of(measure::find_row_within_budget(made).row);
+}
+
+TEST(RowBudget, TimeBudgetChoosesTheClosestRowInTime) {
+    EXPECT_EQ(choose(4, NAN), "fast");
+    EXPECT_EQ(choose(5, NAN), "middle");
+    EXPECT_EQ(choose(100, NAN), "slow");
+    EXPECT_EQ(choose(2, NAN), "") << "rows with black mirrors do not count";
+}
+
+TEST(RowBudget, ErrorBudgetChoosesTheFastestRowThatIsCloseEnough) {
+    EXPECT_EQ(choose(NAN, .15), "middle");
+    EXPECT_EQ(choose(NAN, .1), "middle");
+    EXPECT_EQ(choose(NAN, .3), "fast");
+    EXPECT_EQ(choose(NAN, .001), "");
+}
+
+TEST(RowBudget, BothBudgetsChooseTheFastestRowThatKeepsBoth) {
+    EXPECT_EQ(choose(10, .15), "middle");
+    EXPECT_EQ(choose(4, .15), "");
+    EXPECT_EQ(choose(10, .01), "slow");
+}
+
+TEST(RowBudget, RowOnTheLimitOfTimeIsUndecided) {
+    measure::Comparison made = make_rows();
+    made.rows[2].gpu_ms = times(5, .1); // 4.5 to 5.5
+    made.max_ms = 5.2;
+    const measure::BudgetAnswer found = measure::find_row_within_budget(made);
+    EXPECT_EQ(label_of(found.row), "fast");
+    ASSERT_EQ(found.undecided.size(), 1u);
+    EXPECT_EQ(label_of(found.undecided[0]), "middle");
+    made.max_flip = .05;
+    EXPECT_TRUE(measure::find_row_within_budget(made).undecided.empty()) << "too far off";
+}
+
+TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
+    measure::Comparison made = make_rows();
+    made.rows.push_back(row("other", 5, .1, .1)); // in every second round the faster
+    made.rows[2].gpu_ms = times(5, .1), made.rows[4].gpu_ms = times(5, -.1);
+    made.max_flip = .15;
+    const measure::BudgetAnswer found = measure::find_row_within_budget(made);
+    EXPECT_EQ(label_of(found.row), "middle");
+    ASSERT_EQ(found.ties.size(), 1u);
+    EXPECT_EQ(label_of(found.ties[0]), "other");
+}
+
+TEST(RowBudget, FailedRowsAreNeverChosen) {
+    measure::Comparison made = make_rows();
+    made.rows[3].error.nonfinite = 1;
+    made.max_flip = .05;
+    EXPECT_EQ(measure::find_row_within_budget(made).row, nullptr);
+}
+
+TEST(RowBudget, SentenceNamesRowDeviceAndWhatComesNearest) {
+    measure::Comparison made = make_rows();
+    EXPECT_EQ(report::describe_budget_answer(made), "");
+    made.max_ms = 6;
+    EXPECT_EQ(report::describe_budget_answer(made),
+              "Within 6 ms on card: middle (5.00 ms [5.00 - 5.00], FLIP 0.1000) has the least "
+              "FLIP.");
+    made.max_flip = .05;
+    EXPECT_THAT(report::describe_budget_answer(made),
+                HasSubstr("No row keeps 6 ms and FLIP 0.05 on card. The closest row within the "
+                          "time is middle (5.00 ms"));
+    made.max_ms = 2;
+    EXPECT_THAT(report::describe_budget_answer(made), HasSubstr("The fastest row is fast (3.00 ms"));
+    made.max_ms = NAN, made.max_flip = .001;
+    EXPECT_THAT(report::describe_budget_answer(made),
+                HasSubstr("No row keeps FLIP 0.001 on card. The closest row is slow (9.00 ms"));
+    made.rows.clear();
+    EXPECT_THAT(report::describe_budget_answer(made), HasSubstr("no row could be judged"));
+}
+
+} // namespace
