@@ -36,6 +36,7 @@ struct CompareRequest {
     std::vector<StudyChoice> studies;
     std::vector<std::string> command; ///< command line that the report quotes
     std::string images;               ///< see measure::Comparison::images
+    std::vector<std::pair<std::string, std::string>> pictures; ///< more rows: name, picture file
     Watcher watcher;
     /// Called with the unfinished comparison, whose `complete` is false, after each row of the
     /// first round, after each later round, and after each part of a study. May be empty.

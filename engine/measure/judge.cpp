@@ -50,6 +50,8 @@ bool has_time_and_flip(const Row& row) {
 
 bool is_ranking_candidate(const Row& row) { return has_known_error(&row) && !row.mirrors_black; }
 
+bool has_known_time(const Row& row) { return !std::isnan(row.time_ms().median); }
+
 Interval time_ratio(const Row& a, const Row& b) {
     return ratio_interval(a.time_ms().rounds, b.time_ms().rounds);
 }
@@ -77,8 +79,11 @@ std::vector<std::size_t> find_front(const std::vector<Row>& rows) {
 }
 
 RankRange find_time_places(const Comparison& comparison, const Row& row) {
-    RankRange places{1, comparison.rows.size()};
+    if (!has_known_time(row)) return {0, 0};
+    RankRange places{1, 0};
     for (const Row& other : comparison.rows) {
+        if (!has_known_time(other)) continue;
+        ++places.last;
         places.first += is_faster(other, row);
         places.last -= is_faster(row, other);
     }
@@ -101,7 +106,7 @@ bool is_on_front(const Comparison& comparison, const Row& row) {
 std::vector<const Row*> find_fastest_rows(const Comparison& comparison) {
     std::vector<const Row*> fastest;
     for (const Row& row : comparison.rows)
-        if (is_ranking_candidate(row) &&
+        if (is_ranking_candidate(row) && has_known_time(row) &&
             std::ranges::none_of(comparison.rows, [&](const Row& other) {
                 return is_ranking_candidate(other) && is_faster(other, row);
             }))
@@ -146,6 +151,8 @@ Ranking rank_rows(const Comparison& comparison) {
             result.not_judged.push_back(&row);
         else if (row.mirrors_black)
             result.black.push_back(&row);
+        else if (!has_known_time(row))
+            result.untimed.push_back(&row);
         else if (!is_on_front(comparison, row) && find_row_that_beats(result.front, row) == nullptr)
             result.beaten_by_beaten.push_back(&row);
     }
@@ -156,7 +163,7 @@ RayTracingVerdict judge_ray_tracing(const Comparison& comparison) {
     RayTracingVerdict verdict;
     verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced_row);
     for (const Row& row : comparison.rows) {
-        if (is_ray_traced_row(row) || !is_ranking_candidate(row)) continue;
+        if (is_ray_traced_row(row) || !is_ranking_candidate(row) || !has_known_time(row)) continue;
         ++verdict.others;
         if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
                 return is_ray_traced_row(other) && is_better_choice(other, row);

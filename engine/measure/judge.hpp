@@ -17,6 +17,8 @@ bool has_known_error(const Row* row);
 /// Returns whether the row takes part in fastest, closest and front. A candidate is judged and
 /// draws something in its mirrors. A row with black mirrors only gives a lower bound for time.
 bool is_ranking_candidate(const Row& row);
+/// Returns whether the row's time is known. The time of a row whose picture is a file is NaN.
+bool has_known_time(const Row& row);
 /// Returns the interval of a's time divided by b's, round by round. The two times can be told apart
 /// if the interval excludes 1. The interval is unknown if the rows have too few rounds in common.
 Interval time_ratio(const Row& a, const Row& b);
@@ -38,7 +40,7 @@ std::vector<std::size_t> find_front(const std::vector<Row>& rows);
 
 /// Places of a row in the order of time, from 1. `first` is one more than the number of rows that
 /// are faster. `last` is the number of rows less those that this row is faster than. Rows that tie
-/// share places.
+/// share places. Both are 0 for a row without a known time, which takes no place from others.
 struct RankRange {
     std::size_t first = 1, last = 1;
 };
@@ -73,6 +75,7 @@ struct Ranking {
     std::vector<const Row*> not_judged;
     /// Judged rows that are no candidates because their mirrors are black.
     std::vector<const Row*> black;
+    std::vector<const Row*> untimed; ///< judged rows without a known time
 };
 Ranking rank_rows(const Comparison& comparison);
 

@@ -224,8 +224,9 @@ CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t 
     line.add("settings", format_settings(row));
     line.add("model", row.model);
     const measure::RankRange places = measure::find_time_places(comparison, row);
-    line.add("place_first", static_cast<double>(places.first));
-    line.add("place_last", static_cast<double>(places.last));
+    const bool has_place = places.first > 0;
+    line.add("place_first", has_place ? static_cast<double>(places.first) : NAN);
+    line.add("place_last", has_place ? static_cast<double>(places.last) : NAN);
     add_metric_fields(line, comparison, row, mirrors);
     add_view_fields(line, comparison, row);
     line.add("image", report_image_path(comparison, row.image + ".png"));

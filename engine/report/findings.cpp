@@ -163,6 +163,8 @@ OptionalSentence describe_ray_tracing_time(const Comparison& comparison) {
 }
 
 std::string format_row_metrics(const Row& row) {
+    if (!measure::has_known_time(row))
+        return fmt::format("{} (FLIP {})", row.label, format_flip(row.error));
     return fmt::format("{} ({} ms, FLIP {})", row.label, format_ms(row.time_ms().median),
                        format_flip(row.error));
 }
@@ -253,6 +255,9 @@ std::vector<std::string> describe_front(const Comparison& comparison) {
             "Not on the front and not beaten, since their mirrors are black: " +
             format_metrics_of_rows(standing.black) +
             ". Their time is a lower bound for any technique that draws the same scene.");
+    if (!standing.untimed.empty())
+        words.push_back("Not on the front, since their time is not known: " +
+                        format_metrics_of_rows(standing.untimed) + ".");
     if (!standing.not_judged.empty())
         words.push_back("Not judged: " + join_row_labels(standing.not_judged, "; ") + ".");
     return words;

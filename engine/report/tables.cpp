@@ -26,8 +26,9 @@ std::string format_median_interval(const measure::SampleSummary& times, int deci
     return format_fixed(times.ci95.low, decimals) + "–" + format_fixed(times.ci95.high, decimals);
 }
 
-/// Returns places as "3" or "3–5".
+/// Returns places as "3" or "3–5"; an empty cell for a row without a time.
 std::string format_places(const measure::RankRange& places) {
+    if (places.first == 0) return std::string(kEmptyCellText);
     const std::string first = std::to_string(places.first);
     return places.first == places.last ? first : first + "–" + std::to_string(places.last);
 }

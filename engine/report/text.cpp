@@ -1,5 +1,6 @@
 #include "report/text.hpp"
 #include "measure/halves.hpp"
+#include "measure/judge.hpp"
 #include "measure/lag.hpp"
 
 #include <fmt/format.h>
@@ -77,10 +78,9 @@ std::string describe_incomplete_run(const Comparison& comparison) {
     if (comparison.complete) return "";
     const bool in_lag = comparison.lag && !comparison.lag->complete;
     const bool has_all = comparison.rows.size() == comparison.asked;
-    std::size_t measured = 0; // number of rounds that all rows have
+    auto measured = static_cast<std::size_t>(comparison.rounds); // rounds that all rows have
     for (const Row& row : comparison.rows)
-        if (&row == &comparison.rows.front() || row.gpu_ms.rounds.size() < measured)
-            measured = row.gpu_ms.rounds.size();
+        if (measure::has_known_time(row)) measured = std::min(measured, row.gpu_ms.rounds.size());
     const bool in_rounds = has_all && measured < static_cast<std::size_t>(comparison.rounds);
     const bool in_views = has_all && !in_rounds &&
                           std::ranges::any_of(comparison.rows, [&](const Row& row) {

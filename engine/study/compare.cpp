@@ -18,6 +18,7 @@
 #include "session/watcher.hpp"
 #include "study/compare_checks.hpp"
 #include "study/compare_row.hpp"
+#include "study/picture_rows.hpp"
 #include "study/reference_cache.hpp"
 #include "study/row_judge.hpp"
 #include "study/row_run.hpp"
@@ -103,6 +104,7 @@ public:
                           .truth = truths_,
                           .comparison = comparison_,
                           .tell = [this] { report_progress(); }});
+            add_picture_rows();
             comparison_.complete = true;
         } catch (const Error& error) {
             if (comparison_.rows.empty() && !is_stop_signal(error.failure)) throw;
@@ -137,7 +139,7 @@ private:
         comparison_.command = request_.command;
         comparison_.images = request_.images;
         comparison_.complete = false;
-        comparison_.asked = base.techniques.size();
+        comparison_.asked = base.techniques.size() + request_.pictures.size();
         comparison_.device = make_device_facts(engine_);
         comparison_.scene = make_scene_facts(base);
         comparison_.width = static_cast<int>(base.size.x);
@@ -292,6 +294,21 @@ private:
         row_warnings_.emplace_back();
         judged_.emplace_back();
         prefixes_.push_back(part.prefix);
+    }
+
+    /// Adds the rows whose pictures are files. Studies and rounds leave them out.
+    void add_picture_rows() {
+        const ComparedTruth truth = truths_.find_reference("1").truth();
+        const std::vector<std::uint32_t>& hits = truths_.find_mirror_hits();
+        const double exposure = request_.base.exposure;
+        for (std::size_t i = 0; i < request_.pictures.size(); ++i) {
+            const auto& [name, file] = request_.pictures[i];
+            comparison_.rows.push_back(
+                make_picture_row(name, i, read_row_picture(file, exposure), truth, hits,
+                                 scene::mirrors(request_.base.scene).size(), exposure));
+            row_warnings_.push_back(
+                list_picture_row_warnings(comparison_.rows.back(), truth, hits, exposure));
+        }
     }
 
     void report_progress() {

@@ -8,6 +8,7 @@
 #include "scene/pose.hpp"
 #include "session/candidates.hpp"
 #include "session/plan_file.hpp"
+#include "study/picture_rows.hpp"
 #include "study/study.hpp"
 
 #include <algorithm>
@@ -64,6 +65,7 @@ void check_compare_request(const CompareRequest& request) {
     for (const std::string& text : request.base.techniques)
         if (const reflect::TechniquePlan plan = read_plan(text); !plan.is_auto)
             reflect::assign_mirrors(plan, list_mirror_names(request.base.scene));
+    check_picture_rows(request);
     check_has_mirror(request.base.scene);
     check_rounds(request.rounds);
     for (const StudyChoice& choice : request.studies) check_study(choice, request.reference);

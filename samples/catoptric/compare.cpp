@@ -18,6 +18,7 @@
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "study/compare_checks.hpp"
+#include "study/picture_rows.hpp"
 #include "study/reference_cache.hpp"
 #include "study/study.hpp"
 #include "table.hpp"
@@ -55,6 +56,7 @@ struct CompareOptions {
     double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumns csv = report::CsvColumns::table;
+    std::vector<std::pair<std::string, std::string>> pictures; ///< rows of files: name, file
     std::vector<app::StudyChoice> studies;
     std::vector<std::string> command;
 };
@@ -89,6 +91,7 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     request.together = options.together;
     request.rounds = options.rounds.value_or(request.rounds);
     request.studies = options.studies;
+    request.pictures = options.pictures;
     request.command = options.command;
     return request;
 }
@@ -109,10 +112,13 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     check(options.common.reference_file.empty() || scenes.size() == 1, Failure::usage,
           "--reference ", options.common.reference_file, ": wanted one scene, found ",
           scenes.size());
+    check(options.pictures.empty() || scenes.size() == 1, Failure::usage,
+          "--row: wanted one scene, found ", scenes.size());
     for (const std::string& scene : scenes) {
         app::CompareRequest request = make_compare_request(options, scene);
         if (scenes.size() > 1)
             request.images = report::scene_images_folder(requests.size(), request.base.scene.name);
+        app::check_picture_rows(request);
         requests.push_back(std::move(request));
     }
     return requests;
@@ -131,6 +137,10 @@ void check_output_places(const CompareOptions& options,
         for (const std::string& text : list_requested_rows(request)) {
             images.push_back(app::parse_technique(text).file_name);
             if (request.both_models) images.push_back(images.back() + "-required");
+        }
+        for (std::size_t i = 0; i < request.pictures.size(); ++i) {
+            images.push_back(app::picture_row_image(request.pictures[i].first, i));
+            inputs.emplace_back(request.pictures[i].second);
         }
         const bool is_first = &request == &requests.front();
         for (const std::filesystem::path& file : report::list_report_files(images, request.images))
@@ -320,6 +330,17 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
         "rows to compare, each name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\", see "
         "'list techniques' (a built-in list)",
         options->techniques);
+    verb.repeated("--row", "NAME=FILE",
+                  "further row: a picture of the same camera, time and size from another renderer. "
+                  "EXR and Radiance files hold linear light, a PNG what is displayed at the "
+                  "comparison's exposure; may be repeated",
+                  [options](const std::string& text) {
+                      const std::size_t end = text.find('=');
+                      check(end != std::string::npos && end > 0 && end + 1 < text.size(),
+                            Failure::usage, "--row: wanted NAME=FILE, found ",
+                            quote_printable(text));
+                      options->pictures.emplace_back(text.substr(0, end), text.substr(end + 1));
+                  });
     verb.heading(kMeasuringOptions);
     add_studies(verb, *options, StudyOption::number);
     verb.flag("--together", "draw all rows in one command buffer, on one timeline",

@@ -15,7 +15,9 @@ namespace catoptric::cli {
 
 namespace {
 
-std::string format_milliseconds(double ms) { return fmt::format("{:.3f}", ms); }
+std::string format_milliseconds(double ms) {
+    return std::isfinite(ms) ? fmt::format("{:.3f}", ms) : "-";
+}
 
 /// Returns a number with five decimals, or a dash if it is not finite.
 std::string format_five_decimals(double value) {
@@ -84,7 +86,8 @@ std::string make_compare_table(const report::Comparison& comparison) {
         const measure::RankRange places = measure::find_time_places(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
                         format_milliseconds(row.gpu_ms.median), format_spread(row.gpu_ms),
-                        places.first == places.last
+                        places.first == 0 ? "-"
+                        : places.first == places.last
                             ? std::to_string(places.first)
                             : fmt::format("{}-{}", places.first, places.last),
                         format_flip(row.error), format_percent(row.error.off),

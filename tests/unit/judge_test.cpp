@@ -62,6 +62,26 @@ TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     EXPECT_TRUE(measure::rank_rows(made).beaten_by_beaten.empty());
 }
 
+/// A row whose picture is a file can be the closest row, but takes no place in the order of time.
+TEST(Judge, RowsWithoutATimeTakeNoPlaceFromOthers) {
+    measure::Comparison made;
+    measure::Row file = exact(1, .01);
+    file.label = "file";
+    file.gpu_ms = {};
+    file.gpu_ms.median = NAN;
+    made.rows = {exact(2, .1), file, exact(3, .05)};
+    made.pareto = measure::find_front(made.rows);
+    EXPECT_EQ(made.pareto, (Front{0, 2}));
+    EXPECT_EQ(measure::find_time_places(made, made.rows[2]).last, 2u);
+    EXPECT_EQ(measure::find_time_places(made, made.rows[1]).first, 0u);
+    EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[0]});
+    EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
+    const measure::Ranking ranking = measure::rank_rows(made);
+    EXPECT_EQ(ranking.untimed, std::vector<const measure::Row*>{&made.rows[1]});
+    EXPECT_TRUE(ranking.beaten_by_beaten.empty());
+    EXPECT_EQ(measure::judge_ray_tracing(made).others, 2u);
+}
+
 TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
     EXPECT_TRUE(measure::is_faster(exact(10, 1), about(12, 1))) << "10.8 at least";
     EXPECT_FALSE(measure::is_faster(exact(10, 1), about(11, 1))) << "9.9 in three rounds";

@@ -94,7 +94,8 @@ TEST(RowBudget, SentenceNamesRowDeviceAndWhatComesNearest) {
                 HasSubstr("No row keeps 6 ms and FLIP 0.05 on card. The closest row within the "
                           "time is middle (5.00 ms"));
     made.max_ms = 2;
-    EXPECT_THAT(report::describe_budget_answer(made), HasSubstr("The fastest row is fast (3.00 ms"));
+    EXPECT_THAT(report::describe_budget_answer(made),
+                HasSubstr("The fastest row is fast (3.00 ms"));
     made.max_ms = NAN, made.max_flip = .001;
     EXPECT_THAT(report::describe_budget_answer(made),
                 HasSubstr("No row keeps FLIP 0.001 on card. The closest row is slow (9.00 ms"));
