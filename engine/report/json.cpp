@@ -7,6 +7,7 @@
 #include "measure/flip.hpp"
 #include "measure/halves.hpp"
 #include "measure/lag.hpp"
+#include "report/tables.hpp"
 #include "report/text.hpp"
 #include "report/writer.hpp"
 
