@@ -199,8 +199,7 @@ void GpuScene::fill_lamp_table() {
     std::vector<vec4> table;
     if (details_.any_lobes()) table = make_lamp_table(geometry_, surfaces_);
     has_sampled_lamps_ = !table.empty();
-    table.resize(std::max<std::size_t>(table.size(), 1)); // a buffer needs a texel
-    lamp_buffer_.set_contents(table);
+    if (has_sampled_lamps_) lamp_buffer_.set_contents(table);
 }
 
 /// Writes the placements of object spaces: an entry for each object, or a single entry if no object

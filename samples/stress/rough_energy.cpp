@@ -1,5 +1,6 @@
 // Property of rough surfaces: they never reflect more light than arrives.
 #include "core/shader_math.hpp"
+#include "measure/picture.hpp"
 #include "stress/property.hpp"
 #include "stress/rough_floor.hpp"
 #include "stress/scenes.hpp"
@@ -8,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 namespace catoptric::stress {
 
@@ -41,9 +44,18 @@ void judge_lobe_energy(StressBench& bench) {
     bench.add_case("largest share of light that a drawn ray brings", largest_weight, 1 + 1e-5);
 }
 
-/// Returns metal balls of different roughness that reflect each other, in a furnace.
-scene::Scene make_rough_balls() {
+/// Returns the furnace without its glowing walls, below an environment of the same light.
+scene::Scene make_furnace_of_sky() {
     scene::Scene scene = make_furnace({});
+    scene.objects.clear();
+    auto sky = std::make_shared<scene::Environment>();
+    sky->name = "white", sky->size = {2, 1}, sky->texels = {vec3(1), vec3(1)};
+    scene.environment = std::move(sky);
+    return scene;
+}
+
+/// Adds metal balls of different roughness that reflect each other to a furnace.
+scene::Scene add_rough_balls(scene::Scene scene) {
     scene.mirror_max_roughness = 1;
     for (std::size_t i = 0; i < kStripRoughness.size(); ++i) {
         scene::Material metal = make_white_metal();
@@ -55,18 +67,33 @@ scene::Scene make_rough_balls() {
     return scene;
 }
 
+double picture_mean(const measure::Picture& picture) {
+    return measure::mean_of(picture, measure::ValueRange::unclamped).all;
+}
+
 void judge_rough_energy(StressBench& bench) {
     judge_lobe_energy(bench);
-    const scene::Scene scene = make_rough_balls();
-    for (const char* technique :
-         {"raytrace", "raytrace:rays=4", "raytrace:rays=4,first=raster", "reuse:face=32",
-          "parallax:face=32,rough=mips", "pyramid:face=32,rough=rays,rays=4", "hybrid:face=32"}) {
+    const auto render = [&](const scene::Scene& scene, const char* technique) {
         app::Request request = bench.make_request(scene, technique, 3);
         request.size = {96, 96};
         request.ambient = 0;
+        return bench.render(request).hdr;
+    };
+    const scene::Scene walls = add_rough_balls(make_furnace({})),
+                       sky = add_rough_balls(make_furnace_of_sky());
+    for (const char* technique :
+         {"raytrace", "raytrace:rays=4,lamps=met", "raytrace:rays=4,lamps=met,first=raster",
+          "reuse:face=32", "parallax:face=32,rough=mips", "pyramid:face=32,rough=rays,rays=4"})
         bench.add_case(fmt::format("{}: brightest of 1", technique),
-                       brightest_channel(bench.render(request).hdr), 1.0001);
-    }
+                       brightest_channel(render(walls, technique)), 1.0001);
+    for (const char* technique : {"raytrace:rays=4", "hybrid:face=32"})
+        bench.add_case(fmt::format("{}, light of a sky: brightest of 1", technique),
+                       brightest_channel(render(sky, technique)), 1.0001);
+    // Rays to lamps bring noise to both sides of the mean, which alone is bounded.
+    bench.add_case("raytrace:rays=4: difference of the means with lamps sampled and met",
+                   std::abs(picture_mean(render(walls, "raytrace:rays=4")) -
+                            picture_mean(render(walls, "raytrace:rays=4,lamps=met"))),
+                   .005);
 }
 
 const RegisteredProperty kRoughEnergyProperty{
