@@ -9,9 +9,11 @@
 // 1: rays also leave rough surfaces towards points drawn on lamps.
 layout(constant_id = SAMPLES_LAMPS_CONSTANT) const uint samples_lamps = 0u;
 
-// The first texel holds 1 / the sum of power (the sum of the emission's channels times area) of all triangles, and their number as a word of
-// engine/bvh/words.hpp. Then follow three texels for each triangle: a corner and the share of its cell in the alias
-// table; the side to the second corner and the triangle of the cell's rest; the side to the third corner and the object.
+// Texel 0: x is 1 / the total power, where the power of a triangle is the sum of its emission's channels times its area;
+// y is the number of triangles, as a word of engine/bvh/words.hpp.
+// Triangle i has three texels from 1 + 3 i on. Their xyz are its first corner, and the sides from this corner to the
+// second and to the third. Their w are the share of cell i of the alias table that belongs to triangle i, the triangle
+// that has the rest of the cell, and the object.
 TEXEL_LIST(LAMPS_BINDING, lamp_texels, vec4, samplerBuffer, false)
 
 // A point on a triangle that emits light, in scene units, and the triangle's unit normal and object.

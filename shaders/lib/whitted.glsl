@@ -326,9 +326,12 @@ void resume_path(out Ray ray) {
 
 // Returns whether the ray has met the point drawn on a lamp, and no other surface before.
 bool meets_lamp_point(SurfacePoint p, vec3 origin) {
-    const float kTolerance = 1e-4; // of the distance; far above the rounding of positions
-    vec3 miss = p.position - lamp.position, way = lamp.position - origin;
-    return p.object == lamp.object && dot(miss, miss) <= kTolerance * kTolerance * dot(way, way);
+    // Part of the distance by which the direction's rounding may move the point, even on a lamp seen edge-on. Positions
+    // add their own rounding.
+    const float kTolerance = 1e-4;
+    vec3 miss = p.position - lamp.position;
+    float allowed = kTolerance * length(lamp.position - origin) + length(p.error + gamma_bound(4) * abs(lamp.position));
+    return p.object == lamp.object && length(miss) <= allowed;
 }
 
 // Returns the share of a surface's emission that counts where a ray of a lobe meets it: the rest is counted by rays to
