@@ -45,16 +45,18 @@ private:
 /// Computes FLIP of parts of two pictures, one after the other in the same memory.
 class BandFlip {
 public:
-    /// `is_shown`: the pictures already are light of screens with 8 bits a channel.
-    BandFlip(double exposure_stops, bool is_of_bytes, bool is_shown)
-        : exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes), is_shown_(is_shown) {}
+    /// `is_light_of_bytes`: both pictures are linear light that was decoded from 8 bits and gets no
+    /// exposure. A screen shows exactly this light, so no conversion is needed.
+    BandFlip(double exposure_stops, bool is_of_bytes, bool is_light_of_bytes)
+        : exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes),
+          is_light_of_bytes_(is_light_of_bytes) {}
 
     /// Returns FLIP of the rows [first, end). Equal pictures give 0 without computation.
     std::vector<float> of_rows(const Picture& a, const Picture& b, int first, int end) {
         if (a.pixels == b.pixels)
             return std::vector<float>(static_cast<std::size_t>(end - first) *
                                       static_cast<std::size_t>(a.width));
-        if (is_shown_) return flip_of_rows(a, b, first, end, PixelEncoding::linear);
+        if (is_light_of_bytes_) return flip_of_rows(a, b, first, end, PixelEncoding::linear);
         convert_to_display(a, exposure_stops_, is_of_bytes_, display_a_);
         convert_to_display(b, exposure_stops_, is_of_bytes_, display_b_);
         return flip_of_rows(display_a_, display_b_, first, end, PixelEncoding::srgb);
@@ -62,7 +64,7 @@ public:
 
 private:
     double exposure_stops_;
-    bool is_of_bytes_, is_shown_;
+    bool is_of_bytes_, is_light_of_bytes_;
     Picture display_a_, display_b_;
 };
 
@@ -98,11 +100,11 @@ FileDifference compare_picture_files(const std::filesystem::path& a, const std::
     if (!mask_file.empty()) mask = read_mask(mask_file, width, height);
 
     const bool is_of_bytes = is_png(a) || is_png(b);
-    const bool is_shown = exposure_stops == 0 && of_a.has_8_bits() && of_b.has_8_bits();
+    const bool is_light_of_bytes = exposure_stops == 0 && of_a.has_8_bits() && of_b.has_8_bits();
     RowWindow window_a(std::move(of_a)), window_b(std::move(of_b));
     DifferenceSum sum(width, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     MeanSum a_mean, b_mean;
-    BandFlip flip(exposure_stops, is_of_bytes, is_shown);
+    BandFlip flip(exposure_stops, is_of_bytes, is_light_of_bytes);
     const int band = std::max(1, kBandPixels / width), reach = flip_filter_radius();
     for (int first = 0; first < height; first += band) {
         const int end = std::min(first + band, height), above = std::max(0, first - reach),

@@ -44,11 +44,12 @@ std::string describe_budget_answer(const Comparison& comparison) {
     const std::string where = format_limits(comparison) + " on " + comparison.device.name;
     std::string text;
     if (answer.row != nullptr)
-        text = fmt::format(
-            "Within {}: {} has the least {}{}", where, format_row_with_interval(*answer.row),
-            std::isnan(comparison.max_flip) ? "FLIP" : "time",
-            answer.ties.empty() ? ""
-                                : ". Not told from it: " + format_rows_with_intervals(answer.ties));
+        text = fmt::format("Within {}: {} has the least {}{}", where,
+                           format_row_with_interval(*answer.row),
+                           std::isnan(comparison.max_flip) ? "FLIP" : "time",
+                           answer.ties.empty() ? ""
+                                               : ". Rows that cannot be told apart from it: " +
+                                                     format_rows_with_intervals(answer.ties));
     else if (answer.nearest == nullptr)
         return fmt::format("Within {}: no row could be judged.", where);
     else
