@@ -1,6 +1,7 @@
 #include "require/paths.hpp"
 
 #include "bvh/closest_hit.hpp"
+#include "bvh/copies.hpp"
 #include "scene/material_facts.hpp"
 #include "scene/transform.hpp"
 
@@ -28,7 +29,7 @@ public:
         }
         std::vector<bvh::Triangle> triangles;
         for (std::size_t i = 0; i < now.objects.size(); ++i) add_path(question, i, triangles);
-        tree_ = bvh::build_bvh(triangles);
+        tree_ = bvh::build_bvh(triangles, {}, bvh::DuplicateScope::across_objects);
     }
 
     struct MirrorPath {

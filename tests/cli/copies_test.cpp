@@ -100,4 +100,19 @@ TEST_F(Cli, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
     }
 }
 
+/// Rays that search for mirrors test coincident triangles once, not each of them.
+TEST_F(Cli, MirrorsAmongCoincidentObjectsAreFoundQuickly) {
+    for (const bool apart : {false, true}) {
+        write("many.obj", objects(apart));
+        for (const std::string mirror : {"part1", "part99999"}) {
+            const test::ProcessResult ended = test::run_process(
+                start(quick({"graph", "many.obj", "--why", "--mirror", mirror})));
+            ASSERT_EQ(ended.exit_code, 0) << ended.err;
+            EXPECT_THAT(ended.out, testing::HasSubstr("mirror 1 '" + mirror + "'"));
+            EXPECT_LE(ended.peak_bytes, 512U << 20) << mirror << ", apart: " << apart;
+            EXPECT_LE(ended.processor_seconds, 10) << "about 1; 150 if each triangle is tested";
+        }
+    }
+}
+
 } // namespace
