@@ -128,7 +128,7 @@ std::vector<std::string> extremes(const app::KnobInfo& knob) {
     double high = knob.high;
     // A face or shadow map of 16384 texels an edge would take gigabytes of memory.
     if (knob.name == "face" || knob.name == "shadow_map") high = 64;
-    if (knob.name == "samples") high = 16; // 65536 samples would take minutes
+    if (knob.name == "samples" || knob.name == "rays") high = 16; // 65536 would take minutes
     const auto text = [](double value) {
         const bool whole = value == std::floor(value);
         return whole ? std::to_string(static_cast<long long>(value)) : std::to_string(value);
