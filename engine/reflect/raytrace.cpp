@@ -6,6 +6,7 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kLampChoices{"sampled", "met"};
+constexpr std::array<std::string_view, 2> kIndirectChoices{"none", "paths"};
 constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kFirstHitChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
@@ -13,6 +14,7 @@ constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
 constexpr std::array<std::string_view, 6> kDroppedRuleChoices{
     "none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
 enum class LampMethod { sampled, met };
+enum class IndirectLight { none, paths };
 enum class SphereShape { mesh, exact };
 enum class FirstHitMethod { ray, raster };
 enum class HitPrecision { f32, f64 };
@@ -49,6 +51,13 @@ constexpr Knob kLampsKnob{
         "on a lamp (next-event estimation; not with sphere=exact or hit=f64); met = by chance",
     .high = 1,
     .choices = kLampChoices};
+constexpr Knob kIndirectKnob{
+    .name = "indirect",
+    .help = "light between surfaces: none = lamps are points, and ambient light stands in; paths = "
+            "path tracing, for which rays also leave diffuse surfaces (needs rays=1 or more; depth "
+            "then counts all bounces)",
+    .high = 1,
+    .choices = kIndirectChoices};
 constexpr std::int64_t kMaxPathsPerPixel = 65536; // of a pixel: samples times rays
 constexpr Knob kSphereKnob{.name = "sphere",
                            .help = "shape of balls: triangles or exact spheres",
@@ -67,13 +76,17 @@ constexpr Knob kWithoutRuleKnob{.name = "without",
                                 .help = "rule of robustness to leave out, to measure its cost",
                                 .high = 5,
                                 .choices = kDroppedRuleChoices};
-constexpr Knob kRaytraceKnobs[] = {kDepthKnob,       kSamplesKnob,       kLobeRaysKnob,
-                                   kLobeSeedKnob,    kLampsKnob,         kTracedShadowKnob,
-                                   kSphereKnob,      kFirstHitKnob,      kHitPrecisionKnob,
-                                   kWithoutRuleKnob, kShadowMapEdgeKnob, kCaptureKnob};
+constexpr Knob kRaytraceKnobs[] = {
+    kDepthKnob,       kSamplesKnob,       kLobeRaysKnob, kLobeSeedKnob, kLampsKnob,
+    kIndirectKnob,    kTracedShadowKnob,  kSphereKnob,   kFirstHitKnob, kHitPrecisionKnob,
+    kWithoutRuleKnob, kShadowMapEdgeKnob, kCaptureKnob};
 
 bool is_first_raster(const KnobSettings& settings) {
     return settings.enum_value<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
+}
+
+bool is_path_traced(const KnobSettings& settings) {
+    return settings.enum_value<IndirectLight>(kIndirectKnob) == IndirectLight::paths;
 }
 
 TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting& lighting) {
@@ -82,6 +95,7 @@ TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting&
             .samples = settings.integer_value(kSamplesKnob),
             .rays = static_cast<std::uint32_t>(settings.integer_value(kLobeRaysKnob)),
             .samples_lamps = settings.enum_value<LampMethod>(kLampsKnob) == LampMethod::sampled,
+            .paths = is_path_traced(settings),
             .seed = static_cast<std::uint32_t>(settings.integer_value(kLobeSeedKnob)),
             // A scene without lights has no shadow map, and no light needs a shadow test.
             .shadow = shadow == SharedKnobs::ShadowMethod::none ? TracerSettings::TracedShadow::none
@@ -101,6 +115,16 @@ std::string describe_knob_conflict(const KnobSettings& settings) {
         return "rays=" + settings.format_value(kLobeRaysKnob) +
                " for each of samples=" + settings.format_value(kSamplesKnob) +
                ": wanted at most 65536 in all";
+    if (is_path_traced(settings)) {
+        if (settings.integer_value(kLobeRaysKnob) == 0)
+            return "indirect=paths draws directions; wanted rays=1 or more, found rays=0";
+        if (is_first_raster(settings))
+            return "indirect=paths lights the first surface by rays; wanted first=ray, found "
+                   "first=raster";
+        if (settings.enum_value<HitPrecision>(kHitPrecisionKnob) == HitPrecision::f64)
+            return "indirect=paths computes points in single precision; wanted hit=f32, found "
+                   "hit=f64";
+    }
     if (!is_first_raster(settings)) return {};
     if (settings.integer_value(kSamplesKnob) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "

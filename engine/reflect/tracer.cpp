@@ -44,11 +44,16 @@ render::SphereMode sphere_mode_of_tracer(const TracerSettings& tracer) {
     return tracer.exact_spheres ? render::SphereMode::exact : render::SphereMode::mesh;
 }
 
-/// Returns whether rays aim at lamps. Exact spheres and points in double precision differ from the
-/// triangles on which points are drawn.
-bool aims_at_lamps(const TracerSettings& tracer, const render::GpuScene& scene) {
-    return tracer.samples_lamps && tracer.rays > 0 && !tracer.exact_spheres && !tracer.doubles &&
-           scene.has_sampled_lamps();
+/// Returns whether rays may aim at lamps. Exact spheres and points in double precision differ from
+/// the triangles on which points are drawn.
+bool may_aim_at_lamps(const TracerSettings& tracer) {
+    return tracer.samples_lamps && tracer.rays > 0 && !tracer.exact_spheres && !tracer.doubles;
+}
+
+/// Announces what a tracing pass reads of the scene.
+void request_tracing(const render::GpuScene& scene, const TracerSettings& tracer) {
+    scene.request_ray_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
+    if (may_aim_at_lamps(tracer)) scene.request_lamp_points();
 }
 
 bool reads_shadow_map(const TracerSettings& tracer) {
@@ -68,7 +73,8 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
              {"first_raster", tracer.first_raster ? 1u : 0u},
              {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
-             {"samples_lamps", aims_at_lamps(tracer, scene) ? 1u : 0u},
+             {"samples_lamps", may_aim_at_lamps(tracer) && scene.has_sampled_lamps() ? 1u : 0u},
+             {"traces_paths", tracer.paths ? 1u : 0u},
              {"without", tracer.without},
              {"fixed_offset", scene.space().to_scene_length(kSeedReportRayOffset)}},
             scene.tracing_features(sphere_mode_of_tracer(tracer))};
@@ -89,6 +95,7 @@ std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
     ContentHash hash;
     hash.add(seed).add(tracer.rays).add(tracer.samples);
     if (tracer.seed != 0) hash.add(tracer.seed);
+    if (tracer.paths) hash.add(tracer.paths);
     const std::uint64_t mixed = hash.hash_value();
     return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
 }
@@ -171,7 +178,7 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     graph.add_pass(inputs.prefix + "raytrace/reset")
         .writes(traced.counters, ResourceUse::copy_to)
         .record([=](graph::PassCommands& commands) { commands.fill_buffer(traced.counters, 0); });
-    inputs.scene.request_ray_tracing(sphere_mode_of_tracer(tracer));
+    request_tracing(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
     if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.writes(traced.hdr, ResourceUse::storage_write)
@@ -194,7 +201,7 @@ graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInp
                                      const render::CameraOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
     const PixelList list = add_pixel_list(graph, inputs, suffix, number, tracer.first_raster, view);
-    inputs.scene.request_ray_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
+    request_tracing(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
     if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.reads(list.arguments, ResourceUse::indirect)

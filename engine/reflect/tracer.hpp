@@ -16,6 +16,9 @@ struct TracerSettings {
     /// Whether a ray to a point drawn on a lamp goes with each ray of a lobe
     /// (shaders/lib/lamps.glsl).
     bool samples_lamps = true;
+    /// Whether rays leave diffuse surfaces as well, so that light between surfaces, the shadows of
+    /// the environment and the area of lamps count (shaders/lib/paths.glsl). Needs `rays` > 0.
+    bool paths = false;
     /// Seed of these directions, in addition to FrameInputs::seed.
     std::uint32_t seed = 0;
     TracedShadow shadow = TracedShadow::ray;

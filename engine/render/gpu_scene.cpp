@@ -97,7 +97,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
                       double ambient, std::size_t slot) {
     update_ms_ = 0, hierarchy_ms_before_ = tracing_->update_ms();
     const Stopwatch watch(update_ms_);
-    slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = false;
+    slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = wants_lamp_points_ = false;
     const SceneChanges changes = seen_.update_and_compare(now, !complete_);
     complete_ = false; // stays false if the update throws, so that the next update fills everything
     if (changes.layout)
@@ -109,7 +109,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         details_.fill(now, geometry_, vertices_, device_.max_texel_count(sizeof(std::uint32_t)));
     if (changes.has_shape_changes() || changes.materials || moves_vertices) {
         fill_surfaces(now);
-        fill_lamp_table();
+        has_lamp_table_ = false;
     }
     if (changes.has_shape_changes()) fill_placements();
     known_layouts_ = vertices_.layouts();
@@ -194,12 +194,12 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     surface_buffer_.set_contents(pack_into_texels(listed));
 }
 
-/// Lists the triangles of lamps, which only rays of rough surfaces read.
-void GpuScene::fill_lamp_table() {
-    std::vector<vec4> table;
-    if (details_.any_lobes()) table = make_lamp_table(geometry_, surfaces_);
+/// Lists the triangles of lamps, for rays that aim at points on lamps.
+void GpuScene::fill_lamp_table() const {
+    const std::vector<vec4> table = make_lamp_table(geometry_, surfaces_);
     has_sampled_lamps_ = !table.empty();
     if (has_sampled_lamps_) lamp_buffer_.set_contents(table);
+    has_lamp_table_ = true;
 }
 
 /// Writes the placements of object spaces: an entry for each object, or a single entry if no object
@@ -342,6 +342,10 @@ void GpuScene::prepare_frame() const {
     if (added_views_ > 0) {
         view_buffer_.set_contents(views_);
         uploads_ += view_buffer_.write_changed_pages(device_, slot_);
+    }
+    if (wants_lamp_points_) {
+        if (!has_lamp_table_) fill_lamp_table();
+        uploads_ += lamp_buffer_.write_changed_pages(device_, slot_);
     }
     for (const SphereMode spheres : {SphereMode::mesh, SphereMode::exact})
         if (wants_tracing_[static_cast<std::size_t>(spheres)])

@@ -100,7 +100,8 @@ public:
     gpu::ShaderConstants tracing_features(SphereMode spheres) const;
     /// Returns whether some surface has more than one colour.
     bool has_details() const { return details_.any(); }
-    /// Returns whether rays of rough surfaces can aim at points drawn on lamps.
+    /// Returns whether rays can aim at points drawn on lamps. Valid from `prepare_frame` on, in
+    /// frames that requested lamp points.
     bool has_sampled_lamps() const { return has_sampled_lamps_; }
     /// Returns whether rays that leave the scene can see an environment.
     bool has_sky() const { return sky_.environment_kind() != 0; }
@@ -133,8 +134,12 @@ public:
         wants_tracing_[static_cast<std::size_t>(spheres)] = true;
         wants_first_hits_ = wants_first_hits_ || first_hits;
     }
+    /// Announces that rays of a pass aim at points drawn on lamps. Call it when the pass is
+    /// declared.
+    void request_lamp_points() const { wants_lamp_points_ = true; }
     /// Writes the views that `add_view` added to device memory, and updates the bounding volume
-    /// hierarchies that passes of this frame read. Call it after the frame's passes are declared.
+    /// hierarchies and the list of lamps that passes of this frame read. Call it after the frame's
+    /// passes are declared.
     void prepare_frame() const;
     /// Binds the hierarchy. Updates it first if `prepare_frame` has not.
     void bind_tracing(graph::PassCommands& commands, SphereMode spheres = SphereMode::mesh) const;
@@ -159,7 +164,7 @@ private:
     void fill_surfaces(const scene::Scene& now);
     void fill_placements();
     void fill_lights(const scene::Scene& now, bool others);
-    void fill_lamp_table();
+    void fill_lamp_table() const;
     void fill_probes(const scene::Scene& now, const SceneChanges& changes);
     InnerBall make_inner_ball(std::size_t object, const dvec3& centre);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
@@ -192,21 +197,24 @@ private:
     uvec2 size_{0};
     bool complete_ = false; ///< the last update finished without an exception
     bool has_object_spaces_ = false;
-    bool has_sampled_lamps_ = false; ///< the lamp table is not empty
-    bool has_light_kinds_ = false;   ///< some light has no surface, or shines to two sides
+    mutable bool has_lamp_table_ = false;    ///< the lamp table is that of the current scene
+    mutable bool has_sampled_lamps_ = false; ///< the lamp table is not empty
+    bool has_light_kinds_ = false;           ///< some light has no surface, or shines to two sides
     std::uint32_t shadow_faces_ = 6;
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     mutable DeviceList view_buffer_;
     DeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
-        mirror_tree_, lamp_buffer_;
+        mirror_tree_;
+    mutable DeviceList lamp_buffer_;
     MaterialParameterLists details_;
     EnvironmentOnDevice sky_;
     std::unique_ptr<RayTracingTrees> tracing_;
     /// Whether a pass of this frame traces rays, for each value of Spheres.
     mutable std::array<bool, 2> wants_tracing_{};
     mutable bool wants_first_hits_ = false;
+    mutable bool wants_lamp_points_ = false; ///< whether a pass of this frame aims at lamps
 };
 
 } // namespace catoptric::render

@@ -34,6 +34,7 @@ double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mas
 std::string choose_reference(const std::string& asked, const scene::Scene& scene,
                              PixelTruth truth) {
     if (!asked.empty()) return asked;
+    if (truth == PixelTruth::paths) return kPathReference;
     const bool is_rough = scene::has_rough_reflector(scene);
     if (truth == PixelTruth::converged)
         return is_rough ? kConvergedRoughReference : kConvergedReference;
@@ -71,7 +72,8 @@ RunResult ReferenceCache::render_reference(const std::string& technique, int num
 
 bool ReferenceCache::is_noisy() const {
     if (!noisy_)
-        noisy_ = draws_rays_from_lobes(reference_) && scene::has_rough_reflector(base_.scene);
+        noisy_ = traces_paths(reference_) ||
+                 (draws_rays_from_lobes(reference_) && scene::has_rough_reflector(base_.scene));
     return *noisy_;
 }
 

@@ -22,9 +22,12 @@ namespace catoptric::app {
 inline constexpr const char* kRoughReference = "raytrace:depth=16,rays=64";
 /// What the pixels of the reference show.
 enum class PixelTruth {
-    centre,   ///< what one camera ray through the pixel's centre meets, as the techniques do
-    converged ///< the mean over the pixel's area, by many camera rays
+    centre,    ///< what one camera ray through the pixel's centre meets, as the techniques do
+    converged, ///< the mean over the pixel's area, by many camera rays
+    paths      ///< as `centre`, by path tracing: with light that no technique models
 };
+/// Reference of PixelTruth::paths. Each of its rays follows at most 16 reflections.
+inline constexpr const char* kPathReference = "raytrace:depth=16,rays=64,indirect=paths";
 /// References of PixelTruth::converged, for scenes without and with rough mirrors.
 inline constexpr const char* kConvergedReference = "raytrace:depth=16,samples=256";
 inline constexpr const char* kConvergedRoughReference = "raytrace:depth=16,samples=64,rays=1";

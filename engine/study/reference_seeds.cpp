@@ -40,6 +40,12 @@ bool draws_rays_from_lobes(const std::string& technique) {
     return choice.technique == "raytrace" && find_number(choice, "rays") > 0;
 }
 
+bool traces_paths(const std::string& technique) {
+    const TechniqueChoice choice = parse_technique(technique);
+    const auto setting = std::ranges::find(choice.settings, "indirect", &Setting::name);
+    return setting != choice.settings.end() && setting->text == "paths";
+}
+
 std::string set_lobe_seed(const std::string& technique, int seed) {
     const TechniqueChoice choice = parse_technique(technique);
     std::string text = choice.technique;

@@ -28,6 +28,8 @@ private:
 
 /// Returns whether the technique draws rays from lobes: `raytrace` with rays above 0.
 bool draws_rays_from_lobes(const std::string& technique);
+/// Returns whether the technique traces light between surfaces: `raytrace` with indirect=paths.
+bool traces_paths(const std::string& technique);
 /// Returns the text of a `raytrace` technique with another value of the knob `seed`.
 std::string set_lobe_seed(const std::string& technique, int seed);
 

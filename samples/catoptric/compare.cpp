@@ -104,7 +104,7 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     app::check_rows(options.techniques);
     const std::string& reference = options.common.reference;
     check(options.truth == app::PixelTruth::centre || reference.empty(), Failure::usage,
-          "--truth converged chooses the reference; wanted no --reference, found ", reference);
+          "--truth chooses the reference; wanted no --reference beside it, found ", reference);
     for (const app::StudyChoice& choice : options.studies)
         app::check_study(choice, reference.empty() ? app::kReference : reference);
     std::vector<app::CompareRequest> requests;
@@ -366,12 +366,12 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
             options->max_flip = parse_real("--max-flip", text, 0, 1);
         });
     verb.option("--truth", "T",
-                "pixels of the reference: centre (one camera ray, as techniques draw them) or "
-                "converged (the mean over the pixel's area) (centre)",
+                "pixels of the reference: centre (one camera ray, as techniques draw them), "
+                "converged (the mean over the pixel's area) or paths (as centre, by path tracing: "
+                "with light between surfaces, lamps as areas and a shadowed environment) (centre)",
                 [options](const std::string& text) {
-                    options->truth = parse_choice_index("--truth", text, {"centre", "converged"})
-                                         ? app::PixelTruth::converged
-                                         : app::PixelTruth::centre;
+                    options->truth = static_cast<app::PixelTruth>(
+                        parse_choice_index("--truth", text, {"centre", "converged", "paths"}));
                 });
     verb.option(
         "--reference-seconds", "S",

@@ -50,7 +50,8 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;
-        bool is_lit = light < count && sample_light(light, position, normal, direction, distance, factor);
+        bool is_lit = light < count && !(traces_paths != 0u && is_lamp(light)) &&
+                      sample_light(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
             factor *= facet_light_share(direction, normal, facet);
             is_lit = factor > 0.0;
@@ -67,8 +68,8 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         }
         ++light;
     } while (one_light == 0u && light < count);
-    if (environment_kind != kNoEnvironment) direct += environment_irradiance(normal);
-    vec3 result = lambert(surface.emission, surface.albedo, direct, ambient_light());
+    if (environment_kind != kNoEnvironment && traces_paths == 0u) direct += environment_irradiance(normal);
+    vec3 result = lambert(surface.emission, surface.albedo, direct, traces_paths == 0u ? ambient_light() : 0.0);
     if (has_lobes != 0u && is_rough) {
         result += specular_lobe.gain * highlights;
         if (!reflects) result += specular_lobe.stand_in / kPi * by_lamps + lobe_environment_light(normal, to_viewer);

@@ -9,6 +9,8 @@
 layout(constant_id = LIGHT_KINDS_CONSTANT) const uint light_kinds = 0u;
 // 1: the scene has exactly one light, whose data are in variables, so that shading needs no loop (docs/performance.md).
 layout(constant_id = ONE_LIGHT_CONSTANT) const uint one_light = 0u;
+// 1: paths (lib/paths.glsl) find the light of lamps, of the environment and of other surfaces, so shading adds none of it.
+layout(constant_id = TRACES_PATHS_CONSTANT) const uint traces_paths = 0u;
 
 #ifndef CATOPTRIC_DRAWN_GLSL // a compute shader reads light data once for all lanes, as long as no lanes have diverged
 Light only_light = lights[0];

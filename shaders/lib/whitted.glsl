@@ -56,7 +56,8 @@ layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // shadow method: 
 // then traced only where the shadow map cannot tell.
 layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 
-// 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: rough mirrors reflect sharply.
+// 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: rough mirrors reflect sharply. 1 as well
+// if traces_paths is 1.
 layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u;
 // The arguments of sample_point for the traced path.
 uint path_pixel = 0u, path_sample = 0u, path_seed = 0u;
@@ -254,8 +255,12 @@ Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
             turned = is_front ? bent : -bent;
         }
         p.normal = turned;
-        evaluate_material(surface, p.at, -dot(p.normal, direction));
     }
+    if (traces_paths != 0u && dot(p.normal, p.facet) * dot(direction, p.facet) > 0.0) {
+        p.normal = -p.normal; // light arrives on the side from which the path comes
+        p.lift = 0.0;
+    }
+    if (details != 0u) evaluate_material(surface, p.at, -dot(p.normal, direction));
     return surface;
 }
 
@@ -276,15 +281,12 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
     return spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
 }
 
-// Draws the direction in which a ray leaves a rough surface at the path's `bounce`th reflection. `direction` is that of
-// the arriving ray. Multiplies the weight by the lobe's weight. Returns false, with the perfect mirror's direction, if
-// the surface is smooth.
-bool draw_lobe_direction(SurfacePoint p, vec3 direction, uint bounce, inout vec3 weight, out vec3 leaving) {
-    leaving = mirror_direction(direction, p.normal, p.facet);
-    if (traces_lobes == 0u || !has_rough_lobe()) return false;
-    float u, v;
-    sample_point(path_pixel, path_sample, bounce, path_seed, u, v);
-    return sample_specular_lobe(direction, p.facet, u, v, weight, leaving);
+#include "lib/paths.glsl"
+
+// Returns the origin of a ray that leaves the surface along `direction`, for paths that leave diffuse surfaces, too.
+vec3 reflected_ray_origin(SurfacePoint p, vec3 direction) {
+    bool goes_below = traces_paths != 0u && keeps_rule(kOriginErrorBoundRule) && dot(direction, facet_side(p.normal, p.facet)) < 0.0;
+    return goes_below ? lifted_shadow_ray_origin(p, p.normal) : leaving_ray_origin(p, direction);
 }
 
 // With samples_lamps, a ray to a point drawn on a lamp is traced before the path goes on: that point, the weight of its
@@ -296,23 +298,22 @@ Ray path_ray;
 const uint kLampDimensions = 0x10000u; // first dimension of sample_point for lamps; lobes have those below
 
 // Replaces the path's next ray by one to a point drawn on a lamp, unless the surface reflects no light from there to
-// where `direction` comes from. `weight` is the path's weight before the surface. Light that rays of the lobe meet, too,
+// where `direction` comes from. `weight` is the path's weight before the surface. Light that drawn rays meet, too,
 // counts by the shares of both densities (multiple importance sampling, balance heuristic: Veach and Guibas,
 // "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995).
-void aim_at_lamp(SurfacePoint p, vec3 direction, uint bounce, vec3 weight, inout Ray ray) {
-    float u, v, lobe_density;
+void aim_at_lamp(SurfacePoint p, Reflection parts, vec3 direction, uint bounce, vec3 weight, inout Ray ray) {
+    float u, v, density;
     sample_point(path_pixel, path_sample, kLampDimensions + bounce, path_seed, u, v);
     lamp = draw_lamp_point(u, v);
     vec3 to_lamp = lamp.position - p.position;
-    vec3 mirrored = mirror_direction(direction, p.normal, p.facet);
-    vec3 reflected = evaluate_specular_lobe(direction, mirrored, p.facet, normalize(to_lamp), lobe_density);
+    vec3 reflected = evaluate_reflection(p, parts, direction, normalize(to_lamp), density);
     float lamp_density = solid_angle_density(lamp_point_density(lamp.object), to_lamp, lamp.normal);
-    lamp_weight = weight * reflected / (lobe_density + lamp_density);
+    lamp_weight = weight * reflected / (density + lamp_density);
     traces_to_lamp = largest(lamp_weight) > 0.0;
     if (!traces_to_lamp) return;
     path_ray = ray;
     path_low = trace_low;
-    vec3 origin = leaving_ray_origin(p, to_lamp);
+    vec3 origin = reflected_ray_origin(p, to_lamp);
     ray = Ray(origin, normalize(lamp.position - origin), p.leaves);
     ++shadow_rays;
 }
@@ -334,12 +335,12 @@ bool meets_lamp_point(SurfacePoint p, vec3 origin) {
     return p.object == lamp.object && length(miss) <= allowed;
 }
 
-// Returns the share of a surface's emission that counts where a ray of a lobe meets it: the rest is counted by rays to
-// lamps. `lobe_density` is the density with which the ray was drawn, 0 for a ray that no lamp ray accompanies.
-float met_emission_share(SurfacePoint p, vec3 origin, float lobe_density) {
+// Returns the share of a surface's emission that counts where a ray meets it: the rest is counted by rays to lamps.
+// `ray_density` is the density with which the ray was drawn, 0 for a ray that no lamp ray accompanies.
+float met_emission_share(SurfacePoint p, vec3 origin, float ray_density) {
     float density = lamp_point_density(p.object);
-    if (lobe_density == 0.0 || density == 0.0) return 1.0;
-    return lobe_density / (lobe_density + solid_angle_density(density, p.position - origin, p.facet));
+    if (ray_density == 0.0 || density == 0.0) return 1.0;
+    return ray_density / (ray_density + solid_angle_density(density, p.position - origin, p.facet));
 }
 
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
@@ -394,7 +395,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
     uint bounce = first;
     TraceHit hit;
     uint known = kUnknownHit;
-    float lobe_density = 0.0; // with which the path's ray was drawn, if a ray to a lamp accompanied it
+    float ray_density = 0.0; // with which the path's ray was drawn; 0: a ray of the camera or of a smooth surface
     if (first_raster != 0u && first == 0u) known = known_hit(ray, hit);
     if (known == kUnknownHit && first == 0u) ++camera_rays;
     do {
@@ -418,7 +419,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             done = weight == vec3(0);
             continue;
         }
-        if (samples_lamps != 0u) surface.emission *= met_emission_share(point, ray.origin, lobe_density);
+        if (samples_lamps != 0u) surface.emission *= met_emission_share(point, ray.origin, ray_density);
         if (bounce < first + 2u) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
@@ -429,30 +430,23 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
         // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
         // the whole BVH walk of its shadow ray.
-        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects);
-        if (!reflects) {
+        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || traces_paths != 0u);
+        if (!reflects && (traces_paths == 0u || surface.albedo == vec3(0))) {
             done = true;
         } else if (bounce == max_depth) {
             done = true;
         } else {
             vec3 direction, weight_before = weight, arriving = ray.direction;
-            bool is_drawn = draw_lobe_direction(point, arriving, bounce, weight, direction);
-            if (!is_drawn) {
-                weight *= surface.reflectance;
+            Reflection parts = split_reflection(surface, reflects, -dot(point.normal, arriving));
+            bool is_drawn = draw_reflection(point, parts, arriving, bounce, weight, direction, ray_density);
 #ifdef DOUBLES
-                direction = exact_reflection();
+            if (!is_drawn) direction = exact_reflection();
 #endif
-            }
-            ray = Ray(leaving_ray_origin(point, direction), direction, point.leaves);
+            ray = Ray(reflected_ray_origin(point, direction), direction, point.leaves);
             skipped = 0u;
             ++mirror_rays;
-            if (samples_lamps != 0u) {
-                lobe_density = 0.0;
-                if (is_drawn) {
-                    evaluate_specular_lobe(arriving, mirror_direction(arriving, point.normal, point.facet), point.facet, direction, lobe_density);
-                    aim_at_lamp(point, arriving, bounce, weight_before, ray);
-                }
-            }
+            if (samples_lamps != 0u && (is_drawn || parts.diffuse != vec3(0)))
+                aim_at_lamp(point, parts, arriving, bounce, weight_before, ray);
             ++bounce;
             if (traces_lobes != 0u) done = weight == vec3(0) && !traces_to_lamp;
         }

@@ -91,6 +91,7 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
                                                           "shadow",
                                                           "texels_in_storage",
                                                           "traces_lobes",
+                                                          "traces_paths",
                                                           "without"}));
 }
 

@@ -118,6 +118,10 @@ TEST(Lamp, SoftShadowOfASquareLampIsItsVisibleFormFactor) {
         EXPECT_LT(few, one / 4) << technique;
         EXPECT_LT(many, .012) << technique;
     }
+    // Paths meet the lamp as an area, whose points are drawn for each pixel.
+    const double paths = rmse("raytrace:indirect=paths,depth=1,rays=1024", 1);
+    std::cout << "[ MEASURED ] 1024 paths: rmse " << paths << '\n';
+    EXPECT_LT(paths, .003);
 }
 
 /// Returns the relative brightness of a board that faces up. Its vertex normals lean by `lean`

@@ -103,6 +103,15 @@ TEST(PixelTruth, ConvergedReferencesAreThoseOfAllRows) {
         EXPECT_EQ(app::set_reference_samples(reference, "4"), reference);
 }
 
+TEST(PixelTruth, PathsAreTheReferenceOfEachScene) {
+    for (const float roughness : {0.f, .3f})
+        EXPECT_EQ(app::choose_reference("", make_metal(0, roughness), app::PixelTruth::paths),
+                  app::kPathReference);
+    EXPECT_TRUE(app::traces_paths(app::kPathReference));
+    EXPECT_FALSE(app::traces_paths(app::kRoughReference));
+    EXPECT_TRUE(app::draws_rays_from_lobes(app::kPathReference));
+}
+
 TEST(RoughReflectors, BuiltInScenesOfPerfectMirrorsKeepTheirReference) {
     for (const char* name : {"cornell-mirrors", "gallery", "room", "courtyard"})
         EXPECT_EQ(app::choose_reference("", scene::load(name)), app::kReference) << name;
