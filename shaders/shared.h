@@ -54,7 +54,8 @@ const uint kTextureNearestFlag = 16u, kTextureSrgbFlag = 32u, kTextureSecondUvFl
 // name here, and its row in engine/scene/material_facts.hpp.
 #define MATERIAL_FACTORS(FACTOR)                                                                                       \
     FACTOR(metallic)  /* share of the surface that is metal, 0 to 1 */                                                 \
-    FACTOR(roughness) /* glTF roughness, 0 to 1 */
+    FACTOR(roughness) /* glTF roughness, 0 to 1 */                                                                     \
+    FACTOR(transmission) /* share of light not reflected that passes through, 0 to 1 */
 
 // The parameters of a glTF material that Surface does not hold. Objects with equal parameters share one element.
 struct IN_QUADS MaterialParameters {
@@ -70,12 +71,14 @@ struct IN_QUADS MaterialParameters {
     TextureUse rough;       // texture with roughness in green and metallic in blue
     TextureUse normal;      // texture of normals in tangent space
     float normal_scale;     // factor of the texture's x and y
+    vec3 absorption;        // in solid glass, per scene unit: light falls by e^-absorption
+    float ior;              // index of refraction of glass
 #define DECLARE_FACTOR(name) float name;
     MATERIAL_FACTORS(DECLARE_FACTOR)
 #undef DECLARE_FACTOR
 };
 #define ADD_ONE_PER_FACTOR(name) +1u
-const uint kMaterialWordsBeforeFactors = 48u; // words of a MaterialParameters before its factors
+const uint kMaterialWordsBeforeFactors = 52u; // words of a MaterialParameters before its factors
 const uint kWordsPerMaterial = kMaterialWordsBeforeFactors MATERIAL_FACTORS(ADD_ONE_PER_FACTOR);
 #undef ADD_ONE_PER_FACTOR
 const uint kMaterialVariesFlag = 1u; // material flag: several colours, or sharp reflection without being a mirror
@@ -89,6 +92,8 @@ const uint kMaterialTwoSidedFlag = 16u; // material flag: two-sided, the normal 
 const uint kMaterialTestsFacetSideFlag = 32u;
 // material flag: the lobe gets back the light that single scattering loses
 const uint kMaterialMultipleScatteringFlag = 64u;
+const uint kMaterialGlassFlag = 128u; // material flag: rays pass through
+const uint kMaterialSolidFlag = 256u; // material flag: the glass is a solid body, else a thin sheet
 
 // The data of a vertex other than position and normal.
 struct VertexAttribute {

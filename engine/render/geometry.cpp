@@ -131,10 +131,11 @@ DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) 
     range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
     range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     range.mirror = scene::is_mirror(now, object);
-    range.casts_shadow = scene::emitted_radiance(material) == vec3(0);
+    range.glass = scene::is_glass(material);
+    range.casts_shadow = !range.glass && scene::emitted_radiance(material) == vec3(0);
     range.seen_by_camera = object.seen_by_camera;
     range.exact_sphere = object.sphere.has_value();
-    range.one_sided = !range.mirror && scene::is_one_sided(material);
+    range.one_sided = !range.mirror && !range.glass && scene::is_one_sided(material);
     range.varies = has_varying_colour(mesh, material);
     // A mirror reflects on both sides, even if its material is one-sided.
     range.turns = (material.two_sided || range.mirror) &&

@@ -40,6 +40,7 @@ struct DrawRange {
     bool masked = false;   ///< whether an alpha mask may cut out parts of the object
     /// A mirror with diffuse or emitted light beside its reflection.
     bool lit = false;
+    bool glass = false;   ///< rays pass through (scene::is_glass)
     bool shell = false;   ///< the mesh passes is_shell
     bool flipped = false; ///< whether the object's transform mirrors or flattens the mesh
     /// Index in Geometry::attributes of the first attribute of the object's mesh; empty: the mesh

@@ -106,7 +106,8 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         move_objects(now, changes.moved);
     const bool moves_vertices = vertices_.layouts() != known_layouts_;
     if (changes.layout || changes.materials || moves_vertices)
-        details_.fill(now, geometry_, vertices_, device_.max_texel_count(sizeof(std::uint32_t)));
+        details_.fill(now, space_, geometry_, vertices_,
+                      device_.max_texel_count(sizeof(std::uint32_t)));
     if (changes.has_shape_changes() || changes.materials || moves_vertices) {
         fill_surfaces(now);
         has_lamp_table_ = false;
@@ -313,6 +314,7 @@ gpu::ShaderConstants GpuScene::shader_features(std::uint32_t view) const {
             {"details", details_.any() ? 1u : 0u},
             {"masks", details_.masks() ? 1u : 0u},
             {"has_lobes", details_.any_lobes() ? 1u : 0u},
+            {"has_glass", details_.any_glass() ? 1u : 0u},
             {"has_normal_textures", details_.any_normal_textures() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},

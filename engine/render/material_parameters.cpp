@@ -5,6 +5,7 @@
 #include "core/text.hpp"
 #include "render/facets.hpp"
 #include "scene/texel.hpp"
+#include "scene/topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +62,8 @@ shared::MaterialParameters make_material_parameters(const scene::Material& mater
                    flag_if(range.first_attribute.has_value(), shared::kMaterialHasAttributesFlag) |
                    flag_if(material.mirror, shared::kMaterialConstantReflectanceFlag) |
                    flag_if(material.unlit, shared::kMaterialUnlitFlag) |
-                   flag_if(range.turns, shared::kMaterialTwoSidedFlag);
+                   flag_if(range.turns, shared::kMaterialTwoSidedFlag) |
+                   flag_if(range.glass, shared::kMaterialGlassFlag);
 #define COPY_FACTOR(name) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
@@ -127,19 +129,23 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
     texels_.set_contents(texels);
 }
 
-void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geometry,
-                                  const DeviceVertices& vertices, std::uint64_t most) {
+void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& space,
+                                  const Geometry& geometry, const DeviceVertices& vertices,
+                                  std::uint64_t most) {
     any_lobes_ = std::ranges::any_of(geometry.ranges, &DrawRange::has_lobe);
+    any_glass_ = std::ranges::any_of(geometry.ranges, &DrawRange::glass);
     fill_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.clear();
     any_ = masks_ = any_normal_textures_ = false;
-    std::map<std::size_t, bool> leaves; // by mesh
+    std::map<std::size_t, bool> leaves, bodies; // by mesh
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
         shared::MaterialParameters detail = make_material_parameters(material, range);
+        detail.ior = material.ior;
+        detail.absorption = material.absorption / space.to_scene_length(1);
         detail.max_specular_roughness = now.mirror_max_roughness;
         detail.flags |= flag_if(now.has_multiple_scattering && range.has_lobe,
                                 shared::kMaterialMultipleScatteringFlag);
@@ -152,6 +158,12 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
         detail.rough = use_of(material.roughness_texture);
         detail.normal = use_of(material.normal_texture);
         detail.normal_scale = material.normal_scale;
+        if (range.glass && material.solid) {
+            const scene::Mesh& mesh = now.meshes[now.objects[i].mesh];
+            const auto [entry, is_new] = bodies.try_emplace(now.objects[i].mesh, false);
+            if (is_new) entry->second = scene::is_closed_surface(mesh.positions, mesh.triangles);
+            detail.flags |= flag_if(entry->second, shared::kMaterialSolidFlag);
+        }
         any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;
         if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {

@@ -16,12 +16,13 @@ public:
     /// Fills the lists for a new geometry layout. Costs O(n) in attributes, and in texels if the
     /// images changed. Throws `exhausted` if the images and the tables before them take more than
     /// `most` texels.
-    void fill(const scene::Scene& now, const Geometry& geometry, const DeviceVertices& vertices,
-              std::uint64_t most);
+    void fill(const scene::Scene& now, const SceneUnits& space, const Geometry& geometry,
+              const DeviceVertices& vertices, std::uint64_t most);
     /// Writes the changes, like DeviceList::write_changed_pages.
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
+    bool any_glass() const { return any_glass_; } ///< rays pass through some surface
     bool any() const { return any_; }             ///< some surface has more than one colour
     bool masks() const { return masks_; }         ///< some surface is partly cut out
     bool any_lobes() const { return any_lobes_; } ///< some surface reflects by a lobe
@@ -38,7 +39,7 @@ private:
     std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
     std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
     bool any_ = false, masks_ = false, any_normal_textures_ = false;
-    bool any_lobes_ = false;
+    bool any_lobes_ = false, any_glass_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
     bool texels_filled_ = false;  ///< `fill_texels` was called
     DeviceList details_, attributes_, texels_;

@@ -200,9 +200,10 @@ constexpr CellTextWriter kCellTextWriters[] = {
     {"rough-dielectric", "where rays are not traced, it reflects the environment and lights "
                          "without a surface, but no lamps and objects; --dielectric-mirrors makes "
                          "mirrors of those that are smooth enough"},
-    {"rough-glass", "drawn as diffuse"},
-    {"glass-as-diffuse", "its diffuse part is drawn"},
-    {"glass-shadow", "glass casts the full shadow of an opaque surface"},
+    {"rough-glass",
+     "rough or partly metallic: its diffuse part is drawn, and it casts a full shadow"},
+    {"glass-as-diffuse", "its diffuse part is drawn where rays are not traced"},
+    {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent"},
     {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
                           "--dielectric-mirrors makes mirrors of them"},
     {"skin", "posed by its joints at rest"},

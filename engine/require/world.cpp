@@ -88,7 +88,8 @@ void VisibilityWorld::set_layout(const scene::Scene& now) {
         thing.rest = object.world_from_object;
         thing.seen_by_camera = object.seen_by_camera;
         thing.is_mirror = scene::is_mirror(now, object);
-        thing.casts_shadow = scene::emitted_radiance(now.materials[object.material]) == vec3(0);
+        thing.casts_shadow = scene::emitted_radiance(now.materials[object.material]) == vec3(0) &&
+                             !scene::is_glass(now.materials[object.material]);
         thing.tight_rest = scene::bounds(now, object);
         if (thing.is_mover)
             movers_.push_back(i);

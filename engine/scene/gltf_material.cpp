@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace catoptric::scene::gltf {
 
@@ -25,11 +26,11 @@ constexpr UnreadExtension kUnreadMaterialExtensions[] = {
     {"KHR_materials_sheen", "", "sheen"},
     {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
     {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
-constexpr std::string_view kTransmissionExtension = "KHR_materials_transmission";
+/// Least light that a volume lets through at its attenuation distance, because glTF allows 0.
+constexpr double kMinAttenuation = 1e-6;
 constexpr std::string_view kVolumeExtension =
     "KHR_materials_volume"; // no effect without transmission
 constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrengthExtension,
-                                                    kTransmissionExtension,
                                                     "KHR_materials_ior",
                                                     "KHR_materials_specular",
                                                     "KHR_materials_unlit",
@@ -170,15 +171,32 @@ bool MaterialReader::is_metal_everywhere() const {
                                [](std::uint32_t texel) { return (texel >> 16 & 0xff) == 0xff; });
 }
 
-/// Reports transmission as unsupported. Only the dielectric part transmits light, so a material
-/// that is metal everywhere is not reported.
+/// Reads what transmitted light meets, and reports what differs from the techniques' pictures. Only
+/// the dielectric part transmits light, so a material that is metal everywhere is not reported.
 void MaterialReader::transmission() {
-    const std::optional<JsonObject> glass = extension(kTransmissionExtension);
-    if (!glass || glass->number("transmissionFactor", 0) == 0 || is_metal_everywhere()) return;
+    if (material_.transmission == 0 || is_metal_everywhere()) return;
+    if (extensions_->has("KHR_materials_ior")) {
+        const double ior = extension("KHR_materials_ior")->number("ior", 1.5);
+        // glTF's ior of 0 reflects all light.
+        material_.ior = ior == 0 ? std::numeric_limits<float>::max() : static_cast<float>(ior);
+    }
+    if (const std::optional<JsonObject> volume = extension(kVolumeExtension)) {
+        from_.require(volume->number("thicknessFactor", 0) >= 0,
+                      "thicknessFactor: wanted at least 0, found a negative number");
+        material_.solid = volume->number("thicknessFactor", 0) > 0;
+        const double distance = volume->number("attenuationDistance", 0); // 0: as without
+        const dvec3 colour = glm::clamp(read_vector_member(*volume, "attenuationColor", 1),
+                                        dvec3(kMinAttenuation), dvec3(1));
+        from_.require(distance >= 0, "attenuationDistance: wanted at least 0, found ", distance);
+        if (material_.solid && distance > 0)
+            material_.absorption = vec3(-glm::log(colour) / distance);
+        from_.require(is_valid_radiance(material_.absorption),
+                      "attenuationDistance: wanted an absorption that fits a float, found more");
+    }
+    if (extension("KHR_materials_transmission")->has("transmissionTexture"))
+        report_unsupported("material-extension");
+    if (!is_glass(material_)) return report_unsupported("rough-glass");
     report_unsupported("glass-as-diffuse"), report_unsupported("glass-shadow");
-    for (const std::string_view name : {kTransmissionExtension, kVolumeExtension})
-        if (extension(name))
-            source_.notes.add("extension " + quote_printable(name) + ", not read", from_.label());
 }
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.

@@ -49,20 +49,44 @@ void write_emission(GltfWriter& writer, const Material& material, tinygltf::Mate
     writer.use(extension);
 }
 
-/// Writes F0 and F90 by KHR_materials_specular if they differ from those of a glTF material without
-/// extensions. The index of refraction keeps its default, 1.5.
+/// Writes the index of refraction of glass, and F0 and F90 by KHR_materials_specular if they differ
+/// from those of a glTF material with this index.
 void write_dielectric(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
-    if (material.dielectric_f0 == vec3(kUsualDielectricF0) && material.dielectric_f90 == vec3(1))
-        return;
-    constexpr double kDefaultDielectricF0 = .04; // as in the reader, in double precision
+    const bool has_ior = material.ior != Material().ior;
+    if (has_ior) {
+        to.extensions["KHR_materials_ior"] = Value(
+            Value::Object{{"ior", Value(float_to_typed_double(material.ior))}});
+        writer.use("KHR_materials_ior");
+    }
+    const float usual = has_ior ? compute_dielectric_f0(float_to_typed_double(material.ior))
+                                : kUsualDielectricF0;
+    if (material.dielectric_f0 == vec3(usual) && material.dielectric_f90 == vec3(1)) return;
+    // As in the reader, in double precision.
+    const double f0 = has_ior ? std::pow((float_to_typed_double(material.ior) - 1) /
+                                             (float_to_typed_double(material.ior) + 1),
+                                         2)
+                              : .04;
     const double strength = material.dielectric_f90.x;
-    const dvec3 colour = strength > 0
-                             ? dvec3(material.dielectric_f0) / (kDefaultDielectricF0 * strength)
-                             : dvec3(0);
+    const dvec3 colour = strength > 0 ? dvec3(material.dielectric_f0) / (f0 * strength) : dvec3(0);
     to.extensions["KHR_materials_specular"] = Value(
         Value::Object{{"specularFactor", Value(strength)},
                       {"specularColorFactor", make_number_list(matrix_to_numbers(colour))}});
     writer.use("KHR_materials_specular");
+}
+
+/// Writes the inside of a solid body by KHR_materials_volume.
+void write_volume(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
+    if (!material.solid) return;
+    Value::Object volume{{"thicknessFactor", Value(1.0)}}; // rays find the true thickness
+    const dvec3 absorption(material.absorption);
+    const double largest = std::max({absorption.x, absorption.y, absorption.z});
+    if (largest > 0) {
+        volume["attenuationDistance"] = Value(1 / largest);
+        volume["attenuationColor"] = make_number_list(
+            matrix_to_numbers(glm::exp(-absorption / largest)));
+    }
+    to.extensions["KHR_materials_volume"] = Value(std::move(volume));
+    writer.use("KHR_materials_volume");
 }
 
 /// Writes the factors of extensions that differ from the defaults of Material.
@@ -147,6 +171,7 @@ void GltfWriter::add_material(const Material& material) {
     write_emission(*this, material, to);
     write_dielectric(*this, material, to);
     write_factors(*this, material, to);
+    write_volume(*this, material, to);
     if (material.unlit) {
         to.extensions["KHR_materials_unlit"] = Value(Value::Object());
         use("KHR_materials_unlit");

@@ -1,5 +1,7 @@
 #include "scene/material.hpp"
+
 #include "scene/material_facts.hpp"
+#include "shared.h"
 
 namespace catoptric::scene {
 
@@ -11,6 +13,13 @@ bool is_one_sided(const Material& material) {
 bool is_specular(const Material& material) {
     return !material.mirror && (material.metallic > 0 || material.dielectric_f0 != vec3(0) ||
                                 material.dielectric_f90 != vec3(0));
+}
+
+bool is_glass(const Material& material) {
+    constexpr float kMinGlassTransmission = .5f;
+    return material.transmission >= kMinGlassTransmission && material.metallic == 0 &&
+           !material.mirror && !material.unlit && !material.roughness_texture &&
+           material.roughness <= shared::kMaxSharpRoughness;
 }
 
 bool is_visibly_emissive(const Material& material) { return material.emission != vec3(0); }

@@ -11,15 +11,14 @@
 /// Materials of surfaces, with their textures.
 namespace catoptric::scene {
 
-/// Decoded picture: 8 bits a channel, encoded as in the file. Red is in the low byte, then green,
-/// blue, alpha. Row-major from the top row.
+/// Decoded picture, 8 bits a channel as in the file, red in the low byte. Row-major from the top.
 struct Image {
     std::string name;
     uvec2 size{0};
     std::vector<std::uint32_t> texels; ///< size.x * size.y
 };
 
-/// Image with the way in which a surface reads it. The centre of texel (i, j) lies at ((i + .5) /
+/// Image with the way in which a surface reads it. Texel (i, j) has its centre at ((i + .5) /
 /// width, (j + .5) / height) of texture space, v downwards as in glTF.
 struct Texture {
     enum class Wrap { repeat, mirrored, clamp };
@@ -40,6 +39,7 @@ struct Texture {
 /// sees, plus (1 - R) times its diffuse light, with R = F0 + (F90 - F0) (1 - cos)^5 (Schlick 1994).
 /// A rougher surface shows a GGX lobe (shaders/lib/math/lobe.glsl) with this Fresnel term, plus 1
 /// minus the lobe's albedo times its diffuse light. With `mirror`, R is `reflectance` everywhere.
+/// In rays, glass (scene::is_glass) reflects R of Fresnel's equations and transmits c (1 - R).
 struct Material {
     std::string name;
     vec3 albedo{0};          ///< base colour, linear, in [0,1]
@@ -52,6 +52,10 @@ struct Material {
     float metallic = 0, roughness = 1;
     vec3 dielectric_f0{0};  ///< reflectance of the part that is no metal, seen head-on; glass: .04
     vec3 dielectric_f90{0}; ///< that at grazing angle; 0 for both: a Lambertian surface
+    float transmission = 0; ///< share of light not reflected that passes through, 0 to 1
+    float ior = 1.5f;       ///< index of refraction of what transmits light
+    bool solid = false;     ///< closed meshes are bodies that refract and absorb, else thin sheets
+    vec3 absorption{0};     ///< in solid bodies, per world unit: light falls by e^-absorption
     float alpha = 1;
     float alpha_cutoff = 0; ///< parts with less alpha are cut out; 0: none are
     /// `albedo_texture` holds base colour and alpha. It and `emission_texture` are sRGB.

@@ -21,6 +21,8 @@ inline constexpr std::string_view kCoreFactors = "pbrMetallicRoughness";
 inline constexpr MaterialFactor kMaterialFactors[] = {
     {"metallic", &Material::metallic, kCoreFactors, "metallicFactor", 1},
     {"roughness", &Material::roughness, kCoreFactors, "roughnessFactor", 1},
+    {"transmission", &Material::transmission, "KHR_materials_transmission", "transmissionFactor",
+     0},
 };
 
 /// Reflectance of glass and plastic seen head-on: that of the index of refraction 1.5, which glTF
@@ -32,12 +34,13 @@ inline constexpr float kUsualDielectricF0 = .04f;
 template <typename Visit>
 inline void visit_members(const Material& material, Visit&& visit) {
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
-                 metallic, roughness, dielectric_f0, dielectric_f90, alpha, alpha_cutoff,
-                 albedo_texture, emission_texture, roughness_texture, normal_texture, normal_scale,
-                 light] = material;
+                 metallic, roughness, dielectric_f0, dielectric_f90, transmission, ior, solid,
+                 absorption, alpha, alpha_cutoff, albedo_texture, emission_texture,
+                 roughness_texture, normal_texture, normal_scale, light] = material;
     visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
     visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
-    visit(dielectric_f0), visit(dielectric_f90), visit(alpha), visit(alpha_cutoff);
+    visit(dielectric_f0), visit(dielectric_f90), visit(transmission), visit(ior), visit(solid);
+    visit(absorption), visit(alpha), visit(alpha_cutoff);
     visit(albedo_texture), visit(emission_texture), visit(roughness_texture);
     visit(normal_texture), visit(normal_scale), visit(light);
 }
@@ -49,6 +52,14 @@ bool is_one_sided(const Material& material);
 /// Returns whether the surface has a specular part, sharp or rough: it is no Lambertian surface.
 /// False for `mirror`, whose reflectance is another member.
 bool is_specular(const Material& material);
+/// Returns whether rays pass through the surface: it transmits at least half of the light, is
+/// smooth everywhere and has no metal. Glass casts no shadow.
+bool is_glass(const Material& material);
+/// Returns F0 of a dielectric with this index of refraction in air (Fresnel's equations).
+inline float compute_dielectric_f0(double ior) {
+    const double root = (ior - 1) / (ior + 1);
+    return static_cast<float>(root * root);
+}
 /// Returns whether the surface can be seen by its own light.
 bool is_visibly_emissive(const Material& material);
 /// Returns the radiance with which the surface lights others; 0 if it lights nothing.

@@ -205,6 +205,8 @@ private:
     std::map<std::string, std::shared_ptr<const Image>> images_;
 };
 
+constexpr double kUsualGlassIor = 1.5; // of a material without Ni
+
 vec3 clamp_to_fraction(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
 
 /// Turns a draft into an engine material, as scene.md describes under "Surface".
@@ -226,7 +228,9 @@ public:
         if (draft_.normals) material_.normal_texture = maps_.map_texture(*draft_.normals, false);
         set_sidedness();
         transparency();
-        if (draft_.roughness || draft_.metallic)
+        if (is_glass_)
+            set_glass();
+        else if (draft_.roughness || draft_.metallic)
             set_physical_factors();
         else
             reflection();
@@ -248,7 +252,7 @@ private:
         const bool is_glass = kind_ == 4 || kind_ == 6 || kind_ == 7 || kind_ == 9 ||
                               (alpha < 1 && draft_.ior.value_or(1) > 1.01);
         if (is_glass) {
-            context_.notes.add("glass, drawn as what it is without being clear", draft_.place);
+            is_glass_ = true;
             return report_unsupported("glass-as-diffuse"), report_unsupported("glass-shadow");
         }
         const bool is_cut = draft_.cut && material_.albedo_texture &&
@@ -260,6 +264,15 @@ private:
         report_unsupported("blend-as-mask");
         material_.alpha = static_cast<float>(alpha);
         material_.alpha_cutoff = .5f;
+    }
+
+    /// Makes a smooth body of glass. Kd tints it, unless Kd is black.
+    void set_glass() {
+        material_.transmission = 1, material_.roughness = 0, material_.solid = true;
+        material_.ior = static_cast<float>(std::max(draft_.ior.value_or(kUsualGlassIor), 1.0));
+        material_.dielectric_f0 = vec3(compute_dielectric_f0(material_.ior));
+        material_.dielectric_f90 = vec3(1);
+        if (material_.albedo == vec3(0)) material_.albedo = vec3(1);
     }
 
     void set_physical_factors() {
@@ -295,6 +308,7 @@ private:
     ObjContext& context_;
     Material material_;
     int kind_ = 0;
+    bool is_glass_ = false;
 };
 
 } // namespace

@@ -1,8 +1,9 @@
-// Writes a scene as .obj. A mirror is illum 3 with Ks, and a light is Ke. Camera, motion and exact
-// spheres are comments that begin with `# catoptric` (obj_text.hpp).
+// Writes a scene as .obj. A mirror is illum 3 with Ks, glass is illum 7, and a light is Ke. Camera,
+// motion and exact spheres are comments that begin with `# catoptric` (obj_text.hpp).
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "scene/load.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/motion.hpp"
 #include "scene/number.hpp"
 #include "scene/transform.hpp"
@@ -118,7 +119,8 @@ std::string format_material_library(const std::vector<Material>& materials,
         text += "\nnewmtl " + names[i] + "\nKd " + format_vector(material.albedo) + "\n";
         if (material.mirror) text += "Ks " + format_vector(material.reflectance) + "\n";
         if (material.emission != vec3(0)) text += "Ke " + format_vector(material.emission) + "\n";
-        text += material.mirror ? "illum 3\n" : "illum 1\n";
+        if (is_glass(material)) text += "Ni " + format_shortest_number(material.ior) + "\n";
+        text += material.mirror ? "illum 3\n" : is_glass(material) ? "illum 7\n" : "illum 1\n";
         const bool is_lamp = material.emission != vec3(0);
         if (is_lamp && material.two_sided) text += "# catoptric two_sided\n";
         if (!is_lamp && !material.two_sided) text += "# catoptric fixed_normals\n";

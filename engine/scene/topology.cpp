@@ -94,4 +94,16 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
     return sides;
 }
 
+bool is_closed_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles) {
+    const std::vector<std::size_t> first = first_vertex_at_place(positions);
+    std::vector<TriangleCorners> corners;
+    for (const uvec3& t : triangles) corners.push_back({first[t.x], first[t.y], first[t.z]});
+    bool is_closed = true;
+    const std::vector<TriangleEdge> edges = list_triangle_edges(corners);
+    for_each_edge(edges, [&](std::span<const TriangleEdge> sides) {
+        is_closed = is_closed && sides.size() == 2;
+    });
+    return is_closed && !edges.empty();
+}
+
 } // namespace catoptric::scene

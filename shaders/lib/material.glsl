@@ -24,6 +24,7 @@ MaterialParameters read_material_parameters(uint detail) {
     uvec4 q0 = detail_quad(detail, 0), q1 = detail_quad(detail, 1), q2 = detail_quad(detail, 2), q3 = detail_quad(detail, 3);
     uvec4 q4 = detail_quad(detail, 4), q5 = detail_quad(detail, 5), q6 = detail_quad(detail, 6), q7 = detail_quad(detail, 7);
     uvec4 q8 = detail_quad(detail, 8), q9 = detail_quad(detail, 9), q10 = detail_quad(detail, 10), q11 = detail_quad(detail, 11);
+    vec4 f12 = uintBitsToFloat(detail_quad(detail, 12));
     vec4 f0 = uintBitsToFloat(q0), f1 = uintBitsToFloat(q1), f2 = uintBitsToFloat(q2), f4 = uintBitsToFloat(q4);
     vec4 f5 = uintBitsToFloat(q5), f7 = uintBitsToFloat(q7), f9 = uintBitsToFloat(q9), f11 = uintBitsToFloat(q11);
     MaterialParameters result;
@@ -35,6 +36,7 @@ MaterialParameters read_material_parameters(uint detail) {
     result.rough = TextureUse(q7.y, q7.z, q7.w, uintBitsToFloat(q8.xyz), vec3(uintBitsToFloat(q8.w), f9.xy));
     result.normal = TextureUse(q9.z, q9.w, q10.x, uintBitsToFloat(q10.yzw), f11.xyz);
     result.normal_scale = f11.w;
+    result.absorption = f12.xyz, result.ior = f12.w;
     uint word = kMaterialWordsBeforeFactors;
 #define READ_FACTOR(name) result.name = uintBitsToFloat(detail_word(detail, word++));
     MATERIAL_FACTORS(READ_FACTOR)
@@ -212,6 +214,10 @@ vec3 multiple_scattering_gain(float cosine) {
     return 1.0 + specular_lobe.f0 * (1.0 - single) / single;
 }
 
+// 1: rays pass through some surface.
+layout(constant_id = HAS_GLASS_CONSTANT) const uint has_glass = 0u;
+vec3 glass_tint = vec3(1); // colour of the light that passes the glass that was evaluated last
+
 // Evaluates the material at a point. Sets specular_lobe, and sets the surface's albedo to the diffuse part and its
 // reflectance to the weight of a mirrored ray. The reflectance of a rough surface is 0 unless the surface is part of a
 // mirror, because only mirrors have captures. `cosine` is the cosine between the normal and the direction to the viewer.
@@ -231,6 +237,7 @@ void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) 
         return;
     }
     surface.emission *= sample_texture(detail.emission, at.uv).rgb;
+    if (has_glass != 0u) glass_tint = colour;
     vec4 rough = sample_texture(detail.rough, at.uv);
     float metallic = detail.metallic * rough.b, roughness = detail.roughness * rough.g;
     if (!is_constant) {

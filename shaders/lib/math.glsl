@@ -37,6 +37,7 @@ INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 #include "lib/math/environment.glsl"
 #include "lib/math/surface.glsl"
 #include "lib/math/lobe.glsl"
+#include "lib/math/glass.glsl"
 #include "lib/math/random.glsl"
 #include "lib/math/rough.glsl"
 #include "lib/math/ray.glsl"

@@ -282,6 +282,7 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
 }
 
 #include "lib/paths.glsl"
+#include "lib/glass.glsl"
 
 // Returns the origin of a ray that leaves the surface along `direction`, for paths that leave diffuse surfaces, too.
 vec3 reflected_ray_origin(SurfacePoint p, vec3 direction) {
@@ -420,7 +421,8 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             continue;
         }
         if (samples_lamps != 0u) surface.emission *= met_emission_share(point, ray.origin, ray_density);
-        if (bounce < first + 2u) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
+        bool is_recorded = bounce < first + 2u && met < kHitRoughSurface << kHitMirrorBits;
+        if (is_recorded) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
         if (details != 0u && bounce == 0u && surface.mirror == 0u) {
@@ -428,6 +430,20 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             else if (has_rough_lobe()) met = kHitRoughSurface << kHitMirrorBits;
         }
         if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
+        if (is_glass(surface.detail)) {
+            result += weight * surface.emission;
+            done = bounce == max_depth;
+            if (!done) split_at_glass(point, surface.detail, bounce, ray, weight);
+#ifdef DOUBLES
+            set_exact_ray(ray, trace_low);
+#endif
+            done = done || weight == vec3(0);
+            ++bounce;
+            ++mirror_rays;
+            skipped = 0u;
+            ray_density = 0.0;
+            continue;
+        }
         // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
         // the whole BVH walk of its shadow ray.
         if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || traces_paths != 0u);
@@ -450,7 +466,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             ++bounce;
             if (traces_lobes != 0u) done = weight == vec3(0) && !traces_to_lamp;
         }
-    } while (!done);
+    } while (!done || resume_pending_ray(ray, weight, bounce, done));
     // The software driver silently stops this loop, too, after it has stopped a loop of the BVH walk.
     trace_exhausted = trace_exhausted || !done;
     return result;

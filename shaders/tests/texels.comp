@@ -28,6 +28,7 @@ void main() {
     append(d.flags), append(d.first_attribute), append(d.max_specular_roughness), append(d.alpha),
         append(d.alpha_cutoff);
     append(d.f0), append(d.f90), append(d.albedo), append(d.emission), append(d.rough), append(d.normal), append(d.normal_scale);
+    append(d.absorption), append(d.ior);
 #define PUT_FACTOR(name) append(d.name);
     MATERIAL_FACTORS(PUT_FACTOR)
     VertexAttribute a = read_vertex_attribute(number);

@@ -77,6 +77,7 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
                                                           "first_raster",
                                                           "fixed_offset",
                                                           "groups_in_order",
+                                                          "has_glass",
                                                           "has_lobes",
                                                           "has_normal_textures",
                                                           "has_shadow_map",

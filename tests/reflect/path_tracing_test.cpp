@@ -35,9 +35,10 @@ SeedMean mean_of_seeds(const scene::Scene& scene, const std::string& technique, 
     return {mean, std::sqrt(std::max(squares / seeds - mean * mean, 0.) / (seeds - 1))};
 }
 
-/// Expects the mean of pictures within 4 standard errors of `wanted`, and a standard error below 1
-/// % of it.
-void expect_mean_radiance(const scene::Scene& scene, const std::string& technique, double wanted) {
+/// Expects the mean of pictures within 4 standard errors and the relative `slack` of `wanted`, and
+/// a standard error below 1 % of it.
+void expect_mean_radiance(const scene::Scene& scene, const std::string& technique, double wanted,
+                          double slack = 1e-5) {
     const SeedMean found = mean_of_seeds(scene, technique);
     std::cout << "[ MEASURED ] " << technique << ": " << found.mean << " +- " << found.error
               << ", wanted " << wanted << '\n';

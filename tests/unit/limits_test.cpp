@@ -52,12 +52,13 @@ TEST(Limits, MoreImageTexelsThanTheLimitAreRefused) {
     const auto image = std::make_shared<const scene::Image>(
         scene::Image{"wood.png", {8, 4}, std::vector<std::uint32_t>(32)});
     room.materials[room.objects.front().material].albedo_texture = scene::Texture{.image = image};
-    const render::Geometry geometry = render::make_geometry(room, render::make_scene_units(room),
+    const render::SceneUnits space = render::make_scene_units(room);
+    const render::Geometry geometry = render::make_geometry(room, space,
                                                             render::VertexSpace::object_space);
     render::DeviceVertices vertices(std::vector<bool>(room.objects.size()), 1);
     vertices.set_geometry(geometry);
     const auto fill = [&](std::uint64_t most) {
-        render::MaterialParameterLists(1).fill(room, geometry, vertices, most);
+        render::MaterialParameterLists(1).fill(room, space, geometry, vertices, most);
     };
     constexpr std::uint64_t kTables = 256 + 32 * 32; // sRGB in linear light, albedo of lobes
     EXPECT_NO_THROW(fill(kTables + 32));

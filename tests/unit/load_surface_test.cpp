@@ -1,5 +1,6 @@
 // Tests of loading glTF materials: the surface that each factor, texture and extension gives.
 #include "core/image_codec.hpp"
+#include "scene/build.hpp"
 #include "scene/file_options.hpp"
 #include "scene/image_file.hpp"
 #include "scene/material_facts.hpp"
@@ -343,9 +344,9 @@ TEST_F(LoadSurface, UnsupportedMaterialFeaturesAreListed) {
                 {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
                 {"KHR_materials_volume", Json::object()},
                 {"KHR_materials_dispersion", Json::object()}}}}));
-    EXPECT_THAT(ids(scene), testing::UnorderedElementsAre("occlusion-texture", "clearcoat", "sheen",
-                                                          "anisotropy", "glass-as-diffuse",
-                                                          "glass-shadow", "material-extension"));
+    EXPECT_THAT(ids(scene),
+                testing::UnorderedElementsAre("occlusion-texture", "clearcoat", "sheen",
+                                              "anisotropy", "rough-glass", "material-extension"));
     for (const UnsupportedFeature& gap : scene.unsupported) {
         EXPECT_EQ(gap.first, "materials[0] 'all'");
         EXPECT_EQ(gap.count, 1u) << gap.id;
@@ -353,19 +354,64 @@ TEST_F(LoadSurface, UnsupportedMaterialFeaturesAreListed) {
 }
 
 TEST_F(LoadSurface, MetalWithTransmissionIsNoGlass) {
-    const auto is_glass = [&](const Json& pbr) {
+    const auto gaps = [&](const Json& pbr) {
         const Scene scene = scene_of(
             with({{"pbrMetallicRoughness", pbr},
                   {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}));
-        return std::ranges::count(ids(scene), "glass-as-diffuse") +
-               std::ranges::count(ids(scene), "glass-shadow");
+        EXPECT_EQ(is_glass(scene.materials[0]), ids(scene).size() == 2);
+        return ids(scene);
     };
-    EXPECT_EQ(is_glass({{"metallicFactor", 1}}), 0);
-    EXPECT_EQ(is_glass(Json::object()), 0) << "glTF's default is a metal";
-    EXPECT_EQ(is_glass({{"metallicFactor", .5}}), 2);
-    EXPECT_EQ(is_glass({{"metallicFactor", 0}}), 2);
-    EXPECT_EQ(is_glass({{"metallicFactor", 1}, {"metallicRoughnessTexture", {{"index", 0}}}}), 2)
+    using testing::ElementsAre, testing::IsEmpty;
+    EXPECT_THAT(gaps({{"metallicFactor", 1}}), IsEmpty());
+    EXPECT_THAT(gaps(Json::object()), IsEmpty()) << "glTF's default is a metal";
+    EXPECT_THAT(gaps({{"metallicFactor", .5}}), ElementsAre("rough-glass"));
+    EXPECT_THAT(gaps({{"metallicFactor", 0}}), ElementsAre("rough-glass")) << "roughness is 1";
+    EXPECT_THAT(gaps({{"metallicFactor", 0}, {"roughnessFactor", 0}}),
+                ElementsAre("glass-as-diffuse", "glass-shadow"));
+    EXPECT_THAT(gaps({{"metallicFactor", 1}, {"metallicRoughnessTexture", {{"index", 0}}}}),
+                ElementsAre("rough-glass"))
         << "blue is below 1 in some texels";
+}
+
+TEST_F(LoadSurface, GlassIsReadAsAnIndexOfRefractionAndAnAbsorption) {
+    const auto read = [&](const Json& volume) {
+        return scene_of(
+                   with({{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
+                         {"extensions",
+                          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                           {"KHR_materials_ior", {{"ior", 1.33}}},
+                           {"KHR_materials_volume", volume}}}}))
+            .materials[0];
+    };
+    const Material body = read(
+        {{"thicknessFactor", .1}, {"attenuationDistance", 2}, {"attenuationColor", {1, .5, .25}}});
+    EXPECT_FLOAT_EQ(body.ior, 1.33f);
+    EXPECT_TRUE(body.solid);
+    EXPECT_EQ(body.absorption.x, 0);
+    EXPECT_NEAR(std::exp(-2 * body.absorption.y), .5, 1e-6);
+    EXPECT_NEAR(std::exp(-2 * body.absorption.z), .25, 1e-6);
+    EXPECT_FALSE(read({{"attenuationDistance", 2}}).solid) << "a thickness of 0 is a thin sheet";
+    EXPECT_THROW(read({{"thicknessFactor", -1}}), Error);
+    EXPECT_THROW(read({{"thicknessFactor", 1}, {"attenuationDistance", -1}}), Error);
+
+    // Both formats keep glass.
+    Scene scene{.name = "glass"};
+    scene::add_quad(scene, "pane", scene::add_material(scene, body), {0, 0, 0}, {1, 0, 0},
+                    {1, 1, 0}, {0, 1, 0});
+    for (const char* file : {"glass.glb", "glass.obj"}) {
+        const bool is_obj = std::string(file).ends_with("obj");
+        if (is_obj)
+            save_obj(scene, folder / file);
+        else
+            save_glb(scene, folder / file);
+        const Material again = load((folder / file).string()).materials[0];
+        EXPECT_TRUE(is_glass(again)) << file;
+        EXPECT_FLOAT_EQ(again.ior, 1.33f) << file;
+        EXPECT_TRUE(again.solid) << file;
+        if (!is_obj) {
+            EXPECT_LT(glm::length(again.absorption - body.absorption), 1e-6f);
+        }
+    }
 }
 
 } // namespace

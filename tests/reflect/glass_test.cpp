@@ -1,0 +1,199 @@
+// Tests of glass in rays against closed forms, and against a ray tracer in double precision.
+#include "core/shader_math.hpp"
+#include "scene/surroundings.hpp"
+#include "support/lit.hpp"
+#include "support/rendering.hpp"
+#include "support/smooth_environment.hpp"
+#include "support/special_values.hpp"
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr int kGlassEdge = 48;
+
+scene::Material make_glass(float ior, bool solid) {
+    return {.name = "glass",
+            .albedo = vec3(1),
+            .roughness = 0,
+            .dielectric_f0 = vec3(std::pow((ior - 1) / (ior + 1), 2.f)),
+            .dielectric_f90 = vec3(1),
+            .transmission = 1,
+            .ior = ior,
+            .solid = solid};
+}
+
+/// Returns the light that a ray brings from a glass ball around the origin, of radius 1, and from
+/// the environment. `inside`: whether the ray is in the ball.
+dvec3 trace_ball(const scene::Scene& scene, const dvec3& origin, const dvec3& direction,
+                 bool inside, double weight, int depth) {
+    const scene::Material& glass = scene.materials[0];
+    const double b = glm::dot(origin, direction), c = glm::dot(origin, origin) - 1;
+    const double t = inside ? -2 * b : -b - std::sqrt(std::max(b * b - c, 0.));
+    if (!inside && (b >= 0 || b * b < c))
+        return scene::environment_radiance(*scene.environment, direction);
+    if (depth == 0 || weight < 1e-5) return dvec3(0);
+    const dvec3 at = glm::normalize(origin + t * direction), normal = inside ? -at : at;
+    const double ratio = inside ? 1 / glass.ior : double(glass.ior);
+    const double cosine = -glm::dot(direction, normal);
+    double behind;
+    const double reflected = f64::fresnel_dielectric(cosine, ratio, behind);
+    const dvec3 absorbed = inside ? glm::exp(-dvec3(glass.absorption) * t) : dvec3(1);
+    dvec3 light = reflected * trace_ball(scene, at, direction + 2 * cosine * normal, inside,
+                                         weight * reflected, depth - 1);
+    if (reflected < 1)
+        light += (1 - reflected) * dvec3(glass.albedo) *
+                 trace_ball(scene, at,
+                            f64::refract_direction(direction, normal, cosine, ratio, behind),
+                            !inside, weight * (1 - reflected), depth - 1);
+    return absorbed * light;
+}
+
+scene::Scene make_glass_ball(const scene::Material& glass, int levels = 5) {
+    scene::Scene scene{.name = "ball"};
+    test::add_ball(scene, "ball", test::add_material(scene, glass), {0, 0, 0}, 1, levels);
+    scene.environment = test::make_smooth_environment();
+    scene.cameras.push_back({.eye = {.5, .4, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 32});
+    return scene;
+}
+
+TEST(GlassBall, EqualsATracerInDoublePrecision) {
+    scene::Material tinted = make_glass(1.5f, true);
+    tinted.albedo = {.9f, .8f, .7f}, tinted.absorption = {.1f, .3f, .8f};
+    for (const scene::Material& glass : {make_glass(1.5f, true), make_glass(1.1f, true), tinted}) {
+        const scene::Scene scene = make_glass_ball(glass);
+        const measure::Picture found = test::render_technique(scene,
+                                                              "raytrace:depth=16,sphere=exact",
+                                                              {kGlassEdge, kGlassEdge})
+                                           .hdr;
+        int off = 0;
+        double largest = 0;
+        for (int y = 0; y < kGlassEdge; ++y)
+            for (int x = 0; x < kGlassEdge; ++x) {
+                const dvec3 direction = test::pixel_direction(scene.cameras.front(), x, y,
+                                                              kGlassEdge);
+                const dvec3 wanted = trace_ball(scene, scene.cameras.front().eye, direction, false,
+                                                1, 16);
+                const dvec3 difference = glm::abs(dvec3(found.at(x, y)) - wanted);
+                const double error = std::max({difference.x, difference.y, difference.z});
+                off += error > .02;
+                largest = std::max(largest, error);
+            }
+        std::cout << "[ MEASURED ] ior " << glass.ior << ": " << off << " of "
+                  << kGlassEdge * kGlassEdge << " pixels off by .02, largest difference " << largest
+                  << '\n';
+        EXPECT_LE(off, kGlassEdge * kGlassEdge / 500);
+    }
+}
+
+/// Rays below 1/512 are dropped, so a little light is missing. In a mesh, whose normals are
+/// interpolated, some rays are reflected inside until their depth ends.
+TEST(GlassBall, IsInvisibleInAWhiteFurnace) {
+    scene::Scene scene = make_glass_ball(make_glass(1.5f, true), 4);
+    auto white = std::make_shared<scene::Environment>();
+    white->size = {16, 8};
+    white->texels.assign(16 * 8, vec3(1));
+    scene.environment = white;
+    for (const std::string& technique :
+         {std::string("raytrace:depth=32,sphere=exact"), std::string("raytrace:depth=32"),
+          std::string("raytrace:depth=32,rays=4,indirect=paths")}) {
+        double sum = 0, least = 1;
+        const measure::Picture seen = test::render_technique(scene, technique, {24, 24}).hdr;
+        for (const vec3& pixel : seen.pixels) {
+            EXPECT_LE(pixel.x, 1.0001f) << technique;
+            sum += pixel.x, least = std::min<double>(least, pixel.x);
+        }
+        const double mean = sum / double(seen.pixels.size());
+        std::cout << "[ MEASURED ] " << technique << ": mean " << mean << ", least " << least
+                  << '\n';
+        EXPECT_GT(mean, .998) << technique;
+        if (technique.ends_with("exact")) {
+            EXPECT_GT(least, .996);
+        }
+    }
+}
+
+/// Returns a pane of glass before a glowing wall, seen head-on.
+scene::Scene make_pane_before_wall(const scene::Material& glass) {
+    scene::Scene scene{.name = "pane"};
+    const std::size_t pane = test::add_material(scene, glass),
+                      wall = test::add_material(scene,
+                                                {.name = "wall", .emission = {.8f, .4f, .2f}});
+    test::add_quad(scene, "pane", pane, {-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0});
+    test::add_quad(scene, "wall", wall, {-9, -9, -3}, {9, -9, -3}, {9, 9, -3}, {-9, 9, -3});
+    scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+    return scene;
+}
+
+TEST(GlassPane, ThinPaneTintsWhatPassesIt) {
+    scene::Material glass = make_glass(1.5f, true); // an open mesh is no solid body
+    glass.albedo = {1, .5f, .25f};
+    const vec3 seen =
+        test::render_without_ambient(make_pane_before_wall(glass), "raytrace", {1, 1}).hdr.at(0, 0);
+    EXPECT_NEAR(seen.x, .96 * .8, 1e-5);
+    EXPECT_NEAR(seen.y, .96 * .4 * .5, 1e-5);
+    EXPECT_NEAR(seen.z, .96 * .2 * .25, 1e-5);
+}
+
+TEST(GlassPane, SolidSlabAbsorbsByItsThickness) {
+    scene::Material glass = make_glass(1.5f, true);
+    glass.absorption = {0, .5f, 2};
+    scene::Scene scene = make_pane_before_wall(make_glass(1.5f, true));
+    scene.materials[0] = glass;
+    scene.meshes[0] = scene::box("slab", {-9, -9, -.7}, {9, 9, 0});
+    const vec3 seen = test::render_without_ambient(scene, "raytrace", {1, 1}).hdr.at(0, 0);
+    // Between both faces light is reflected again and again: (1 - r)^2 a (1 + (r a)^2 + ...).
+    const auto passes = [](double absorption) {
+        const double r = .04, a = std::exp(-.7 * absorption);
+        return (1 - r) * (1 - r) * a / (1 - r * r * a * a);
+    };
+    EXPECT_NEAR(seen.x, .8 * passes(0), .002); // rays below 1/512 are dropped
+    EXPECT_NEAR(seen.y, .4 * passes(.5), .002);
+    EXPECT_NEAR(seen.z, .2 * passes(2), .002);
+}
+
+TEST(GlassPane, CastsNoShadowInBothWorlds) {
+    for (const bool has_pane : {false, true}) {
+        static double lit[2];
+        int world = 0;
+        for (const std::string technique : {"raytrace", "naive:bounces=0"}) {
+            scene::Scene scene = test::make_floor_scene();
+            const std::size_t glass = test::add_material(scene, make_glass(1.5f, false));
+            if (has_pane)
+                test::add_quad(scene, "pane", glass, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1},
+                               {-1, 1, 1});
+            scene::PunctualLight light{.intensity = vec3(5)};
+            light.world_from_light[3] = dvec4(0, 2, 0, 1);
+            scene.punctual.push_back(light);
+            scene.cameras.push_back(
+                {.eye = {2, .5, 0}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+            const double found =
+                test::render_without_ambient(scene, technique, {1, 1}).hdr.at(0, 0).x;
+            EXPECT_GT(found, .1) << technique;
+            if (has_pane)
+                EXPECT_NEAR(found, lit[world], 1e-6) << technique;
+            else
+                lit[world] = found;
+            ++world;
+        }
+    }
+}
+
+TEST(GlassPane, RaysFromTheRasterisedSurfaceShowWhatRaysFromTheCameraShow) {
+    scene::Scene scene = test::make_lit_room(2, 1);
+    const std::size_t glass = test::add_material(scene, make_glass(1.5f, true));
+    test::add_ball(scene, "glass", glass, {.2, -.2, -.9}, .4, 4);
+    const uvec2 size{64, 48};
+    const measure::Picture whole = test::render_technique(scene, "raytrace", size).hdr,
+                           listed =
+                               test::render_technique(scene, "raytrace:first=raster", size).hdr;
+    int off = 0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+        off += test::max_channel_difference(whole.pixels[i], listed.pixels[i]) > .02f;
+    EXPECT_LE(off, int(whole.pixels.size()) / 200);
+}
+
+} // namespace
