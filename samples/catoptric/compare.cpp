@@ -105,8 +105,9 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     const std::string& reference = options.common.reference;
     check(options.truth == app::PixelTruth::centre || reference.empty(), Failure::usage,
           "--truth chooses the reference; wanted no --reference beside it, found ", reference);
-    for (const app::StudyChoice& choice : options.studies)
-        app::check_study(choice, reference.empty() ? app::kReference : reference);
+    // The reference of a scene without rough mirrors stands for those of all scenes.
+    const std::string judged_by = app::choose_reference(reference, scene::Scene(), options.truth);
+    for (const app::StudyChoice& choice : options.studies) app::check_study(choice, judged_by);
     std::vector<app::CompareRequest> requests;
     const std::vector<std::string> scenes = list_scenes_to_compare(options);
     check(options.common.reference_file.empty() || scenes.size() == 1, Failure::usage,

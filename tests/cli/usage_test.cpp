@@ -99,6 +99,14 @@ TEST_F(Cli, ErrorForAnUnknownTechniqueSuggestsASimilarName) {
                    {"'raytracer'", "did you mean 'raytrace'"});
 }
 
+TEST_F(Cli, OptionsThatExcludeTheTruthAreNamed) {
+    expect_refused({"compare", "-o", "x", "--causes", "--truth", "paths"}, 2,
+                   {"--causes: wanted the default reference, raytrace:depth=16",
+                    "found 'raytrace:depth=16,rays=64,indirect=paths'"});
+    expect_refused({"compare", "-o", "x", "--truth", "paths", "--reference", "raytrace"}, 2,
+                   {"--truth chooses the reference", "found raytrace"});
+}
+
 TEST_F(Cli, SceneAfterTheTechniquesIsRefused) {
     expect_refused({"compare", "-o", "x", "--techniques", "reuse", "room.glb"}, 2,
                    {"'room.glb'", "SCENE comes before"});
