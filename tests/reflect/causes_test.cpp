@@ -119,7 +119,7 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
         expect_adds_up(found);
     };
     for (const std::string technique :
-         {"parallax:face=32,shadow=none", "parallax:face=32,shadow_map=64,distance=r16f",
+         {"parallax:face=32,shadow_map=64,distance=r16f",
           "parallax:face=32,distance=unorm8,shadow=none",
           "hybrid:face=32,shadow_map=64,captures=own,continue=0",
           "march:face=32,shadow_map=64,mirrors=left_out,lookup=object"})
